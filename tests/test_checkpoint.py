@@ -42,6 +42,7 @@ from contact_scene.stepping.checkpoint import (
     Checkpoint,
     CheckpointStore,
 )
+from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 SOFT = IsotropicMaterial(young_modulus=70e9, poisson_ratio=0.33)
@@ -207,6 +208,13 @@ def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: P
     resumed = All(every.kept[0])
     assert [*differences(whole.increments, solve(resumed).increments)] == []
     assert len(resumed.kept) == len(whole.increments) - 1
+
+
+@pytest.mark.parametrize("motion", [PRESSING, TORSION, SHEARING])
+def test_motions_of_the_elements_return_from_a_file(motion: Any, tmp_path: Path) -> None:
+    """With the function of their far field, which is the only kind of code that a file may name."""
+    pack(motion, "this solve", tmp_path / "motion")
+    assert unpacked(tmp_path / "motion", "this solve") == motion
 
 
 def changed(content: bytes) -> bytes:

@@ -15,6 +15,9 @@ from verification.judging.run import (
     SectionRun,
     per_radius,
 )
+from verification.observed.cells import states_on_cells
+from verification.observed.contact_state import imbalances, violations
+from verification.observed.elements import states_on_elements
 from verification.observed.laws import observed
 from verification.observed.prescribed import missed
 from verification.problems import paper_scene as paper
@@ -133,6 +136,22 @@ def test_broken_law_is_seen(solved, run, factor, name):
     assert violation > laws or imbalance > energy
     if run == "cells" and name in ENERGIES:
         assert re.match(r"increment \d+: .* J, .* J; difference ", imbalance.terms)
+
+
+def test_each_law_alone_is_seen(solved):
+    """Fields are changed such that all other laws still hold."""
+    *early, now = states_on_cells(solved["cells"])
+    stuck = np.argwhere((now.pressure > 0) & np.all(now.slip == early[-1].slip, axis=0))[0]
+    pressure, shear = now.pressure.copy(), now.shear.copy()
+    pressure[0, 0] = -0.01 * np.max(pressure)
+    shear[(0, *stuck)] = 1.2 * now.limit[tuple(stuck)]
+    for wrong in (replace(now, pressure=pressure), replace(now, shear=shear)):
+        assert max(violations([*early, now])) < ALLOWED
+        assert max(violations([*early, wrong])) > SEEN
+    # The energy balance follows from the other energies unless springs store a part.
+    *early, now = states_on_elements(solved["springs"])
+    assert max(imbalances([*early, now])) < ALLOWED
+    assert max(imbalances([*early, replace(now, undeformed=1.01 * now.undeformed)])) > SEEN
 
 
 @pytest.mark.parametrize("name", ["cells", "rings"])
