@@ -12,7 +12,7 @@ from verification.challenge.python_api import (
     Posed,
 )
 
-ON_RADII = Solver("slipstick, radial", meshless=True)
+ON_RADII = Solver("slipstick, radial")
 COARSEST = 32  # rings; fields are linear between rings, scalars do not depend on them
 INCREMENTS = 10  # on the coarsest level, of load steps that prescribe none
 

@@ -98,22 +98,16 @@ class Solver:
     """Description of a code that answers challenges.
 
     sampling         meaning of field values: "point", or "cell" for means over squares
-    knows_answer     quantities that the discretisation prescribes, such as a contact radius at a
-                     node
     claimed_grade    accuracy class that the code claims; None: no claim
     claimed_orders   convergence orders that the code claims, by quantity
-    meshless         True if numbers may be exact to rounding on every level, such as those of
-                     series
     """
 
     name: str
     version: str = ""
     url: str = ""
     sampling: str = "point"
-    knows_answer: tuple[str, ...] = ()
     claimed_grade: str | None = None
     claimed_orders: Mapping[str, float] = field(default_factory=dict)
-    meshless: bool = False
 
     def document(self) -> dict[str, Any]:
         """Return name, version and address of the code as a JSON record for a result sheet."""

@@ -282,17 +282,11 @@ def _solver(path: Path) -> Solver:
     grade = claims.get("grade")
     if grade is not None and grade not in list(Grade):
         raise Refused(f"{path}: claims.grade is {grade!r}, expected {', '.join(Grade)}")
-    knows = convention.get("knows_answer", [])
-    if not isinstance(knows, list):
-        raise Refused(f"{path}: convention.knows_answer is {knows!r}, expected a list of words")
     orders = claims.get("order", {})
     if not isinstance(orders, dict) or not all(isinstance(v, int | float) for v in orders.values()):
         raise Refused(f"{path}: claims.order is {orders!r}, expected numbers by quantity")
-    return Solver(
-        name, str(who.get("version", "")), str(who.get("url", "")), sampling,
-        tuple(map(str, knows)), grade, orders,
-        convention.get("meshless") is True,
-    )  # fmt: skip
+    version, url = (str(who.get(key, "")) for key in ("version", "url"))
+    return Solver(name, version, url, sampling, grade, orders)
 
 
 def _levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, Any]]]:

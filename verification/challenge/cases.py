@@ -114,7 +114,7 @@ def _tilted(
     moments = (
         AskedValue(
             f"moment_{axis}", 1, "N m", f"Σ p {other} Δ, over all places", NORMAL_FORCE * at,
-            NORMAL_FORCE * arm, "the larger moment", Grade.C, uncertainty=CLOSED, limit=1,
+            NORMAL_FORCE * arm, "the larger moment", Grade.C, uncertainty=CLOSED,
         )
         for axis, other, at in (("x", "y", force_at[1]), ("y", "x", force_at[0]))
     )  # fmt: skip
@@ -264,12 +264,8 @@ def hertz_elliptical() -> Challenge:
     exact = BARREL.ends[0]
     a, b = exact.semi_axes
     axes = (
-        AskedValue(
-            "semi_axis_x", 1, "m", "semi-axis of the contact along x", a, a, "itself", limit=1
-        ),
-        AskedValue(
-            "semi_axis_y", 1, "m", "semi-axis of the contact along y", b, b, "itself", limit=1
-        ),
+        AskedValue("semi_axis_x", 1, "m", "semi-axis of the contact along x", a, a, "itself"),
+        AskedValue("semi_axis_y", 1, "m", "semi-axis of the contact along y", b, b, "itself"),
     )
     pressure = HalfEllipsoids((Half((a, b), exact.peak_pressure),))
     return _pressed("hertz_elliptical", "Hertz: a barrel on a half-space", BARREL, pressure, axes)
@@ -377,7 +373,7 @@ def _pressed(
         meaning = "pressure at the centre, extrapolated as you like"
         values.append(
             AskedValue("central_pressure", 1, "Pa", meaning, peak, peak, "itself", required=False,
-                       uncertainty=u, limit=2)
+                       uncertainty=u)
         )  # fmt: skip
         fields.append(
             AskedField("pressure", 1, "pressure, zero outside the contact", pressure, "L2",
@@ -397,7 +393,7 @@ def _tangential(step: int, end: Any, sliding: float) -> Iterator[AskedValue]:
     yield AskedValue(
         "shift_x", step, "m",
         "tangential shift of the indenter along +x, relative to far points of the body",
-        end.shift, sliding, "the shift at gross sliding", limit=2,
+        end.shift, sliding, "the shift at gross sliding",
     )  # fmt: skip
     yield stick_radius(end.stick_radius, step)
 

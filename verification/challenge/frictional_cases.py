@@ -226,8 +226,7 @@ def stuck_ball(nu: float) -> Challenge:
 
 def _twist(step: int, value: float, scale: float, over: str) -> AskedValue:
     return AskedValue("twist", step, "rad", "rotation of the indenter about z relative to far "
-                      "points of the body, right-handed", value, scale, over, Grade.C,
-                      limit=1.5)  # fmt: skip
+                      "points of the body, right-handed", value, scale, over, Grade.C)  # fmt: skip
 
 
 # Coefficient of friction µ of the sliding ball.

@@ -74,8 +74,6 @@ def _covered(field: Field, semi_axes: tuple[float, float]) -> tuple[float, float
 STALLS_BELOW = 0.5
 ORDER_OFF = 0.1
 FEWEST_LEVELS = 3
-# Errors below this value are smaller than those of any discretisation.
-KNOWN = 1e-13
 # A standard uncertainty that exceeds the error by this factor on every level is not informative.
 IDLE = 25.0
 WHOLE = "–"  # in place of a loading step
@@ -163,13 +161,6 @@ def _of_value(
     yield from _not_on_finest(key, found[-1][0], levels[-1])
     errors = [(one.h, abs(value - asked.value) / asked.scale) for one, value in found]
     finest, value = found[-1]
-    known = not solver.meshless and _known(asked, errors)
-    if known or asked.quantity in solver.knows_answer:
-        yield Row(
-            *key, finest.label, Status.INCONCLUSIVE,
-            "not judged: the mesh knows it", value, asked.value, errors[-1][1],
-        )  # fmt: skip
-        return
     hint = _hint(value, asked)
     yield _judged(key, finest.label, value, asked.value, errors, grade, asked.uncertainty, hint)
     yield from _convergence(key, solver, errors, asked.uncertainty)
@@ -380,15 +371,6 @@ def _order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, f
         return None
     fit = observed_order(*zip(*told, strict=True))
     return fit.order, fit.half_width
-
-
-def _known(asked: AskedValue, errors: Sequence[tuple[float, float]]) -> bool:
-    """Return True if the errors of all levels are zero within the uncertainty of the reference.
-
-    No discretisation computes an exact value; the mesh then contains the reference.
-    """
-    exact = max(KNOWN, 3 * asked.uncertainty)
-    return asked.limit is not None and len(errors) > 1 and all(e < exact for _, e in errors)
 
 
 def _hint(value: float, asked: AskedValue) -> str:

@@ -242,7 +242,6 @@ class AskedValue:
     par          accuracy class that is required by default
     required     False if the number is optional
     uncertainty  standard uncertainty of the reference, over the scale
-    limit        order of convergence that piecewise constant collocation reaches; None: unknown
     since        load step from whose end the number counts; None: it counts from the beginning
     """
 
@@ -256,7 +255,6 @@ class AskedValue:
     par: Grade = Grade.B
     required: bool = True
     uncertainty: float = ROUNDING  # standard, over the scale
-    limit: float | None = None  # order of piecewise constant collocation
     since: int | None = None
 
 
@@ -272,7 +270,6 @@ class AskedField:
     total        force that the traction carries, which Σ value·area must equal [force]
     par          accuracy class that is required by default
     uncertainty  standard uncertainty of the reference
-    limit        order of convergence that piecewise constant collocation reaches
     """
 
     quantity: str
@@ -284,7 +281,6 @@ class AskedField:
     total: float
     par: Grade = Grade.C
     uncertainty: float = ROUNDING
-    limit: float | None = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -458,7 +454,7 @@ def approach(value: float, uncertainty: float = CLOSED, step: int = 1) -> AskedV
     """Create a required number for the approach, with errors relative to the approach."""
     meaning = "approach of points far from the contact in both bodies; positive when pressed"
     return AskedValue("approach", step, "m", meaning, value, value, "itself",
-                      uncertainty=uncertainty, limit=2)  # fmt: skip
+                      uncertainty=uncertainty)  # fmt: skip
 
 
 def contact_radius(value: float, uncertainty: float = CLOSED) -> AskedValue:
@@ -466,7 +462,7 @@ def contact_radius(value: float, uncertainty: float = CLOSED) -> AskedValue:
     radius."""
     meaning = "radius of the contact, or √(contact area / π)"
     return AskedValue("contact_radius", 1, "m", meaning, value, value, "itself",
-                      uncertainty=uncertainty, limit=1)  # fmt: skip
+                      uncertainty=uncertainty)  # fmt: skip
 
 
 def stick_radius(value: float, step: int, uncertainty: float = CLOSED) -> AskedValue:
@@ -475,5 +471,5 @@ def stick_radius(value: float, step: int, uncertainty: float = CLOSED) -> AskedV
     return AskedValue(
         "stick_radius", step, "m", "radius of the zone that has not slipped since the last turn",
         value, HERTZ.contact_radius, "the contact radius", Grade.C, required=False,
-        uncertainty=uncertainty, limit=1,
+        uncertainty=uncertainty,
     )  # fmt: skip
