@@ -25,6 +25,15 @@ if TYPE_CHECKING:
     Result = semi_analytical.Result | fem_reference.Result | radial.Result
 
 
+# Vector fields on the surface, their components on rings, and all fields of an increment.
+VECTORS = ("shear", "slip")
+POLAR = ("radial", "circumferential", "along_load")
+SURFACE_FIELDS = (
+    *("pressure", "gap", "in_contact", "in_stick", "dissipation", *VECTORS),
+    *(f"{vector}_{component}" for vector in VECTORS for component in POLAR),
+)
+
+
 class Line(NamedTuple):
     """Line through the z axis on the surface, on which profiles of the fields are drawn.
 
@@ -271,10 +280,7 @@ class Rings:
 
         name  "shear" or "slip"
         """
-        parts = [
-            self._everywhere(getattr(increment, f"{name}_{component}"))
-            for component in ("radial", "circumferential", "along_load")
-        ]
+        parts = [self._everywhere(getattr(increment, f"{name}_{component}")) for component in POLAR]
         given = [part for part in parts if part is not None]
         if not given:
             return None

@@ -5,7 +5,6 @@
     errors = slipstick.stated_errors(result)       # error of every scalar
     slipstick.save(result, "out", errors=errors)   # summary, tables, fields, figures
     run = slipstick.load("out")                    # arrays with units and meanings
-    below = slipstick.load_stress("out/stress")    # output of `slipstick stress`
 
 The names of this module are imported on first use. The solvers' own interfaces are in
 `semi_analytical`, `fem_reference` and `radial`.
@@ -16,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from contact_results.files.stored_run import StoredRun, load
-    from contact_results.stress.stored_stress import StoredStress, load_stress
     from contact_scene import (
         RIGID,
         Body,
@@ -64,15 +62,12 @@ __all__ = [
     "save",
     "load",
     "StoredRun",
-    "load_stress",
-    "StoredStress",
 ]
 
 HOMES = {
     **dict.fromkeys(__all__, "contact_scene"),
     **dict.fromkeys(("plan", "solve", "stated_errors", "save"), "slipstick.solving"),
     **dict.fromkeys(("load", "StoredRun"), "contact_results.files.stored_run"),
-    **dict.fromkeys(("load_stress", "StoredStress"), "contact_results.stress.stored_stress"),
 }
 
 

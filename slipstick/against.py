@@ -12,12 +12,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.files.measured_table import ACTUATOR, LOAD, PLACE, PRESSURE, SHEAR, SHIFT
 from contact_results.files.stored_run import StoredRun
+from contact_results.files.stored_values import ends_of_steps
+from contact_results.surface import Rings
 from contact_scene.quantities.summary import StepSummary
 from contact_scene.rig import compliances
 
@@ -171,15 +174,12 @@ def _loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compared]:
             "the table is a loop, and no load cycle of the run closes with slip; end a load step "
             "with the loads of an earlier one"
         )
-    (last, end), increments = numbered[-1], run.tables["increments"]
+    (last, end), increments = numbered[-1], run.increments
     steps = increments["step"].array
     start = np.flatnonzero(steps == end.cycle_start)[-1]
     path = slice(start, np.flatnonzero(steps == last)[-1] + 1)
     motion = motion if compliances(run.scene.rig)[1] else SHIFT
-    moves, loads = (
-        np.stack([increments[f"{name}_{axis}"].array[path] for axis in "xy"])
-        for name in (motion, LOAD)
-    )
+    moves, loads = (increments[name].array[path].T for name in (motion, LOAD))
     change = loads[:, np.argmax(np.hypot(*(loads - loads[:, :1])))] - loads[:, 0]
     along = change / np.hypot(*change) * np.sign(change[np.argmax(np.abs(change))])
     ours = _Loop(along @ moves, along @ loads)
@@ -214,25 +214,27 @@ def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterat
     table  x with pressure, shear or both, in SI units
     step   load step at whose end the profiles are compared, from 1
     """
-    end, profiles = run.summary.steps[step - 1], run.tables["profiles"]
-    here = profiles["step"].array == step
-
-    def along(name: str) -> Numbers:
-        parts = np.stack([profiles[f"{name}{axis}"].array[here] for axis in "xy"])
-        return np.asarray(np.array(run.direction) @ parts)
-
+    end, surface = run.summary.steps[step - 1], run.surface
+    if isinstance(surface, Rings):
+        surface = surface.on_both_sides()
+    state: Any = run.increment(int(ends_of_steps(run.increments["step"].array)[step - 1]))
+    shear = surface.vector(state, SHEAR)
+    of_run = {
+        PRESSURE: surface.scalar(state, PRESSURE),
+        SHEAR: None if shear is None else np.tensordot(surface.direction, shear, 1),
+    }
     # The relative error of tractions is that of the peak pressure; that of shear includes the
     # errors of tangential force and shift.
     shares = [_share(end, "peak_pressure")]
     for name in (PRESSURE, SHEAR):
         if name not in table:
             continue
-        values = profiles["pressure"].array[here] if name == PRESSURE else along("shear_")
+        field = of_run[name]
         if name == SHEAR:
             shares += [_share(end, load) for load in (SHIFT, LOAD)]
-        if np.any(np.isnan(values)):
+        if field is None:
             raise NothingToCompare("the run has no shear; leave the column out or add friction")
-        ours = np.interp(table[PLACE], along(""), values, 0.0, 0.0)
+        ours = np.interp(table[PLACE], surface.line.places, surface.along(field), 0.0, 0.0)
         largest = [float(np.max(np.abs(each))) for each in (table[name], ours)]
         known = [share for share in shares if share is not None]
         error = sum(known) * largest[1] if len(known) == len(shares) else None

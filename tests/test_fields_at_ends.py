@@ -87,10 +87,11 @@ def test_fields_are_those_at_the_ends_and_scalars_all(directories: tuple[Path, P
 def test_one_increment_is_found_or_refused(directories: tuple[Path, Path]) -> None:
     every, ends = map(slipstick.load, directories)
     for row in ENDS.tolist():
-        assert np.array_equal(ends.increments.at("shear", row), every.increments.at("shear", row))
-        assert ends.increments.at("approach", row) == every.increments.at("approach", row)
+        one, other = ends.increment(row), every.increment(row)
+        assert np.array_equal(one.shear, other.shear)
+        assert one.approach == other.approach
     with pytest.raises(KeyError, match=r"increment 12 is not one of them.*--all-fields"):
-        ends.increments.at("shear", int(ENDS[1]) - 1)
+        ends.increment(int(ENDS[1]) - 1)
 
 
 def test_fields_that_stay_are_those_of_every_increment(tmp_path):

@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command import outcome, rows
-
-from contact_results.files.mesh_file import read_mesh
+from stored_mesh import read_mesh
 
 ROOT = Path(__file__).resolve().parents[1]
 

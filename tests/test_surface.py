@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from stored_mesh import read_mesh
 
-from contact_results.files.mesh_file import read_mesh
 from contact_results.files.surface_file import write_surface
 from contact_results.stress.invariants import principal_stresses, von_mises
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField, StressPoints
-from contact_results.surface import Cells, Rings, Surface
+from contact_results.surface import SURFACE_FIELDS, Cells, Rings, Surface
 from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial, Layer
 from contact_scene.array_types import Field
 
@@ -141,7 +141,10 @@ def test_a_half_circle_is_exported_with_its_mirror_image(tmp_path: Path) -> None
         "shear_radial": size * np.cos(angles),
         "shear_circumferential": -size * np.sin(angles),
     }
-    write_surface(half, {"pressure": hump(half.radii), **fields}, tmp_path / "half.vtu", "")
+    state = SimpleNamespace(
+        **dict.fromkeys(SURFACE_FIELDS) | {"pressure": hump(half.radii)} | fields
+    )
+    write_surface(half, state, tmp_path / "half.vtu", "")
     mesh = read_mesh(tmp_path / "half.vtu")
     expected = hump(np.hypot(*mesh.points[:, :2].T))[:, None] * [*OBLIQUE, 0.0]
     assert len(mesh.points) == 16 * len(half.radii)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Mapping
 from decimal import Context, Decimal
 from pathlib import Path
@@ -10,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.files.csv_file import WITH_UNIT
-from contact_results.files.stored_table import read_cells
 from contact_scene.reading import units
 from contact_scene.reading.units import (
     Kind,
@@ -43,7 +43,7 @@ def read_measured(path: Path) -> Mapping[str, NDArray[np.float64]]:
 
     Raises ValueError for an unknown unit, and for values that are not finite numbers.
     """
-    (heads, *rows), found = read_cells(path), {}
+    (heads, *rows), found = _read_cells(path), {}
     for position, head in enumerate(heads):
         split = WITH_UNIT.fullmatch(head.strip())
         name = (split["name"] if split else head).strip().lower()
@@ -64,3 +64,23 @@ def read_measured(path: Path) -> Mapping[str, NDArray[np.float64]]:
         if not np.all(np.isfinite(found[mine])):
             raise ValueError(f"{path}: column {head!r} has values that are not finite; remove them")
     return found
+
+
+def _read_cells(path: Path) -> list[list[str]]:
+    """Read the cells of a CSV table as texts: one list per row, with the header first.
+
+    Raises ValueError if the file is not a CSV table, is empty, or has rows of unequal length.
+    """
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file, strict=True))
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise ValueError(f"{path} is not a table: {error}") from None
+    if not rows:
+        raise ValueError(f"{path} is empty; expected a line of column names")
+    for number, row in enumerate(rows, 1):
+        if len(row) != len(rows[0]):
+            raise ValueError(
+                f"{path}:{number}: {len(row)} values, expected {len(rows[0])} as in the first line"
+            )
+    return rows

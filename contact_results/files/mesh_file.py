@@ -1,4 +1,4 @@
-"""VTU files of fields on a mesh, for ParaView, written and read by meshio.
+"""VTU files of fields on a mesh, for ParaView, written by meshio.
 
 The name of an array contains its unit, `stress [Pa]`. Vectors have three components. Tensors have
 nine, the rows of the matrix xx, xy, xz, yx, ..., because VTK and Voigt order six components
@@ -69,19 +69,6 @@ def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
         whole.write(temporary, file_format="vtu", binary=True, compression="zlib")
         comment = HEAD + f"\n<!-- {convention} -->".encode("ascii")
         temporary.write_bytes(temporary.read_bytes().replace(HEAD, comment, 1))
-
-
-def read_mesh(path: Path) -> Mesh:
-    """Read a VTU file that `write_mesh` has written; raise ValueError for other files."""
-    try:
-        if path.exists() and not path.is_file():
-            raise OSError("not a regular file")
-        found = meshio.vtu.read(path)  # `meshio.read` would exit the process
-        (block,) = found.cells
-    except (meshio.ReadError, OSError, ValueError, KeyError, SyntaxError, AssertionError) as error:
-        raise ValueError(f"{path} is not a mesh that slipstick has written: {error}") from None
-    on_cells = {name: values for name, (values,) in found.cell_data.items()}
-    return Mesh(found.points, (block.type, block.data), dict(found.point_data), on_cells)
 
 
 def _finite(values: Values) -> Values:

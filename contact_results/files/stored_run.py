@@ -6,21 +6,18 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import h5py
+import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.directory.file_names import (
-    COLUMNS,
-    CYCLES,
     FIELDS,
-    INCREMENTS,
-    PROFILES,
     STRESS,
     SUMMARY,
 )
-from contact_results.files.stored_table import StoredTables, StoredValues
 from contact_results.files.stored_values import (
     MAPS,
     MISREAD,
@@ -30,12 +27,31 @@ from contact_results.files.stored_values import (
     text,
     values,
 )
+from contact_results.surface import SURFACE_FIELDS, Surface, surface_on
 from contact_scene import FiniteElementDiscretisation, Scene
+from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.summary import (
     RunSummary,
     load_summary,
 )
 from contact_scene.reading.scene_error import SceneError
+
+
+@dataclass(frozen=True, eq=False)
+class StoredValues:
+    """Array read from a file, with unit and meaning.
+
+    array    the values
+    unit     SI unit; empty if dimensionless
+    meaning  one sentence about the values
+    indices  meaning of each array index: increment, step, component, or the name of a coordinate;
+             empty if the file does not state them
+    """
+
+    array: NDArray[Any]
+    unit: str
+    meaning: str
+    indices: tuple[str, ...] = ()
 
 
 class StoredGroup(Mapping[str, StoredValues]):
@@ -67,17 +83,16 @@ class StoredGroup(Mapping[str, StoredValues]):
             indices = tuple(dim.label for dim in dataset.dims)
             return StoredValues(values(dataset), unit, meaning, indices if all(indices) else ())
 
-    def at(self, name: str, increment: int) -> NDArray[Any]:
-        """Read the values of one array of the group at one increment.
+    def at(self, increment: int) -> dict[str, NDArray[Any]]:
+        """Read the values of all arrays of the group at one increment, by name.
 
-        name       name of the array
         increment  index of the increment in the whole history, from 0
 
-        Raises KeyError if the values at this increment were not stored.
+        Raises FieldsAtEndsOnly if the fields at this increment were not stored.
         """
         with opened(self._path) as file:
-            dataset = file[self._group][name]
-            return values(dataset, row_of(dataset, increment))
+            group = file[self._group]
+            return {name: values(group[name], row_of(group[name], increment)) for name in self}
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
@@ -97,7 +112,6 @@ class StoredRun:
     increments      scalars of every increment; fields of every load step, or of every increment
                     with --all-fields
     last_cycle      fields of the last closed load cycle; empty if there is none
-    tables          profiles, increments and, if a load cycle closes, cycles
     direction       unit vector of the tangential load, at angle 0
     discretisation  settings of the finite elements; None for other solvers
     """
@@ -107,14 +121,33 @@ class StoredRun:
     coordinates: StoredGroup
     increments: StoredGroup
     last_cycle: StoredGroup
-    tables: StoredTables
     direction: tuple[float, float]
     discretisation: FiniteElementDiscretisation | None
 
     @property
-    def convention(self) -> str:
-        """Text about units, axes and signs of the stored values."""
-        return self.summary.convention
+    def surface(self) -> Surface:
+        """Surface grid of the stored fields: cells or rings."""
+        axes = {name: values.array for name, values in self.coordinates.items()}
+        return surface_on(axes, self.direction)
+
+    def increment(self, number: int) -> SimpleNamespace:
+        """Read scalars and fields of an increment; they are attributes, as in a result.
+
+        Missing quantities are None.
+
+        number  index of the increment in the whole history, from 0
+
+        Raises FieldsAtEndsOnly if the fields at this increment were not stored, and ValueError if
+        the shape of a field is not that of the surface.
+        """
+        found: dict[str, Any] = dict.fromkeys((*SCALARS, *SURFACE_FIELDS))
+        shape = self.surface.weights.shape
+        for name, value in self.increments.at(number).items():
+            if name in SURFACE_FIELDS and value.shape not in (shape, (2, *shape)):
+                raise ValueError(f"{name} has shape {value.shape}, expected {shape}")
+            known = name in SURFACE_FIELDS or not np.any(np.isnan(value))
+            found["index" if name == "increment" else name] = value if known else None
+        return SimpleNamespace(**found)
 
 
 def load(directory: str | PathLike[str]) -> StoredRun:
@@ -133,7 +166,7 @@ def load(directory: str | PathLike[str]) -> StoredRun:
     for path in (summary, fields):
         if not path.is_file():
             stress = (Path(directory) / STRESS).is_file()
-            instead = "; it is the output of a stress, which load_stress reads" if stress else ""
+            instead = f"; it is the output of a stress: read its {STRESS}" if stress else ""
             raise FileNotFoundError(
                 f"{directory} is not the output of a run: it has no {path.name}{instead}"
             )
@@ -161,6 +194,5 @@ def load(directory: str | PathLike[str]) -> StoredRun:
             f"{summary}; run again"
         )
     places, increments, cycle = groups
-    tables = StoredTables(Path(directory), (PROFILES, INCREMENTS, CYCLES), COLUMNS)
     direction = float(x), float(y)
-    return StoredRun(record, scene, places, increments, cycle, tables, direction, fineness)
+    return StoredRun(record, scene, places, increments, cycle, direction, fineness)

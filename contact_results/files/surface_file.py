@@ -2,90 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.directory.run_directory import files_at_once
-from contact_results.files.csv_file import Column
 from contact_results.files.mesh_file import Mesh, write_mesh
 from contact_results.files.stored_run import StoredRun
 from contact_results.files.stored_values import ends_of_steps
-from contact_results.surface import Rings, Surface, surface_on
+from contact_results.surface import SURFACE_FIELDS, Rings, Surface
 
-VECTORS = {
-    "shear": Column("shear", "Pa", "Tangential traction, vector (x, y, 0)."),
-    "slip": Column("slip", "m", "Slip since the start of the history, vector (x, y, 0)."),
-}
+# Names of the arrays with their units, by the name of the field.
+VECTORS = {"shear": "shear [Pa]", "slip": "slip [m]"}
 SCALARS = {
-    "pressure": Column("pressure", "Pa", "Normal traction, positive in compression."),
-    "gap": Column("gap", "m", "Distance of the deformed surfaces; NaN where they never touch."),
-    "in_stick": Column("in_stick", "", "1 in contact and sticking, else 0."),
-    "dissipation": Column("dissipation", "J/m^2", "Energy per area lost to friction since then."),
+    "pressure": "pressure [Pa]",
+    "gap": "gap [m]",
+    "in_stick": "in_stick [1]",
+    "dissipation": "dissipation [J/m^2]",
 }
 AROUND = 48  # points on a ring if the fields depend on the radius alone
-# Components of vectors on rings; the last one is odd in the angle.
-POLAR = ("radial", "along_load", "circumferential")
 
-Fields = Mapping[str, NDArray[Any] | None]
 Places = NDArray[np.float64]
 
 
-def write_surface(
-    surface: Surface, fields: Fields, path: Path, convention: str, sense: float = 1.0
-) -> None:
-    """Write the surface fields of one state to a VTU file.
+def write_surface(surface: Surface, increment: Any, path: Path, convention: str) -> None:
+    """Write the surface fields of an increment to a VTU file.
 
-    Fields are constant on cells. On rings, they are linear on a mesh of the disc.
+    Fields are constant on cells. On rings, they are linear on a mesh of the disc. Fields that are
+    None are omitted.
 
-    fields      arrays by the names of the attributes of an increment; None and missing names are
-                omitted
     path        path of the file
     convention  text about units, axes and signs
-    sense       sign of shear and slip: 1 for the lower body, −1 for the indenter
     """
     if isinstance(surface, Rings):
-        surface, fields = _all_around(surface, fields)
+        surface, increment = _all_around(surface, increment)
     arrays: dict[str, NDArray[Any]] = {}
-    state = cast(Any, _state(fields))
-    for name, column in VECTORS.items():
-        vector = surface.vector(state, name)
+    for name, heading in VECTORS.items():
+        vector = surface.vector(increment, name)
         if vector is not None:
-            x, y = sense * vector.reshape(2, -1) + 0.0
-            arrays[column.header] = np.stack([x, y, np.zeros_like(x)], axis=-1)
-    for name, column in SCALARS.items():
-        field = surface.scalar(state, name)
+            x, y = vector.reshape(2, -1) + 0.0
+            arrays[heading] = np.stack([x, y, np.zeros_like(x)], axis=-1)
+    for name, heading in SCALARS.items():
+        field = surface.scalar(increment, name)
         if field is not None:
-            arrays[column.header] = field.ravel()
+            arrays[heading] = field.ravel()
     if isinstance(surface, Rings):
         mesh = Mesh(*_disc(surface), at_points=arrays)
     else:
         mesh = Mesh(*_rectangles(surface), on_cells=arrays)
     write_mesh(mesh, path, convention)
-
-
-def columns(fields: Fields) -> tuple[Column, ...]:
-    """Return names, units and meanings of the arrays that `write_surface` writes for these fields.
-
-    fields  arrays by the names of the attributes of an increment; None for missing ones
-    """
-    there = {name for name, field in fields.items() if field is not None}
-    stems = {stem for stem in VECTORS for name in there if name.startswith(stem)}
-    return tuple(c for name, c in (VECTORS | SCALARS).items() if name in stems | there)
-
-
-def _state(fields: Fields) -> SimpleNamespace:
-    """Create an object with all surface fields as attributes, as in an increment.
-
-    Fields that are not given are None.
-    """
-    names = [f"{stem}_{part}" for stem in VECTORS for part in POLAR]
-    return SimpleNamespace(**dict.fromkeys((*names, *VECTORS, *SCALARS)) | dict(fields))
 
 
 def _rectangles(cells: Surface) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
@@ -122,19 +91,20 @@ def _disc(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
     return _flat(places.reshape(-1, 2)), ("quad", quads.reshape(-1, 4))
 
 
-def _all_around(rings: Rings, fields: Fields) -> tuple[Rings, Fields]:
-    """Extend rings and their fields to angles over the full circle.
+def _all_around(rings: Rings, increment: Any) -> tuple[Rings, Any]:
+    """Extend rings and the fields of an increment to angles over the full circle.
 
     A half circle is reflected about the direction of the load. Rings without angles get AROUND
     angles, and their fields stay functions of the radius.
     """
     if rings.whole:
-        return rings, fields
+        return rings, increment
     if rings.angles is None:
-        return replace(rings, angles=np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)), fields
+        angles = np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)
+        return replace(rings, angles=angles), increment
     angles = np.append(rings.angles, 2 * np.pi - rings.angles[-2:0:-1])
-    whole = {name: _mirrored(name, field) for name, field in fields.items()}
-    return replace(rings, angles=angles), whole
+    fields = {name: _mirrored(name, getattr(increment, name)) for name in SURFACE_FIELDS}
+    return replace(rings, angles=angles), SimpleNamespace(**fields)
 
 
 def _mirrored(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
@@ -148,7 +118,7 @@ def _mirrored(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
     if field is None or field.ndim == 1:
         return field
     image = field[:, -2:0:-1]
-    return np.concatenate([field, -image if name.endswith(POLAR[-1]) else image], axis=1)
+    return np.concatenate([field, -image if name.endswith("circumferential") else image], axis=1)
 
 
 def _flat(places: Places) -> Places:
@@ -162,7 +132,6 @@ def _flat(places: Places) -> Places:
 
 
 COLLECTION = "surface.pvd"
-NAMES = (*SCALARS, *VECTORS, *(f"{stem}_{part}" for stem in VECTORS for part in POLAR))
 
 
 def write_paraview(run: StoredRun, directory: Path) -> None:
@@ -173,18 +142,13 @@ def write_paraview(run: StoredRun, directory: Path) -> None:
 
     directory  output directory
     """
-    places = {name: values.array for name, values in run.coordinates.items()}
-    surface, steps = surface_on(places, run.direction), run.increments["step"].array
-    ends = ends_of_steps(steps)
-    there = [name for name in NAMES if name in run.increments]
     entries = []
     with files_at_once(directory, COLLECTION, ()) as staging:
-        for row in ends.tolist():
-            step = int(steps[row])
-            file = f"surface_step_{step}.vtu"
-            fields = {name: run.increments.at(name, row) for name in there}
-            write_surface(surface, fields, staging / file, run.convention)
-            entries.append(f'<DataSet timestep="{step}" file="{file}"/>\n')
+        for number in ends_of_steps(run.increments["step"].array).tolist():
+            end = run.increment(number)
+            file = f"surface_step_{int(end.step)}.vtu"
+            write_surface(run.surface, end, staging / file, run.summary.convention)
+            entries.append(f'<DataSet timestep="{int(end.step)}" file="{file}"/>\n')
         (staging / COLLECTION).write_text(
             '<VTKFile type="Collection" version="0.1">\n<Collection>\n'
             f"{''.join(entries)}</Collection>\n</VTKFile>\n",

@@ -10,10 +10,8 @@ import numpy as np
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.file_names import STRESS
-from contact_results.files import surface_file
 from contact_results.files.csv_file import Column, write_meanings, write_table
 from contact_results.files.mesh_file import Mesh, tensor, write_mesh
-from contact_results.files.surface_file import write_surface
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import COMPONENTS, MEASURES, StressField, StressPoints
 from contact_results.stress.stress_maxima import (
@@ -29,7 +27,6 @@ from contact_scene.quantities.field_metadata import (
 from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
 SECTION, VOLUME = "stress_section.vtu", "stress_volume.vtu"
-SURFACE = "stress_surface.vtu"  # mesh with the tractions
 
 INVARIANTS = (
     Column("von_mises", "Pa", "Equivalent stress of von Mises."),
@@ -115,13 +112,10 @@ def write_files(
         AXIS: POINT_COLUMNS,
         INTERFACES: SIDE_COLUMNS,
         SECTION: POINT_ARRAYS,
-        SURFACE: surface_file.columns(state.tractions),
     }
     if field.volume is not None:
         write_points(field.volume.turned(field.direction), directory / VOLUME, convention)
         files[VOLUME] = POINT_ARRAYS
-    sense = -1.0 if of_indenter else 1.0
-    write_surface(state.surface, state.tractions, directory / SURFACE, convention, sense)
     write_meanings(directory / MEANINGS, files, convention)
     write_stress_summary(state, which, field, found, errors, accuracy, convention, directory)
 

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,7 +20,7 @@ from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation, Sc
 from contact_scene.array_types import Field
 from contact_scene.bulk_strain import Strain, stress_by
 from contact_scene.geometry import ShapedBody
-from contact_scene.quantities.increment import SCALARS, State
+from contact_scene.quantities.increment import State
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,
@@ -130,9 +129,10 @@ def state_of_result(
 
     Raises NoSuchState if there is no such load step, or if the bodies are separated.
     """
-    ends = {end.step: end for end in result.steps}
-    end = _in_contact(ends[_existing(step, sorted(ends))])
-    return _of_result(result, end, None if errors is None else errors.steps[end.step - 1])
+    ends = result.steps
+    number = _existing(step, len(ends))
+    stated = None if errors is None else errors.steps[number]
+    return _in_contact(_state(result.scene, surface_of(result), result, ends[number], stated))
 
 
 def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
@@ -141,31 +141,10 @@ def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | 
     Each item contains load step, increment within the load step, both from 1, and the bodies with
     their tractions. For separated bodies, the third part is None.
     """
-    for increment in result.increments:
-        state = _of_result(result, increment, None) if increment.contact_area else None
-        yield increment.step, increment.index, state
-
-
-def _of_result(
-    result: Result, increment: Any, errors: Mapping[str, StatedError] | None
-) -> LoadedBodies:
-    """Return bodies and tractions at the end of an increment of a result.
-
-    errors  stated errors at the end of the load step, by name; None if not needed
-    """
     surface = surface_of(result)
-    fields = {name: surface.scalar(increment, name) for name in TRACTIONS}
-    return _state(
-        result.scene,
-        result.solver,
-        increment,
-        errors,
-        step=increment.step,
-        axes=surface.axes,
-        tractions={name: field for name, field in fields.items() if field is not None},
-        discretisation=getattr(result, "discretisation", None),
-        direction=surface.direction,
-    )
+    for increment in result.increments:
+        state = _state(result.scene, surface, result, increment, None)
+        yield increment.step, increment.index, state
 
 
 def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
@@ -177,121 +156,82 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
     Raises NoSuchState if there is no readable run, no such load step, or no contact, and
     ResourceRefused if the fields do not fit into memory.
     """
-    run = _run_of(directory)
-    chosen = _existing(step, list(range(1, len(run.summary.steps) + 1)))
-    end = _in_contact(run.summary.steps[chosen - 1])
-    with _reading(directory):
-        last = int(ends_of_steps(run.increments["step"].array)[chosen - 1])
-        return _of_run(run, last, end, end.errors, chosen)
+    with _reading(directory) as run:
+        number = _existing(step, len(run.summary.steps))
+        last = int(ends_of_steps(run.increments["step"].array)[number])
+        errors = run.summary.steps[number].errors
+        return _in_contact(_state(run.scene, run.surface, run, run.increment(last), errors))
 
 
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
     """Yield bodies and tractions at the end of every increment of a stored run.
 
-    Each item contains load step, increment within the load step, both from 1, and the bodies with
-    their tractions. For separated bodies, the third part is None.
+    The items are those of `states_of_result`.
 
     directory  directory of the run
 
     Raises NoSuchState if there is no readable run, or if the run has no fields of all increments,
     and ResourceRefused if the fields do not fit into memory.
     """
-    run = _run_of(directory)
-    with _reading(directory):
-        scalars = {name: run.increments[name].array for name in SCALARS if name in run.increments}
-        numbers = [run.increments[name].array.tolist() for name in ("step", "increment")]
-        for n, (step, index) in enumerate(zip(*numbers, strict=True)):
-            values = {name: array[n] for name, array in scalars.items()}
-            known = {k: None if np.any(np.isnan(value)) else value for k, value in values.items()}
-            end = SimpleNamespace(**(dict.fromkeys(SCALARS) | known))
-            yield step, index, _of_run(run, n, end, None, step) if end.contact_area else None
+    with _reading(directory) as run:
+        for number in range(len(run.increments["step"].array)):
+            end = run.increment(number)
+            yield int(end.step), int(end.index), _state(run.scene, run.surface, run, end, None)
 
 
 @contextmanager
-def _reading(directory: Path) -> Iterator[None]:
-    """Convert errors of reading the fields of a run, in the `with` block, to NoSuchState.
+def _reading(directory: Path) -> Iterator[StoredRun]:
+    """Provide a stored run, and convert errors of reading it in the `with` block to NoSuchState.
 
-    directory  directory of the run, for messages
+    directory  directory of the run
     """
     try:
-        yield
+        run = load(directory)
+    except (FileNotFoundError, ValueError) as error:
+        raise NoSuchState(f"{error}; give the output of a run, or a scene file") from None
+    try:
+        yield run
     except FieldsAtEndsOnly as error:
         raise NoSuchState(f"{error}, or give the scene file") from None
     except MISREAD as error:
         raise NoSuchState(f"{directory / FIELDS} is not the {FIELDS} of a run: {error}") from None
 
 
-def _run_of(directory: Path) -> StoredRun:
-    """Read a stored run; raise NoSuchState if the directory has no readable run."""
-    try:
-        return load(directory)
-    except (FileNotFoundError, ValueError) as error:
-        raise NoSuchState(f"{error}; give the output of a run, or a scene file") from None
-
-
-def _of_run(
-    run: StoredRun,
-    increment: int,
-    end: Any,
-    errors: Mapping[str, StatedError] | None,
-    step: int,
-) -> LoadedBodies:
-    """Read bodies and tractions at the end of an increment of a stored run.
-
-    increment  index of the increment in the whole history, from 0
-    end        scalars at the end of the increment
-    errors     stated errors of these scalars, by name; None if not needed
-    step       load step, from 1
-    """
-    # A file lists names alphabetically; fields have the radii first.
-    order = sorted(run.coordinates, key=lambda name: name == "angles")
-    axes = {name: run.coordinates[name].array for name in order}
-    names = [name for name in TRACTIONS if name in run.increments]
-    tractions = {name: run.increments.at(name, increment) for name in names}
-    shape = tuple(n for places in axes.values() for n in places.shape)
-    for name, field in tractions.items():
-        if field.shape != (expected := (2, *shape) if name == "shear" else shape):
-            raise ValueError(f"{name} has shape {field.shape}, expected {expected}")
-    return _state(
-        run.scene,
-        run.summary.solver,
-        end,
-        errors,
-        step=step,
-        axes=axes,
-        tractions=tractions,
-        discretisation=run.discretisation,
-        direction=run.direction,
-    )
-
-
 def _state(
     scene: Scene,
-    solver: str,
+    surface: Surface,
+    source: Result | StoredRun,
     end: Any,
     errors: Mapping[str, StatedError] | None,
-    **of_result: Any,
-) -> LoadedBodies:
-    """Combine the fields of a result with the data of its scene and the scalars of an increment.
+) -> LoadedBodies | None:
+    """Combine the tractions of an increment with the data of its scene; None without contact.
 
-    solver     name of the solver
-    end        scalars at the end of the increment
-    errors     stated errors of these scalars, by name; None if not needed
-    of_result  further attributes of `LoadedBodies`
+    surface  surface grid of the tractions
+    source   result or stored run that contains the increment
+    end      scalars and fields at the end of the increment
+    errors   stated errors of these scalars, by name; None if not needed
     """
+    if not end.contact_area:
+        return None
+    solver = source.summary.solver if isinstance(source, StoredRun) else source.solver
     pressed = (scene.indenter, end.contact_radius, end.approach or 0.0)
+    fields = {name: surface.scalar(end, name) for name in TRACTIONS}
     return LoadedBodies(
         title=scene.title,
         body=scene.body,
         indenter=Body(material=scene.indenter.material, layers=scene.indenter.layers),
+        step=int(end.step),
+        axes=surface.axes,
+        tractions={name: field for name, field in fields.items() if field is not None},
+        discretisation=getattr(source, "discretisation", None),
         no_root=_no_root(scene.indenter, scene.friction),
         edges=end.edge_change is not None,
         by_increments=None if errors is None else _by_increments(end, errors),
+        direction=surface.direction,
         pressed=pressed if solver == RADIAL else None,
         contact_radius=end.contact_radius,
         peak_pressure=end.peak_pressure,
         strain=None if end.bulk_strain is None else (*end.bulk_strain, end.bulk_shear or 0.0),
-        **of_result,
     )
 
 
@@ -336,29 +276,24 @@ def _no_root(indenter: ShapedBody, friction: CoulombFriction | None) -> str | No
     return None
 
 
-def _in_contact(end: Any) -> Any:
-    """Return the given scalars at the end of a load step if the bodies are in contact.
-
-    Raises NoSuchState if the bodies are separated.
-    """
-    if not end.contact_area:
+def _in_contact(state: LoadedBodies | None) -> LoadedBodies:
+    """Return the bodies of a load step that ends in contact; raise NoSuchState for None."""
+    if state is None:
         raise NoSuchState(
             "the bodies are separated at the end of this step, and the stress is zero everywhere; "
             "give a --step that ends in contact"
         )
-    return end
+    return state
 
 
-def _existing(step: int | None, steps: list[int]) -> int:
-    """Return the number of an existing load step: the requested one, or the last for None.
+def _existing(step: int | None, count: int) -> int:
+    """Return the index of a load step in the history: the requested one, or the last for None.
 
     step   requested load step, from 1
-    steps  load steps of the run, ascending
+    count  number of load steps
 
     Raises NoSuchState if the requested load step does not exist.
     """
-    if step is None:
-        return steps[-1]
-    if step not in steps:
-        raise NoSuchState(f"there is no step {step}; the run has steps {steps[0]} to {steps[-1]}")
-    return step
+    if step is not None and not 1 <= step <= count:
+        raise NoSuchState(f"there is no step {step}; the run has steps 1 to {count}")
+    return (count if step is None else step) - 1
