@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from types import ModuleType
 from typing import Any
 
@@ -27,58 +28,77 @@ REMEMBERING = (
     "verification.closed_forms",
 )
 
-Wrap = Callable[[Any], Any]
+Change = Callable[..., Any]
 
 
-class Patches:
-    """Temporary replacements of attributes and functions of the program, undone by `restore`."""
+@dataclass(frozen=True)
+class Replacement:
+    """Replacement of a function, method, property or constant of the program by a wrong one.
 
-    def __init__(self) -> None:
-        self._undo: list[Callable[[], None]] = []
+    owner   module or class that defines it
+    name    name in the owner
+    change  function of the original and of the arguments of a call; of the original alone for a
+            constant
+    local   True if the modules that have imported a function keep the original
+    """
 
-    def attribute(self, owner: type | ModuleType, name: str, value: Any) -> None:
-        """Replace an attribute of a class, or a name in one module only.
+    owner: type | ModuleType
+    name: str
+    change: Change
+    local: bool = False
 
-        The attribute of a class is a method, a property or a class method.
-        """
-        here, before = name in vars(owner), vars(owner).get(name)
-        setattr(owner, name, value)
-        self._undo.append(lambda: setattr(owner, name, before) if here else delattr(owner, name))
+    def plant(self) -> Callable[[], None]:
+        """Make the replacement, and return the function that undoes it."""
+        module = isinstance(self.owner, ModuleType)
+        before = getattr(self.owner, self.name) if module else vars(self.owner)[self.name]
+        after = self._changed(before)
+        if module and not self.local:
+            _exchange(before, after)
+            # A module that is loaded meanwhile has imported the replacement.
+            return lambda: _exchange(after, before)
+        setattr(self.owner, self.name, after)
+        return lambda: setattr(self.owner, self.name, before)
 
-    def method(self, owner: type, name: str, wrap: Wrap) -> None:
-        """Replace a method of a class by `wrap(method)`."""
-        self.attribute(owner, name, wrap(getattr(owner, name)))
+    def _changed(self, before: Any) -> Any:
+        if isinstance(before, property | cached_property):
+            read = before.fget if isinstance(before, property) else before.func
+            return property(lambda owner: self.change(read, owner))
+        if isinstance(before, classmethod):
+            whole = before.__func__
+            return classmethod(lambda *given, **named: self.change(whole, *given, **named))
+        if not callable(before):
+            return self.change(before)
 
-    def function(self, module: ModuleType, name: str, wrap: Wrap) -> None:
-        """Replace a function by `wrap(function)` in all modules of the program that have imported
-        it.
-        """
-        before = getattr(module, name)
-        after = wrap(before)
-        _exchange(before, after)
-        # A module that is loaded meanwhile has imported the replacement.
-        self._undo.append(lambda: _exchange(after, before))
+        def after(*given: Any, **named: Any) -> Any:
+            return self.change(before, *given, **named)
 
-    def restore(self) -> None:
-        """Undo all replacements of functions and attributes in reverse order."""
-        while self._undo:
-            self._undo.pop()()
+        return after
+
+
+Replacements = tuple[Replacement, ...]
+
+
+def replaces(
+    owner: type | ModuleType, name: str, *, local: bool = False
+) -> Callable[[Change], Replacements]:
+    """Return a decorator that makes a function the replacement of another one."""
+    return lambda change: (Replacement(owner, name, change, local),)
 
 
 @dataclass(frozen=True)
 class Defect:
     """Seeded error of the program, for tests of the verification.
 
-    name    letters, digits and hyphens
-    broken  one sentence that describes the error
-    cases   inexpensive cases of the catalogue that must detect the error
-    plant   function that applies the replacements
+    name          letters, digits and hyphens
+    broken        one sentence that describes the error
+    cases         inexpensive cases of the catalogue that must detect the error
+    replacements  wrong functions in place of the right ones
     """
 
     name: str
     broken: str
     cases: tuple[str, ...]
-    plant: Callable[[Patches], None]
+    replacements: Replacements
 
 
 @contextmanager
@@ -88,14 +108,12 @@ def planted(defect: Defect) -> Iterator[None]:
 
     The caches of the solver functions are cleared before and after the block.
     """
-    patches = Patches()
-    try:
-        defect.plant(patches)
+    with ExitStack() as undo:
+        undo.callback(forget_remembered)
+        for replacement in defect.replacements:
+            undo.callback(replacement.plant())
         forget_remembered()
         yield
-    finally:
-        patches.restore()
-        forget_remembered()
 
 
 def forget_remembered() -> None:

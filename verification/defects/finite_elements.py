@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -18,139 +17,99 @@ from fem_reference.elasticity import compliance, hat_functions, section_basis, w
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.model import ContactModel
 from radial.frictional.coupling import Coupling
-from verification.defects.defect import Defect, Patches
+from verification.defects.defect import Defect, Replacements, replaces
 
 # Inward displacement of surface points in a Hertz contact of the paper's data, over their radius:
 # (1-2ν)(1+ν) p₀/2E.
 DRAWN_IN = 4e-3
 
 
-def _weight_of_element(patches: Patches) -> None:
+@replaces(section_basis, "displacement_basis")
+def _weight_of_element(whole: Any, section: Any, *more: Any) -> Any:
     """Plant an error in the finite-element weak form: energies have the weight of the element's
     centre.
 
     The correct weight is the radius of each integration point.
     """
-
-    def wrap(whole: Any) -> Any:
-        def basis(section: Any, *more: Any) -> Any:
-            right = whole(section, *more)
-            corners = section.points[0, section.quads]
-            r = np.asarray(right.global_coordinates())[0]
-            right.dx = right.dx / r * corners.mean(axis=0)[:, None]
-            return right
-
-        return basis
-
-    patches.function(section_basis, "displacement_basis", wrap)
+    right = whole(section, *more)
+    corners = section.points[0, section.quads]
+    r = np.asarray(right.global_coordinates())[0]
+    right.dx = right.dx / r * corners.mean(axis=0)[:, None]
+    return right
 
 
-def _resultant_weight(patches: Patches) -> None:
+@replaces(hat_functions, "hats_on")
+def _resultant_weight(whole: Any, nodes: Any, reach: float = np.inf) -> Any:
     """Plant an error in the resultant force: each ring of finite elements is weighted by its outer
     radius.
     """
-
-    def wrap(whole: Any) -> Any:
-        def on(nodes: Any, reach: float = np.inf) -> Any:
-            right = whole(nodes, reach)
-            lengths = np.zeros_like(right.radii)
-            lengths[:-1] += np.diff(right.radii) / 2
-            lengths[1:] += np.diff(right.radii) / 2
-            return replace(right, weights=lengths * (right.radii + lengths / 2))
-
-        return on
-
-    patches.function(hat_functions, "hats_on", wrap)
+    right = whole(nodes, reach)
+    lengths = np.zeros_like(right.radii)
+    lengths[:-1] += np.diff(right.radii) / 2
+    lengths[1:] += np.diff(right.radii) / 2
+    return replace(right, weights=lengths * (right.radii + lengths / 2))
 
 
-def _circumferential_shear(patches: Patches) -> None:
-    def along(model: Any) -> Any:
-        C = model.compliance(1).matrix
-        return 0.5 * (C[0, :, 0] + C[0, :, 1] + C[1, :, 0] + C[1, :, 1])
-
-    patches.attribute(ContactModel, "along_load", along)
+@replaces(ContactModel, "along_load")
+def _circumferential_shear(_: Any, model: Any) -> Any:
+    C = model.compliance(1).matrix
+    return 0.5 * (C[0, :, 0] + C[0, :, 1] + C[1, :, 0] + C[1, :, 1])
 
 
-def _hoop_strain(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def strains(u: Any, component: int, n: int) -> Any:
-            right = whole(u, component, n)
-            return {k: e for k, e in right.items() if (component, k) != (1, "tt")}
-
-        return strains
-
-    patches.function(weak_form, "strains", wrap)
+@replaces(weak_form, "strains")
+def _hoop_strain(whole: Any, u: Any, component: int, n: int) -> Any:
+    right = whole(u, component, n)
+    return {k: e for k, e in right.items() if (component, k) != (1, "tt")}
 
 
-def _no_far_field(patches: Patches) -> None:
-    patches.attribute(
-        FactoredSection, "_prescribed", lambda self, basis: np.zeros(self._numbering.size)
-    )
+@replaces(FactoredSection, "_prescribed")
+def _no_far_field(_: Any, self: Any, basis: Any) -> Any:
+    return np.zeros(self._numbering.size)
 
 
-def _deformed_radius(patches: Patches) -> None:
-    patches.method(
-        ContactModel, "gap", lambda whole: lambda self, r: whole(self, (1 - DRAWN_IN) * r)
-    )
+@replaces(ContactModel, "gap")
+def _deformed_radius(whole: Any, self: Any, r: Any) -> Any:
+    return whole(self, (1 - DRAWN_IN) * r)
 
 
-def _upper_body_rigid(patches: Patches) -> None:
-    patches.function(
-        compliance,
-        "composite",
-        lambda whole: lambda lower, upper, motion: whole(lower, None if lower else upper, motion),
-    )
+@replaces(compliance, "composite")
+def _upper_body_rigid(whole: Any, lower: Any, upper: Any, motion: Any) -> Any:
+    return whole(lower, None if lower else upper, motion)
 
 
-def _coupling(patches: Patches, factor: float) -> None:
-    def wrap(whole: Any) -> Any:
-        def compliance(*given: Any, **more: Any) -> Any:
-            right = whole(*given, **more)
-            for A in right.harmonics:
-                A[:2, :, 2] *= factor
-                A[2, :, :2] *= factor
-            return right
+def _coupling(factor: float) -> Replacements:
+    @replaces(ring_compliance, "ring_compliance")
+    def compliance(whole: Any, *given: Any, **more: Any) -> Any:
+        right = whole(*given, **more)
+        for A in right.harmonics:
+            A[:2, :, 2] *= factor
+            A[2, :, :2] *= factor
+        return right
 
-        return compliance
-
-    patches.function(ring_compliance, "ring_compliance", wrap)
+    return compliance
 
 
-def _friction(patches: Patches) -> None:
-    whole = ContactModel.friction.fget  # type: ignore[attr-defined]
-
-    def rougher(self: ContactModel) -> CoulombFriction:
-        return CoulombFriction(coefficient=np.sqrt(2) * whole(self).largest)
-
-    patches.attribute(ContactModel, "friction", property(rougher))
+@replaces(ContactModel, "friction")
+def _friction(whole: Any, self: ContactModel) -> CoulombFriction:
+    return CoulombFriction(coefficient=np.sqrt(2) * whole(self).largest)
 
 
-def _forgetful(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def advance(contact: Any, before: Any, *more: Any) -> Any:
-            if before is not None:
-                first = contact.untouched()
-                forgotten = {
-                    name: getattr(first, name)
-                    for name in ("shear", "displacement", "slip", "motion", "dissipated_energy")
-                }
-                before = replace(before, **forgotten)
-            return whole(contact, before, *more)
-
-        return advance
-
-    patches.function(increment, "advance", wrap)
+@replaces(increment, "advance")
+def _forgetful(whole: Any, contact: Any, before: Any, *more: Any) -> Any:
+    if before is not None:
+        first = contact.untouched()
+        forgotten = {
+            name: getattr(first, name)
+            for name in ("shear", "displacement", "slip", "motion", "dissipated_energy")
+        }
+        before = replace(before, **forgotten)
+    return whole(contact, before, *more)
 
 
-def _slip_reversed(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def state(self: Any, passes: Any) -> Any:
-            after, energy = whole(self, passes), self.before.dissipated_energy
-            return replace(after, dissipated_energy=2 * energy - after.dissipated_energy)
-
-        return state
-
-    patches.method(increment._Increment, "state", wrap)
+@replaces(increment._Increment, "state")
+def _slip_reversed(whole: Any, self: Any, passes: Any) -> Any:
+    after, energy = whole(self, passes), self.before.dissipated_energy
+    return replace(after, dissipated_energy=2 * energy - after.dissipated_energy)
 
 
 class _Level(CoulombFriction):
@@ -164,26 +123,21 @@ class _Level(CoulombFriction):
         return 0.0 * super().slope(*given, **more)
 
 
-def _tangent(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def linearised(self: Equations, at: Any) -> Any:
-            level = _Level(coefficient=self.problem.friction.coefficient)
-            wrong = Equations(replace(self.problem, friction=level))
-            return whole(wrong, at)
-
-        return linearised
-
-    patches.method(Equations, "linearised", wrap)
+@replaces(Equations, "linearised")
+def _tangent(whole: Any, self: Equations, at: Any) -> Any:
+    level = _Level(coefficient=self.problem.friction.coefficient)
+    wrong = Equations(replace(self.problem, friction=level))
+    return whole(wrong, at)
 
 
-def _soft(patches: Patches) -> None:
-    patches.method(
-        Penalty, "stiffness", lambda whole: lambda self, *given: 0.1 * whole(self, *given)
-    )
+@replaces(Penalty, "stiffness")
+def _soft(whole: Any, self: Any, *given: Any) -> Any:
+    return 0.1 * whole(self, *given)
 
 
-def _not_augmented(patches: Patches) -> None:
-    patches.attribute(increment._Increment, "again", lambda self, last: last)
+@replaces(increment._Increment, "again")
+def _not_augmented(_: Any, self: Any, last: Any) -> Any:
+    return last
 
 
 FINITE_ELEMENTS = (
@@ -217,11 +171,11 @@ FINITE_ELEMENTS = (
     ),
     Defect(
         "fe-coupling-sign", "Pressure moves the surface away from the axis.", ("fem_indentation",),
-        lambda patches: _coupling(patches, -1.0),
+        _coupling(-1.0),
     ),
     Defect(
         "fe-coupling-0p99", "The coupling of pressure and shear is too weak by 1 %.",
-        ("fem_indentation", "fem_classical"), lambda patches: _coupling(patches, 0.99),
+        ("fem_indentation", "fem_classical"), _coupling(0.99),
     ),
     Defect(
         "fe-friction-root-two", "The friction coefficient is too large by √2.",
@@ -253,60 +207,39 @@ FINITE_ELEMENTS = (
 WEAKER = 0.99  # coupling of pressure and shear
 
 
-def _returned(*names: str, factor: float) -> Callable[[Patches], None]:
-    """Return a function that plants a wrong factor in the results of the radial solver.
+def _returned(*names: str, factor: float) -> Replacements:
+    """Return the replacement of the radial solver by one with a wrong factor in its results.
 
     names   results of every increment that are multiplied, such as "pressure"
     factor  wrong factor; 1 is correct
     """
 
-    def plant(patches: Patches) -> None:
-        def wrap(whole: Any) -> Any:
-            def solve(*given: Any, **named: Any) -> Any:
-                result = whole(*given, **named)
-                changed = (
-                    replace(
-                        increment,
-                        **{
-                            name: factor * value
-                            for name in names
-                            if (value := getattr(increment, name)) is not None
-                        },
-                    )
-                    for increment in result.increments
-                )
-                return replace(result, increments=tuple(changed))
+    def changed(increment: Any) -> Any:
+        right = {name: getattr(increment, name) for name in names}
+        known = {name: factor * value for name, value in right.items() if value is not None}
+        return replace(increment, **known)
 
-            return solve
+    @replaces(radial, "solve")
+    def solve(whole: Any, *given: Any, **named: Any) -> Any:
+        result = whole(*given, **named)
+        return replace(result, increments=tuple(map(changed, result.increments)))
 
-        patches.function(radial, "solve", wrap)
-
-    return plant
+    return solve
 
 
-def _radii_friction(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def solve(scene: Any, *given: Any, **named: Any) -> Any:
-            if scene.friction is None:
-                return whole(scene, *given, **named)
-            rougher = CoulombFriction(coefficient=np.sqrt(2) * scene.friction.largest)
-            result = whole(scene.model_copy(update={"friction": rougher}), *given, **named)
-            return replace(result, scene=scene)
-
-        return solve
-
-    patches.function(radial, "solve", wrap)
+@replaces(radial, "solve")
+def _radii_friction(whole: Any, scene: Any, *given: Any, **named: Any) -> Any:
+    if scene.friction is None:
+        return whole(scene, *given, **named)
+    rougher = CoulombFriction(coefficient=np.sqrt(2) * scene.friction.largest)
+    result = whole(scene.model_copy(update={"friction": rougher}), *given, **named)
+    return replace(result, scene=scene)
 
 
-def _radii_coupling(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def response(self: Coupling, *given: Any) -> Any:
-            right = whole(self, *given)
-            return right._replace(zr=WEAKER * right.zr, rz=WEAKER * right.rz)
-
-        return response
-
-    patches.method(Coupling, "response", wrap)
+@replaces(Coupling, "response")
+def _radii_coupling(whole: Any, self: Coupling, *given: Any) -> Any:
+    right = whole(self, *given)
+    return right._replace(zr=WEAKER * right.zr, rz=WEAKER * right.rz)
 
 
 RADII = (

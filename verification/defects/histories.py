@@ -13,7 +13,6 @@ import numpy as np
 import fem_reference.energy
 from contact_results import cycles, loop
 from contact_scene import CoulombFriction, HeightMap, Scene, bulk_strain, rig
-from contact_scene.friction import FRICTIONLESS
 from contact_scene.stepping import load_stepping
 from contact_scene.stepping.load_path import (
     Control,
@@ -47,173 +46,128 @@ from semi_analytical.normal import normal_problem
 from semi_analytical.normal.normal_load import PressureSum
 from semi_analytical.stress import field
 from semi_analytical.tangential import admissible_shear
-from verification.defects.defect import Defect, Patches
+from verification.defects.defect import Defect, Replacement, Replacements, replaces
 
 LESS = 1 - 1e-9
 
 
-def _reversal_forgotten(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def forgetting(model: Any, before: Any, normal: Any, tangential: Any, *rest: Any) -> Any:
-            last = None if before is None else before.sheared
-            force = tangential.force
-            if last is None or force is None or np.hypot(*force) >= LESS * np.hypot(*last.force):
-                return whole(model, before, normal, tangential, *rest)
-            blank = replace(last, displacement=0 * last.displacement, shift=np.zeros(2))
-            before = replace(before, sheared=blank)
-            return whole(model, before, normal, tangential, *rest)
-
-        return forgetting
-
-    patches.function(coupled_increment, "solve_coupled_increment", wrap)
+@replaces(coupled_increment, "solve_coupled_increment")
+def _reversal_forgotten(
+    whole: Any, model: Any, before: Any, normal: Any, tangential: Any, *rest: Any
+) -> Any:
+    last = None if before is None else before.sheared
+    force = tangential.force
+    if last is None or force is None or np.hypot(*force) >= LESS * np.hypot(*last.force):
+        return whole(model, before, normal, tangential, *rest)
+    blank = replace(last, displacement=0 * last.displacement, shift=np.zeros(2))
+    before = replace(before, sheared=blank)
+    return whole(model, before, normal, tangential, *rest)
 
 
-def _limit_by_direction(patches: Patches) -> None:
-    """Plant an elliptic friction limit instead of a circular one, with friction residuals of zero.
+@replaces(admissible_shear, "magnitude")
+def _limit_by_direction(whole: Any, v: Any) -> Any:
+    """Plant an elliptic friction limit instead of a circular one.
 
     The limit of the shear along y is 1 % smaller than that along x.
     """
-    patches.function(
-        admissible_shear, "magnitude", lambda whole: lambda v: whole(np.stack([v[0], 1.01 * v[1]]))
-    )
-    for name in ("friction_cone", "slip_direction"):
-        patches.function(residuals, name, lambda whole: lambda *given: 0.0)
+    return whole(np.stack([v[0], 1.01 * v[1]]))
 
 
-def _approach_when_unloading(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def changed(model: Any, before: Any, state: Any, *place: Any) -> Any:
-            increment = whole(model, before, state, *place)
-            falls = before is not None and state.normal_force < LESS * before.normal_force
-            return replace(increment, approach=0.95 * increment.approach) if falls else increment
-
-        return changed
-
-    patches.function(history, "_increment", wrap)
+def _no_residuals(*names: str) -> Replacements:
+    """Return replacements of the named residuals of cells by zero."""
+    return tuple(Replacement(residuals, name, lambda *given: 0.0) for name in names)
 
 
-def _grown(patches: Patches, name: str, factor: float) -> None:
-    """Plant a wrong factor in the increase of a field of slip (such as dissipation) in an
-    increment.
+NO_CONTACT_RESIDUALS = _no_residuals("complementarity", "penetration")
+NO_FRICTION_RESIDUALS = _no_residuals("friction_cone", "slip_direction")
 
-    name    field of the tangential state
+
+@replaces(history, "_increment")
+def _approach_when_unloading(whole: Any, model: Any, before: Any, state: Any, *place: Any) -> Any:
+    increment = whole(model, before, state, *place)
+    falls = before is not None and state.normal_force < LESS * before.normal_force
+    return replace(increment, approach=0.95 * increment.approach) if falls else increment
+
+
+def _grown(name: str, factor: float) -> Replacements:
+    """Return a wrong factor in the increase of a field of slip in an increment.
+
+    name    field of the tangential state, such as "dissipation"
     factor  factor of the increase; 1 is correct
     """
 
-    def wrap(whole: Any) -> Any:
-        def advanced(model: Any, pressure: Any, bound: Any, last: Any, *rest: Any) -> Any:
-            after = whole(model, pressure, bound, last, *rest)
-            start = getattr(last, name)
-            return replace(after, **{name: start + factor * (getattr(after, name) - start)})
+    @replaces(stick_slip, "advanced")
+    def advanced(whole: Any, model: Any, pressure: Any, bound: Any, last: Any, *rest: Any) -> Any:
+        after = whole(model, pressure, bound, last, *rest)
+        start = getattr(last, name)
+        return replace(after, **{name: start + factor * (getattr(after, name) - start)})
 
-        return advanced
-
-    patches.function(stick_slip, "advanced", wrap)
+    return advanced
 
 
-def _dissipation_map(patches: Patches) -> None:
-    _grown(patches, "dissipation", 1.05)
+@replaces(stick_slip, "touching_share")
+def _before_touch(whole: Any, *given: Any) -> Any:
+    return 1.0
 
 
-def _way_slipped(patches: Patches) -> None:
-    _grown(patches, "slip_distance", 2.0)
+@replaces(coupled_increment._Trial, "_tangential_state")
+def _loss_with_coupling(whole: Any, self: Any, *given: Any) -> Any:
+    after, last = whole(self, *given), self.last
+    if after.dissipated_energy is None:
+        return after
+    lost = after.dissipated_energy - last.dissipated_energy
+    return replace(after, dissipated_energy=last.dissipated_energy + 1.01 * lost)
 
 
-def _before_touch(patches: Patches) -> None:
-    patches.function(stick_slip, "touching_share", lambda whole: lambda *given: 1.0)
+@replaces(ContactModel, "friction")
+def _map_transposed(whole: Any, self: Any) -> Any:
+    friction = whole(self)
+    if friction.varying is None:
+        return friction
+    turned = {"map": friction.varying.map.values.T, "spacing": self.grid.spacing}
+    return CoulombFriction.model_validate({"coefficient": turned})
 
 
-def _loss_with_coupling(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def sheared(self: Any, *given: Any) -> Any:
-            after, last = whole(self, *given), self.last
-            if after.dissipated_energy is None:
-                return after
-            lost = after.dissipated_energy - last.dissipated_energy
-            return replace(after, dissipated_energy=last.dissipated_energy + 1.01 * lost)
-
-        return sheared
-
-    patches.method(coupled_increment._Trial, "_tangential_state", wrap)
+@replaces(fem_reference.energy, "elastic_energy")
+def _stored_by_elements(whole: Any, *given: Any) -> Any:
+    energy = whole(*given)
+    return None if energy is None else 1.05 * energy
 
 
-def _map_transposed(patches: Patches) -> None:
-    def transposed(self: Any) -> Any:
-        friction = (self.scene.friction or FRICTIONLESS).on(self.grid.cells, self.grid.spacing)
-        if friction.varying is None:
-            return friction
-        turned = {"map": friction.varying.map.values.T, "spacing": self.grid.spacing}
-        return CoulombFriction.model_validate({"coefficient": turned})
-
-    patches.attribute(ContactModel, "friction", property(transposed))
+@replaces(fem_reference.energy, "input_work")
+def _work_on_elements(whole: Any, before: Any, increment: Any) -> Any:
+    work, start = whole(before, increment), before.trapezoidal_work if before else 0.0
+    return None if work is None else start + 0.8 * (work - start)
 
 
-def _stored_by_elements(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def stored(*given: Any) -> Any:
-            energy = whole(*given)
-            return None if energy is None else 1.05 * energy
-
-        return stored
-
-    patches.function(fem_reference.energy, "elastic_energy", wrap)
-
-
-def _work_on_elements(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def worked(before: Any, increment: Any) -> Any:
-            work, start = whole(before, increment), before.trapezoidal_work if before else 0.0
-            return None if work is None else start + 0.8 * (work - start)
-
-        return worked
-
-    patches.function(fem_reference.energy, "input_work", wrap)
+@replaces(rig, "of_contact")
+def _energy_of_springs(whole: Any, increment: Any, given: Any) -> Any:
+    found, (_, along) = whole(increment, given), rig.compliances(given)
+    force = increment.tangential_force
+    if not along or force is None or increment.elastic_energy is None:
+        return found
+    stored = increment.elastic_energy + 0.5 * along * float(np.dot(force, force))
+    return replace(found, elastic_energy=stored)
 
 
-def _energy_of_springs(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def changed(increment: Any, given: Any) -> Any:
-            found, (_, along) = whole(increment, given), rig.compliances(given)
-            force = increment.tangential_force
-            if not along or force is None or increment.elastic_energy is None:
-                return found
-            stored = increment.elastic_energy + 0.5 * along * float(np.dot(force, force))
-            return replace(found, elastic_energy=stored)
-
-        return changed
-
-    patches.function(rig, "of_contact", wrap)
+@replaces(rig, "of_contact")
+def _shift_of_actuator(whole: Any, increment: Any, given: Any) -> Any:
+    return replace(whole(increment, given), tangential_shift=increment.tangential_shift)
 
 
-def _shift_of_actuator(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def changed(increment: Any, given: Any) -> Any:
-            return replace(whole(increment, given), tangential_shift=increment.tangential_shift)
-
-        return changed
-
-    patches.function(rig, "of_contact", wrap)
+@replaces(loop, "_along")
+def _contact_for_actuator(whole: Any, path: Any, name: str, direction: Any) -> Any:
+    return whole(path, name.replace("actuator", "tangential"), direction)
 
 
-def _contact_for_actuator(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def along(path: Any, name: str, direction: Any) -> Any:
-            return whole(path, name.replace("actuator", "tangential"), direction)
-
-        return along
-
-    patches.function(loop, "_along", wrap)
+@replaces(sheared, "strain_moments")
+def _work_of_strain(whole: Any, *given: Any) -> Any:
+    return np.zeros(3)
 
 
-def _work_of_strain(patches: Patches) -> None:
-    patches.function(sheared, "strain_moments", lambda whole: lambda *given: np.zeros(3))
-
-
-def _strain_of_wrong_layer(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        return lambda strain, body, layer: whole(strain, body, len(body.layers) - layer)
-
-    patches.function(bulk_strain, "stress_by", wrap)
+@replaces(bulk_strain, "stress_by")
+def _strain_of_wrong_layer(whole: Any, strain: Any, body: Any, layer: Any) -> Any:
+    return whole(strain, body, len(body.layers) - layer)
 
 
 HISTORIES = (
@@ -246,7 +200,7 @@ HISTORIES = (
     Defect(
         "limit-by-direction", "The friction limit is 1 % smaller along y, and its residuals are "
         "zero.",
-        ("load_paths",), _limit_by_direction,
+        ("load_paths",), _limit_by_direction + NO_FRICTION_RESIDUALS,
     ),
     Defect(
         "approach-when-unloading", "The approach is 5 % too small while the force falls.",
@@ -254,14 +208,17 @@ HISTORIES = (
     ),
     Defect(
         "dissipation-map", "The map of the dissipated energy is 5 % too large, its sum is not.",
-        ("load_paths",), _dissipation_map,
+        ("load_paths",), _grown("dissipation", 1.05),
     ),
     Defect(
         "slip-before-touch", "Slip is counted from the start of the increment instead of first "
         "contact.",
         ("coupled_history",), _before_touch,
     ),
-    Defect("way-slipped", "The accumulated slip is doubled.", ("load_paths",), _way_slipped),
+    Defect(
+        "way-slipped", "The accumulated slip is doubled.",
+        ("load_paths",), _grown("slip_distance", 2.0),
+    ),
     Defect(
         "loss-with-coupling", "The dissipated energy of coupled bodies is 1 % too large.",
         ("coupled_history",), _loss_with_coupling,
@@ -281,158 +238,106 @@ HISTORIES = (
 )  # fmt: skip
 
 
-def _friction(patches: Patches) -> None:
-    patches.attribute(
-        ContactModel,
-        "friction",
-        property(
-            lambda self: CoulombFriction(coefficient=np.sqrt(2) * self.scene.friction.largest)
-        ),
-    )
+@replaces(ContactModel, "friction")
+def _friction(_: Any, self: Any) -> Any:
+    return CoulombFriction(coefficient=np.sqrt(2) * self.scene.friction.largest)
 
 
-def _forgetful(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def slip_and_stick(model: Any, pressure: Any, last: Any, *rest: Any) -> Any:
-            return whole(model, pressure, untouched(model.grid.cells), *rest)
-
-        return slip_and_stick
-
-    patches.function(stick_slip, "slip_and_stick", wrap)
+@replaces(stick_slip, "slip_and_stick")
+def _forgetful(whole: Any, model: Any, pressure: Any, last: Any, *rest: Any) -> Any:
+    return whole(model, pressure, untouched(model.grid.cells), *rest)
 
 
-def _slip_reversed(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def advanced(model: Any, pressure: Any, bound: Any, last: Any, *rest: Any) -> Any:
-            after = whole(model, pressure, bound, last, *rest)
-            return replace(after, slip=2 * last.slip - after.slip)
-
-        return advanced
-
-    patches.function(stick_slip, "advanced", wrap)
+@replaces(stick_slip, "advanced")
+def _slip_reversed(whole: Any, model: Any, pressure: Any, bound: Any, last: Any, *rest: Any) -> Any:
+    after = whole(model, pressure, bound, last, *rest)
+    return replace(after, slip=2 * last.slip - after.slip)
 
 
-def _deeper(patches: Patches) -> None:
-    whole = vars(ContactModel)["of"].__func__
-
-    def of(cls: Any, *given: Any, **more: Any) -> Any:
-        model = whole(cls, *given, **more)
-        model.gap = 1.003 * model.gap
-        return model
-
-    patches.attribute(ContactModel, "of", classmethod(of))
+@replaces(ContactModel, "of")
+def _deeper(whole: Any, *given: Any, **more: Any) -> Any:
+    model = whole(*given, **more)
+    model.gap = 1.003 * model.gap
+    return model
 
 
-def _cold(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def cold(self: TangentialState, *given: Any, **named: Any) -> None:
-            whole(self, *given, **named)
-            if self.dissipated_energy is not None:
-                object.__setattr__(self, "dissipated_energy", 0.5 * self.dissipated_energy)
-
-        return cold
-
-    patches.method(TangentialState, "__init__", wrap)
+@replaces(TangentialState, "__init__")
+def _cold(whole: Any, self: TangentialState, *given: Any, **named: Any) -> None:
+    whole(self, *given, **named)
+    if self.dissipated_energy is not None:
+        object.__setattr__(self, "dissipated_energy", 0.5 * self.dissipated_energy)
 
 
-def _half_work(patches: Patches) -> None:
-    patches.function(
-        energy,
-        "_work",
-        lambda whole: lambda before, after: 0.5 * (whole(before, after) or 0.0),
-    )
+@replaces(energy, "_work")
+def _half_work(whole: Any, before: Any, after: Any) -> Any:
+    return 0.5 * (whole(before, after) or 0.0)
 
 
-def _lighter(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def target(*given: Any) -> Any:
-            right = whole(*given)
-            return right if right.force is None else replace(right, force=0.997 * right.force)
-
-        return target
-
-    patches.function(increment, "normal_target", wrap)
+@replaces(increment, "normal_target")
+def _lighter(whole: Any, *given: Any) -> Any:
+    right = whole(*given)
+    return right if right.force is None else replace(right, force=0.997 * right.force)
 
 
-def _force_not_met(patches: Patches) -> None:
-    patches.method(
-        PressureSum,
-        "admissible",
-        lambda whole: lambda self, p: whole(replace(self, total=0.999 * self.total), p),
-    )
+@replaces(PressureSum, "admissible")
+def _force_not_met(whole: Any, self: Any, p: Any) -> Any:
+    return whole(replace(self, total=0.999 * self.total), p)
 
 
-def _blind(patches: Patches) -> None:
-    """Plant inaccurate pressures (tolerance of at least 1 %) and contact residuals of zero."""
-    for name in ("complementarity", "penetration"):
-        patches.function(residuals, name, lambda whole: lambda *given: 0.0)
-    patches.function(
-        normal_problem,
-        "solve_normal",
-        lambda whole: lambda *given: whole(*given[:-1], max(given[-1], 1e-2)),
-    )
+@replaces(normal_problem, "solve_normal")
+def _inaccurate_pressure(whole: Any, *given: Any) -> Any:
+    """Plant inaccurate pressures, with a tolerance of at least 1 %."""
+    return whole(*given[:-1], max(given[-1], 1e-2))
 
 
-def _blind_to_friction(patches: Patches) -> None:
-    """Plant inaccurate shear tractions (tolerance of at least 3 %) and friction
-    residuals of zero."""
-    for name in ("friction_cone", "slip_direction"):
-        patches.function(residuals, name, lambda whole: lambda *given: 0.0)
-    patches.function(
-        tangential_solve,
-        "shear",
-        lambda whole: lambda *given: whole(*given[:-1], max(given[-1], 3e-2)),
-    )
+@replaces(tangential_solve, "shear")
+def _inaccurate_shear(whole: Any, *given: Any) -> Any:
+    """Plant inaccurate shear tractions, with a tolerance of at least 3 %."""
+    return whole(*given[:-1], max(given[-1], 3e-2))
 
 
-def _few_increments(patches: Patches) -> None:
-    patches.function(load_stepping, "fractions", lambda whole: lambda *given: whole(*given)[-1:])
+@replaces(load_stepping, "fractions")
+def _few_increments(whole: Any, *given: Any) -> Any:
+    return whole(*given)[-1:]
 
 
-def _arms_exchanged(patches: Patches) -> None:
-    patches.attribute(
-        ContactModel, "arms", property(lambda self: np.stack(self.grid.coordinates()))
-    )
+@replaces(ContactModel, "arms")
+def _arms_exchanged(_: Any, self: Any) -> Any:
+    return np.stack(self.grid.coordinates())
 
 
-def _twist_not_conjugate(patches: Patches) -> None:
-    patches.attribute(
-        ContactModel, "rotation", property(lambda self: np.stack(self.grid.coordinates()[::-1]))
-    )
+@replaces(ContactModel, "rotation")
+def _twist_not_conjugate(_: Any, self: Any) -> Any:
+    return np.stack(self.grid.coordinates()[::-1])
 
 
-def _whole_range(patches: Patches) -> None:
-    patches.function(cycles, "_half_diameter", lambda whole: lambda path: 2 * whole(path))
+@replaces(cycles, "_half_diameter")
+def _whole_range(whole: Any, path: Any) -> Any:
+    return 2 * whole(path)
 
 
-def _tension_across(patches: Patches) -> None:
-    patches.function(
-        surface_tensile_stress,
-        "_in_plane_stress",
-        lambda whole: lambda *given: whole(*given)[[1, 0, 2]],
-    )
+@replaces(surface_tensile_stress, "_in_plane_stress")
+def _tension_across(whole: Any, *given: Any) -> Any:
+    return whole(*given)[[1, 0, 2]]
 
 
-def _shear_stress_sign(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def tractions(grid: Any, pressure: Any, shear: Any) -> Any:
-            return whole(grid, pressure, None if shear is None else -shear)
-
-        return tractions
-
-    patches.function(field, "_tractions", wrap)
+@replaces(field, "_tractions")
+def _shear_stress_sign(whole: Any, grid: Any, pressure: Any, shear: Any) -> Any:
+    return whole(grid, pressure, None if shear is None else -shear)
 
 
-def _stress(patches: Patches, change: Callable[[Any], Any]) -> None:
-    """Plant an error in the stress components (nz, 6, nx, ny) below the surface.
+def _stress(change: Callable[[Any], Any]) -> Replacements:
+    """Return an error of the stress components (nz, 6, nx, ny) below the surface.
 
     change  function that returns the wrong components
     """
-    patches.function(
-        field,
-        "fields_by_level",
-        lambda whole: (
-            lambda *given: (replace(level, stress=change(level.stress)) for level in whole(*given))
+    return (
+        Replacement(
+            field,
+            "fields_by_level",
+            lambda whole, *given: (
+                replace(level, stress=change(level.stress)) for level in whole(*given)
+            ),
         ),
     )
 
@@ -464,12 +369,12 @@ CONTACT_AND_FRICTION = (
         "residual-zero-of-contact", "The residuals of contact are zero, and pressures are "
         "inaccurate.",
         # The repeated solves of an edge correction would make the pressure accurate again.
-        ("hertz_approach_control",), _blind,
+        ("hertz_approach_control",), _inaccurate_pressure + NO_CONTACT_RESIDUALS,
     ),
     Defect(
         "residual-zero-of-friction", "The residuals of friction are zero, and shears are "
         "inaccurate.",
-        ("cattaneo_mindlin",), _blind_to_friction,
+        ("cattaneo_mindlin",), _inaccurate_shear + NO_FRICTION_RESIDUALS,
     ),
     Defect(
         "friction-root-two", "The friction coefficient is too large by √2.",
@@ -517,115 +422,80 @@ CONTACT_AND_FRICTION = (
     ),
     Defect(
         "stress-planes-exchanged", "Below the surface σ_yz and σ_xz are exchanged.",
-        ("subsurface_stress",), lambda patches: _stress(patches, _planes_exchanged),
+        ("subsurface_stress",), _stress(_planes_exchanged),
     ),
     Defect(
         "in-plane-shear-halved", "Below the surface σ_xy is halved.",
-        ("subsurface_stress",), lambda patches: _stress(patches, _in_plane_halved),
+        ("subsurface_stress",), _stress(_in_plane_halved),
     ),
 )  # fmt: skip
 
 
-def _indenter_couples_as_the_body(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def mirrored(self: Composite, component: str) -> Any:
-            right = whole(self, component)
-            return right if self.lower else -right
-
-        return mirrored
-
-    patches.method(Composite, "_mirrored", wrap)
+@replaces(Composite, "_mirrored")
+def _indenter_couples_as_the_body(whole: Any, self: Composite, component: str) -> Any:
+    right = whole(self, component)
+    return right if self.lower else -right
 
 
-def _indenter_couples_in_elements(patches: Patches) -> None:
-    patches.function(
-        compliance,
-        "composite",
-        lambda whole: (
-            lambda lower, upper, motion: (
-                whole(lower, upper, motion) if lower else whole(upper, None, motion)
-            )
-        ),
-    )
+@replaces(compliance, "composite")
+def _indenter_couples_in_elements(whole: Any, lower: Any, upper: Any, motion: Any) -> Any:
+    return whole(lower, upper, motion) if lower else whole(upper, None, motion)
 
 
-def _elements_look_at_bases(patches: Patches) -> None:
+# The package exports a function of the name of this module.
+@replaces(import_module("fem_reference.plan"), "coupling", local=True)
+def _elements_look_at_bases(whole: Any, scene: Scene) -> Any:
     """Plant a wrong test of elastic coupling in the finite elements: the coating is ignored.
 
     A coated indenter on a body of its base material is then treated as equal to the body.
     """
-    plan = import_module("fem_reference.plan")  # the package exports a function of this name
-    whole = plan.coupling
-
-    def coupling(scene: Scene) -> tuple[bool, str]:
-        body, indenter = scene.body, scene.indenter
-        if indenter.layers and not body.layers and body.material == indenter.material:
-            return False, "the bases are alike"
-        decided: tuple[bool, str] = whole(scene)
-        return decided
-
-    patches.attribute(plan, "coupling", coupling)
+    body, indenter = scene.body, scene.indenter
+    if indenter.layers and not body.layers and body.material == indenter.material:
+        return False, "the bases are alike"
+    return whole(scene)
 
 
-def _no_tilt_about_y(patches: Patches) -> None:
-    def arms(self: ContactModel) -> Any:
-        x, y = self.grid.coordinates()
-        return np.stack([y, 0 * x])
-
-    patches.attribute(ContactModel, "arms", property(arms))
+@replaces(ContactModel, "arms")
+def _no_tilt_about_y(_: Any, self: ContactModel) -> Any:
+    x, y = self.grid.coordinates()
+    return np.stack([y, 0 * x])
 
 
-def _taken_over(patches: Patches, kind: ControlKind) -> None:
-    """Plant a wrong initial value of a controlled force or displacement in a load step: 2 % too
-    large.
+def _taken_over(kind: ControlKind) -> Replacements:
+    """Return a wrong initial value of a controlled force or displacement in a load step.
+
+    The value is 2 % too large.
 
     kind  control of the load step, by force or by displacement
     """
 
-    def wrap(whole: Any) -> Any:
-        def prescribed(self: Control[Any], fraction: float, reached: Any) -> Any:
-            if self.kind is kind and isinstance(self.end, float):
-                force, displacement = reached
-                reached = 1.02 * force, 1.02 * displacement
-            return whole(self, fraction, reached)
+    @replaces(Control, "prescribed")
+    def prescribed(whole: Any, self: Control[Any], fraction: float, reached: Any) -> Any:
+        if self.kind is kind and isinstance(self.end, float):
+            force, displacement = reached
+            reached = 1.02 * force, 1.02 * displacement
+        return whole(self, fraction, reached)
 
-        return prescribed
-
-    patches.method(Control, "prescribed", wrap)
+    return prescribed
 
 
-def _torque_far_away(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def prescribed(self: FactoredSection, basis: Any) -> Any:
-            return (0.5 if self.motion == TORSION else 1.0) * whole(self, basis)
-
-        return prescribed
-
-    patches.method(FactoredSection, "_prescribed", wrap)
+@replaces(FactoredSection, "_prescribed")
+def _torque_far_away(whole: Any, self: FactoredSection, basis: Any) -> Any:
+    return (0.5 if self.motion == TORSION else 1.0) * whole(self, basis)
 
 
-def _half_a_cell_off(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def gap(self: HeightMap, x: Any, y: Any) -> Any:
-            reach = 0.5 * (self.extent[0] - self.spacing[0])
-            return whole(self, np.minimum(np.asarray(x) + 0.5 * self.spacing[0], reach), y)
-
-        return gap
-
-    patches.method(HeightMap, "initial_gap", wrap)
+@replaces(HeightMap, "initial_gap")
+def _half_a_cell_off(whole: Any, self: HeightMap, x: Any, y: Any) -> Any:
+    reach = 0.5 * (self.extent[0] - self.spacing[0])
+    return whole(self, np.minimum(np.asarray(x) + 0.5 * self.spacing[0], reach), y)
 
 
-def _fewer_increments(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def path(self: Scene) -> Any:
-            return tuple(
-                replace(ramp, increments=ramp.increments and -(-ramp.increments // 2))
-                for ramp in whole(self)
-            )
-
-        return path
-
-    patches.method(Scene, "load_path", wrap)
+@replaces(Scene, "load_path")
+def _fewer_increments(whole: Any, self: Scene) -> Any:
+    return tuple(
+        replace(ramp, increments=ramp.increments and -(-ramp.increments // 2))
+        for ramp in whole(self)
+    )
 
 
 CONTROLS_AND_BODIES = (
@@ -648,12 +518,12 @@ CONTROLS_AND_BODIES = (
     Defect(
         "approach-taken-over", "A step of prescribed approach starts at an approach 2 % above "
         "the end of the force step before it.", ("led_histories",),
-        lambda patches: _taken_over(patches, ControlKind.DISPLACEMENT),
+        _taken_over(ControlKind.DISPLACEMENT),
     ),
     Defect(
         "force-taken-over", "A step of prescribed force starts at a force 2 % above the end of "
         "the approach step before it.",
-        ("led_histories",), lambda patches: _taken_over(patches, ControlKind.FORCE),
+        ("led_histories",), _taken_over(ControlKind.FORCE),
     ),
     Defect(
         "torque-far-field", "The far-field rotation by a torque is halved.",

@@ -13,86 +13,60 @@ import semi_analytical
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.files import tables
 from contact_results.stress import stress_maxima
-from contact_scene.quantities.increment import numbers
 from verification.convergence import observed_order
-from verification.defects.defect import Defect, Patches
+from verification.defects.defect import Defect, Replacement, Replacements, replaces
 from verification.judging import outcome, verdicts
 from verification.running import case_pool
 
 SIDES = {"above": "below", "below": "above"}
 
 
-def _shown_halved(patches: Patches, text: str, field: str) -> None:
-    def wrap(whole: Any) -> Any:
-        def halved(verdict: Any) -> Any:
-            return whole(verdict.model_copy(update={field: 0.5 * getattr(verdict, field)}))
+def _shown_halved(text: str, field: str) -> Replacements:
+    @replaces(outcome, text)
+    def halved(whole: Any, verdict: Any) -> Any:
+        return whole(verdict.model_copy(update={field: 0.5 * getattr(verdict, field)}))
 
-        return halved
-
-    patches.function(outcome, text, wrap)
+    return halved
 
 
-def _coverage(patches: Patches) -> None:
-    patches.function(
-        verdicts, "expanded_uncertainty", lambda whole: lambda *given: 2 * whole(*given)
-    )
+@replaces(verdicts, "expanded_uncertainty")
+def _coverage(whole: Any, *given: Any) -> Any:
+    return 2 * whole(*given)
 
 
-def _finest_exchanged(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def exchanged(h: Any, f: Any, order: float) -> Any:
-            g = f.copy()
-            g[:2] = f[1::-1]
-            return whole(h, g, order)
-
-        return exchanged
-
-    patches.function(observed_order, "richardson", wrap)
+@replaces(observed_order, "richardson")
+def _finest_exchanged(whole: Any, h: Any, f: Any, order: float) -> Any:
+    g = f.copy()
+    g[:2] = f[1::-1]
+    return whole(h, g, order)
 
 
-def _one_sided(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def known(*given: Any) -> Any:
-            order = whole(*given)
-            return replace(order, half_width=order.margin)
-
-        return known
-
-    patches.function(observed_order, "_known_to", wrap)
+@replaces(observed_order, "_known_to")
+def _one_sided(whole: Any, *given: Any) -> Any:
+    order = whole(*given)
+    return replace(order, half_width=order.margin)
 
 
-def _weights_inverted(patches: Patches) -> None:
-    patches.function(
-        observed_order,
-        "_line",
-        lambda whole: lambda h, f, order, weight_order: whole(h, f, order, -weight_order),
-    )
+@replaces(observed_order, "_line")
+def _weights_inverted(whole: Any, h: Any, f: Any, order: Any, weight_order: Any) -> Any:
+    return whole(h, f, order, -weight_order)
 
 
-def _torque_for_twist(patches: Patches) -> None:
-    def exchanged(increment: Any) -> Any:
-        values = dict(numbers(increment))
-        return values | {"torque": values["twist"], "twist": values["torque"]}
-
-    patches.attribute(tables, "numbers", exchanged)
+@replaces(tables, "numbers", local=True)
+def _torque_for_twist(whole: Any, increment: Any) -> Any:
+    values = dict(whole(increment))
+    return values | {"torque": values["twist"], "twist": values["torque"]}
 
 
-def _place_turned(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def turned(*given: Any) -> Any:
-            value, x, y = whole(*given)
-            return value, y, x
-
-        return turned
-
-    patches.function(tables, "_largest", wrap)
+@replaces(tables, "_largest")
+def _place_turned(whole: Any, *given: Any) -> Any:
+    value, x, y = whole(*given)
+    return value, y, x
 
 
-def _sides_exchanged(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        return lambda body: [(n, SIDES[side], *rest) for n, side, *rest in whole(body)]
-
-    patches.function(stress_maxima, "interface_sides", wrap)
+@replaces(stress_maxima, "interface_sides")
+def _sides_exchanged(whole: Any, body: Any) -> Any:
+    return [(n, SIDES[side], *rest) for n, side, *rest in whole(body)]
 
 
 BY_HAND, BY_FILES = ("worked_examples",), ("written_files",)
@@ -100,11 +74,11 @@ BY_HAND, BY_FILES = ("worked_examples",), ("written_files",)
 TOLD = (
     Defect(
         "uncertainty-shown-halved", "The printed uncertainty of a reference is halved.", BY_HAND,
-        lambda patches: _shown_halved(patches, "uncertainty_text", "reference_uncertainty"),
+        _shown_halved("uncertainty_text", "reference_uncertainty"),
     ),
     Defect(
         "allowed-shown-halved", "The printed tolerance is halved.", BY_HAND,
-        lambda patches: _shown_halved(patches, "_allowed_text", "allowed"),
+        _shown_halved("_allowed_text", "allowed"),
     ),
     Defect("coverage-doubled", "Tolerances are U = 4u.", BY_HAND, _coverage),
     Defect(
@@ -135,17 +109,16 @@ FALSIFIED = (
 Change = Callable[[Any], Any]
 
 
-def _returned(patches: Patches, change: Change) -> None:
-    """Plant an error in the results that the semi-analytical and the finite-element solver return.
+def _returned(change: Change) -> Replacements:
+    """Return an error of the results of the semi-analytical and the finite-element solver.
 
     change  function that returns the wrong result
     """
-    for package in (semi_analytical, fem_reference):
-        patches.function(
-            package,
-            "solve",
-            lambda whole: lambda *given, **named: change(whole(*given, **named)),
-        )
+
+    def solve(whole: Any, *given: Any, **named: Any) -> Any:
+        return change(whole(*given, **named))
+
+    return tuple(Replacement(owner, "solve", solve) for owner in (semi_analytical, fem_reference))
 
 
 def _times(factor: Callable[[Any], float]) -> Change:
@@ -213,21 +186,15 @@ def _last_step_missing(result: Any) -> Any:
     return replace(result, increments=result.increments[:-1])
 
 
-def _truncated(patches: Patches) -> None:
+@replaces(case_pool.CaseStore, "save")
+def _truncated(whole: Any, self: Any, case: Any, record: Any) -> None:
     """Plant an incomplete write: each stored record of a case has only the first
     half of its text."""
-
-    def wrap(whole: Any) -> Any:
-        def save(self: Any, case: Any, record: Any) -> None:
-            whole(self, case, record)
-            path = self.path(case)
-            text = path.read_text(encoding="utf-8")
-            with atomic_file(path) as temporary:
-                temporary.write_text(text[: len(text) // 2], encoding="utf-8")
-
-        return save
-
-    patches.method(case_pool.CaseStore, "save", wrap)
+    whole(self, case, record)
+    path = self.path(case)
+    text = path.read_text(encoding="utf-8")
+    with atomic_file(path) as temporary:
+        temporary.write_text(text[: len(text) // 2], encoding="utf-8")
 
 
 SEEN = ("dissimilar_bodies", "fem_hertz")
@@ -236,30 +203,30 @@ PLANTED_IN = ("hertz_point", "cattaneo_mindlin", "fem_hertz")
 PLANTED = (
     Defect(
         "first-order-error", "Results are too large by 0.1 h/a: an error of first order.",
-        PLANTED_IN, lambda patches: _returned(patches, _times(_first_order)),
+        PLANTED_IN, _returned(_times(_first_order)),
     ),
     Defect(
         "error-floor", "Results have an error of ± 0.05 % on any grid.",
-        PLANTED_IN, lambda patches: _returned(patches, _times(_floor)),
+        PLANTED_IN, _returned(_times(_floor)),
     ),
     Defect(
         "bias", "Results are too large by 0.3 %.",
-        PLANTED_IN, lambda patches: _returned(patches, _times(lambda r: 1 + BIAS)),
+        PLANTED_IN, _returned(_times(lambda r: 1 + BIAS)),
     ),
 )  # fmt: skip
 
 NO_RESULTS = (
     Defect(
         "nan", "Results are not numbers.", SEEN,
-        lambda patches: _returned(patches, _times(lambda r: np.nan)),
+        _returned(_times(lambda r: np.nan)),
     ),
     Defect(
         "wrong-length", "The pressure lacks its last row.", ("hertz_point", "fem_hertz"),
-        lambda patches: _returned(patches, _last_row_missing),
+        _returned(_last_row_missing),
     ),
     Defect(
         "history-truncated", "The last increment of a result is missing.", ("cattaneo_mindlin",),
-        lambda patches: _returned(patches, _last_step_missing),
+        _returned(_last_step_missing),
     ),
     Defect(
         "record-truncated", "Half of the file with a finished case reaches the disk.",

@@ -17,7 +17,7 @@ from semi_analytical.influence.layered_response import Components
 from semi_analytical.operator import operator, spectra
 from semi_analytical.operator.operator import DisplacementOperator
 from semi_analytical.operator.spectra import KernelSpectrum
-from verification.defects.defect import Defect, Patches
+from verification.defects.defect import Defect, Replacements, replaces
 
 # Components of displacement and traction.
 NORMAL: tuple[str, ...] = ("zz",)
@@ -25,163 +25,123 @@ TANGENTIAL: tuple[str, ...] = ("xx", "yy", "xy")
 COUPLING: tuple[str, ...] = ("xz", "yz")
 
 
-def scaled(patches: Patches, pairs: tuple[str, ...], factor: float) -> None:
-    """Plant a wrong factor in components of the influence coefficients (traction to displacement).
+def scaled(pairs: tuple[str, ...], factor: float) -> Replacements:
+    """Return a wrong factor of components of the influence coefficients (traction to displacement).
 
     pairs   components, named by displacement and traction, such as "zz" or "xz"
     factor  wrong factor; 1 is correct
     """
 
-    def wrap(whole: Any) -> Any:
-        def spectrum(coefficients: Any, pair: str, reach: Any) -> KernelSpectrum:
-            found: KernelSpectrum = whole(coefficients, pair, reach)
-            return replace(found, quarter=factor * found.quarter) if pair in pairs else found
+    @replaces(operator, "kernel_spectrum")
+    def spectrum(whole: Any, coefficients: Any, pair: str, reach: Any) -> KernelSpectrum:
+        found: KernelSpectrum = whole(coefficients, pair, reach)
+        return replace(found, quarter=factor * found.quarter) if pair in pairs else found
 
-        return spectrum
-
-    patches.function(operator, "kernel_spectrum", wrap)
+    return spectrum
 
 
-def _periodic(patches: Patches) -> None:
-    def images(self: DisplacementOperator, pressure: Any) -> Any:
-        self.transforms.counter.count += 1
-        unpadded = KernelSpectrum(self.spectrum("zz").quarter[::2, ::2], 1)
-        entries = {"zz": operator.response(self.transforms, "zz", unpadded)}
-        return operator.Product(self.transforms, entries, "z", "z", padded=False)(pressure[None])[0]
-
-    patches.attribute(DisplacementOperator, "normal", images)
+@replaces(DisplacementOperator, "normal")
+def _periodic(_: Any, self: DisplacementOperator, pressure: Any) -> Any:
+    self.transforms.counter.count += 1
+    unpadded = KernelSpectrum(self.spectrum("zz").quarter[::2, ::2], 1)
+    entries = {"zz": operator.response(self.transforms, "zz", unpadded)}
+    return operator.Product(self.transforms, entries, "z", "z", padded=False)(pressure[None])[0]
 
 
-def _without_mean(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def transform(coefficients: Any) -> Any:
-            spectrum = whole(coefficients)
-            spectrum.quarter[0, 0] = 0.0
-            return spectrum
-
-        return transform
-
-    patches.function(spectra, "even_transform", wrap)
+@replaces(spectra, "even_transform")
+def _without_mean(whole: Any, coefficients: Any) -> Any:
+    spectrum = whole(coefficients)
+    spectrum.quarter[0, 0] = 0.0
+    return spectrum
 
 
-def _with_nyquist_row(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def transform(coefficients: Any, odd_axis: int) -> Any:
-            spectrum = whole(coefficients, odd_axis)
-            along = np.moveaxis(spectrum.quarter, 1 - odd_axis, 0)
-            along[-1] = along[-2]
-            return spectrum
-
-        return transform
-
-    patches.function(spectra, "mixed_transform", wrap)
+@replaces(spectra, "mixed_transform")
+def _with_nyquist_row(whole: Any, coefficients: Any, odd_axis: int) -> Any:
+    spectrum = whole(coefficients, odd_axis)
+    along = np.moveaxis(spectrum.quarter, 1 - odd_axis, 0)
+    along[-1] = along[-2]
+    return spectrum
 
 
-def _without_cross_term(patches: Patches) -> None:
-    patches.attribute(Composite, "xy", property(lambda self: np.zeros_like(self.xx)))
+@replaces(Composite, "xy")
+def _without_cross_term(_: Any, self: Composite) -> Any:
+    return np.zeros_like(self.xx)
 
 
-def _one_body(patches: Patches, components: tuple[str, ...]) -> None:
-    def wrap(whole: Any) -> Any:
-        def added(self: Composite, component: str) -> Any:
-            if component in components and self.lower and self.upper:
-                return np.asarray(getattr(self.lower[0], component))
-            return whole(self, component)
+def _one_body(components: tuple[str, ...]) -> Replacements:
+    @replaces(Composite, "_added")
+    def added(whole: Any, self: Composite, component: str) -> Any:
+        if component in components and self.lower and self.upper:
+            return np.asarray(getattr(self.lower[0], component))
+        return whole(self, component)
 
-        return added
-
-    patches.method(Composite, "_added", wrap)
+    return added
 
 
-def _coupling_added(patches: Patches) -> None:
-    patches.attribute(Composite, "_mirrored", Composite._added)
+@replaces(Composite, "_mirrored")
+def _coupling_added(_: Any, self: Composite, component: str) -> Any:
+    return self._added(component)
 
 
-def _kappa_for_chi(patches: Patches) -> None:
+@replaces(surface, "_underside")
+def _kappa_for_chi(whole: Any, body: stack.Stack, alpha: Any) -> Any:
     """Plant the reflection coefficient κ = (k-1)/(k+3-4ν) for shear waves instead of χ =
     (k-1)/(k+1).
 
     k is the stiffness below the layer over that of the layer, ν its Poisson's ratio.
     """
-
-    def wrap(whole: Any) -> Any:
-        def underside(body: stack.Stack, alpha: Any) -> Any:
-            y, k = whole(body, alpha)
-            if not body.layers:
-                return y, k
-            kappa = (k - 1) / (k + 3 - 4 * body.layers[0].poisson_ratio)
-            return y, (1 + kappa) / (1 - kappa)
-
-        return underside
-
-    patches.function(surface, "_underside", wrap)
+    y, k = whole(body, alpha)
+    if not body.layers:
+        return y, k
+    kappa = (k - 1) / (k + 3 - 4 * body.layers[0].poisson_ratio)
+    return y, (1 + kappa) / (1 - kappa)
 
 
-def _plane_stress(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def underside(body: stack.Stack, alpha: Any) -> Any:
-            y, k = whole(body, alpha)
-            if body.base is None or len(body.layers) != 1:
-                return y, k
-            nu = body.base.poisson_ratio
-            return (y[0] * (3 - nu) / (1 + nu) / (3 - 4 * nu), *y[1:]), k
-
-        return underside
-
-    patches.function(surface, "_underside", wrap)
+@replaces(surface, "_underside")
+def _plane_stress(whole: Any, body: stack.Stack, alpha: Any) -> Any:
+    y, k = whole(body, alpha)
+    if body.base is None or len(body.layers) != 1:
+        return y, k
+    nu = body.base.poisson_ratio
+    return (y[0] * (3 - nu) / (1 + nu) / (3 - 4 * nu), *y[1:]), k
 
 
-def _substrate_ratio_in_layer(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def of(body: Any) -> stack.Stack:
-            right = whole(body)
-            if right.base is None:
-                return right
-            nu = right.base.poisson_ratio
-            films = [(film.shear_modulus, nu, film.thickness) for film in right.layers]
-            return stack.Stack(films, right.base)
-
-        return of
-
-    patches.function(stack, "stack_of", wrap)
+@replaces(stack, "stack_of")
+def _substrate_ratio_in_layer(whole: Any, body: Any) -> stack.Stack:
+    right = whole(body)
+    if right.base is None:
+        return right
+    nu = right.base.poisson_ratio
+    films = [(film.shear_modulus, nu, film.thickness) for film in right.layers]
+    return stack.Stack(films, right.base)
 
 
-def _half_space_only(patches: Patches) -> None:
-    def wrap(whole: Any) -> Any:
-        def remainder(body: stack.Stack, alpha: Any) -> Any:
-            return surface.SurfaceScalars(*(0.0 * value for value in whole(body, alpha)))
-
-        return remainder
-
-    patches.function(surface, "remainder_scalars", wrap)
+@replaces(surface, "remainder_scalars")
+def _half_space_only(whole: Any, body: stack.Stack, alpha: Any) -> Any:
+    return surface.SurfaceScalars(*(0.0 * value for value in whole(body, alpha)))
 
 
-def _parity(patches: Patches) -> None:
-    right = layered_response.COUPLING
-    wrong = Components(
-        right.names, right.radial, right.parity, lambda *given: right.turned(*given)[::-1]
-    )
-    patches.function(layered_response, "COUPLING", lambda _: wrong)
+@replaces(layered_response, "COUPLING")
+def _parity(right: Components) -> Components:
+    turned = right.turned
+    return Components(right.names, right.radial, right.parity, lambda *given: turned(*given)[::-1])
 
 
-def _minus_ratio(patches: Patches) -> None:
-    patches.attribute(
-        HalfSpaceCoefficients,
-        "xy",
-        property(lambda self: -self._c * self.poisson_ratio * self.integrals.xy_r3),
-    )
+@replaces(HalfSpaceCoefficients, "xy")
+def _minus_ratio(_: Any, self: HalfSpaceCoefficients) -> Any:
+    return -self._c * self.poisson_ratio * self.integrals.xy_r3
 
 
 SURFACE_RESPONSE = (
     Defect(
         "coupling-sign", "Pressure moves the surface away from the load instead of towards the "
         "load.",
-        ("frictional_indentation",), lambda patches: scaled(patches, COUPLING, -1.0),
+        ("frictional_indentation",), scaled(COUPLING, -1.0),
     ),
     Defect(
         "coupling-0p99", "The coupling of pressure and shear is too weak by 1 %.",
         ("no_slip_indentation", "frictional_indentation"),
-        lambda patches: scaled(patches, COUPLING, 0.99),
+        scaled(COUPLING, 0.99),
     ),
     Defect(
         "coupling-of-bodies-added", "The coupling of the upper body is added, not subtracted.",
@@ -202,17 +162,17 @@ SURFACE_RESPONSE = (
     Defect(
         "normal-bias", "Normal displacements are too large by 0.3 %.",
         ("dissimilar_bodies", "hertz_approach_control"),
-        lambda patches: scaled(patches, NORMAL, 1.003),
+        scaled(NORMAL, 1.003),
     ),
     Defect(
         "normal-bias-stiff", "Normal displacements are too small by 0.3 %.",
         ("dissimilar_bodies", "hertz_approach_control"),
-        lambda patches: scaled(patches, NORMAL, 1 / 1.003),
+        scaled(NORMAL, 1 / 1.003),
     ),
     Defect(
         "tangential-bias", "Tangential displacements are too large by 0.3 %.",
         ("cattaneo_mindlin",),
-        lambda patches: scaled(patches, TANGENTIAL, 1.003),
+        scaled(TANGENTIAL, 1.003),
     ),
     Defect(
         "shear-across-omitted", "Shear along y does not move the surface along x.",
@@ -224,11 +184,11 @@ SURFACE_RESPONSE = (
     ),
     Defect(
         "upper-body-sheared-not", "The tangential compliance of the upper body is omitted.",
-        ("cattaneo_mindlin",), lambda patches: _one_body(patches, ("xx", "yy", "xy")),
+        ("cattaneo_mindlin",), _one_body(("xx", "yy", "xy")),
     ),
     Defect(
         "upper-body-pressed-not", "The normal compliance of the upper body is omitted.",
-        ("hertz_approach_control",), lambda patches: _one_body(patches, ("zz",)),
+        ("hertz_approach_control",), _one_body(("zz",)),
     ),
     Defect(
         "kappa-for-chi", "Shear waves reflect at the interface by κ instead of χ.",
