@@ -26,7 +26,7 @@ from contact_errors.coarse_solves import (
     Refinement,
     solved_run,
 )
-from contact_errors.cost_estimate import estimated_seconds
+from contact_errors.cost_estimate import Work, coarse_increments, estimated_run_seconds
 from contact_errors.error_formula import (
     BELIEVED,
     ORDERS,
@@ -64,9 +64,8 @@ MAX_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
 # Largest number of doublings of the cells until the first level resolves the contact.
 MAX_DOUBLINGS = 5
 MAX_ROUNDS = 7
-# Factor by which the first level may overestimate an error, and largest refinement factor from the
-# first to the last level.
-DOUBT, FURTHEST = 4.0, 1e4
+# Largest refinement factor from the first to the last level.
+FURTHEST = 1e4
 # A scalar below this fraction of its characteristic magnitude is zero with round-off.
 ROUND_OFF = 1e-7
 
@@ -83,14 +82,14 @@ def _no_context(fineness: object) -> AbstractContextManager[None]:
 class RefinementLevel:
     """Result of one discretisation (level) of an adaptive refinement, with its error estimates.
 
-    fineness           discretisation: cells, elements or rings, increments and tolerance
-    result             result of the solver
-    values             scalars at the end of each load step, by name
-    stated             error estimates of these scalars at the end of each load step
-    run                the scalars with those of the coarse solves, from which the errors are
-                       computed
-    seconds            elapsed time of the solve and its coarse solves [s]
-    processor_seconds  CPU time of the same solves [s]
+    fineness       discretisation: cells, elements or rings, increments and tolerance
+    result         result of the solver
+    values         scalars at the end of each load step, by name
+    stated         error estimates of these scalars at the end of each load step
+    run            the scalars with those of the coarse solves, from which the errors are computed
+    seconds        elapsed time of the solve and its coarse solves [s]
+    solve_seconds  CPU time of the solve [s]
+    error_seconds  CPU time of its coarse solves [s]
     """
 
     fineness: Fineness
@@ -99,7 +98,13 @@ class RefinementLevel:
     stated: StatedErrors
     run: SolvedRun
     seconds: float
-    processor_seconds: float
+    solve_seconds: float
+    error_seconds: float
+
+    @property
+    def processor_seconds(self) -> float:
+        """CPU time of the solve and its coarse solves [s]."""
+        return self.solve_seconds + self.error_seconds
 
     def largest(self, name: str) -> float:
         """Return the largest absolute value of a scalar or vector at the ends of all load steps.
@@ -191,16 +196,18 @@ class Levels:
     watching: InContext = _no_context
     keeping: InContext = _no_context
 
-    def first(self) -> RefinementLevel:
+    def first(self, *, few_increments: bool = False) -> RefinementLevel:
         """Solve the first level: the coarsest discretisation whose cells resolve the contact.
 
         The cells are doubled up to `MAX_DOUBLINGS` times while the solver raises
         ContactNotResolved. Other errors of the solver are raised.
+
+        few_increments  true to reduce the number of increments, to measure the CPU time only
         """
-        plan = self.solver.plan
-        fineness = Fineness(
-            self.solver.first(), plan.increments, self.solver.discretisation.tolerance
-        )
+        increments = self.solver.plan.increments
+        if few_increments:
+            increments = coarse_increments(increments)
+        fineness = Fineness(self.solver.first(), increments, self.solver.discretisation.tolerance)
         for _ in range(MAX_DOUBLINGS):
             try:
                 return self.solved(fineness)
@@ -219,6 +226,7 @@ class Levels:
         began, began_processor = time.perf_counter(), time.process_time()
         with self.keeping(fineness) as store, self.watching(fineness) as progress:
             result = self.solver.solve(fineness, progress, store)
+        solved_processor = time.process_time()
         run, coarse = solved_run(self.solver, result)
         values, errors = list(run.values), list(run.errors())
         if self.stress_at is not None:
@@ -234,20 +242,18 @@ class Levels:
             stated=StatedErrors(tuple(errors), coarse),
             run=run,
             seconds=time.perf_counter() - began,
-            processor_seconds=time.process_time() - began_processor,
+            solve_seconds=solved_processor - began_processor,
+            error_seconds=time.process_time() - solved_processor,
         )
 
-    def following(self, level: RefinementLevel, by: Refinement) -> tuple[Fineness, float]:
-        """Refine the discretisation of a solved level, and estimate the CPU time of the next level.
-
-        Returns the refined discretisation, and the CPU time of its solve and its coarse solves [s].
+    def estimated_seconds(self, level: RefinementLevel, run: Work) -> float:
+        """Estimate the CPU time of a solve with its coarse solves [s], from that of a solved level.
 
         level  solved level, whose measured CPU time is scaled by the work of the solves
-        by     refinement factor of each parameter
+        run    unknowns and repetitions of the solve
         """
-        finer = self.solver.refined(level.fineness, by)
-        works = self.solver.work(level.fineness), self.solver.work(finer)
-        return finer, estimated_seconds(level.processor_seconds, *works)
+        coarse = self.solver.work(level.fineness)
+        return estimated_run_seconds(level.solve_seconds, level.error_seconds, coarse, run)
 
     def settings(self, fineness: Fineness) -> AccuracySettings:
         """Return the record of a discretisation for summary.json.
@@ -319,13 +325,11 @@ class Price:
     settings  discretisation of the last level
     seconds   CPU time of the first and the last level, with their coarse solves [s]
     memory    peak memory of the solve of the last level [byte]
-    fits      true if the last level is within the solver's limits and the available memory
     """
 
     settings: AccuracySettings
     seconds: float
     memory: int
-    fits: bool
 
 
 def refine(
@@ -347,7 +351,8 @@ def refine(
                   the reached errors
     """
     level = levels.first()
-    (shares, left_out), spent, rounds, stopped = targets_of(request, level, levels), 0.0, 0, None
+    shares, left_out, _ = targets_of(request, level, levels)
+    spent, rounds, stopped = 0.0, 0, None
     while stopped is None:
         spent, rounds = spent + level.seconds, rounds + 1
         reached = {name: level.reached(name) for name in shares}
@@ -356,7 +361,8 @@ def refine(
         if level.meets(shares):
             break
         by = bounded(level.needed(shares), level.part)
-        following, seconds = levels.following(level, by)
+        following = levels.solver.refined(level.fineness, by)
+        seconds = levels.estimated_seconds(level, levels.solver.work(following))
         shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
         stopped = levels.too_large(following)
         if rounds == MAX_ROUNDS:
@@ -393,22 +399,23 @@ def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> P
     first    solved first level, with its errors
     request  requested relative errors by name
     """
-    shares, _ = targets_of(request, first, levels)
-    by = bounded(first.needed(shares, believed=1.0), first.part, FURTHEST)
-    fineness, seconds = levels.following(first, {} if first.meets(shares) else by)
-    fits, memory = levels.too_large(fineness) is None, levels.solver.memory(fineness)
-    return Price(levels.settings(fineness), first.processor_seconds + seconds, memory, fits)
+    *_, last = targets_of(request, first, levels)
+    seconds = first.processor_seconds
+    if last != first.fineness:
+        seconds += levels.estimated_seconds(first, levels.solver.work(last))
+    return Price(levels.settings(last), seconds, levels.solver.memory(last))
 
 
 def targets_of(
     request: AccuracyRequest, level: RefinementLevel, levels: Levels
-) -> tuple[dict[str, float], dict[str, str]]:
+) -> tuple[dict[str, float], dict[str, str], Fineness]:
     """Determine the requested relative error of each scalar that an accuracy request applies to.
 
     The result of the first level decides. Scalars that it does not contain, that are infinite or
     that are zero throughout are excluded.
 
-    Returns the requested relative errors by name, and the reasons of the excluded scalars by name.
+    Returns the requested relative errors by name, the reasons of the excluded scalars by name, and
+    the discretisation of the last level, extrapolated from the errors of the first level.
 
     request  requested relative errors
     level    first level, with its result and error estimates
@@ -417,20 +424,20 @@ def targets_of(
     Raises AccuracyOutOfReach in two cases:
 
     - The request names an excluded scalar.
-    - The extrapolated discretisation exceeds a limit, even if the error of the first level is
-      overestimated by the factor `DOUBT`.
+    - The discretisation of the last level exceeds the solver's limits or the available memory.
     """
     left_out = {name: why for name in request.shares() if (why := _why_left_out(name, level))}
     for name in request.named:
         if name in left_out:
             raise AccuracyOutOfReach(f"{name} can have no requested accuracy: {left_out[name]}")
     shares = {name: share for name, share in request.shares().items() if name not in left_out}
-    doubted = {name: DOUBT * share for name, share in shares.items()}
-    needed = bounded(level.needed(doubted, believed=1.0), level.part, FURTHEST)
-    finest = levels.solver.refined(level.fineness, needed)
-    if needed.get(level.part, 1.0) > UNCONVERGED and (too_large := levels.too_large(finest)):
+    if level.meets(shares):
+        return shares, left_out, level.fineness
+    needed = bounded(level.needed(shares, believed=1.0), level.part, FURTHEST)
+    last = levels.solver.refined(level.fineness, needed)
+    if too_large := levels.too_large(last):
         raise AccuracyOutOfReach(f"no grid can meet the request: {too_large}")
-    return shares, left_out
+    return shares, left_out, last
 
 
 def _why_left_out(name: str, level: RefinementLevel) -> str:

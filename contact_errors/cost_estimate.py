@@ -12,14 +12,9 @@ the increment error. These last solves have the same small number of cells in th
 coarse solve, so that their time is proportional to the repetitions.
 """
 
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import ceil
-from typing import NamedTuple, TypeVar
-
-from contact_scene.disk_cache import without_cache
-
-T = TypeVar("T")
+from typing import NamedTuple
 
 EXPONENT = 1.1
 # Unknowns whose work equals the overhead of an operation. The scenes of `tests/cost_record.json`
@@ -29,9 +24,9 @@ CELL_OVERHEAD, ELEMENT_OVERHEAD = 128.0**2, 32.0**2
 SET_UP_INCREMENTS = 50
 # Fractions of the cells along a side in the two coarse solves of an error estimate.
 COARSE = 1 / 2, 2 / 5
-# Limits of the measured coarse solve: cells along the longer side, elements over the contact
-# radius, number of first load steps, and sum of their increments.
-MAX_CELLS, MAX_ELEMENTS, MAX_STEPS, MAX_INCREMENTS = 32, 8, 12, 48
+# Limits of the measured coarse solve of a plan: number of first load steps, and sum of their
+# increments.
+MAX_STEPS, MAX_INCREMENTS = 12, 48
 
 
 class Work(NamedTuple):
@@ -86,18 +81,6 @@ def work_on_rings(increments: Sequence[int], fineness: float = 1.0) -> Work:
     return Work(fineness**4, sum(increments), 0.0)
 
 
-def estimated_seconds(measured: float, coarse: Work, solve: Work) -> float:
-    """Estimate the CPU time of a solve [s] from that of a measured solve of the same scene.
-
-    The estimate is accurate within a factor of two.
-
-    measured  CPU time of the measured solve [s]
-    coarse    unknowns and repetitions of the measured solve
-    solve     unknowns and repetitions of the solve whose time is estimated
-    """
-    return measured * solve.cost() / coarse.cost()
-
-
 def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work) -> float:
     """Estimate the CPU time of a run with its error estimate [s], from a measured coarse solve.
 
@@ -121,14 +104,3 @@ def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:
     """
     share = min(1.0, MAX_INCREMENTS / sum(increments))
     return tuple(ceil(share * count) for count in increments)
-
-
-def cpu_seconds(call: Callable[[], T]) -> tuple[T, float]:
-    """Call a function without the disk cache, and return its result and its CPU time [s].
-
-    Used to measure the coarse solve from which the time of a run is estimated.
-    """
-    with without_cache():
-        began = time.process_time()
-        result = call()
-        return result, time.process_time() - began

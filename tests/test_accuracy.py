@@ -4,6 +4,7 @@ import json
 import re
 import signal
 import tracemalloc
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from multiprocessing import get_context
@@ -308,11 +309,30 @@ def test_a_limit_of_time_keeps_the_best_result() -> None:
 
 
 def test_a_limit_of_memory_keeps_the_best_result(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(adaptive_refinement, "available_bytes", lambda: (4 << 20) + 250_000)
-    # Without edge correction the first level is not enough.
+    # Another program takes the memory after the first level, which is not accurate enough without
+    # edge correction.
+    available = iter([1 << 40])
+    monkeypatch.setattr(adaptive_refinement, "available_bytes", lambda: next(available, 1 << 20))
     made = refine(on_cells(scene(PRESS), edge="off"), request("approach 0.05%"))
     assert "GiB" in made.accuracy.stopped
     assert made.level.result.steps
+
+
+@pytest.mark.parametrize(
+    "judge", [refine, lambda levels, asked: price(levels, levels.first(), asked)]
+)
+def test_a_last_level_beyond_the_memory_is_refused_by_run_and_plan(
+    judge: Callable, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The last level needs little more memory than the first, and one byte less is available."""
+    levels, asked = on_cells(scene(PRESS), edge="off"), request("approach 0.05%")
+    needed = price(levels, first := levels.first(), asked)
+    assert first.fineness.space.cells < needed.settings.cells
+    monkeypatch.setattr(adaptive_refinement, "available_bytes", lambda: needed.memory - 1)
+    with pytest.raises(AccuracyOutOfReach, match=r"no grid can meet the request.*GiB"):
+        judge(levels, asked)
+    monkeypatch.setattr(adaptive_refinement, "available_bytes", lambda: needed.memory)
+    judge(levels, asked)
 
 
 def level_of(parts: dict[str, float], status=ErrorStatus.ESTIMATED) -> RefinementLevel:
@@ -321,7 +341,7 @@ def level_of(parts: dict[str, float], status=ErrorStatus.ESTIMATED) -> Refinemen
     values = [{"approach": np.array([2.0])}]
     run = SolvedRun(scene(PRESS), values, [1e-8], [Features(10)], [], {"cells": [True]}, {})
     stated = StatedErrors(({"approach": error},), ())
-    return RefinementLevel(None, None, values, stated, run, 1.0, 1.0)
+    return RefinementLevel(None, None, values, stated, run, 1.0, 0.5, 0.5)
 
 
 @given(st.floats(1e-6, 0.5), st.floats(1e-6, 1e-1))
@@ -527,7 +547,9 @@ def test_the_price_of_less_error_is_more_of_everything() -> None:
         assert low.settings.cells < high.settings.cells
         assert low.seconds < high.seconds
         assert low.memory < high.memory
-    assert all(cost.fits for cost in found)
+    met = price(levels, first, request("50%"))
+    assert met.settings == levels.settings(first.fineness)
+    assert met.seconds == first.processor_seconds  # no second solve of the same level
     with pytest.raises(AccuracyOutOfReach, match="no grid can meet"):
         price(levels, first, request("1e-12"))
 

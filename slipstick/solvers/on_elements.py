@@ -10,12 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import fem_reference
-from contact_errors.cost_estimate import (
-    MAX_ELEMENTS,
-    MAX_STEPS,
-    coarse_increments,
-    work_on_elements,
-)
+from contact_errors.coarse_solves import Fineness
 from contact_errors.on_elements import ElementSolver
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.reading.engineering_units import quantity
@@ -24,7 +19,7 @@ from fem_reference import Method, Path, Plan, Result
 from fem_reference.expected_radius import meshed_radius, sections_of
 from fem_reference.memory import largest_bytes, run_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
-from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text, time_of_run
+from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text
 
 
 @dataclass(frozen=True)
@@ -57,10 +52,7 @@ class OnElements(Solver):
         return ElementSolver(scene, fineness, method=self.method)
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
-        """Yield names and texts of mesh, increments, factorisations, time and memory of a solve.
-
-        The time is estimated by a coarse solve.
-        """
+        """Yield names and texts of mesh, increments, factorisations, time and memory of a solve."""
         radius = meshed_radius(scene, fineness.contact_radius)
         sections = sections_of(scene, fineness)
         chosen = "" if fineness.contact_radius else ", estimated without friction"
@@ -72,30 +64,11 @@ class OnElements(Solver):
         motions = _motions(plan, fineness)
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
         yield "factorisations", f"{motions * len(sections)}, {text}"
-        yield self._time(scene, fineness, plan)
+        yield self.time(scene, fineness, Fineness(fineness, plan.increments, fineness.tolerance))
         needed = run_bytes(
             largest_bytes(max(each.quads.shape[1] for each in sections), motions > 1)
         )
         yield "memory", f"about {needed / 2**20:.0f} MiB"
-
-    def _time(
-        self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan
-    ) -> tuple[str, str]:
-        """Estimate the CPU time of a run from a coarse solve of its first load steps.
-
-        Returns the word "time" and the text of the estimate.
-        """
-        increments = coarse_increments(plan.increments[:MAX_STEPS])
-        begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
-        elements = min(MAX_ELEMENTS, fineness.elements_per_radius)
-        coarse = fineness.model_copy(update={"elements_per_radius": elements})
-        harmonics = fineness.harmonics if plan.path is Path.HARMONICS else 1
-        return time_of_run(
-            lambda: fem_reference.solve(begin.with_increments(increments), coarse, self.method),
-            self.errors,
-            work_on_elements(elements, increments, harmonics),
-            work_on_elements(fineness.elements_per_radius, plan.increments, harmonics),
-        )
 
     def layout(self, result: Result) -> Pairs:
         yield "method", _method_text(self.method, result.discretisation)

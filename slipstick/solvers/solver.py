@@ -6,12 +6,12 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from contact_errors.cost_estimate import T, Work, cpu_seconds, estimated_run_seconds
+from contact_scene.disk_cache import without_cache
 from contact_scene.solver_errors import ContactNotResolved, SolverError
 
 if TYPE_CHECKING:
     from contact_errors.adaptive_refinement import Levels
-    from contact_errors.coarse_solves import DiscretisedSolver
+    from contact_errors.coarse_solves import DiscretisedSolver, Fineness
     from contact_results.surface import Result
     from contact_scene import (
         FiniteElementDiscretisation,
@@ -103,6 +103,31 @@ class Solver(ABC):
         stress_at = (step or len(scene.loading)) if stress else None
         return Levels(self.refined(scene, fineness, stress), stress_at, *hooks)
 
+    def time(self, scene: Scene, fineness: Any, run: Fineness) -> tuple[str, str]:
+        """Estimate the CPU time of a run with its error estimate, from the first refinement level.
+
+        The level is solved for the first load steps, with few increments. Returns the word "time"
+        and the text of the estimate. Raises ContactNotResolved if no coarse discretisation
+        resolves the contact.
+
+        fineness  discretisation settings
+        run       discretisation, increments and tolerance of the run
+        """
+        from contact_errors.cost_estimate import MAX_STEPS
+
+        begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
+        levels = self.levels(begin, fineness, stress=False)
+        try:
+            with without_cache():
+                level = levels.first(few_increments=True)
+        except ContactNotResolved:
+            raise
+        except SolverError as error:
+            return "time", f"not estimated, since a coarse solve failed: {error}"
+        work = self.refined(scene, fineness).work(run)
+        seconds = time_text(levels.estimated_seconds(level, work))
+        return "time", f"{seconds} of one core, error estimates included"
+
     @abstractmethod
     def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:
         """Yield names and texts of discretisation, time and memory of a planned solve."""
@@ -129,29 +154,6 @@ def increments_text(counts: tuple[int, ...]) -> str:
     shown = " + ".join(map(str, counts[:MAX_STEPS_SHOWN]))
     more = " + …" if len(counts) > MAX_STEPS_SHOWN else ""
     return f"{sum(counts)} = {shown}{more} in {len(counts)} steps"
-
-
-def time_of_run(
-    solve: Callable[[], T], judge: Callable[[T], object], coarse: Work, run: Work
-) -> tuple[str, str]:
-    """Estimate the CPU time of a run with its error estimate, from a measured coarse solve.
-
-    Returns the word "time" and the text of the estimate. Raises ContactNotResolved if the coarse
-    solve has too few cells.
-
-    solve        function that makes the coarse solve
-    judge        function that estimates the errors of the coarse solve
-    coarse, run  sizes of the coarse solve and of the run
-    """
-    try:
-        result, solved = cpu_seconds(solve)
-        _, judged = cpu_seconds(lambda: judge(result))
-    except ContactNotResolved:
-        raise
-    except SolverError as error:
-        return "time", f"not estimated, since a coarse solve failed: {error}"
-    seconds = estimated_run_seconds(solved, judged, coarse, run)
-    return "time", f"{time_text(seconds)} of one core, error estimates included"
 
 
 def time_text(seconds: float) -> str:

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Annotated
 
 from contact_scene import Scene, SceneFile, read_scene_file
+from contact_scene.disk_cache import without_cache
 from contact_scene.reading.scene_file import read_accuracy
 from contact_scene.solver_errors import AccuracyOutOfReach, UnsupportedScene
 from slipstick.cli.options import (
@@ -38,10 +39,10 @@ def plan(
 ) -> None:
     """Print the effects of a scene with reasons, and grid or mesh, time and memory of a run.
 
-    The time is accurate within a factor of 2. It is estimated by a coarse solve on at most 32 cells
-    along a side or 8 elements over the contact radius, in at most 48 increments. A scene that the
-    solver does not support is refused as by 'run'. With --accuracy, the cost of each accuracy is
-    estimated by a coarse solve as well.
+    The time is accurate within a factor of 2. It is estimated by a coarse solve in at most 48
+    increments, on 24 cells along the shorter side, 8 elements over the contact radius, or half the
+    rings. A scene that the solver does not support is refused as by 'run'. With --accuracy, the
+    cost of each accuracy is estimated by a coarse solve with all increments.
     """
     contents = read_scene_file(scene, overrides or ())
     warn_of_odd_numbers(contents)
@@ -90,7 +91,8 @@ def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None
     requests = [read_accuracy(item, "--accuracy") for item in items]
     stress = any(request.binds_stress for request in requests)
     levels = solver.levels(contents.scene, solver.fineness(contents), stress)
-    first = levels.first()
+    with without_cache():
+        first = levels.first()
     rows, refused = [], []
     for item, request in zip(items, requests, strict=True):
         try:
@@ -115,5 +117,5 @@ def _price_texts(found: "Price") -> tuple[str, ...]:
         f"{cells[0]} x {cells[1]}" if cells else fineness,
         increments_text(found.settings.increments),
         time_text(found.seconds),
-        f"about {found.memory / 2**20:.0f} MiB" + ("" if found.fits else ", more than there is"),
+        f"about {found.memory / 2**20:.0f} MiB",
     )
