@@ -64,8 +64,9 @@ MAX_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
 # Largest number of doublings of the cells until the first level resolves the contact.
 MAX_DOUBLINGS = 5
 MAX_ROUNDS = 7
-# Largest refinement factor from the first to the last level.
-FURTHEST = 1e4
+# Factor by which the first level may overestimate an error, and largest refinement factor from the
+# first to the last level.
+DOUBT, FURTHEST = 4.0, 1e4
 # A scalar below this fraction of its characteristic magnitude is zero with round-off.
 ROUND_OFF = 1e-7
 
@@ -267,23 +268,39 @@ class Levels:
             **self.solver.shown(fineness.space),
         )
 
-    def too_large(self, fineness: Fineness) -> str | None:
-        """Return the reason why a discretisation is too large to be solved; None if it is not.
+    def last(self, first: RefinementLevel, shares: Mapping[str, float]) -> Fineness:
+        """Extrapolate the discretisation of the last level from the errors of the first level.
 
-        A discretisation is too large if it exceeds the solver's limit of cells, elements or rings,
-        or if its estimated memory exceeds the available memory.
+        first   first level
+        shares  requested relative error by name of the scalar
+        """
+        if first.meets(shares):
+            return first.fineness
+        needed = first.needed(shares, believed=1.0)
+        return self.solver.refined(first.fineness, bounded(needed, first.part, FURTHEST))
+
+    def beyond_limit(self, fineness: Fineness) -> str | None:
+        """Return a message if a discretisation exceeds the solver's limit of cells, elements or
+        rings; else None.
 
         fineness  grid or mesh, increments and tolerance
         """
         ((name, size),) = self.solver.shown(fineness.space).items()
-        shown = f"{name} = {size}"
-        if np.max(size) > self.solver.most:
-            return f"a level with {shown} exceeds the limit {self.solver.most:g}"
+        if np.max(size) <= self.solver.most:
+            return None
+        return f"a level with {name} = {size} exceeds the limit {self.solver.most:g}"
+
+    def beyond_memory(self, fineness: Fineness) -> str | None:
+        """Return a message if a discretisation needs more than the available memory; else None.
+
+        fineness  grid or mesh, increments and tolerance
+        """
+        ((name, size),) = self.solver.shown(fineness.space).items()
         needed, available = self.solver.memory(fineness), available_bytes()
         if needed <= available:
             return None
         return (
-            f"a level with {shown} needs about {needed / 2**30:.1f} GiB, and "
+            f"a level with {name} = {size} needs about {needed / 2**30:.1f} GiB, and "
             f"{available / 2**30:.1f} GiB are available"
         )
 
@@ -325,11 +342,13 @@ class Price:
     settings  discretisation of the last level
     seconds   CPU time of the first and the last level, with their coarse solves [s]
     memory    peak memory of the solve of the last level [byte]
+    fits      true if the last level is within the solver's limit
     """
 
     settings: AccuracySettings
     seconds: float
     memory: int
+    fits: bool
 
 
 def refine(
@@ -364,7 +383,7 @@ def refine(
         following = levels.solver.refined(level.fineness, by)
         seconds = levels.estimated_seconds(level, levels.solver.work(following))
         shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
-        stopped = levels.too_large(following)
+        stopped = levels.beyond_limit(following) or levels.beyond_memory(following)
         if rounds == MAX_ROUNDS:
             stopped = f"{rounds} rounds have not met it"
         elif stopped is None and spent + shared * seconds > most_seconds:
@@ -403,7 +422,8 @@ def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> P
     seconds = first.processor_seconds
     if last != first.fineness:
         seconds += levels.estimated_seconds(first, levels.solver.work(last))
-    return Price(levels.settings(last), seconds, levels.solver.memory(last))
+    fits = levels.beyond_limit(last) is None
+    return Price(levels.settings(last), seconds, levels.solver.memory(last), fits)
 
 
 def targets_of(
@@ -421,21 +441,21 @@ def targets_of(
     level    first level, with its result and error estimates
     levels   sequence of discretisations, for the limits on cells and memory
 
-    Raises AccuracyOutOfReach in two cases:
+    Raises AccuracyOutOfReach in three cases:
 
     - The request names an excluded scalar.
-    - The discretisation of the last level exceeds the solver's limits or the available memory.
+    - The extrapolated last level needs more than the available memory.
+    - The extrapolated last level exceeds the solver's limit of cells, elements or rings, even if
+      the error of the first level is overestimated by the factor `DOUBT`.
     """
     left_out = {name: why for name in request.shares() if (why := _why_left_out(name, level))}
     for name in request.named:
         if name in left_out:
             raise AccuracyOutOfReach(f"{name} can have no requested accuracy: {left_out[name]}")
     shares = {name: share for name, share in request.shares().items() if name not in left_out}
-    if level.meets(shares):
-        return shares, left_out, level.fineness
-    needed = bounded(level.needed(shares, believed=1.0), level.part, FURTHEST)
-    last = levels.solver.refined(level.fineness, needed)
-    if too_large := levels.too_large(last):
+    last = levels.last(level, shares)
+    coarsest = levels.last(level, {name: DOUBT * share for name, share in shares.items()})
+    if too_large := levels.beyond_limit(coarsest) or levels.beyond_memory(last):
         raise AccuracyOutOfReach(f"no grid can meet the request: {too_large}")
     return shares, left_out, last
 

@@ -547,6 +547,7 @@ def test_the_price_of_less_error_is_more_of_everything() -> None:
         assert low.settings.cells < high.settings.cells
         assert low.seconds < high.seconds
         assert low.memory < high.memory
+    assert all(cost.fits for cost in found)
     met = price(levels, first, request("50%"))
     assert met.settings == levels.settings(first.fineness)
     assert met.seconds == first.processor_seconds  # no second solve of the same level

@@ -114,7 +114,8 @@ def _price_texts(found: "Price") -> tuple[str, ...]:
     fineness = f"{rings:.2g} times the rings" if rings else ""
     fineness = fineness or f"{found.settings.elements_per_radius} per radius"
     return (
-        f"{cells[0]} x {cells[1]}" if cells else fineness,
+        (f"{cells[0]} x {cells[1]}" if cells else fineness)
+        + ("" if found.fits else ", above the limit"),
         increments_text(found.settings.increments),
         time_text(found.seconds),
         f"about {found.memory / 2**20:.0f} MiB",

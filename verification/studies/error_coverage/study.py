@@ -64,11 +64,11 @@ class LimitedLevels(Levels):
 
     most: float = np.inf
 
-    def too_large(self, fineness: Fineness) -> str | None:
+    def beyond_limit(self, fineness: Fineness) -> str | None:
         sizes = self.solver.shown(fineness.space).values()
         if np.prod([*sizes]) * sum(fineness.increments) > self.most:
             return "the next level takes more work than the study allows"
-        return super().too_large(fineness)
+        return super().beyond_limit(fineness)
 
 
 @dataclass(frozen=True)
