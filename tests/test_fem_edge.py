@@ -14,8 +14,13 @@ from fem_reference.compliance.ring_edge import (
     HatEdge,
     stick_area,
 )
-from fem_reference.contact import box_program
-from fem_reference.contact.box_program import BoxProgram, BoxSolution, Total, solve_box
+from fem_reference.contact import pressure_program
+from fem_reference.contact.pressure_program import (
+    PressureProgram,
+    PressureSolution,
+    Total,
+    solve_program,
+)
 
 CENTRE = 200
 
@@ -38,9 +43,8 @@ def plane_contact(half_width: float) -> np.ndarray:
     matrix = toeplitz(kernel) + 20.0
     gap = pi * ((n - CENTRE) ** 2 / 2 + 1 / 12)
     load = Total(np.ones(len(n)), pi * half_width**2 / 2)
-    endless = np.full(len(n), np.inf)
-    program = BoxProgram(matrix, -gap, np.zeros(len(n)), endless, load)
-    return solve_box(program, np.zeros(len(n), np.int8)).values[CENTRE:]
+    program = PressureProgram(matrix, -gap, load)
+    return solve_program(program, np.ones(len(n), bool)).values[CENTRE:]
 
 
 @pytest.mark.parametrize("beyond", [0.05, 0.3, 0.5, 0.8, 0.99])
@@ -102,89 +106,71 @@ def test_slip_narrower_than_an_element_is_found_by_what_is_missing_from_the_limi
     assert np.sqrt(area / pi) - 1e6 == pytest.approx(stick, abs=3e-3)
 
 
-# ---- Quadratic programs with bounds: the answer is the minimum, however it was found.
+# ---- Quadratic programs of the pressure: the answer is the minimum, however it was found.
 
 
 ENOUGH = 1e-9
 
 
 @st.composite
-def programs(draw, largest=9, total=None, endless=None):
-    """Random programs, well conditioned, some with components without room."""
+def programs(draw, largest=9):
+    """Random programs, well conditioned, with and without a prescribed force."""
     n = draw(st.integers(1, largest))
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
     B = rng.normal(size=(n, n))
     A = B @ B.T + 0.05 * n * np.eye(n)
     c = 3 * rng.normal(size=n)
-    lower = -rng.random(n) * rng.integers(0, 2, n)
-    upper = rng.random(n) * (rng.random(n) > 0.2)
-    if draw(st.booleans()) if endless is None else endless:
-        upper = np.full(n, np.inf)
-    has_total = draw(st.booleans()) if total is None else total
-    room = np.any(lower < upper)
-    if not (has_total and room):
-        return BoxProgram(A, c, lower, upper)
-    v = 0.2 + rng.random(n)
-    top = np.where(np.isfinite(upper), upper, lower + 2)
-    part = draw(st.floats(0.02, 0.98))
-    return BoxProgram(A, c, lower, upper, Total(v, float(v @ (lower + part * (top - lower)))))
+    total = Total(0.2 + rng.random(n), draw(st.floats(0.02, 2.0))) if draw(st.booleans()) else None
+    return PressureProgram(A, c, total)
 
 
-def assert_optimal(program: BoxProgram, found: BoxSolution) -> None:
+def assert_optimal(program: PressureProgram, found: PressureSolution) -> None:
     """Karush, Kuhn and Tucker's conditions, with a slack of round-off only."""
     x, size = found.values, 1 + np.max(np.abs(program.right))
-    assert np.all((x >= program.lower) & (x <= program.upper))
+    assert np.all(x >= 0)
     gradient = program.matrix @ x - program.right
     if program.total is not None:
         gradient -= found.multiplier * program.total.weights
         assert program.total.weights @ x == pytest.approx(program.total.value, abs=ENOUGH)
-    inside = (x > program.lower) & (x < program.upper)
-    assert np.all(np.abs(gradient[inside]) < ENOUGH * size)
-    room = program.lower < program.upper
-    assert np.all(gradient[room & (x == program.lower)] > -ENOUGH * size)
-    assert np.all(gradient[room & (x == program.upper)] < ENOUGH * size)
+    assert np.all(np.abs(gradient[x > 0]) < ENOUGH * size)
+    assert np.all(gradient > -ENOUGH * size)
 
 
-@given(programs(), st.integers(0, 3**9 - 1))
-def test_solution_is_optimal_from_any_guess(program: BoxProgram, code: int) -> None:
-    guess = np.array([code // 3**k % 3 - 1 for k in range(len(program.right))], dtype=np.int8)
-    guess[(guess > 0) & ~np.isfinite(program.upper)] = 0
-    assert_optimal(program, solve_box(program, guess))
+@given(programs(), st.integers(0, 2**9 - 1))
+def test_solution_is_optimal_from_any_guess(program: PressureProgram, code: int) -> None:
+    guess = np.array([code >> k & 1 for k in range(len(program.right))], dtype=bool)
+    assert_optimal(program, solve_program(program, guess))
 
 
 @given(programs())
-def test_descent_alone_finds_the_same(program: BoxProgram) -> None:
-    free = np.zeros(len(program.right), np.int8)
-    steps = box_program.MAX_STEPS
+def test_descent_alone_finds_the_same(program: PressureProgram) -> None:
+    free = np.ones(len(program.right), bool)
+    steps = pressure_program.MAX_STEPS
     try:
-        box_program.MAX_STEPS = 0
-        slow = solve_box(program, free)
+        pressure_program.MAX_STEPS = 0
+        slow = solve_program(program, free)
     finally:
-        box_program.MAX_STEPS = steps
+        pressure_program.MAX_STEPS = steps
     assert_optimal(program, slow)
-    assert slow.values == pytest.approx(solve_box(program, free).values, abs=1e-8)
+    assert slow.values == pytest.approx(solve_program(program, free).values, abs=1e-8)
 
 
 @given(programs(), st.integers(-20, 20))
-def test_units_do_not_matter(program: BoxProgram, power: int) -> None:
+def test_units_do_not_matter(program: PressureProgram, power: int) -> None:
     """In units that differ by a power of four, whose roots are exact, every step is the same."""
     s = 4.0**power
-    other = BoxProgram(
-        program.matrix * s, program.right * s * s, program.lower * s, program.upper * s,
-        None if program.total is None
-        else Total(program.total.weights / s, program.total.value),
-    )  # fmt: skip
-    free = np.zeros(len(program.right), np.int8)
-    one, two = solve_box(program, free), solve_box(other, free)
+    total = program.total and Total(program.total.weights / s, program.total.value)
+    other = PressureProgram(program.matrix * s, program.right * s * s, total)
+    free = np.ones(len(program.right), bool)
+    one, two = solve_program(program, free), solve_program(other, free)
     assert np.array_equal(two.values, one.values * s)
     assert two.steps == one.steps
 
 
 def test_who_rests_at_a_bound_without_being_pulled_stays_there() -> None:
     """Its gradient is zero: it could be free as well, and then would be told so."""
-    lower, endless = np.zeros(2), np.full(2, np.inf)
-    program = BoxProgram(np.array([[4.0, 1.0], [1.0, 2.0]]), np.array([4.0, 1.0]), lower, endless)
-    found = solve_box(program, np.array([0, -1], np.int8))
+    program = PressureProgram(np.array([[4.0, 1.0], [1.0, 2.0]]), np.array([4.0, 1.0]))
+    found = solve_program(program, np.array([True, False]))
     assert found.values.tolist() == [1.0, 0.0]
-    assert found.sides.tolist() == [0, -1]
+    assert found.free.tolist() == [True, False]
     assert found.steps == 1

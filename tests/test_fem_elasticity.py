@@ -12,7 +12,6 @@ from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference.elasticity.hat_functions import hats_on
 from fem_reference.elasticity.section_basis import displacement_basis
 from fem_reference.elasticity.weak_form import dilatation, element_stiffness
-from fem_reference.mesh.gmsh_mesh import gmsh_section_mesh
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 
 R = 10.0
@@ -173,7 +172,7 @@ def test_compliance_stays_symmetric_and_positive(radii, seed) -> None:
     assert np.linalg.eigvalsh(weak).min() > -1e-9 * np.abs(weak).max()
 
 
-# ---- Both meshers fill the section they are given.
+# ---- Meshes fill the section they are given.
 
 
 SOFT = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.3)
@@ -196,26 +195,9 @@ BODIES = {
 }
 
 
-@pytest.fixture(name="gmsh")
-def loaded_gmsh():
-    try:
-        import gmsh
-    except (ImportError, OSError) as error:
-        pytest.skip(f"gmsh cannot be loaded: {error}")
-    return gmsh
-
-
-@pytest.fixture(params=["tensor", "gmsh"])
-def mesher(request):
-    if request.param == "tensor":
-        return section_mesh
-    request.getfixturevalue("gmsh")
-    return gmsh_section_mesh
-
-
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-def test_no_element_crosses_an_interface(mesher, body):
-    section = mesher(body, 8)
+def test_no_element_crosses_an_interface(body):
+    section = section_mesh(body, 8)
     top, base = np.array(section.outline.pieces).T
     depth = section.points[1, section.quads]
     assert np.all(depth >= top[section.layer])
@@ -224,8 +206,8 @@ def test_no_element_crosses_an_interface(mesher, body):
 
 
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-def test_a_refined_mesh_is_nested(mesher, body):
-    coarse = mesher(body, 4)
+def test_a_refined_mesh_is_nested(body):
+    coarse = section_mesh(body, 4)
     fine = coarse.refined()
     assert fine.quads.shape[1] == 4 * coarse.quads.shape[1]
     assert np.array_equal(fine.radii[::2], coarse.radii)
@@ -245,6 +227,6 @@ def test_a_refined_mesh_is_nested(mesher, body):
         (stack(2e6), {"elements_per_radius": 8}, UnsupportedScene, "substrate has no effect"),
     ],
 )
-def test_sizes_that_make_no_mesh_are_refused(mesher, body, arguments, error, message):
+def test_sizes_that_make_no_mesh_are_refused(body, arguments, error, message):
     with pytest.raises(error, match=message):
-        mesher(body, **arguments)
+        section_mesh(body, **arguments)

@@ -15,14 +15,13 @@ from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import CoulombFriction
 from contact_scene.solver_errors import NotConverged
 from fem_reference.compliance.point_compliance import PointCompliance
-from fem_reference.contact.box_program import (
-    BoxProgram,
-    BoxSolution,
-    Sides,
-    Total,
-    solve_box,
-)
 from fem_reference.contact.friction_limit import reaches_limit
+from fem_reference.contact.pressure_program import (
+    PressureProgram,
+    PressureSolution,
+    Total,
+    solve_program,
+)
 from fem_reference.contact.tangential_newton import (
     ShearProblem,
     TangentialState,
@@ -149,7 +148,7 @@ def solve_coupled(
     inner = max(LOOSEST, tightest) if couples else tightest
     known = _Anderson(w, target.force)
     try:
-        pressed = press(problem, q, sides_of(pressure))
+        pressed = press(problem, q, pressure > 0)
         p, solves = pressed.values, pressed.steps
         for turn in range(1, MAX_TURNS + 1):
             sheared = _shear(problem, p, q, inner)
@@ -157,9 +156,9 @@ def solve_coupled(
             if not couples:
                 delta = approach_of(problem, pressed)
                 return CoupledSolution(p, q, delta, sheared.shift, sheared.in_slip, turn, solves)
-            pressed = press(problem, q, pressed.sides)
+            pressed = press(problem, q, pressed.free)
             solves += pressed.steps
-            change = _change(w, p, pressed.values)
+            change = over(float(np.sum(w * np.abs(pressed.values - p))), np.sum(w * pressed.values))
             if change <= tolerance and inner <= tightest:
                 delta = approach_of(problem, pressed)
                 return CoupledSolution(p, q, delta, sheared.shift, sheared.in_slip, turn, solves)
@@ -176,29 +175,7 @@ def solve_coupled(
     raise AlternationFailed(turn, solves, change, tolerance)
 
 
-def _change(areas: Vector, p: Vector, answer: Vector) -> float:
-    """Compute the change of the pressure in one alternating iteration, Σ w |p' − p| / Σ w p' [1].
-
-    Used as the convergence criterion. The result is infinite if the new pressure carries no load.
-
-    areas   w, areas of the points (points,) [length^2]
-    p       pressure before the iteration (points,)
-    answer  p', pressure after the iteration (points,)
-    """
-    carried = float(np.sum(areas * answer))
-    return float(np.sum(areas * np.abs(answer - p))) / carried if carried > 0 else np.inf
-
-
-def sides_of(pressure: Vector) -> Sides:
-    """Return an initial guess of the contact area for the normal problem: the points with pressure.
-
-    The entries (points,) are those of `BoxSolution.sides`: 0 for points in contact, -1 for points
-    without pressure.
-    """
-    return np.where(pressure > 0, 0, -1).astype(np.int8)
-
-
-def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
+def approach_of(problem: CoupledProblem, pressed: PressureSolution) -> float:
     """Return the rigid approach of the indenter after a solve of the normal problem [length].
 
     Under a prescribed approach the result is this approach. Under a prescribed force it is the
@@ -210,14 +187,14 @@ def approach_of(problem: CoupledProblem, pressed: BoxSolution) -> float:
     return pressed.multiplier if prescribed is None else prescribed
 
 
-def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
+def press(problem: CoupledProblem, q: Field, guess: Mask) -> PressureSolution:
     """Solve the normal problem of an increment: the pressure at a given shear.
 
     Under a prescribed force, the approach is the multiplier of the solution. Raise NotConverged, or
     LinAlgError if the compliance matrix is not positive definite.
 
     q      shear at the points (2, points) [force/length^2]
-    guess  guess of the contact area: 0 for points in contact, -1 for others (points,)
+    guess  True for points that are probably in contact (points,)
     """
     compliance, target = problem.compliance, problem.normal
     w, K = compliance.areas, compliance.matrix
@@ -229,9 +206,7 @@ def press(problem: CoupledProblem, q: Field, guess: Sides) -> BoxSolution:
     else:
         assert target.approach is not None
         right = right + target.approach * w
-    nothing, endless = np.zeros_like(w), np.full_like(w, np.inf)
-    K_zz = K[2 * points :, 2 * points :]
-    return solve_box(BoxProgram(K_zz, right, nothing, endless, total), guess)
+    return solve_program(PressureProgram(K[2 * points :, 2 * points :], right, total), guess)
 
 
 def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -> TangentialState:

@@ -18,7 +18,6 @@ from fem_reference.contact.alternating_iteration import (
     CoupledSolution,
     approach_of,
     press,
-    sides_of,
 )
 from fem_reference.contact.natural_map import Equations, Iterate
 
@@ -134,7 +133,7 @@ def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Itera
     """
     pressure, approach, solves = start.pressure, start.approach, 0
     if not np.any(pressure > 0):
-        pressed = press(problem, np.zeros_like(start.shear), sides_of(pressure))
+        pressed = press(problem, np.zeros_like(start.shear), pressure > 0)
         pressure, approach, solves = pressed.values, approach_of(problem, pressed), pressed.steps
     shifted, pressed_by = problem.tangential.motion, problem.normal.approach
     return Iterate(

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, Mask, Matrix, Vector
+from fem_reference.contact.admissible_shear import into_discs
 from fem_reference.contact.alternating_iteration import CoupledProblem, CoupledSolution
 
 LEAST_FRICTION = 1e-6  # least friction coefficient by which the residual of shear is divided
@@ -174,11 +175,8 @@ class Equations:
         solves   number of linear systems solved
         """
         _, z_t, z_z, bound = self._equations(at)
-        p = np.maximum(z_z, 0.0)
-        length = np.hypot(*z_t)
-        safe = np.where(length > 0, length, 1.0)
-        q = np.clip(z_t * np.where(length > bound, bound / safe, 1.0), -bound, bound)
-        return CoupledSolution(p, q, at.approach, at.shift, in_slip, 0, solves)
+        q = into_discs(z_t, bound)
+        return CoupledSolution(np.maximum(z_z, 0.0), q, at.approach, at.shift, in_slip, 0, solves)
 
     def _equations(self, at: Iterate) -> tuple[Vector, Field, Vector, Vector]:
         """Compute the residual vector of the contact equations and its intermediate fields.
@@ -199,9 +197,7 @@ class Equations:
         slipped = u[:2] - self.w * problem.target - at.shift * self.along
         z_t = q - slipped / (self.d_t + sprung)
         bound = problem.bound(np.maximum(z_z, 0.0))
-        length = np.hypot(*z_t)
-        safe = np.where(length > 0, length, 1.0)
-        allowed = z_t * np.where(length > bound, bound / safe, 1.0)
+        allowed = into_discs(z_t, bound)
         force = pressed = 0.0
         if self.force is not None:
             force = (float(np.sum(self.along * q)) - self.force) / self.scale

@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 from skfem import Basis
 
 from contact_scene.array_types import Field
-from fem_reference.elasticity.section_basis import pressure_basis
 from fem_reference.mesh.section_mesh import SectionMesh
 
 Components = tuple[int, ...]
@@ -139,14 +138,19 @@ def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
 
 
 def _linear(basis: Basis) -> Field:
-    """Evaluate the basis functions of the pressure, 1, r and z, at the quadrature points (e, 3, q).
+    """Evaluate the linear functions 1, r and z of each element at its quadrature points (e, 3, q).
 
-    The functions of an element are measured from its middle. The volume strain is projected onto
-    these functions.
+    r and z are measured from the middle of the element and divided by its size. The volume strain
+    is projected onto these functions. They also represent the pressure of nearly incompressible
+    elements. The linear functions of scikit-fem on quadrilaterals are bilinear and therefore not
+    suitable.
 
     basis  displacement basis whose quadrature points are used
     """
-    return np.stack([np.asarray(field[0]) for field in pressure_basis(basis).basis], axis=1)
+    points, corners = basis.global_coordinates(), basis.mesh.p[:, basis.mesh.t]
+    middle, size = corners.mean(axis=1), np.ptp(corners, axis=1)
+    r, z = (points - middle[..., None]) / size[..., None]
+    return np.stack([np.ones_like(r), r, z], axis=1)
 
 
 def _orthonormal(basis: Basis, linear: Field) -> Field:
