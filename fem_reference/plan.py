@@ -16,7 +16,7 @@ from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
-from contact_scene.stepping.load_path import first_direction
+from contact_scene.stepping.load_path import along_one_line, first_direction
 
 # Largest ratio of shear moduli within a body. Above this ratio the stiffness of the softest
 # material is lost in round-off.
@@ -25,9 +25,6 @@ ROUND_OFF = 1e-9
 # Number of increments of a path-dependent load step. Errors are proportional to its inverse.
 PATH_INCREMENTS = 20
 LARGEST_SHARE = 0.05
-
-# Largest sine of the angle between two loads that count as parallel, because of round-off.
-STRAIGHT = 1e-9
 
 
 class Path(Enum):
@@ -47,6 +44,14 @@ class Path(Enum):
     TWISTING = "pressure, then circumferential shear"
     SHEARING = "pressure, then shear along the load"
     HARMONICS = "pressure and shear, coupled, on many harmonics"
+
+
+# Reasons why slip perpendicular to a tangential load is computed or omitted. Poisson's ratio causes
+# such slip (Munisamy, Hills and Nowell 1994).
+CROSS_SLIP = dict.fromkeys(Path, "nothing pushes sideways") | {
+    Path.SHEARING: "neglected, as by Cattaneo and Mindlin: shear and slip are along the load",
+    Path.HARMONICS: "Coulomb's law is obeyed as a vector law at every point",
+}
 
 
 @dataclass(frozen=True)
@@ -202,27 +207,9 @@ def _effects(
         ),
         effect.strained(scene),
         effect.coupled(scene, couples, why_coupled),
-        _cross_slip(path),
+        Effect("slip across the load", path is Path.HARMONICS, CROSS_SLIP[path]),
         effect.load_history(path is not Path.PRESSING and len(scene.loading) > 1),
     )
-
-
-def _cross_slip(path: Path) -> Effect:
-    """Return the effect "slip across the load", with the reason why it is computed or omitted.
-
-    Poisson's ratio causes slip perpendicular to a tangential load (Munisamy, Hills and Nowell
-    1994). This slip is computed only by a solve on several angular harmonics.
-
-    path  tractions that the solve computes
-    """
-    name = "slip across the load"
-    if path is Path.SHEARING:
-        return Effect(
-            name, False, "neglected, as by Cattaneo and Mindlin: shear and slip are along the load"
-        )
-    if path is Path.HARMONICS:
-        return Effect(name, True, "Coulomb's law is obeyed as a vector law at every point")
-    return Effect(name, False, "nothing pushes sideways")
 
 
 def _refuse_shapes(scene: Scene) -> None:
@@ -272,22 +259,8 @@ def _refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> N
             "does not combine the two. Use equal bodies, remove the torsion, or solve it with "
             "--solver radial"
         )
-    ends = [ramp.tangential.end for ramp in scene.load_path()]
-    longest = max(ends, key=lambda end: hypot(*end))
-    for end in ends:
-        if _turns(longest, end):
-            raise UnsupportedScene(
-                f"the tangential load has the directions {longest} and {end}, and this solver "
-                "requires one direction. Use one line, or solve it with --solver radial"
-            )
-
-
-def _turns(one: tuple[float, float], other: tuple[float, float]) -> bool:
-    """Return True if two tangential loads have different lines of action, within round-off.
-
-    Used to refuse scenes whose tangential load changes its direction.
-
-    one, other  tangential loads (x, y)
-    """
-    cross = one[0] * other[1] - one[1] * other[0]
-    return abs(cross) > STRAIGHT * hypot(*one) * hypot(*other)
+    if not along_one_line(scene.load_path()):
+        raise UnsupportedScene(
+            "the tangential load changes its direction, and this solver requires one direction. "
+            "Use one line, or solve it with --solver radial"
+        )

@@ -17,19 +17,6 @@ class Scales:
     length: float
     modulus: float
 
-    @property
-    def force(self) -> float:
-        """Unit of force of the dimensionless problem: modulus times length squared [force]."""
-        return self.modulus * self.length * self.length
-
-    @property
-    def moment(self) -> float:
-        """Unit of moment and torque of the dimensionless problem [force length].
-
-        The unit is the product of the units of force and length.
-        """
-        return self.force * self.length
-
     def dimensionless(self, body: Body) -> Body:
         """Return a copy of a body in dimensionless units, for the mesh and the stiffness.
 

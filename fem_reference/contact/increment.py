@@ -15,7 +15,6 @@ from contact_scene.quantities.residuals import (
     Residuals,
     ShearResiduals,
 )
-from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import NotConverged, NothingTouches, motion_undefined
 from fem_reference.contact.alternating_iteration import (
     AlternationFailed,
@@ -28,7 +27,7 @@ from fem_reference.contact.continuation import solve_by_continuation
 from fem_reference.contact.coupled_newton import Start, solve_by_newton
 from fem_reference.contact.friction_limit import contact_status, refuse_beyond_limit
 from fem_reference.contact.point_contact import PointContact
-from fem_reference.contact.point_state import PointState, length, longest
+from fem_reference.contact.point_state import PointState
 from fem_reference.loads import Loads
 from fem_reference.plan import Path
 from fem_reference.residuals import (
@@ -246,8 +245,8 @@ class _Increment:
         one      solution of the pass whose shear is the weight
         vectors  vectors at the points, such as displacements (2, points)
         """
-        shear = self.contact.compliance.areas * length(one.solution.shear)
-        return over(float(np.sum(shear * length(vectors))), float(np.sum(shear)))
+        shear = self.contact.compliance.areas * np.hypot(*one.solution.shear)
+        return over(float(np.sum(shear * np.hypot(*vectors))), float(np.sum(shear)))
 
     def state(self, passes: list[_Pass]) -> PointState:
         """Create the contact state at the end of the increment from its last penalty pass.
@@ -282,7 +281,12 @@ class _Increment:
             gap=last.law_gap - last.strain[2],
             slip=before.slip - slipped,
             in_stick=in_stick,
-            status=self._status(problem, p, in_stick, load),
+            status=contact_status(
+                (p > 0) & compliance.carries_shear,
+                in_stick & compliance.carries_shear,
+                load if np.any(compliance.motion) else None,
+                problem.capacity(p),
+            ),
             normal_force=float(np.sum(w * p)) if force is None else force,
             approach=solution.approach,
             load=load if target.load is None else target.load,
@@ -377,21 +381,6 @@ class _Increment:
             outer_iterations, solves,
         )  # fmt: skip
 
-    def _status(
-        self, problem: CoupledProblem, p: Vector, in_stick: Mask, load: float
-    ) -> ContactStatus:
-        """Determine the contact status at the end of the increment: stick, partial or gross slip.
-
-        p         pressure (points,)
-        in_stick  True for sticking points (points,)
-        load      tangential force or torque of the shear
-        """
-        carries = problem.compliance.carries_shear
-        driven = bool(np.any(problem.compliance.motion))
-        return contact_status(
-            (p > 0) & carries, in_stick & carries, load if driven else None, problem.capacity(p)
-        )
-
     def _touching_share(self, p: Vector, at_edges: Vector) -> Vector:
         """Compute the part of the increment in which every point is in contact (points,).
 
@@ -448,8 +437,9 @@ class _Increment:
             # Displacement by shear alone: under full stick from the start, a rigid motion has no
             # such displacement.
             by_shear, _ = problem.compliance.displacement(np.zeros_like(p), q)
-            lengths = longest(by_shear), longest(self.before.displacement), ROUND_OFF * approach
-            direction = slip_direction(q, bound, passed, w, float(np.max(lengths)))
+            moved = np.hypot(*np.concatenate([by_shear, self.before.displacement], axis=1))
+            largest = max(float(np.max(moved)), ROUND_OFF * approach)
+            direction = slip_direction(q, bound, passed, w, largest)
         if load is not None and (limit := problem.capacity(p)) > 0:
             missing = abs(float(np.sum(problem.compliance.along * q)) - load) / limit
         path = self.contact.rings.path
@@ -458,7 +448,7 @@ class _Increment:
         twists = path is Path.TWISTING
         return pressing.with_shear(
             ShearResiduals(
-                friction_cone=friction_cone(length(q), bound),
+                friction_cone=friction_cone(np.hypot(*q), bound),
                 slip_direction=direction,
                 tangential_equilibrium=None if twists else missing,
                 torque_equilibrium=missing if twists else None,

@@ -15,7 +15,6 @@ from contact_scene.stepping.load_stepping import Place
 from fem_reference.compliance.angular_grid import (
     AngularGrid,
     axisymmetric_grid,
-    end_grid,
 )
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.increment import advance
@@ -26,8 +25,6 @@ from fem_reference.fields import Increment
 from fem_reference.loads import STILL, Loads
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path, Plan
-
-HIGHEST = 8
 
 
 @dataclass(frozen=True)
@@ -41,7 +38,7 @@ class ContactMethod:
     plan     tractions that the solve computes, and numbers of increments
     penalty  parameters of the penalty law; None for the exact laws of Signorini and Coulomb
     around   angular points on the half circle, counted from the direction of the load, for coupled
-             bodies under a tangential load; None for end_grid(8)
+             bodies under a tangential load; None for scenes without such a load
     """
 
     model: ContactModel
@@ -113,8 +110,8 @@ class ContactMethod:
 
         Used for coupled bodies under a tangential load.
         """
-        around = self.around or end_grid(HIGHEST)
-        return point_contact(self.model, self.plan.path, around, self.penalty)
+        assert self.around is not None
+        return point_contact(self.model, self.plan.path, self.around, self.penalty)
 
     def _refuse_contact_at_edge(self, contact: PointContact, state: PointState) -> None:
         """Raise ContactAtZoneEdge if the contact reaches the end of the zone of fine elements.

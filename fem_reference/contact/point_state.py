@@ -72,21 +72,3 @@ class PointState:
         The components are r, θ, z [force/length^2].
         """
         return np.concatenate([self.shear, self.pressure[None]])
-
-
-def length(vectors: Field) -> Vector:
-    """Compute the Euclidean length of the vector at every point (points,).
-
-    vectors  tangential vectors at the points, such as shear or slip (2, points)
-    """
-    return np.asarray(np.sqrt(vectors[0] ** 2 + vectors[1] ** 2))
-
-
-def longest(vectors: Field) -> float:
-    """Compute the largest magnitude of a tangential vector field among all points.
-
-    Used as the displacement to which the residual of the slip direction is relative.
-
-    vectors  tangential vectors at the points, such as displacements (2, points)
-    """
-    return float(np.max(length(vectors)))

@@ -47,24 +47,6 @@ class ShearProblem:
     bound: Vector
     control: TangentialTarget
 
-    def stiffness(self) -> Vector:
-        """Compute the weights d of the norm Σ d |q|² of shear vectors q (points,).
-
-        d is the mean of the two diagonal entries of the compliance matrix at a point. Equal weights
-        of both components leave the friction limit of a point a disc.
-        """
-        diagonal = np.diagonal(self.compliance).reshape(2, -1)
-        return np.asarray(0.5 * (diagonal[0] + diagonal[1]))
-
-    def forced(self) -> Field:
-        """Return the linear term c of the energy ½ qᵀKq − cᵀq of the shear q (2, points).
-
-        A prescribed shift or twist of the indenter is included in c. Without one, c is the target
-        of the problem.
-        """
-        motion = self.control.motion
-        return self.target if motion is None else self.target + motion * self.along
-
 
 @dataclass(frozen=True)
 class TangentialState:
@@ -95,7 +77,10 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Tangen
                energy, the projection P onto the admissible shears and the weights d of its norm
     raises     NotConverged
     """
-    K, c, d = problem.compliance, problem.forced(), problem.stiffness()
+    K, motion = problem.compliance, problem.control.motion
+    c = problem.target if motion is None else problem.target + motion * problem.along
+    # Equal weights of both components leave the friction limit of a point a disc.
+    d = np.mean(np.diagonal(K).reshape(2, -1), axis=0)
     along, bound, total = problem.along, problem.bound, problem.control.load
     least = LEAST_SHEAR * np.sum(problem.areas * bound)
     q, _ = project(start, bound, d, along, total)
@@ -110,7 +95,7 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Tangen
         residual = _sum(problem.areas, moved) / scale
         in_slip = length > bound
         if residual <= tolerance:
-            shift = omega if problem.control.motion is None else problem.control.motion
+            shift = omega if motion is None else motion
             return TangentialState(q, shift, in_slip, residual, solves)
         aimed = _newton_point(problem, c, z, length, in_slip, d)
         aimed, _ = project(aimed, bound, d, along, total)

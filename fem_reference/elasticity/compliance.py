@@ -39,19 +39,12 @@ class NodalCompliance:
     matrix          compliance (c, m, c, m) for c components, symmetric
     factorizations  number of sparse factorisations. A matrix from the cache counts too, so that the
                     cost of a scene does not depend on previous solves
-    from_cache      True if the matrix was read from the cache
     """
 
     motion: Motion
     radii: NDArray[np.float64]
     matrix: NDArray[np.float64]
     factorizations: int
-    from_cache: bool = False
-
-    @property
-    def harmonic(self) -> int:
-        """Angular harmonic n of the tractions and displacements that the compliance relates."""
-        return self.motion.harmonic
 
 
 def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
@@ -64,16 +57,11 @@ def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
     section  mesh of the meridional section of the body
     motion   displacement field of one angular harmonic, such as that of normal loading or torsion
     """
-    radii, count = section.radii, len(motion.components)
-    computed = False
-
-    def compute() -> NDArray[np.float64]:
-        nonlocal computed
-        computed = True
-        return FactoredSection(section, motion).compliance()
-
-    matrix = remembered(_identity(section, motion), (count, radii.size) * 2, compute)
-    return NodalCompliance(motion, radii, matrix, 1, from_cache=not computed)
+    shape = (len(motion.components), section.radii.size) * 2
+    matrix = remembered(
+        _identity(section, motion), shape, lambda: FactoredSection(section, motion).compliance()
+    )
+    return NodalCompliance(motion, section.radii, matrix, 1)
 
 
 def composite(
@@ -103,9 +91,7 @@ def composite(
         matrix += parts[id(lower)].matrix
     if upper is not None:
         matrix += J[:, None, None, None] * parts[id(upper)].matrix * J[:, None]
-    factorizations = sum(part.factorizations for part in parts.values())
-    from_cache = all(part.from_cache for part in parts.values())
-    return NodalCompliance(motion, bodies[0].radii, matrix, factorizations, from_cache)
+    return NodalCompliance(motion, bodies[0].radii, matrix, len(parts))
 
 
 def _identity(section: SectionMesh, motion: Motion) -> str:
