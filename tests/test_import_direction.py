@@ -189,7 +189,6 @@ ORDERS = {
         *("showcase", "report", "judged_by_pytest"),
     ),
     "verification.studies.refinement": ("scene_level", "study"),
-    "verification.studies.seeded_defects": ("runs", "study"),
     "verification.studies.stability": ("cell", "pose", "judged", "study"),
 }
 

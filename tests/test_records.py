@@ -27,7 +27,7 @@ DEPENDS = {
         {"verification/cases/hertz.py", "contact_errors/on_cells.py"},
         "slipstick",
     ),
-    "verification.studies.seeded_defects.study": ({"verification/cases/hertz.py"}, "slipstick"),
+    "verification.studies.seeded_defects": ({"verification/cases/hertz.py"}, "slipstick"),
     "verification.studies.stability.study": ({"semi_analytical/solve.py"}, "verification/report"),
 }
 

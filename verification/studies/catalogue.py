@@ -13,7 +13,7 @@ from verification.studies.refinement.study import (
     mesh_study,
 )
 from verification.studies.scoreboard import STUDY as SCOREBOARD
-from verification.studies.seeded_defects.study import STUDY as SEEDED_DEFECTS
+from verification.studies.seeded_defects import STUDY as SEEDED_DEFECTS
 from verification.studies.stability.study import STUDY as STABILITY
 from verification.studies.work_precision.study import STUDY as WORK_PRECISION
 
