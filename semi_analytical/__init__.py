@@ -14,7 +14,7 @@ from contact_scene.solver_errors import (
 from semi_analytical.default_grid import discretise
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.plan import Coupling, Plan, all_effects, one_way, plan
+from semi_analytical.plan import Coupling, Plan, all_effects, plan
 from semi_analytical.solve import solve, solve_discretised
 
 __all__ = [
@@ -34,7 +34,6 @@ __all__ = [
     "UnsupportedScene",
     "all_effects",
     "discretise",
-    "one_way",
     "plan",
     "solve",
     "solve_discretised",

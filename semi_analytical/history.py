@@ -89,10 +89,6 @@ def _advance(plan: Plan) -> Advance:
     """
     if plan.coupling is Coupling.NONE:
         return solve_increment
-    if plan.coupling is Coupling.ONE_WAY:
-        from semi_analytical.increments.one_way_increment import solve_one_way_increment
-
-        return solve_one_way_increment
     from semi_analytical.coupled.coupled_increment import solve_coupled_increment
 
     return solve_coupled_increment

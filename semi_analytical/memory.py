@@ -16,8 +16,6 @@ SHEAR_ARRAYS = 31, 54
 # Arms, unit motions and their products.
 TILT_ARRAYS = 10
 TORSION_ARRAYS = 6
-# Spectra of the coupling in one direction.
-ONE_WAY_ARRAYS = 8
 # Coupled bodies, by the number of mirror images: for the first and for later increments, largest
 # number of arrays during an increment (that are written to) and between increments, counted by
 # tracemalloc on 256 x 256 cells.
@@ -76,7 +74,6 @@ def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
     arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * share
     if plan.shear:
         arrays += SHEAR_ARRAYS[0] + SHEAR_ARRAYS[1] * share
-        arrays += ONE_WAY_ARRAYS * share * (plan.coupling is Coupling.ONE_WAY)
     arrays += TILT_ARRAYS * plan.tilt + TORSION_ARRAYS * plan.torsion
     return arrays + HISTORY_ARRAYS * (sum(plan.increments) > 1)
 

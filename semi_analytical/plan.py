@@ -43,8 +43,6 @@ class Coupling(StrEnum):
     """Coupling of the normal and the tangential problem in the solution of a scene."""
 
     NONE = "none"
-    # Pressure displaces the surfaces tangentially, shear does not change the gap (Goodman 1962).
-    ONE_WAY = "one way"
     FULL = "full"
 
 
@@ -220,32 +218,6 @@ def all_effects(plan: Plan) -> Plan:
         coupling=Coupling.FULL,
         symmetry=WINDOW,
         effects=tuple(_forced(effect) for effect in plan.effects),
-    )
-
-
-def one_way(plan: Plan) -> Plan:
-    """Return a plan in which shear does not act on the pressure (one-way coupling, Goodman 1962).
-
-    This is an approximation for coupled bodies. For uncoupled bodies it has equal results at a
-    higher cost.
-
-    plan  effects that the solution of a scene includes
-    """
-    why = "requested: pressure acts on the tangential problem, shear not on the normal problem"
-    effects = [replace(e, on=True, why=why) if e.name == COUPLING else e for e in plan.effects]
-    edge = plan.edge
-    if plan.couples:
-        unknown = "not available with one-way coupling"
-        effects = [replace(e, on=False, why=unknown) if e.name == EDGES else e for e in effects]
-        edge = "off"
-    return replace(
-        plan,
-        shear=True,
-        coupling=Coupling.ONE_WAY,
-        edge=edge,
-        symmetry=plan.symmetry if plan.coupling is Coupling.FULL else WINDOW,
-        couples=False,
-        effects=tuple(effects),
     )
 
 

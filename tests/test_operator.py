@@ -35,7 +35,7 @@ from contact_scene import (
     Paraboloid,
 )
 from contact_scene.geometry import Gap
-from semi_analytical import SurfaceGrid, all_effects, one_way, plan, solve
+from semi_analytical import SurfaceGrid, all_effects, plan, solve
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.box import box_around
@@ -439,7 +439,6 @@ def test_the_plan_finds_the_planes_of_a_scene(described, domain):
     decided = plan(described)
     assert decided.symmetry == domain
     assert all_effects(decided).symmetry == WINDOW
-    assert one_way(decided).symmetry == (domain if decided.couples else WINDOW)
 
 
 @pytest.mark.parametrize("offset", [(0.0, 0.0), (0.5, 0.0), (0.1, 0.35)])

@@ -12,9 +12,9 @@ import fem_reference
 import radial
 from contact_scene import Body, Layer
 from contact_scene.body_pair import contact_modulus, outermost_beta
-from semi_analytical import Coupling, Result, SurfaceGrid, all_effects, one_way, plan, solve
+from semi_analytical import Coupling, Result, SurfaceGrid, all_effects, plan, solve
 from semi_analytical.operator.domain import WINDOW
-from semi_analytical.plan import COMPUTED, EDGES, MIRROR_PLANES
+from semi_analytical.plan import COMPUTED, MIRROR_PLANES
 
 ONE, MANY = False, True
 
@@ -202,25 +202,3 @@ def test_forcing_says_what_it_forces():
     assert forced.symmetry == WINDOW
 
 
-def test_edges_are_not_known_of_bodies_of_which_one_way_of_coupling_is_left_out():
-    decided = plan(coupled_scene(press(), coupled_push(0.5)), edge="last")
-    assert decided.edge == "last"
-    one = one_way(decided)
-    assert one.edge == "off"
-    assert not any(e.on for e in one.effects if e.name == EDGES)
-
-
-def coupled_one_way(described, cells=48):
-    return solve(described, grid(cells, 1.2), TOLERANCE, plan=one_way(plan(described)))
-
-
-@pytest.mark.parametrize("body", [bulk(), coated()], ids=["homogeneous", "coated"])
-def test_one_way_every_increment_obeys_friction(body):
-    described = coupled_scene(press(), coupled_push(0.6), coupled_push(-0.6), press(0.7), body=body)
-    lost = 0.0
-    for increment in coupled_one_way(described).increments:
-        assert increment.residuals.worst <= TOLERANCE
-        assert np.any(increment.in_contact & ~increment.in_stick)
-        assert increment.dissipated_energy >= lost
-        lost = increment.dissipated_energy
-    assert lost > 0

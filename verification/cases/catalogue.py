@@ -55,7 +55,6 @@ CASES = (
     "frictional_indentation",
     "indentation_refinement",
     "sheared_increments",
-    "goodman_indentation",
     "no_slip_indentation",
     "spence_example",
     "subsurface_stress",
@@ -107,8 +106,8 @@ MODULES = {
     ),
     "frictional_pressing": (
         *("frictional_indentation", "indentation_refinement", "sheared_increments"),
-        *("goodman_indentation", "no_slip_indentation", "spence_example", "fem_indentation"),
-        *("fem_increments", "fem_penalty_indentation", "radial_indentation"),
+        *("no_slip_indentation", "spence_example", "fem_indentation", "fem_increments"),
+        *("fem_penalty_indentation", "radial_indentation"),
     ),
     "histories": (
         *("load_paths", "coupled_history", "same_surface", "forced_effects", "exchanged_bodies"),

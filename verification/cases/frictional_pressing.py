@@ -25,25 +25,14 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.discretisation import EdgeCorrection
-from contact_scene.quantities.residuals import worst
-from fem_reference.compliance.angular_grid import end_grid
-from fem_reference.compliance.point_compliance import PointCompliance
-from fem_reference.compliance.ring_compliance import RingCompliance
-from fem_reference.compliance.ring_edge import HatEdge
-from fem_reference.contact.alternating_iteration import CoupledProblem
-from fem_reference.contact.natural_map import Equations, Iterate
-from fem_reference.loads import NormalTarget, TangentialTarget
-from fem_reference.plan import Path
-from semi_analytical import one_way
 from semi_analytical.grid import SurfaceGrid
 from verification.cases.levels import ELEMENT_RADIUS, JUDGED_BY, PENALTY, because, finest
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
-from verification.judging.case import Case, Check, Comparison, Level, Quantity, Required
+from verification.judging.case import Case, Comparison, Level, Quantity, Required
 from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
-    PEAK_PRESSURE,
     Drawing,
     Observable,
     Reported,
@@ -63,11 +52,9 @@ from verification.judging.order_of_convergence import (
 )
 from verification.judging.pressing_errors import PRESSURE, SHEAR, SHEAR_AT_EDGE
 from verification.judging.refinement_levels import (
-    RefinementLevel,
     RefinementLevels,
     asked,
     cells_label,
-    ladder,
     named,
     on_cells,
     on_elements,
@@ -98,7 +85,6 @@ from verification.problems.problem import (
     Problem,
     Reference,
     ReferenceKind,
-    identity,
 )
 from verification.quantities import shear_of, shift_along_x
 
@@ -161,96 +147,6 @@ def _weights(to: int, of: int) -> Field:
     weights[rows, left] = 1 - (position - left)
     weights[rows, np.minimum(left + 1, of - 1)] += position - left
     return weights
-
-
-RINGS, HIGHEST, STATES = 5, 4, 8
-SPRINGS = 0.3  # of the penalty law; zero is exact contact
-STEP = 1e-5  # of values of order one
-LEAST_PRESSURE = 0.1  # shears in slip bend with the radius of the friction limit
-SEED = 7
-
-
-def consistent_tangent() -> Check:
-    """Create a check of the tangent matrix of the finite element contact equations.
-
-    The matrix is compared with central differences, for exact contact and for the penalty law. A
-    wrong tangent changes no result but costs iterations.
-    """
-    return Check(
-        "consistent_tangent", "largest difference between the tangent matrix and central "
-        "differences of the equations", "", f"{2 * STATES} random states on {RINGS} rings", _worst,
-        identity(0.0, "the derivative of the equations; with another matrix Newton's method "
-        "converges linearly"),
-        Required(1e-8, f"central differences of step {STEP:g} of values of order one: they "
-        "neglect a sixth of the squared step times a third derivative of 160, and rounding"),
-        1.0, "a traction of order one",
-    )  # fmt: skip
-
-
-def _worst() -> float:
-    return worst(*(_error(springs, seed) for springs in (0.0, SPRINGS) for seed in range(STATES)))
-
-
-def _error(springs: float, seed: int) -> float:
-    random = np.random.default_rng((SEED, seed))
-    compliance = PointCompliance(_rings(random), end_grid(HIGHEST), springs)
-    points = len(compliance.areas)
-    problem = CoupledProblem(
-        compliance,
-        random.uniform(-0.5, 0.5, points),
-        CoulombFriction(coefficient=0.4),
-        random.uniform(-0.1, 0.1, (2, points)),
-        NormalTarget(force=1.0),
-        TangentialTarget(load=0.2),
-    )
-    equations = Equations(problem)
-    tractions = np.concatenate(
-        [random.uniform(-0.2, 0.2, 2 * points), random.uniform(0, 1, points)]
-    )
-    here = Iterate(tractions, 0.1, 0.5, 0.2)
-    _, tangent, _ = equations.linearised(here)
-    largest, values = 0.0, here.values
-    for column in range(len(values)):
-        step = STEP * (np.arange(len(values)) == column)
-        above, below = Iterate.of(values + step), Iterate.of(values - step)
-        smooth = np.append(np.tile(_on_one_side(equations, above, below), 3), [True, True])
-        difference = (equations.missed(above) - equations.missed(below)) / (2 * STEP)
-        largest = worst(largest, *np.abs(difference - tangent[:, column])[smooth])
-    return largest
-
-
-def _on_one_side(equations: Equations, above: Iterate, below: Iterate) -> Any:
-    """Select the points whose contact and slip states are equal in two iterates.
-
-    Between the iterates the equations have no kink at these points.
-    """
-    sides = []
-    for at in (above, below):
-        _, _, in_slip = equations.linearised(at)
-        sides.append((equations.solution(at, in_slip, 0).pressure, in_slip))
-    (p, slips), (p_below, slips_below) = sides
-    apart = (p == 0) & (p_below == 0)
-    return (apart | (np.minimum(p, p_below) > LEAST_PRESSURE)) & (slips == slips_below)
-
-
-def _rings(random: np.random.Generator) -> RingCompliance:
-    """Draw a random ring compliance, with symmetric positive definite harmonics."""
-    harmonics = []
-    for _ in range(HIGHEST + 1):
-        factor = random.normal(size=(3 * RINGS, 3 * RINGS))
-        harmonics.append((factor @ factor.T).reshape(3, RINGS, 3, RINGS) / RINGS)
-    radii = np.arange(RINGS) / RINGS
-    return RingCompliance(
-        radii=radii,
-        areas=random.uniform(0.5, 1.0, RINGS),
-        gap=0.0 * radii,
-        harmonics=tuple(harmonics),
-        path=Path.HARMONICS,
-        motion=np.zeros((2, RINGS)),
-        stretch=0.0 * radii,
-        reach=1.0,
-        edge=HatEdge(),
-    )
 
 
 ONE = "1"
@@ -699,110 +595,6 @@ def sheared_increments(
     )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Goodman:
-    """Exact state after indentation with friction if the shear has no effect on the pressure
-    (Goodman).
-
-    The pressure is that of Hertz.
-
-    stick_part     radius of the stick disc over the contact radius
-    approach       approach of Hertz theory [length]
-    peak_pressure  peak pressure of Hertz theory [force/length²]
-    """
-
-    stick_part: float
-    approach: float = HERTZ.approach
-    peak_pressure: float = HERTZ.peak_pressure
-
-
-def _goodman(
-    title: str, nu: float, friction: float, increments: int, uncertainty: Callable[[float], float]
-) -> Problem:
-    """Create the problem of a rigid ball pressed with friction, with one-way coupling.
-
-    The pressure causes shear, but the shear has no effect on the pressure.
-
-    nu           Poisson ratio of the half-space
-    uncertainty  relative uncertainty of the closed form, as a function of Dundurs' constant β
-    """
-    beta = (1 - 2 * nu) / (2 * (1 - nu))
-    return Problem(
-        pressed(title, rigid_ball(), half_space(nu), pressing(increments), friction=friction),
-        (Goodman(stick_ratio(friction, beta)),),
-        HERTZ.contact_radius,
-        "Goodman 1962; Spence 1975: (a/2c) ln((a+c)/(a-c)) = (µ/β) K'(c/a)",
-        uncertainty=uncertainty(beta),
-        scales={ONE: 1.0},
-        equations=(
-            r"\frac{a}{2c} \ln\frac{a + c}{a - c} = \frac{\mu}{\beta} K'(c/a),\quad "
-            r"\beta = \frac{1 - 2\nu}{2 (1 - \nu)}",
-        ),
-    )
-
-
-def _excess(result: Any, *_: Any) -> float:
-    end = result.steps[-1]
-    bound = result.scene.friction.limit(end.pressure)
-    return float(np.max(np.hypot(*shear_of(end)) - bound) / np.max(bound))
-
-
-def goodman_indentation(
-    level: Level = Level.QUICK, cells: int = 0, frictions: Sequence[float] = ()
-) -> Case:
-    """Create the verification case of indentation with friction and one-way coupling (Goodman).
-
-    cells      numbers of cells per side, in place of those of the level
-    frictions  coefficients of friction, in place of those of the level
-    """
-    # On 64 cells the disc of µ = 0.1 is six cells wide, and so is the slip ring of µ = 0.3.
-    resolved = (64, (0.2,)) if level is Level.QUICK else (256, (0.1, 0.2, 0.3))
-    cells, frictions = (cells, frictions) if cells else resolved
-    hertz, why = "Hertz: the pressure is that without friction", "accuracy target of frictional "
-    "indentation"
-    rows = (
-        Within(replace(APPROACH, source=hertz), 2e-4, why),
-        Within(
-            replace(PEAK_PRESSURE, source=hertz), 2e-3,
-            "a cell is up to a thirtieth of the radius wide",
-        ),
-        Within(
-            error_norm(
-                "slip_limit", "largest excess of the shear over µp, over µp₀", _excess, "µp₀",
-                source="Coulomb",
-            ),
-            1e-8, "the solver's tolerance",
-        ),
-        Within(replace(STICK_PART, name="stick_ratio"), 1e-2, why),
-    )  # fmt: skip
-    grid = paper.square_grid(cells, 1.15 * HERTZ.contact_radius)
-
-    def one(mu: float) -> RefinementLevels:
-        title = f"Rigid ball pressed with friction, µ = {mu:g}, coupled one way"
-        problem = _goodman(title, 0.3, mu, 40, lambda beta: ROUNDING)
-        name = f"µ = {mu:g}"
-        label = f"{name}, {cells} cells, 40 increments"
-        run = Run(label, problem.scene, grid, effects=one_way, problem=name)
-        return ladder(problem, [RefinementLevel(run, cells)])
-
-    return case(
-        "goodman_indentation",
-        "Indentation with friction, coupled one way",
-        "The paper's ball, rigid, is pressed on bodies of the paper's E* and ν = 0.3. The "
-        "pressure moves the surface towards the axis and friction resists. The normal "
-        "displacement by the shear is neglected: the pressure is then that of Hertz, and the "
-        "stick disc has a closed form. The case tests the history of stick and slip without the "
-        "iteration between pressure and shear.",
-        *(judged(one(mu), rows) for mu in frictions),
-        limits=(
-            "One-way coupling is an approximation, used here on purpose; frictional_indentation "
-            "judges the full coupling.",
-            "With the full coupling c/a is smaller: 0.1998 for µ = 0.1, 0.8959 for µ = 0.3.",
-        ),
-        no_order="the stick radius scatters by a fraction of a cell from grid to grid",
-    )
-
-
 NO_SLIP_SOURCE = "Mossakovskii 1963; Spence 1968: (1 - ν) ln(3 - 4ν) / (1 - 2ν)"
 NO_SLIP_BALL_SOURCE = "Spence 1968, superposition of bonded flat punches"
 NO_SLIP_RATIOS = (0.0, 0.3)  # Poisson's
@@ -1114,7 +906,6 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
         "shear are solved by an alternating iteration; where that does not converge, together by "
         "Newton's method with the consistent tangent.",
         *(judged(mesh, rows) for mesh in meshes.values()),
-        checks=(consistent_tangent(),),
         charts=tuple(
             draw
             for one, mesh in meshes.items()
@@ -1125,6 +916,40 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
             "error: each position of the stick edge leaves a ripple, of 0.02 µp_H for µ = 0.3.",
         ),
         no_order=JUDGED_BY.format("fem_increments"),
+    )
+
+
+@dataclass(frozen=True)
+class Goodman:
+    """Exact state after indentation with friction if the shear has no effect on the pressure.
+
+    stick_part  radius of the stick disc over the contact radius
+    """
+
+    stick_part: float
+
+
+def _goodman(title: str, nu: float, ratio: float, increments: int) -> Problem:
+    """Create the problem of a rigid ball pressed with friction on a body of weak coupling.
+
+    nu     Poisson ratio of the half-space; its Dundurs constant β is small
+    ratio  coefficient of friction over β
+    """
+    beta = (1 - 2 * nu) / (2 * (1 - nu))
+    scene = pressed(
+        title, rigid_ball(), half_space(nu), pressing(increments), friction=ratio * beta
+    )
+    return Problem(
+        scene,
+        (Goodman(stick_ratio(ratio * beta, beta)),),
+        HERTZ.contact_radius,
+        "Goodman 1962; Spence 1975: (a/2c) ln((a+c)/(a-c)) = (µ/β) K'(c/a)",
+        uncertainty=beta**2,
+        scales={ONE: 1.0},
+        equations=(
+            r"\frac{a}{2c} \ln\frac{a + c}{a - c} = \frac{\mu}{\beta} K'(c/a),\quad "
+            r"\beta = \frac{1 - 2\nu}{2 (1 - \nu)}",
+        ),
     )
 
 
@@ -1197,10 +1022,7 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
         ),
         *(
             judged(
-                on_radii(
-                    _goodman(title, nu, ratio * beta, increments, lambda beta: beta**2), title,
-                    rings=rings,
-                ),
+                on_radii(_goodman(title, nu, ratio, increments), title, rings=rings),
                 (of_goodman,),
             )
             for ratio in (0.5, 1.0)

@@ -316,7 +316,7 @@ class MotionControlled:
         if repeated is None:
             return math.inf
         violation, imbalance, *_ = observed(repeated)
-        return worst(violation, imbalance or 0.0)
+        return worst(violation, imbalance)
 
     def iterations(self, result: semi_analytical.Result) -> float:
         """Return the number of iterations of the repeated solve, over all increments."""

@@ -12,7 +12,6 @@ from contact_scene import CoulombFriction
 from fem_reference.compliance import ring_compliance
 from fem_reference.contact import increment
 from fem_reference.contact.augmented_lagrangian import Penalty
-from fem_reference.contact.natural_map import Equations
 from fem_reference.elasticity import compliance, hat_functions, section_basis, weak_form
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.model import ContactModel
@@ -112,24 +111,6 @@ def _slip_reversed(whole: Any, self: Any, passes: Any) -> Any:
     return replace(after, dissipated_energy=2 * energy - after.dissipated_energy)
 
 
-class _Level(CoulombFriction):
-    """Coulomb friction law with a wrong derivative: that of the friction limit by the pressure is
-    zero.
-
-    Plants the defect of an inconsistent tangent in the penalty method.
-    """
-
-    def slope(self, *given: Any, **more: Any) -> Any:
-        return 0.0 * super().slope(*given, **more)
-
-
-@replaces(Equations, "linearised")
-def _tangent(whole: Any, self: Equations, at: Any) -> Any:
-    level = _Level(coefficient=self.problem.friction.coefficient)
-    wrong = Equations(replace(self.problem, friction=level))
-    return whole(wrong, at)
-
-
 @replaces(Penalty, "stiffness")
 def _soft(whole: Any, self: Any, *given: Any) -> Any:
     return 0.1 * whole(self, *given)
@@ -188,10 +169,6 @@ FINITE_ELEMENTS = (
     Defect(
         "fe-dissipation-sign", "The dissipated energy has the wrong sign.",
         ("fem_partial_slip",), _slip_reversed,
-    ),
-    Defect(
-        "fe-penalty-tangent", "The tangent of slip lacks its dependence on the pressure.",
-        ("fem_penalty_indentation",), _tangent,
     ),
     Defect(
         "fe-penalty-soft", "The penalty is a tenth of the stated penalty.",

@@ -386,7 +386,7 @@ CONTACT_AND_FRICTION = (
     ),
     Defect(
         "one-increment", "A load step has one increment, instead of the requested number.",
-        ("goodman_indentation",), _few_increments,
+        ("led_histories",), _few_increments,
     ),
     Defect(
         "slip-reversed", "Slip is added up with the wrong sign.",

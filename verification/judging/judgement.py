@@ -55,17 +55,15 @@ WITHIN = (
 def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
     """Judge the laws of contact and friction, and the energy balance, in the results of all runs.
 
-    Returns one verdict on the largest violation of a law, and one on the largest energy imbalance
-    if any run has energies. Each number is compared with the tolerance of its run.
+    Returns one verdict on the largest violation of a law, and one on the largest energy
+    imbalance. Each number is compared with the tolerance of its run.
 
     results  results of the solved runs, by label of the run
     """
     found = {run.label: observed(results[run.label]) for run in case.runs if run.label in results}
     violated = {label: laws.violation for label, laws in found.items()}
-    missing = {
-        label: energy for label, laws in found.items() if (energy := laws.imbalance) is not None
-    }
-    verdicts = [
+    missing = {label: laws.imbalance for label, laws in found.items()}
+    return (
         judge_worst(
             case, violated, VIOLATION, "largest violation of a law of contact and friction in any "
             "increment of the {runs} run(s); it is in this one"
@@ -73,21 +71,17 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
             "gap, overlap, friction, slip against shear, forces, moments and energy lost, found "
             "again in the fields",
             WITHIN, lambda run: run.laws,
-        )
-    ]  # fmt: skip
-    if missing:
-        verdicts.append(
-            judge_worst(
-                case, missing, IMBALANCE, "largest part of the energy that any increment cannot "
-                "account for of the {runs} run(s); it is in this one{where}"
-                + _excluded("energy", {label: found[label] for label in missing}, results),
-                "first law: work put in is stored, dissipated or left open by the increment",
-                f"residuals within the tolerance move the energy by a few times as much; {WITHIN}",
-                lambda run: run.energy,
-                {label: f", {e.terms}" for label, e in missing.items() if isinstance(e, Imbalance)},
-            )
-        )  # fmt: skip
-    return tuple(verdicts)
+        ),
+        judge_worst(
+            case, missing, IMBALANCE, "largest part of the energy that any increment cannot "
+            "account for of the {runs} run(s); it is in this one{where}"
+            + _excluded("energy", found, results),
+            "first law: work put in is stored, dissipated or left open by the increment",
+            f"residuals within the tolerance move the energy by a few times as much; {WITHIN}",
+            lambda run: run.energy,
+            {label: f", {e.terms}" for label, e in missing.items() if isinstance(e, Imbalance)},
+        ),
+    )  # fmt: skip
 
 
 def _excluded(what: str, found: Mapping[str, Observed], results: Mapping[str, Any]) -> str:

@@ -14,14 +14,13 @@ class Observed(NamedTuple):
     """Violations of the laws of contact and friction in a result, and its energy imbalance.
 
     violation  largest violation of any law in any increment; infinite if a number is not finite [1]
-    imbalance  largest energy imbalance of any increment, over the largest energy so far [1]; None
-               for one-way coupling, for which no energies are computed
+    imbalance  largest energy imbalance of any increment, over the largest energy so far [1]
     of_slip    number of increments in which a law of slip is not evaluated, by reason
     of_energy  number of increments in which energies are not fully compared, by reason
     """
 
     violation: float
-    imbalance: float | None
+    imbalance: float
     of_slip: Counter[str]
     of_energy: Counter[str]
 
@@ -30,10 +29,9 @@ def observed(result: Any) -> Observed:
     """Evaluate the laws of contact and friction and the energy balance in all increments of a
     result."""
     states = _states(result)
-    energy = None if _has_no_energy(result) else largest_of(imbalances(states))
     return Observed(
         largest_of([*violations(states), *missed(result.scene, result.steps)]),
-        energy,
+        largest_of(imbalances(states)),
         Counter(state.unseen for state in states if state.unseen),
         Counter(reason for state in states if (reason := state.not_compared)),
     )
@@ -51,7 +49,3 @@ def _states(result: Any) -> list[ContactState]:
     from verification.observed.elements import states_on_elements
 
     return states_on_elements(result)
-
-
-def _has_no_energy(result: Any) -> bool:
-    return getattr(getattr(result.plan, "coupling", None), "name", "") == "ONE_WAY"
