@@ -23,8 +23,12 @@ from verification.closed_forms.coated_indentation import (
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.flat_punch import FlatPunchContact
-from verification.closed_forms.hertz import PointContact, contact_modulus, tangential_modulus
-from verification.closed_forms.sphere import SphereContact
+from verification.closed_forms.hertz import (
+    PointContact,
+    SphereContact,
+    contact_modulus,
+    tangential_modulus,
+)
 from verification.references import load_reference
 
 E_STAR = 1.7

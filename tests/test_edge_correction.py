@@ -25,9 +25,15 @@ from contact_scene import HeightMap, LoadStep, RadialDiscretisation, Scene, Surf
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
 from verification.closed_forms.hertz import PointContact
-from verification.problems.layered_scene import coated, film, pressed, rigid_ball
-from verification.problems.paper_scene import FRICTION_LIMIT, pressing
-from verification.problems.shifted_grid import ShiftedGrid
+from verification.problems.paper_scene import (
+    FRICTION_LIMIT,
+    ShiftedGrid,
+    coated,
+    film,
+    pressed,
+    pressing,
+    rigid_ball,
+)
 
 CELLS = 48
 WINDOW = 2.6 * A

@@ -12,7 +12,9 @@ from stack_strategies import stacks
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.frf.surface import half_space_scalars, remainder_scalars, scalars
-from verification.laws.law import (
+from verification.laws.limit_laws import (
+    LIMIT_LAWS,
+    SYMMETRY_LAWS,
     Law,
     apart,
     combined,
@@ -20,7 +22,6 @@ from verification.laws.law import (
     frf_matrix,
     worst_violation,
 )
-from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS
 from verification.references import load_reference
 
 ROWS = load_reference("frf")["rows"]

@@ -21,8 +21,15 @@ from verification.observed.elements import states_on_elements
 from verification.observed.laws import observed
 from verification.observed.prescribed import missed
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import SUBSTRATE, pressed, rigid_ball
-from verification.problems.paper_scene import FRICTION_LIMIT, NORMAL_FORCE, NU_ZERO, STEEL
+from verification.problems.paper_scene import (
+    FRICTION_LIMIT,
+    NORMAL_FORCE,
+    NU_ZERO,
+    STEEL,
+    SUBSTRATE,
+    pressed,
+    rigid_ball,
+)
 from verification.problems.torsion import torque_step
 from verification.solver import Method
 

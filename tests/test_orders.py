@@ -13,12 +13,15 @@ from verification.cases.catalogue import choose
 from verification.cases.frictional_pressing import sheared_increments
 from verification.cases.hertz import fem_hertz
 from verification.exhibits.chart import Look
-from verification.judging.case import Case, Derived, Level, Quantity
-from verification.judging.order_of_convergence import (
+from verification.judging.case import (
+    Case,
+    Derived,
     Followed,
+    Level,
     NotYetAsymptotic,
     OrderOfChange,
     OrderOfConvergence,
+    Quantity,
     Refinement,
 )
 from verification.judging.outcome import Status, Verdict

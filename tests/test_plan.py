@@ -200,5 +200,3 @@ def test_forcing_says_what_it_forces():
     assert {e.name for e in changed} == {*COMPUTED, MIRROR_PLANES}
     assert all(e.on and "forced on" in e.why for e in changed if e.name in COMPUTED)
     assert forced.symmetry == WINDOW
-
-

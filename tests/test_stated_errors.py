@@ -88,7 +88,7 @@ from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.hertz import contact_modulus, tangential_modulus
 from verification.problems.drawn.drawing import Profile
 from verification.problems.drawn.references import Similar
-from verification.problems.layered_scene import surface_of
+from verification.problems.paper_scene import surface_of
 
 SLOW = pytest.mark.slow
 SCENES = Path(__file__).parents[1] / "scenes"

@@ -21,8 +21,15 @@ from contact_results.surface import Cells, surface_of
 from contact_scene import CoulombFriction, LoadStep, Scene
 from semi_analytical import Result, solve
 from verification.exhibits.chart import Picture
-from verification.problems.layered_scene import coated, film, rigid_ball
-from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, pressing, square_grid
+from verification.problems.paper_scene import (
+    HERTZ,
+    NORMAL_FORCE,
+    coated,
+    film,
+    pressing,
+    rigid_ball,
+    square_grid,
+)
 
 FRICTION, PUSH = 0.3, 0.7  # of µW
 MODULUS_RATIO, THICKNESS = 2.0, 0.5  # of Hertz's radius

@@ -20,16 +20,6 @@ from radial.normal.surface import pressure
 from radial.response.bodies import Bodies
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
-from verification.cases.levels import (
-    ASKED,
-    EDGE,
-    ELEMENT_RADIUS,
-    IDENTITY,
-    JUDGED_BY,
-    because,
-    finest,
-    levels,
-)
 from verification.closed_forms.coated_indentation import (
     LayeredIndentation,
     LayeredSurface,
@@ -58,10 +48,18 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import PRESSURE, convergence, profile
 from verification.judging.refinement_levels import (
+    ASKED,
+    EDGE,
+    ELEMENT_RADIUS,
+    IDENTITY,
+    JUDGED_BY,
     RefinementLevel,
     asked,
+    because,
     cells_label,
+    finest,
     ladder,
+    levels,
     named,
     on_cells,
     on_elements,
@@ -72,13 +70,23 @@ from verification.judging.refinement_levels import (
 from verification.judging.run import Run
 from verification.observed.end_state import normal_force
 from verification.problems import paper_scene as paper
-from verification.problems.classical import CONE, PUNCH, hertzian, mean_pressure
-from verification.problems.coated_ball import BARE, ROWS, coated_ball, solved_here
-from verification.problems.layered_scene import (
+from verification.problems.classical import (
+    BARE,
+    CONE,
+    PUNCH,
+    ROWS,
+    coated_ball,
+    hertzian,
+    mean_pressure,
+    solved_here,
+)
+from verification.problems.paper_scene import (
     FREDHOLM,
     FREDHOLM_EQUATION,
+    HERTZ,
     SEMI_CLOSED_ERROR,
     SUBSTRATE,
+    UNLIKE,
     coated,
     exact_contact,
     film,
@@ -86,9 +94,7 @@ from verification.problems.layered_scene import (
     rigid_ball,
     surface_of,
 )
-from verification.problems.paper_scene import HERTZ
 from verification.problems.problem import OVER_PEAK, Problem, Reference, ReferenceKind, closed_form
-from verification.problems.shifted_grid import UNLIKE
 
 
 def modulus_weight(xi: float, poisson_ratio: float) -> float:

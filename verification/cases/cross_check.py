@@ -36,8 +36,15 @@ from verification.judging.run import (
     SectionRun,
 )
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
-from verification.problems.paper_scene import FRICTION, pressing
+from verification.problems.paper_scene import (
+    FRICTION,
+    coated,
+    exact_contact,
+    film,
+    pressed,
+    pressing,
+    rigid_ball,
+)
 from verification.problems.problem import ReferenceKind
 from verification.quantities import shear_of, shift_along_x
 

@@ -28,8 +28,7 @@ from verification.judging.refinement_levels import (
     on_elements,
 )
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import coated, film, pressed, rigid_ball
-from verification.problems.paper_scene import HERTZ
+from verification.problems.paper_scene import HERTZ, coated, film, pressed, rigid_ball
 from verification.problems.problem import Problem, ReferenceKind
 from verification.references import load_reference
 

@@ -13,7 +13,6 @@ import numpy as np
 from contact_results.surface import surface_of
 from contact_scene import LoadStep, Sphere
 from radial.plan import RINGS
-from verification.cases.levels import ASKED, JUDGED_BY, SQUARE_ROOTS, finest, order_levels
 from verification.cases.torsion import SLIDING, shear_around
 from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.exhibits.profile_chart import ProfileLabels, Section
@@ -44,16 +43,21 @@ from verification.judging.declared_case import (
 from verification.judging.drawings import convergence, profile, radial_chart
 from verification.judging.field_errors import away_from_edges
 from verification.judging.refinement_levels import (
+    ASKED,
+    JUDGED_BY,
+    SQUARE_ROOTS,
     RefinementLevel,
     RefinementLevels,
     asked,
     cells_label,
+    finest,
     ladder,
     named,
     on_cells,
     on_elements,
     on_radii,
     on_springs,
+    order_levels,
     part_of_side,
     with_edge_at,
 )

@@ -26,10 +26,19 @@ from contact_scene import (
 )
 from contact_scene.discretisation import EdgeCorrection
 from semi_analytical.grid import SurfaceGrid
-from verification.cases.levels import ELEMENT_RADIUS, JUDGED_BY, PENALTY, because, finest
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
-from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.case import (
+    Case,
+    Comparison,
+    Followed,
+    Level,
+    NotYetAsymptotic,
+    OrderOfChange,
+    Quantity,
+    Refinement,
+    Required,
+)
 from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
@@ -44,17 +53,16 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
 from verification.judging.drawings import Drawn, profile
-from verification.judging.order_of_convergence import (
-    Followed,
-    NotYetAsymptotic,
-    OrderOfChange,
-    Refinement,
-)
 from verification.judging.pressing_errors import PRESSURE, SHEAR, SHEAR_AT_EDGE
 from verification.judging.refinement_levels import (
+    ELEMENT_RADIUS,
+    JUDGED_BY,
+    PENALTY,
     RefinementLevels,
     asked,
+    because,
     cells_label,
+    finest,
     named,
     on_cells,
     on_elements,
@@ -77,8 +85,7 @@ from verification.problems.indentation import (
     WEAK,
     Indentation,
 )
-from verification.problems.layered_scene import half_space, pressed, rigid_ball
-from verification.problems.paper_scene import HERTZ, pressing
+from verification.problems.paper_scene import HERTZ, half_space, pressed, pressing, rigid_ball
 from verification.problems.problem import (
     OVER_PEAK,
     ROUNDING,

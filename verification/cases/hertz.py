@@ -10,20 +10,8 @@ from typing import Any
 
 from contact_scene import RIGID, Body, IsotropicMaterial, LoadStep, Paraboloid, Sphere
 from contact_scene.quantities.residuals import worst
-from verification.cases.levels import (
-    ASKED,
-    DERIVED,
-    EDGE,
-    JUDGED_BY,
-    PENALTY,
-    because,
-    finest,
-    levels,
-    order_levels,
-)
-from verification.closed_forms.hertz import PointContact
-from verification.closed_forms.sphere import SphereContact
-from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.closed_forms.hertz import PointContact, SphereContact
+from verification.judging.case import Case, Comparison, Level, NotYetAsymptotic, Quantity, Required
 from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
@@ -41,15 +29,23 @@ from verification.judging.declared_case import (
     number,
 )
 from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.judging.order_of_convergence import NotYetAsymptotic
 from verification.judging.refinement_levels import (
+    ASKED,
+    DERIVED,
+    EDGE,
+    JUDGED_BY,
     MIDDLE,
+    PENALTY,
     RefinementLevel,
     asked,
+    because,
+    finest,
+    levels,
     meshed,
     named,
     on_cells,
     on_springs,
+    order_levels,
     part_of_side,
     refinement,
     with_edge_at,
@@ -57,10 +53,16 @@ from verification.judging.refinement_levels import (
 from verification.judging.run import SOLVER_TOLERANCE, Run
 from verification.problems import paper_scene as paper
 from verification.problems.classical import BALL, BARREL, EXACT, LED_BALL, hertzian
-from verification.problems.layered_scene import coated, film, pressed, rigid_ball
-from verification.problems.paper_scene import HERTZ, STEEL
+from verification.problems.paper_scene import (
+    HERTZ,
+    STEEL,
+    UNLIKE,
+    coated,
+    film,
+    pressed,
+    rigid_ball,
+)
 from verification.problems.problem import ROUNDING, Problem, Reference, ReferenceKind
-from verification.problems.shifted_grid import UNLIKE
 
 ROWS = (
     Within(PEAK_PRESSURE, {128: 1.5e-4, 256: 4e-5}, ASKED),

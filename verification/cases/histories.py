@@ -33,22 +33,26 @@ from contact_scene import (
 from contact_scene.loading import CONTROLS
 from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid, all_effects
-from verification.cases.levels import IDENTITY
 from verification.closed_forms.hertz import PointContact
 from verification.judging.case import Case, Check, Comparison, Finding, Level, Quantity, Required
 from verification.judging.declared_case import case
+from verification.judging.refinement_levels import IDENTITY
 from verification.judging.run import OTHER_NORMS, SOLVER_TOLERANCE, Run, SectionRun, per_radius
 from verification.observed.laws import observed
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import SLIDING_SHIFT
-from verification.problems.layered_scene import SUBSTRATE, coated, film, pressed, rigid_ball
 from verification.problems.paper_scene import (
     FRICTION,
     HERTZ,
     NORMAL_FORCE,
     NU_ZERO,
     STEEL,
+    SUBSTRATE,
+    coated,
+    film,
+    pressed,
     pressing,
+    rigid_ball,
 )
 from verification.problems.problem import (
     ROUNDING,

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contact_scene import Body, FlatPunch, LoadStep
-from verification.cases.levels import EDGE, IDENTITY, STAIRCASE, levels
 from verification.closed_forms.flat_punch import TiltedPunch
-from verification.judging.case import Case, Comparison, Level, Quantity, Required
+from verification.judging.case import Case, Comparison, Level, NotYetAsymptotic, Quantity, Required
 from verification.judging.declared_case import (
     APPROACH,
     CENTRAL_PRESSURE,
@@ -27,9 +26,12 @@ from verification.judging.declared_case import (
     judged,
 )
 from verification.judging.drawings import convergence, profile
-from verification.judging.order_of_convergence import NotYetAsymptotic
 from verification.judging.refinement_levels import (
+    EDGE,
+    IDENTITY,
+    STAIRCASE,
     asked,
+    levels,
     on_cells,
     on_elements,
     part_of_side,
@@ -39,10 +41,16 @@ from verification.judging.refinement_levels import (
 from verification.judging.run import Run
 from verification.problems import paper_scene as paper
 from verification.problems.classical import CONE, PUNCH, PUNCH_RADIUS, PUNCH_WINDOW, mean_pressure
-from verification.problems.layered_scene import SUBSTRATE, pressed, rigid_ball
-from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL
+from verification.problems.paper_scene import (
+    HERTZ,
+    NORMAL_FORCE,
+    STEEL,
+    SUBSTRATE,
+    UNLIKE,
+    pressed,
+    rigid_ball,
+)
 from verification.problems.problem import ROUNDING, Problem, Reference, ReferenceKind
-from verification.problems.shifted_grid import UNLIKE
 
 if TYPE_CHECKING:
     from semi_analytical import Result

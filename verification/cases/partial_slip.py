@@ -30,7 +30,6 @@ from fem_reference.expected_radius import meshed_radius
 from fem_reference.fields import Increment
 from fem_reference.history import solved_increments
 from fem_reference.model import ContactModel
-from verification.cases.levels import SQUARE_ROOTS, STICK_BORDER, because, finest
 from verification.closed_forms.cattaneo_mindlin import superpose
 from verification.closed_forms.cone import ConeContact
 from verification.exhibits.chart import Chart, Look, Panel, curve
@@ -53,9 +52,13 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import Drawn, convergence, profile
 from verification.judging.refinement_levels import (
+    SQUARE_ROOTS,
+    STICK_BORDER,
     RefinementLevel,
     RefinementLevels,
     asked,
+    because,
+    finest,
     ladder,
     mesh_label,
     named,
@@ -72,9 +75,16 @@ from verification.problems.cattaneo_mindlin import (
     sheared,
 )
 from verification.problems.classical import CONE, SLOPE, UNDER_CONE, mean_pressure
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO, STEEL
+from verification.problems.paper_scene import (
+    FRICTION,
+    FRICTION_LIMIT,
+    HERTZ,
+    NU_ZERO,
+    OFFSETS,
+    STEEL,
+    UNLIKE,
+)
 from verification.problems.problem import Problem, ReferenceKind
-from verification.problems.shifted_grid import OFFSETS, UNLIKE
 from verification.quantities import force_along_x, shear_of, shift_along_x
 
 ACROSS = "slip across the load"

@@ -16,8 +16,7 @@ from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.layered import LayeredCoefficients
 from verification.judging.case import Case, Check, Level, Required
 from verification.judging.declared_case import case
-from verification.laws.law import frf_matrix, worst_violation
-from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS
+from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS, frf_matrix, worst_violation
 from verification.problems.problem import Reference, ReferenceKind, identity
 from verification.references import load_reference
 

@@ -15,7 +15,6 @@ from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_scene import Ellipsoid, IsotropicMaterial, Layer, LoadStep, Rig
 from contact_scene.quantities.summary import OF_CYCLES
-from verification.cases.levels import SQUARE_ROOTS
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.tangential_history import TangentialHistory
@@ -36,6 +35,7 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import Drawn, profile
 from verification.judging.refinement_levels import (
+    SQUARE_ROOTS,
     RefinementLevels,
     on_cells,
     on_elements,
@@ -49,9 +49,8 @@ from verification.problems.cattaneo_mindlin import (
     OVER_SLIDING_SHIFT,
     SLIDING_SHIFT,
 )
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
+from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO, UNLIKE
 from verification.problems.problem import Problem, ReferenceKind
-from verification.problems.shifted_grid import UNLIKE
 from verification.quantities import shear_of
 from verification.references import load_reference
 

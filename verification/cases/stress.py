@@ -44,10 +44,18 @@ from verification.judging.refinement_levels import (
 )
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import sheared
-from verification.problems.layered_scene import coated, film, pressed, rigid_ball
-from verification.problems.paper_scene import FRICTION, HERTZ, STEEL, hertz_grid
+from verification.problems.paper_scene import (
+    FRICTION,
+    HERTZ,
+    STEEL,
+    ShiftedGrid,
+    coated,
+    film,
+    hertz_grid,
+    pressed,
+    rigid_ball,
+)
 from verification.problems.problem import Problem, Reference, ReferenceKind, closed_form, identity
-from verification.problems.shifted_grid import ShiftedGrid
 from verification.problems.torsion import TWISTED
 
 Field = NDArray[np.float64]

@@ -26,9 +26,8 @@ from contact_scene import (
 )
 from contact_scene.quantities.residuals import worst
 from semi_analytical import solve_discretised
-from verification.cases.levels import SQUARE_ROOTS, levels, order_levels
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
-from verification.judging.case import Case, Check, Level, Required
+from verification.judging.case import Case, Check, Followed, Level, Required
 from verification.judging.declared_case import (
     SHEAR_AROUND,
     STICK_RADIUS,
@@ -43,13 +42,15 @@ from verification.judging.declared_case import (
     number,
 )
 from verification.judging.drawings import Drawn, convergence, profile
-from verification.judging.order_of_convergence import Followed
 from verification.judging.refinement_levels import (
+    SQUARE_ROOTS,
     asked,
+    levels,
     named,
     on_cells,
     on_elements,
     on_radii,
+    order_levels,
     part_of_side,
     refinement,
     with_edge_at,
@@ -58,8 +59,17 @@ from verification.judging.run import OVER_ANGLES
 from verification.norms import shear_error
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
-from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, pressing
+from verification.problems.paper_scene import (
+    FRICTION,
+    FRICTION_LIMIT,
+    HERTZ,
+    coated,
+    exact_contact,
+    film,
+    pressed,
+    pressing,
+    rigid_ball,
+)
 from verification.problems.problem import ROUNDING, Problem, ReferenceKind, identity
 from verification.problems.torsion import LED, OVER_TWIST, PARTS, STUCK, TO_AND_FRO, TWISTED
 from verification.quantities import energy_between, shear_of

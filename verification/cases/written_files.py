@@ -32,8 +32,7 @@ from contact_scene.quantities.residuals import worst
 from verification.judging.case import Case, Check, Level, Required
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems import paper_scene as paper
-from verification.problems.layered_scene import coated, film, pressed
-from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL, coated, film, pressed
 from verification.problems.problem import identity
 
 Field = NDArray[np.float64]

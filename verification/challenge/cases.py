@@ -34,10 +34,17 @@ from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import sheared
-from verification.problems.classical import BALL, BARREL, CONE, PUNCH, PUNCH_RADIUS
-from verification.problems.coated_ball import ROWS, coated_ball, solved_here
+from verification.problems.classical import (
+    BALL,
+    BARREL,
+    CONE,
+    PUNCH,
+    PUNCH_RADIUS,
+    ROWS,
+    coated_ball,
+    solved_here,
+)
 from verification.problems.indentation import COATED, REFERENCE_ERROR
-from verification.problems.layered_scene import pressed, rigid_ball
 from verification.problems.loop_history import AMPLITUDE
 from verification.problems.paper_scene import (
     CONTACT_MODULUS,
@@ -48,7 +55,9 @@ from verification.problems.paper_scene import (
     NU_ZERO,
     RADIUS,
     STEEL,
+    pressed,
     pressing,
+    rigid_ball,
 )
 from verification.problems.problem import Problem
 from verification.references import load_reference

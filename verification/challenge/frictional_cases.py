@@ -56,14 +56,16 @@ from verification.problems.indentation import (
     WEAK,
     Indentation,
 )
-from verification.problems.layered_scene import half_space, pressed, rigid_ball
 from verification.problems.paper_scene import (
     CONTACT_MODULUS,
     FRICTION_LIMIT,
     HERTZ,
     NORMAL_FORCE,
     STEEL,
+    half_space,
+    pressed,
     pressing,
+    rigid_ball,
 )
 from verification.problems.torsion import LARGEST, OVER_TWIST, PARTS, TO_AND_FRO, TWISTED
 from verification.references import load_reference

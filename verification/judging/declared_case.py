@@ -24,14 +24,12 @@ from verification.judging.case import (
     Comparison,
     Derived,
     Finding,
-    Quantity,
-    Required,
-)
-from verification.judging.order_of_convergence import (
     Followed,
     NotYetAsymptotic,
     OrderOfChange,
     OrderOfConvergence,
+    Quantity,
+    Required,
 )
 from verification.judging.refinement_levels import (
     RefinementLevel,

@@ -14,7 +14,7 @@ from contact_scene.reading.description import Description
 from contact_scene.reading.engineering_units import engineering_unit
 from verification.convergence.observed_order import ILLEGIBLE, ORDER_WIDTH, order_is_kept
 from verification.exhibits.chart import NOT_FINITE, Chart, plain, value_text
-from verification.judging.order_of_convergence import Followed, Refinement
+from verification.judging.case import Followed, Refinement
 from verification.solver import Method, Solver
 
 SHORT_COMMIT = 7

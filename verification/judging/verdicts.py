@@ -15,8 +15,17 @@ from verification.convergence.observed_order import (
     numerical_uncertainty,
     observed_order,
 )
-from verification.judging.case import Case, Check, Comparison, Derived, Quantity, Required
-from verification.judging.order_of_convergence import OrderOfChange, OrderOfConvergence, Refinement
+from verification.judging.case import (
+    Case,
+    Check,
+    Comparison,
+    Derived,
+    OrderOfChange,
+    OrderOfConvergence,
+    Quantity,
+    Refinement,
+    Required,
+)
 from verification.judging.outcome import (
     RESIDUAL,
     SOLVED,

@@ -9,15 +9,219 @@ the shear between the passes is at most the sum of the friction limits of p and 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene import IsotropicMaterial
 from fem_reference import Increment, Path, Result
+from fem_reference.compliance.gauss_points import gauss_points
+from fem_reference.elasticity.hat_functions import TractionBasis
+from fem_reference.model import ContactModel, outermost_modulus
+from fem_reference.scales import Scales
 from verification.observed.contact_state import BISECTED, UNDEFINED, Balance, ContactState
-from verification.observed.rings import Rings
 
 Field = NDArray[np.float64]
+
+# Gauss points of an element, exact for the product of r and a linear function.
+PLACES, PARTS = np.polynomial.legendre.leggauss(2)
+
+
+def model_of(result: Result, length: float) -> ContactModel:
+    """Create the finite element contact model of the bodies of a result, without the test rig.
+
+    length  unit of length of the sections [length]
+    """
+    scales = Scales(length, outermost_modulus(result.scene))
+    bodies = result.scene.model_copy(
+        update={"rig": None}
+    )  # motions of the contact, without the rig
+    return ContactModel(bodies, scales, result.sections)
+
+
+def section_radii(result: Result) -> Field:
+    """Return the radii of the surface nodes of a section, corner and midside nodes alternating [1].
+
+    The unit of length is that of the section.
+    """
+    return next(np.asarray(s.radii) for s in result.sections if s is not None)
+
+
+@dataclass(frozen=True)
+class Rings:
+    """Points of a contact surface on rings and angles, with the compliance of the bodies.
+
+    Scalar fields have the shape (rings, angles), vector fields (2, rings, angles) with components
+    along r and θ.
+
+    model   finite element contact model
+    path    kind of load history of the result
+    basis   functions that carry the tractions over the radius
+    angles  angles of the half circle, ends included; one angle for axisymmetric fields [radian]
+    """
+
+    model: ContactModel
+    path: Path
+    basis: TractionBasis
+    angles: Field
+
+    @classmethod
+    def of(cls, result: Result, *, on_points: bool) -> Rings:
+        """Create the rings and angles that carry the tractions of a result.
+
+        on_points  True if the tractions are those of a penalty at Gauss points
+        """
+        last, nodes = result.increments[-1], section_radii(result)
+        if on_points:
+            model = model_of(result, float(last.radii[0] + last.radii[2]) / 2 / float(nodes[1]))
+            basis: TractionBasis = gauss_points(model.radii, model.rim)
+        else:
+            model = model_of(result, float(last.radii[-1] / nodes[::2][len(last.radii) - 1]))
+            basis = model.hats
+        angles = np.zeros(1) if last.angles is None else last.angles
+        return cls(model, result.plan.path, basis, angles)
+
+    @cached_property
+    def driven(self) -> Field:
+        """Motion of the points (2, rings, angles) per unit motion of the indenter.
+
+        The motion is a shift along the load [1], or a twist, for which the mean over each ring is
+        taken [length]. It is zero without a tangential load.
+        """
+        if self.path is Path.TWISTING:
+            return np.stack([self.on_grid(None), self.on_grid(self.arms)])
+        vector = np.stack([np.cos(self.angles), -np.sin(self.angles)])[:, None]
+        tangential = self.path is Path.SHEARING or len(self.angles) > 1
+        return np.broadcast_to(vector if tangential else 0.0, (2, *self._shape))
+
+    @property
+    def arms(self) -> Field:
+        """Mean distance of each ring from the axis, weighted with its hat function [length]."""
+        return np.asarray(self.basis.arms / self.basis.weights)
+
+    @cached_property
+    def weights(self) -> Field:
+        """Area of the points (rings, angles) [length^2]."""
+        return np.outer(self.basis.weights, self._around)
+
+    @cached_property
+    def undeformed(self) -> Field:
+        """Gap before any load at the points (rings, angles) [length]."""
+        return self.on_grid(self.basis.of(self.model.gap) / self.basis.weights)
+
+    def on_grid(self, values: Field | None) -> Field:
+        """Extend values of the rings to all angles; None becomes zero."""
+        if values is None:
+            return np.zeros(self._shape)
+        return np.broadcast_to(values if values.ndim == 2 else values[:, None], self._shape)
+
+    def stretched(self, increment: Increment) -> Field:
+        """Compute the displacement caused by bulk strain of the lower body, averaged over rings
+        [length].
+
+        The result has the shape (2, rings, angles).
+        """
+        strain = 0.0 if increment.bulk_strain is None else increment.bulk_strain[0]
+        return np.stack([self.on_grid(strain * self.arms), self.on_grid(None)])
+
+    def vector(self, increment: Increment, name: str) -> Field:
+        """Return the shear or the slip of an increment as a vector field (2, rings, angles).
+
+        name  "shear" or "slip"
+        """
+        along = getattr(increment, f"{name}_along_load")
+        if along is not None:
+            return np.stack([self.on_grid(along), self.on_grid(None)])
+        around = (getattr(increment, f"{name}_{part}") for part in ("radial", "circumferential"))
+        return np.stack([self.on_grid(component) for component in around])
+
+    def integral(self, values: Field) -> float:
+        """Integrate a scalar field (rings, angles) over the surface; the field is linear between
+        rings."""
+        if self.basis is not self.model.hats:
+            return float(np.sum(self.weights * values))
+        radii, on_ring = self.basis.radii, values @ self._around
+        share, width = 0.5 * (1 + PLACES), np.diff(radii)[:, None]
+        r = radii[:-1, None] + width * share
+        at_points = on_ring[:-1, None] * (1 - share) + on_ring[1:, None] * share
+        return float(np.sum(0.5 * width * PARTS * r * at_points))
+
+    def displacement(self, p: Field, q: Field) -> tuple[Field, Field]:
+        """Compute the surface displacements of the lower body relative to the indenter [length].
+
+        Returns u (2, rings, angles) along the surface and u_z (rings, angles).
+
+        p  pressure (rings, angles) [force/length²]
+        q  shear (2, rings, angles) [force/length²]
+        """
+        if self.path in (Path.SHEARING, Path.TWISTING):
+            u, component = np.zeros((2, *self._shape)), int(self.path is Path.TWISTING)
+            if component:
+                nodal = self.model.torsion().matrix[0, :, 0]
+            else:  # the mean around the axis along the load, per nodal force along the load
+                C, sign = self.model.compliance(1).matrix[:2, :, :2], np.array([1.0, -1.0])
+                nodal = 0.5 * np.einsum("i,j,iajb->ab", sign, sign, C)
+            u[component, :, 0] = self._means(nodal, q[component, :, 0])
+            return u, self._means(self.model.compliance(0).matrix[1, :, 1], p[:, 0])[:, None]
+        tractions, u = np.stack([*q, p]), np.zeros((3, *self._shape))
+        for n in range(len(self.angles)):
+            wave, loads = self._waves(n), self._amplitudes(n, tractions)
+            if not np.any(loads):
+                continue
+            condensed = self.model.compliance(n)
+            for i, a in enumerate(condensed.motion.components):
+                for j, b in enumerate(condensed.motion.components):
+                    u[a] += np.outer(self._means(condensed.matrix[i, :, j], loads[b]), wave[a])
+        if len(self.angles) > 1:
+            self._join_on_axis(u)
+        return u[:2], u[2]
+
+    @property
+    def _shape(self) -> tuple[int, int]:
+        return len(self.basis.radii), len(self.angles)
+
+    @cached_property
+    def _around(self) -> Field:
+        """Integration weights of the angles by the trapezium rule, over the full circle
+        [radian]."""
+        if len(self.angles) == 1:
+            return np.array([2 * np.pi])
+        share = np.full(len(self.angles), 2 * self.angles[1])
+        share[[0, -1]] /= 2
+        return share
+
+    def _waves(self, n: int) -> Field:
+        """Return the angular functions of the r, θ and z components of harmonic n, shape (3,
+        angles)."""
+        inner = (self.angles > 0) & (np.arange(len(self.angles)) < len(self.angles) - 1)
+        cos, sin = np.cos(n * self.angles), np.where(inner, np.sin(n * self.angles), 0.0)
+        # With as many angles as harmonics, the sine of the last harmonic is zero at all angles.
+        return np.stack([cos, sin if n < len(self.angles) - 1 else 0.0 * sin, cos])
+
+    def _amplitudes(self, n: int, tractions: Field) -> Field:
+        """Compute the amplitudes (3, rings) of harmonic n of tractions (3, rings, angles).
+
+        The trapezium rule over the angles is exact for these harmonics.
+        """
+        waves = self._waves(n)
+        norms = np.sum(self._around * waves**2, axis=1)
+        found = np.einsum("cra,ca,a->cr", tractions, waves, self._around)
+        return found / np.where(norms > 0, norms, 1.0)[:, None]
+
+    def _means(self, nodal: Field, amplitude: Field) -> Field:
+        displaced = nodal @ (self.basis.products @ amplitude)
+        return np.asarray(self.basis.products.T @ displaced) / self.basis.weights
+
+    def _join_on_axis(self, u: Field) -> None:
+        """Replace the displacements of the points on the axis by their common mean, in place.
+
+        u  displacements (3, rings, angles) along r, θ and z [length]
+        """
+        share, direction = self._around / (2 * np.pi), self.driven[:, 0]
+        u[:2, 0] = np.sum(share * u[:2, 0] * direction) * direction
+        u[2, 0] = np.sum(share * u[2, 0])
 
 
 def states_on_elements(result: Result) -> list[ContactState]:

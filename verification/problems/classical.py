@@ -5,15 +5,33 @@ The pressure is infinite at the apex of the cone and at the rim of the punch.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from math import pi, radians
+from typing import Any
 
 from contact_scene import Cone, Ellipsoid, FlatPunch, LoadStep, Scene
 from verification.closed_forms.cone import ConeContact
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.flat_punch import FlatPunchContact
 from verification.problems import paper_scene as paper
-from verification.problems.paper_scene import CONTACT_MODULUS, HERTZ, NORMAL_FORCE, STEEL, pressing
-from verification.problems.problem import OVER_PEAK, Problem
+from verification.problems.paper_scene import (
+    CONTACT_MODULUS,
+    FREDHOLM,
+    FREDHOLM_EQUATION,
+    HERTZ,
+    NORMAL_FORCE,
+    SEMI_CLOSED_ERROR,
+    STEEL,
+    coated,
+    exact_contact,
+    film,
+    pressed,
+    pressing,
+    rigid_ball,
+)
+from verification.problems.problem import OVER_PEAK, Problem, ReferenceKind, TabulatedContact
+from verification.references import load_reference
 
 SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 
@@ -100,3 +118,41 @@ BARREL = Problem(
         r"p = \frac{3 W}{2 \pi a b} \sqrt{1 - x^2/a^2 - y^2/b^2}",
     ),
 )
+
+
+SOURCE = "references/coated_frictionless_paraboloid.json: Fredholm equation, two settings agree"
+ROWS = load_reference("coated_frictionless_paraboloid")["rows"]
+BARE = hertzian(pressed("Rigid ball on the uncoated half-space", rigid_ball(), coated()))
+
+
+def coated_ball(row: Mapping[str, Any]) -> Problem:
+    """Create the problem of a rigid ball on a coated body from one row of the tabulated reference.
+
+    row  numbers relative to the Hertz contact of the substrate, modulus ratio E1/E2 of coating and
+         substrate, and coating thickness over the Hertz radius
+    """
+    contact = TabulatedContact(row)
+    ratio, thickness = row["E1_over_E2"], row["h_over_aH"]
+    title = f"Rigid ball on a coating, E1/E2 = {ratio:g}, h = {thickness:g} a_H"
+    return Problem(
+        pressed(title, rigid_ball(), coated(film(ratio, thickness))),
+        (contact,),
+        contact.contact_radius,
+        SOURCE,
+        ReferenceKind.SEMI_CLOSED,
+        row["est_rel_error"],
+        {OVER_PEAK: HERTZ.peak_pressure},
+        equations=(FREDHOLM_EQUATION,),
+    )
+
+
+def solved_here(problem: Problem) -> Problem:
+    """Replace the tabulated answer of a coated problem by the semi-closed solution of its contact.
+
+    The semi-closed solution gives the pressure at every radius.
+    """
+    exact = exact_contact(problem.scene.body)
+    return replace(
+        problem, ends=(exact,), radius=exact.contact_radius, source=FREDHOLM,
+        uncertainty=SEMI_CLOSED_ERROR,
+    )  # fmt: skip

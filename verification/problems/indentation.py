@@ -9,8 +9,15 @@ from typing import Any
 
 from contact_scene import Body
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
-from verification.problems.layered_scene import coated, film, half_space, pressed, rigid_ball
-from verification.problems.paper_scene import HERTZ, pressing
+from verification.problems.paper_scene import (
+    HERTZ,
+    coated,
+    film,
+    half_space,
+    pressed,
+    pressing,
+    rigid_ball,
+)
 from verification.problems.problem import OVER_PEAK, Problem, ReferenceKind, TabulatedContact
 from verification.references import load_reference
 

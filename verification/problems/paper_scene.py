@@ -9,18 +9,32 @@ well; for these bodies the closed form of the tangential problem is exact.
 """
 
 import math
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
 
 from contact_scene import (
+    RIGID,
     Body,
     CoulombFriction,
     IsotropicMaterial,
+    Layer,
     LoadStep,
     Paraboloid,
     Scene,
 )
 from contact_scene.geometry import Indenter
+from semi_analytical.frf.stack import stack_of
+from semi_analytical.frf.surface import scalars
 from semi_analytical.grid import SurfaceGrid
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.coated_indentation import (
+    LayeredIndentation,
+    LayeredSurface,
+    paraboloid_under,
+)
 from verification.closed_forms.hertz import PointContact, contact_modulus, tangential_modulus
 
 RADIUS = 18e-3
@@ -104,3 +118,126 @@ def partial_slip(material: IsotropicMaterial, tangential_force: float) -> Partia
     modulus = tangential_modulus(constants, constants)
     limited = math.copysign(min(abs(tangential_force), FRICTION_LIMIT), tangential_force)
     return PartialSlip(NORMAL_FORCE, HERTZ.contact_radius, FRICTION, modulus, limited)
+
+
+SUBSTRATE = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+FREDHOLM = "Fredholm equation for the Abel transform of the pressure, to 1e-13"
+FREDHOLM_EQUATION = (
+    r"\tfrac{\pi}{E^*} g(s) + \tfrac{2}{E^*} \int_0^a K(s, t) g(t) \, dt = \delta - s^2/R,\quad "
+    r"K = \int_0^\infty \left(\tfrac{1}{2} k E^* F(k) - 1\right) \cos ks \cos kt \, dk"
+)
+# Relative error of the semi-closed solution, measured against the rows of the reference table.
+SEMI_CLOSED_ERROR = 1e-12
+
+
+def film(modulus_ratio: float, thickness_over_radius: float) -> Layer:
+    """Create a coating layer for the standard substrate (E = 210 GPa, ν = 0.3).
+
+    modulus_ratio          Young's modulus of the coating over that of the substrate
+    thickness_over_radius  thickness of the coating over the Hertz contact radius
+    """
+    material = IsotropicMaterial(
+        young_modulus=modulus_ratio * SUBSTRATE.young_modulus, poisson_ratio=0.3
+    )
+    return Layer(thickness=thickness_over_radius * HERTZ.contact_radius, material=material)
+
+
+def coated(*layers: Layer) -> Body:
+    """Create the standard substrate (E = 210 GPa, ν = 0.3) with coating layers, outermost layer
+    first."""
+    return Body(material=SUBSTRATE, layers=layers)
+
+
+def rigid_ball() -> Paraboloid:
+    """Create the standard ball (radius 18 mm) as a rigid paraboloid."""
+    return Paraboloid(radius=RADIUS, material=RIGID)
+
+
+def half_space(poisson_ratio: float) -> Body:
+    """Create a half-space that has the standard contact modulus E* below a rigid indenter.
+
+    The modulus E* is that of two bodies with E = 420 GPa, ν = 0.3.
+    """
+    modulus = CONTACT_MODULUS * (1 - poisson_ratio**2)
+    return Body(material=IsotropicMaterial(young_modulus=modulus, poisson_ratio=poisson_ratio))
+
+
+def pressed(
+    title: str, indenter: Indenter, body: Body, *loading: LoadStep, friction: float | None = None
+) -> Scene:
+    """Create the scene of an indenter on a body under given load steps.
+
+    loading   load steps; default: one step to a normal force of 1 kN
+    friction  coefficient of friction µ; None or zero: no friction
+    """
+    return Scene(
+        title=title,
+        indenter=indenter,
+        body=body,
+        friction=CoulombFriction(coefficient=friction) if friction else None,
+        loading=loading or (pressing(),),
+    )
+
+
+def pressed_and_pushed(title: str, body: Body) -> Scene:
+    """Create the scene of a rigid ball that is pressed on a body with friction and then sheared.
+
+    The normal force grows in 15 increments, then the tangential force grows to 0.95 µW in 20
+    (figures 3 and 4 of the reference paper).
+
+    body  body below the ball
+    """
+    push = LoadStep(tangential_force=(0.95 * FRICTION_LIMIT, 0.0), increments=20)
+    return pressed(title, rigid_ball(), body, pressing(15), push, friction=FRICTION)
+
+
+@cache
+def surface_of(*bodies: Body) -> LayeredSurface:
+    """Create the normal compliance of the surfaces of two layered bodies, in wavenumber space.
+
+    A rigid body contributes nothing.
+    """
+    stacks = [stack_of(body) for body in bodies if body.deforms]
+
+    def compliance(k: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(sum(scalars(stack, k).c22 for stack in stacks))
+
+    outer = sum((1 - stack.outer.poisson_ratio) / stack.outer.shear_modulus for stack in stacks)
+    thickness = min(stack.layers[0].thickness for stack in stacks if stack.layers)
+    return LayeredSurface(compliance, 2 / outer, thickness)
+
+
+@cache
+def exact_contact(*bodies: Body) -> LayeredIndentation:
+    """Solve the frictionless contact of the standard ball with layered bodies, in semi-closed form.
+
+    The ball has a radius of 18 mm and a normal force of 1 kN.
+    """
+    return paraboloid_under(NORMAL_FORCE, surface_of(*bodies), RADIUS)
+
+
+# Positions of the contact axis in a cell, in cell sides. Symmetric positions are omitted.
+OFFSETS = ((0.0, 0.0), (0.5, 0.5), (0.5, 0.0), (0.25, 0.25), (0.1, 0.35), (0.4, 0.15))
+# Two offsets for which the contact edge cuts the cells differently. Their mean errors scatter
+# 1/3 as much as those of one grid per size.
+UNLIKE = ((0.5, 0.0), (0.25, 0.25))
+
+
+@dataclass(frozen=True)
+class ShiftedGrid(SurfaceGrid):
+    """Grid of cells whose centre is shifted from the axis of the contact.
+
+    offset  position of the grid centre relative to the contact axis, in cell sides along x and y
+    """
+
+    offset: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """Coordinates x of the cell centres, relative to the contact axis [length]."""
+        return np.asarray(super().x + self.offset[0] * self.spacing[0])
+
+    @property
+    def y(self) -> NDArray[np.float64]:
+        """Coordinates y of the cell centres, relative to the contact axis [length]."""
+        return np.asarray(super().y + self.offset[1] * self.spacing[1])

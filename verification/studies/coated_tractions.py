@@ -35,12 +35,16 @@ from verification.exhibits.chart import (
 )
 from verification.judging.case import Level
 from verification.judging.run import SOLVER_TOLERANCE
-from verification.problems.layered_scene import coated, exact_contact, film, pressed, rigid_ball
 from verification.problems.paper_scene import (
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,
+    coated,
+    exact_contact,
+    film,
+    pressed,
     pressing,
+    rigid_ball,
     square_grid,
 )
 from verification.quantities import largest_residual

@@ -28,7 +28,7 @@ from verification.closed_forms.coated_indentation import (
     flat_punch,
     paraboloid,
 )
-from verification.problems.layered_scene import surface_of
+from verification.problems.paper_scene import surface_of
 from verification.studies.stability.cell import LoadingPath, StabilityCell, Surface
 
 PRESSING = 3  # increments; large increments are the difficult ones
