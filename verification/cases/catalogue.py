@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import os
-import threading
 import time
-from collections.abc import Collection, Iterator
-from contextlib import contextmanager
+from collections.abc import Collection
 from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING
@@ -145,13 +143,6 @@ def choose(level: Level, names: Collection[str] = ()) -> tuple[Case, ...]:
     return tuple(case_of(name, level) for name in CASES if not names or name in names)
 
 
-CACHE = "SLIPSTICK_CACHE_DIR"
-NOWHERE = os.devnull  # a file, so nothing is found in it and nothing can be put there
-_lock = threading.Lock()
-_inside = 0
-_before: str | None = None
-
-
 class JudgedCase(Description):
     """Outcome of a verification case, and the wall time of its solution and judgement [s]."""
 
@@ -177,9 +168,10 @@ class CaseToJudge:
         judged."""
         from verification.judging.case import Level
         from verification.judging.judgement import judge
+        from verification.running.cold_cache import cache_directory
 
         case, started = case_of(self.name, Level[self.level]), time.perf_counter()
-        with _no_cache_on_disk():
+        with cache_directory(os.devnull):
             outcome = judge(case)
         seconds = time.perf_counter() - started
         return JudgedCase(outcome=outcome, seconds=seconds)
@@ -201,26 +193,3 @@ def lost(case: Case, reason: str) -> CaseOutcome:
         charts=(),
         limits=case.limits,
     )
-
-
-@contextmanager
-def _no_cache_on_disk() -> Iterator[None]:
-    """Disable the disk cache for all threads of the process while the context is open.
-
-    Several contexts may be open at once, because a worker process may judge several cases.
-    """
-    global _inside, _before
-    with _lock:
-        if not _inside:
-            _before = os.environ.get(CACHE)
-            os.environ[CACHE] = NOWHERE
-        _inside += 1
-    try:
-        yield
-    finally:
-        with _lock:
-            _inside -= 1
-            if not _inside:
-                del os.environ[CACHE]
-                if _before is not None:
-                    os.environ[CACHE] = _before

@@ -22,7 +22,7 @@ from verification.judging.declared_case import (
     error_norm,
     judged,
 )
-from verification.judging.pressing_errors import pressure_at, shear_at
+from verification.judging.field_errors import pressure_at, shear_at
 from verification.judging.refinement_levels import (
     on_cells,
     on_elements,

@@ -63,22 +63,20 @@ from verification.judging.refinement_levels import (
 )
 from verification.judging.run import OVER_ANGLES, Run
 from verification.observed.ring_errors import judged_within
-from verification.problems import loop_history as loop
+from verification.problems import cattaneo_mindlin as loop
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
-    OVER_LIMIT,
-    OVER_SLIDING_SHIFT,
-    sheared,
-)
-from verification.problems.indentation import COATED
-from verification.problems.loop_history import (
     AMPLITUDE,
     LOADED,
+    OVER_LIMIT,
+    OVER_SLIDING_SHIFT,
     PRESSED,
     WINDOW_PER_RADIUS,
     ExactLoop,
+    sheared,
 )
-from verification.problems.loop_history import fretting_loop as loop_problem
+from verification.problems.cattaneo_mindlin import fretting_loop as loop_problem
+from verification.problems.indentation import COATED
 from verification.problems.paper_scene import FRICTION, HERTZ, NU_ZERO, STEEL
 from verification.problems.problem import Problem
 from verification.problems.torsion import PARTS as TWISTS

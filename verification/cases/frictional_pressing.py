@@ -28,6 +28,7 @@ from contact_scene.discretisation import EdgeCorrection
 from semi_analytical.grid import SurfaceGrid
 from verification.exhibits.chart import Chart
 from verification.exhibits.convergence_chart import convergence_chart
+from verification.judging import field_errors
 from verification.judging.case import (
     Case,
     Comparison,
@@ -53,7 +54,6 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
 from verification.judging.drawings import Drawn, profile
-from verification.judging.pressing_errors import PRESSURE, SHEAR, SHEAR_AT_EDGE
 from verification.judging.refinement_levels import (
     ELEMENT_RADIUS,
     JUDGED_BY,
@@ -123,6 +123,22 @@ def stick_ratio(friction: float, dundurs_beta: float) -> float:
         return 1.0
     return exp(brentq(excess, SMALLEST, LARGEST, xtol=1e-16, rtol=1e-15))
 
+
+PRESSURE = error_norm(
+    "pressure", "largest error of the pressure from {between} of the radius, over p_H",
+    field_errors.tabulated_pressure_error, "p_H, the peak pressure without friction",
+)  # fmt: skip
+SHEAR = error_norm(
+    "shear", "largest error of the shear from {between} of the radius, {but}over µp_H",
+    field_errors.radial_shear_error,
+    OVER_LIMIT,
+)  # fmt: skip
+SHEAR_AT_EDGE = error_norm(
+    "shear_at_stick_edge",
+    "the same within two cells of the stick edge",
+    field_errors.stick_edge_error,
+    OVER_LIMIT,
+)
 
 Field = NDArray[np.float64]
 

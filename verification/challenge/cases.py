@@ -33,7 +33,7 @@ from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.tangential_history import TangentialHistory
 from verification.problems import paper_scene as paper
-from verification.problems.cattaneo_mindlin import sheared
+from verification.problems.cattaneo_mindlin import AMPLITUDE, sheared
 from verification.problems.classical import (
     BALL,
     BARREL,
@@ -45,7 +45,6 @@ from verification.problems.classical import (
     solved_here,
 )
 from verification.problems.indentation import COATED, REFERENCE_ERROR
-from verification.problems.loop_history import AMPLITUDE
 from verification.problems.paper_scene import (
     CONTACT_MODULUS,
     FRICTION,

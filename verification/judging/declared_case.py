@@ -38,11 +38,12 @@ from verification.judging.refinement_levels import (
 from verification.judging.run import AnyRun
 from verification.observed.end_state import central_pressure
 from verification.problems.cattaneo_mindlin import (
+    OVER_LARGEST_SHIFT,
     OVER_LIMIT,
     OVER_SLIDING_SHIFT,
     OVER_SLIDING_WORK,
+    loop_energy,
 )
-from verification.problems.loop_history import OVER_LARGEST_SHIFT, loop_energy
 from verification.problems.problem import OVER_PEAK, OVER_RADIUS, Problem, Reference
 from verification.quantities import unit_of
 

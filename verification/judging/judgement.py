@@ -7,12 +7,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from contact_scene import Scene, SurfaceDiscretisation
+from contact_scene.quantities.stated_error import ErrorStatus, StatedErrors
 from contact_scene.quantities.summary import EffectSummary
 from contact_scene.reading.scene_text import describe
 from contact_scene.solver_errors import SolverError
 from verification.judging.case import Case, Derived, Finding, Quantity
-from verification.judging.coverage import error_of, stated_errors
 from verification.judging.outcome import (
     IMBALANCE,
     VIOLATION,
@@ -23,6 +25,7 @@ from verification.judging.outcome import (
     Verdict,
 )
 from verification.judging.run import (
+    BY_DEFAULT,
     OTHER_NORMS,
     OVER_ANGLES,
     OVER_RINGS,
@@ -135,6 +138,56 @@ def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
         equations=case.equations,
         no_order=case.no_order,
     )
+
+
+def stated_errors(case: Case, results: Mapping[str, Any]) -> dict[str, StatedErrors]:
+    """Compute the error estimates that the solvers state for the runs of a case.
+
+    case     verification case
+    results  results of the solved runs, by label of the run
+
+    Only runs on which the case judges a registered scalar are included. Runs on cells with another
+    than the default edge correction are left out, because users do not run them. The keys of the
+    returned mapping are the labels of the runs.
+    """
+    judged = {q.run for q in case.quantities if q.scalar is not None} & results.keys()
+    return {
+        run.label: _stated(run, results[run.label])
+        for run in case.runs
+        if run.label in judged and (not isinstance(run, Run) or run.edge == BY_DEFAULT)
+    }
+
+
+def _stated(run: AnyRun, result: Any) -> StatedErrors:
+    if isinstance(run, Run):
+        from contact_errors.on_cells import CellSolver
+
+        return CellSolver.stated_errors(result)
+    if isinstance(run, RadiiRun):
+        from contact_errors.on_radii import RingSolver
+
+        return RingSolver.stated_errors(result)
+    from contact_errors.on_elements import ElementSolver
+
+    return ElementSolver.stated_errors(result)
+
+
+def error_of(quantity: Quantity, errors: StatedErrors | None) -> float | None:
+    """Return the stated error of a judged number, in the unit of the number.
+
+    The result is None if the number is no registered scalar, if the run has no stated errors, or if
+    the status of the error is not ESTIMATED.
+
+    quantity  judged quantity of a case
+    errors    stated errors of the run on which the quantity is measured; None if there are none
+    """
+    if quantity.scalar is None or errors is None:
+        return None
+    name, component, step = quantity.scalar
+    found = errors.steps[step].get(name)
+    if found is None or found.error is None or found.status is not ErrorStatus.ESTIMATED:
+        return None
+    return float(np.ravel(found.error)[component])
 
 
 def _verdicts(case: Case, results: Results) -> tuple[Verdict, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Iterator
 from enum import StrEnum
 from typing import Annotated, TypeAlias
 
@@ -447,6 +448,26 @@ class CaseOutcome(Description):
         if self.count(Status.FAIL):
             return Status.FAIL
         return Status.INCONCLUSIVE if self.count(Status.INCONCLUSIVE) else Status.PASS
+
+
+# Smallest accepted fraction of covered numbers in a report of all cases at the full level.
+LEAST_SHARE = 0.95
+
+
+def judged_errors(cases: tuple[CaseOutcome, ...]) -> Iterator[tuple[CaseOutcome, Verdict]]:
+    """Yield all verdicts on numbers with a stated error, each together with the outcome of its
+    case."""
+    for case in cases:
+        yield from ((case, verdict) for verdict in case.verdicts if verdict.covered is not None)
+
+
+def share_covered(cases: tuple[CaseOutcome, ...]) -> float:
+    """Return the fraction of the stated errors that cover the actual error, over all given cases.
+
+    Numbers without a stated error do not count. The fraction is 1 if there are no stated errors.
+    """
+    found = [verdict.covered for _, verdict in judged_errors(cases)]
+    return sum(map(bool, found)) / len(found) if found else 1.0
 
 
 SYMBOLS = {Status.PASS: "✓", Status.FAIL: "✗", Status.INCONCLUSIVE: "?"}

@@ -375,7 +375,7 @@ _LEVELS = {
     Level.STANDARD: (12, 16, 22, 32, 45, 64),
     Level.FULL: (16, 22, 32, 45, 64, 90, 128),
 }
-PER_OCTAVE, OCTAVES = 5, 2.4
+OCTAVES = 2.4
 # Positions of the contact edge in its element on each mesh: all values depend on the position, and
 # only their root mean square falls with a power of the element.
 PLACES = (0.1, 0.3, MIDDLE, 0.7, 0.9)

@@ -1,15 +1,31 @@
-"""Ball that is pressed and then loaded tangentially in steps, with the answer of Cattaneo and
-Mindlin.
+"""Ball under a constant normal force and a tangential force: closed forms of Cattaneo and Mindlin.
 
-The answer is exact for Poisson's ratio ν = 0.
+In a fretting loop the tangential force goes from 0 to T*, to -T* and to T* again, with T* = 0.9 µW.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
 from contact_scene import IsotropicMaterial
+from contact_scene.loading import LoadStep
+from verification.closed_forms.ruiz import CycledContact
+from verification.closed_forms.tangential_history import TangentialHistory
+from verification.norms import shear_error
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
 from verification.problems.problem import Problem
+from verification.quantities import energy_between, force_along_x, shear_of, shift_along_x
+
+if TYPE_CHECKING:
+    from contact_results.cycles import FrettingCycle
+    from semi_analytical import Increment, Result
+
 
 SOURCE = "Cattaneo 1938; Mindlin 1949"
 OVER_SLIDING_SHIFT = "the shift at gross sliding"
@@ -50,3 +66,170 @@ def sheared(
             r"\Delta = \frac{3 \mu W}{4 a G^*} \left[1 - (1 - T/\mu W)^{2/3}\right]",
         ),
     )
+
+
+LOOP_SOURCE = "Mindlin and Deresiewicz 1953"
+OVER_LARGEST_SHIFT = "the largest shift of the loop"
+OVER_LARGEST_SLIP = "the largest slip amplitude"
+OVER_LARGEST_WAY = "the largest way"
+AMPLITUDE = 0.9  # largest tangential force T* over µW
+LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
+PRESSED = 1
+WINDOW_PER_RADIUS = 2.2  # the contact takes 1/1.1 of the width of the window
+
+
+def loop_steps(quarter: int) -> tuple[LoadStep, ...]:
+    """Create the load steps of a fretting loop, from 0 to T*, to -T* and to T*, with T* = 0.9 µW.
+
+    quarter  number of increments per change of the force by T*
+    """
+    return (
+        paper.tangential_step(AMPLITUDE, quarter),
+        paper.tangential_step(-AMPLITUDE, 2 * quarter),
+        paper.tangential_step(AMPLITUDE, 2 * quarter),
+    )
+
+
+@dataclass(frozen=True)
+class ExactLoop:
+    """Exact fretting loop of two identical bodies (Mindlin and Deresiewicz 1953).
+
+    material  material of both bodies; the closed form is exact for ν = 0
+    """
+
+    material: IsotropicMaterial
+
+    @cached_property
+    def virgin(self) -> TangentialHistory:
+        """State of the contact before any tangential force."""
+        return TangentialHistory(paper.partial_slip(self.material, 0.0))
+
+    @property
+    def sliding_shift(self) -> float:
+        """Tangential shift at the onset of gross slip [length]."""
+        return self.virgin.virgin.sliding_shift
+
+    @property
+    def end(self) -> TangentialHistory:
+        """State of the contact at the end of the first loading to T*."""
+        return self.virgin.loaded_to(AMPLITUDE * paper.FRICTION_LIMIT)
+
+    @property
+    def energy_per_cycle(self) -> float:
+        """Energy that friction dissipates in one closed cycle [force*length].
+
+        The energy is four times the energy dissipated in the first loading.
+        """
+        return 4 * self.end.dissipated_energy
+
+    def along(self, result: Result) -> Iterator[tuple[Increment, TangentialHistory]]:
+        """Yield every increment after the normal loading, with the closed form at the same
+        tangential force."""
+        state = self.virgin
+        for increment in result.increments:
+            if increment.step > PRESSED:
+                state = state.loaded_to(force_along_x(increment))
+                yield increment, state
+
+    def largest_shear_error(self, result: Result) -> float:
+        """Compute the largest shear error Σ|q - q_exact| / Σµp of all tangential increments of a
+        result [1]."""
+        r = np.hypot(*result.grid.coordinates())
+        return float(np.max([
+            shear_error(shear_of(i), exact.shear(r), FRICTION * i.pressure)
+            for i, exact in self.along(result)
+        ]))  # fmt: skip
+
+    def largest_shift_error(self, result: Result) -> float:
+        """Compute the largest error of the tangential shift in all tangential increments of a
+        result [length]."""
+        return float(np.max([abs(shift_along_x(i) - e.shift) for i, e in self.along(result)]))
+
+    @property
+    def cycled(self) -> CycledContact:
+        """Steady fretting cycle between T* and -T*, exact for ν = 0."""
+        force = AMPLITUDE * paper.FRICTION_LIMIT
+        return CycledContact(paper.partial_slip(self.material, force), paper.HERTZ.peak_pressure)
+
+    def largest_slip_amplitude_error(self, result: Result) -> float:
+        """Compute the largest error of the slip amplitude of a result inside the contact
+        [length]."""
+        a = paper.HERTZ.contact_radius
+        r = np.hypot(*result.grid.coordinates())
+        expected = self.cycled.slip_amplitude(np.minimum(r, a))
+        error = np.abs(loop_cycle(result).slip_amplitude - expected)
+        return float(np.max(error[r < a]))
+
+    def largest_slip_distance_error(self, result: Result) -> float:
+        """Compute the largest error of the accumulated slip distance at the end of a result
+        [length].
+
+        The exact distance is 5 times the slip amplitude, because slip reverses only where the force
+        does.
+        """
+        a, way = paper.HERTZ.contact_radius, result.steps[-1].slip_distance
+        assert way is not None
+        r = np.hypot(*result.grid.coordinates())
+        expected = 5 * self.cycled.slip_amplitude(np.minimum(r, a))
+        return float(np.max(np.abs(way - expected)[r < a]))
+
+    def largest_stick_radius_error(self, result: Result) -> float:
+        """Compute the largest error of the stick radius in all tangential increments of a result
+        [length]."""
+        return float(np.max([
+            abs((i.stick_radius or 0.0) - e.stick_radius) for i, e in self.along(result)
+        ]))  # fmt: skip
+
+
+def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Problem:
+    """Create the problem of the fretting loop of the standard ball (radius 18 mm, 1 kN).
+
+    The answer describes the whole loop and is exact for ν = 0.
+
+    material  material of both bodies
+    quarter   number of increments per change of the tangential force by T* = 0.9 µW
+    """
+    exact = ExactLoop(material)
+    slip = float(exact.cycled.slip_amplitude(HERTZ.contact_radius))
+    return Problem(
+        paper.frictional(title, paper.paraboloid(material), material, *loop_steps(quarter)),
+        (exact,),
+        HERTZ.contact_radius,
+        LOOP_SOURCE,
+        scales={
+            OVER_LARGEST_SHIFT: exact.end.shift,
+            OVER_SLIDING_SHIFT: exact.sliding_shift,
+            OVER_LARGEST_SLIP: slip,
+            OVER_LARGEST_WAY: 5 * slip,
+            OVER_LIMIT: FRICTION * HERTZ.peak_pressure,
+        },
+        equations=(
+            r"\Delta(T) = \Delta^* - 2 \Delta_1\left(\tfrac{T^* - T}{2}\right),\quad "
+            r"\Delta_1(T) = \frac{3 \mu W}{4 a G^*} \left[1 - (1 - T/\mu W)^{2/3}\right]",
+        ),
+    )
+
+
+def loop_energy(result: Result) -> float:
+    """Compute the energy that a result dissipates from T* to -T* and back to T* [force*length]."""
+    return energy_between(result, LOADED, RELOADED)
+
+
+def loop_cycle(result: Result) -> FrettingCycle:
+    """Return the only fretting cycle of a result of the fretting loop."""
+    from contact_results.cycles import fretting_cycles
+
+    (cycle,) = fretting_cycles(result)
+    return cycle
+
+
+def largest_f2(result: Result) -> float:
+    """Return the largest value of Ruiz's second fretting parameter in the loop [force²/length³]."""
+    f2 = loop_cycle(result).ruiz_f2
+    assert f2 is not None
+    return float(np.max(f2))
+
+
+def largest_imbalance(result: Result) -> float:
+    """Return the largest relative energy imbalance that any increment of a result states [1]."""
+    return max(i.energy_imbalance for i in result.increments if i.energy_imbalance is not None)

@@ -120,7 +120,9 @@ BARREL = Problem(
 )
 
 
-SOURCE = "references/coated_frictionless_paraboloid.json: Fredholm equation, two settings agree"
+TABLE_SOURCE = (
+    "references/coated_frictionless_paraboloid.json: Fredholm equation, two settings agree"
+)
 ROWS = load_reference("coated_frictionless_paraboloid")["rows"]
 BARE = hertzian(pressed("Rigid ball on the uncoated half-space", rigid_ball(), coated()))
 
@@ -138,7 +140,7 @@ def coated_ball(row: Mapping[str, Any]) -> Problem:
         pressed(title, rigid_ball(), coated(film(ratio, thickness))),
         (contact,),
         contact.contact_radius,
-        SOURCE,
+        TABLE_SOURCE,
         ReferenceKind.SEMI_CLOSED,
         row["est_rel_error"],
         {OVER_PEAK: HERTZ.peak_pressure},

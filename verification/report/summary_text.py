@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from xml.etree import ElementTree
 
 from verification.exhibits.chart import value_text
-from verification.judging.coverage import judged_errors
 from verification.judging.outcome import (
     SYMBOLS,
     WORDS,
@@ -16,6 +15,7 @@ from verification.judging.outcome import (
     Verdict,
     clearance_text,
     failure_line,
+    judged_errors,
 )
 from verification.problems.problem import ReferenceKind
 from verification.regression.comparison import NOISE

@@ -20,22 +20,30 @@ T = TypeVar("T")
 
 
 @contextmanager
+def cache_directory(path: str) -> Iterator[None]:
+    """Run a block with another directory of the solvers' cache on disk.
+
+    path  the directory; `os.devnull` for no cache on disk
+    """
+    before = os.environ.get(CACHE)
+    os.environ[CACHE] = path
+    try:
+        yield
+    finally:
+        del os.environ[CACHE]
+        if before is not None:
+            os.environ[CACHE] = before
+
+
+@contextmanager
 def cold_cache() -> Iterator[None]:
     """Run a block with empty caches of all solvers, on disk and in memory.
 
     The cache on disk is a temporary directory, which is removed afterwards.
     """
-    before = os.environ.get(CACHE)
     _forget()
-    with TemporaryDirectory() as empty:
-        os.environ[CACHE] = empty
-        try:
-            yield
-        finally:
-            if before is None:
-                del os.environ[CACHE]
-            else:
-                os.environ[CACHE] = before
+    with TemporaryDirectory() as empty, cache_directory(empty):
+        yield
 
 
 def _forget() -> None:

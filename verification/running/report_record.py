@@ -12,8 +12,14 @@ from pydantic import ValidationError, model_validator
 from contact_scene.reading.description import Description
 from verification.exhibits.chart import Picture
 from verification.judging.case import Level
-from verification.judging.coverage import LEAST_SHARE, share_covered
-from verification.judging.outcome import CaseOutcome, GoneCase, Status, Verdict
+from verification.judging.outcome import (
+    LEAST_SHARE,
+    CaseOutcome,
+    GoneCase,
+    Status,
+    Verdict,
+    share_covered,
+)
 from verification.running.provenance import Provenance
 from verification.running.sources import is_current
 from verification.running.study import StudyRecord, json_text

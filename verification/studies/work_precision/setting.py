@@ -30,17 +30,19 @@ from verification.judging.declared_case import (
     Observable,
     error_norm,
 )
-from verification.judging.pressing_errors import pressure_at, shear_at
+from verification.judging.field_errors import pressure_at, shear_at
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.norms import round_means
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
     OVER_LIMIT,
+    WINDOW_PER_RADIUS,
+    ExactLoop,
+    fretting_loop,
     sheared,
 )
 from verification.problems.classical import BALL
 from verification.problems.indentation import COATED
-from verification.problems.loop_history import WINDOW_PER_RADIUS, ExactLoop, fretting_loop
 from verification.problems.paper_scene import FRICTION, NU_ZERO
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.quantities import shear_of
