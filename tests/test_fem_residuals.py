@@ -248,6 +248,7 @@ def random_state(rng: np.random.Generator, springs: float) -> tuple[Equations, I
 def test_tangent_is_the_derivative_where_no_point_changes_its_state(springs, rng) -> None:
     equations, here = random_state(rng, springs)
     _, tangent, _ = equations.linearised(here)
+    errors = []
     for column, change in enumerate(STEP * np.eye(len(here.values))):
         ends = [Iterate.of(here.values + sign * change) for sign in (1, -1)]
         slips = [equations.linearised(end)[2] for end in ends]
@@ -256,4 +257,5 @@ def test_tangent_is_the_derivative_where_no_point_changes_its_state(springs, rng
         smooth = (apart | (np.min(p, axis=0) > LEAST_PRESSURE)) & (slips[0] == slips[1])
         rows = np.append(np.tile(smooth, 3), [True, True])
         difference = (equations.missed(ends[0]) - equations.missed(ends[1])) / (2 * STEP)
-        assert np.abs(difference - tangent[:, column])[rows].max() <= 1e-8
+        errors.append(np.abs(difference - tangent[:, column])[rows].max())
+    assert np.max(errors) <= 1e-8
