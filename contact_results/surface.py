@@ -2,19 +2,21 @@
 
 `Cells` holds the rectangular cells of the semi-analytical solver. `Rings` holds the rings around
 the z axis of the finite elements and of the radial solver. Files, figures and sums read the results
-of all solvers through the protocol `Surface`.
+of all solvers through `Surface`, which is one of the two.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.array_types import Field
+
+Surface: TypeAlias = "Cells | Rings"
 
 if TYPE_CHECKING:
     import fem_reference
@@ -47,83 +49,12 @@ class Line(NamedTuple):
     components: tuple[str, str]
 
 
-class Surface(Protocol):
-    """Points on the surface that carry the fields of a result, for the results of any solver.
-
-    A scalar field has the array shape of `weights`: (nx, ny) on cells; (rings,) or (rings, angles)
-    on rings.
-    """
-
-    @property
-    def axes(self) -> Mapping[str, Field]:
-        """Coordinates of the points for each array index, by name.
-
-        The names are x and y of cells [length], or radii [length] and angles [radian] of rings.
-        """
-
-    @property
-    def positions(self) -> Field:
-        """Coordinates x and y of the points, shape (2, …) [length]."""
-
-    @property
-    def weights(self) -> Field:
-        """Quadrature weights of the points [length^2].
-
-        The sum of weight times field over all points is the integral of the field over the surface.
-        """
-
-    @property
-    def line(self) -> Line:
-        """Line through the z axis on which profiles of the fields are drawn."""
-
-    @property
-    def direction(self) -> tuple[float, float]:
-        """Unit vector (x, y) along the line on which profiles of the fields are drawn."""
-
-    def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
-        """Return a scalar field of an increment, such as the pressure, at all points.
-
-        name  name of the field, an attribute of the increment
-
-        Returns None if the increment has no such field.
-        """
-
-    def components(self, increment: Increment, name: str) -> Field | None:
-        """Return the vector components of shear or slip that the solver itself computed.
-
-        These components are orthonormal, shape (n, …): x and y on cells; radial, circumferential
-        and along the load on rings. They have no round-off from a rotation to other axes. Returns
-        None if the increment has no such vector.
-
-        name  "shear" or "slip"
-        """
-
-    def vector(self, increment: Increment, name: str) -> Field | None:
-        """Return the x and y components (2, …) of the shear or the slip of an increment.
-
-        name  "shear" or "slip"
-
-        Returns None if the increment has no such vector.
-        """
-
-    def along(self, field: Field) -> Field:
-        """Evaluate a scalar field at the n points of the line of profiles, see `line`.
-
-        Returns values of shape (n,).
-        """
-
-    def vector_along(self, vector: Field) -> Field:
-        """Evaluate a vector field (2, …) at the n points of the line of profiles, see `line`.
-
-        Returns the components along and across the line (2, n).
-        """
-
-
 @dataclass(frozen=True, eq=False)
 class Cells:
     """Surface grid of equal rectangular cells; index [i, j] is the cell centred at (x_i, y_j).
 
-    Profiles are drawn on the line y = 0.
+    Scalar fields have the shape (nx, ny), vector fields the shape (2, nx, ny). Profiles are drawn
+    on the line y = 0.
 
     x, y       coordinates of the cell centres (nx,), (ny,) [length]
     cell_area  area of one cell [length^2]
@@ -145,7 +76,10 @@ class Cells:
 
     @property
     def weights(self) -> Field:
-        """Quadrature weights: the area of one cell at every cell centre (nx, ny) [length^2]."""
+        """Quadrature weights: the area of one cell at every cell centre (nx, ny) [length^2].
+
+        The sum of weight times field over all points is the integral of the field over the surface.
+        """
         return np.full((len(self.x), len(self.y)), self.cell_area)
 
     @property

@@ -20,7 +20,6 @@ from contact_results.figures.stress_plot import draw_depth, draw_surface
 from contact_results.key_numbers import key_numbers
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.surface import Cells, surface_of
-from contact_scene import Body
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.reading.engineering_units import (
     engineering_unit,
@@ -82,7 +81,7 @@ def overview(
     if moved(result.increments) >= LEAST_MOVES:
         draw_loop(history, result)
     elif field and len(result.increments) == 1:
-        _draw_axis(history, field, result.scene.body)
+        draw_depth(history, field, result.scene.body, field.axis, "on the axis")
     else:
         draw_loading(history, result)
     if field:
@@ -171,19 +170,6 @@ def _draw_seen(figure: Figure, ax: Any, result: Result, above: Above) -> None:
     seen = np.where(pressure > 0, pressure / unit.size, np.nan)
     image = draw_panel(ax, frame, Panel("", seen), float(np.max(pressure)) / unit.size or 1.0)
     figure.colorbar(image, ax=ax, label=unit.labelled("pressure p"), **BAR)
-
-
-def _draw_axis(ax: Any, field: StressField, body: Body) -> None:
-    """Draw the stress over depth on the z axis, for the overview.
-
-    ax    axes of matplotlib
-    body  layers and base, for the interfaces
-    """
-    depth = field.shown[1]
-    length = engineering_unit(depth, "m")
-    draw_depth(ax, field.axis, body, depth, length)
-    ax.set_ylabel(length.labelled("depth z on the axis"))
-    style.legend_above(ax)
 
 
 def _draw_stress(figure: Figure, axes: Any, along: Any, result: Result, field: StressField) -> None:

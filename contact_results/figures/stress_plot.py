@@ -1,8 +1,8 @@
-"""Figures of the stress below a contact: section, depth profiles, surface profile."""
+"""Figures of the stress below a contact: section, and profiles over depth and surface."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from textwrap import fill
 from typing import Any
@@ -15,36 +15,27 @@ from contact_results.figures import style
 from contact_results.figures.section_panel import draw_section, show_depths
 from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body
-from contact_scene.reading.engineering_units import (
-    EngineeringUnit,
-    engineering_unit,
-)
+from contact_scene.reading.engineering_units import engineering_unit, quantity
 
 BAR = {"fraction": 0.05, "pad": 0.03}
-SECTION, AXIS, SURFACE = "stress_section.png", "stress_axis.png", "stress_surface.png"
+SECTION, LINES = "stress_section.png", "stress_lines.png"
 
 
 def write_stress_figures(
     field: StressField, body: Body, directory: Path, title: str
 ) -> Sequence[str]:
-    """Write the three figures of the stress below a contact; return their file names.
+    """Write the two figures of the stress below a contact; return their file names.
 
     field      computed stress
     body       layers and base of the stressed body
     directory  output directory
     title      title of each figure
     """
-    figures: dict[str, Callable[[StressField, Body, str], Figure]] = {
-        SECTION: section_plot,
-        AXIS: axis_plot,
-        SURFACE: surface_plot,
-    }
     with style.figure_style():
-        for name, draw in figures.items():
+        for name, draw in ((SECTION, section_plot), (LINES, line_plot)):
             with atomic_file(directory / name) as path:
-                dots = style.OF_SECTIONS if name == SECTION else style.DOTS_PER_INCH
-                style.save(draw(field, body, title), path, dots)
-    return list(figures)
+                style.save(draw(field, body, title), path, style.OF_SECTIONS)
+    return SECTION, LINES
 
 
 def section_plot(field: StressField, body: Body, title: str) -> Figure:
@@ -74,31 +65,17 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
     return figure
 
 
-def axis_plot(field: StressField, body: Body, title: str) -> Figure:
-    """Draw stresses over depth, on the z axis and below the trailing contact edge.
+def line_plot(field: StressField, body: Body, title: str) -> Figure:
+    """Draw stresses over depth on the z axis and below the trailing edge, and along the surface.
 
-    The trailing edge is the edge with the larger σ_xx at the surface. There is one line per stress
-    and material. Call within `figure_style`.
+    The trailing edge is the edge with the larger σ_xx at the surface. Call within `figure_style`.
     """
-    depth = field.shown[1]
-    lines = {"on the z axis": field.axis, **_below_edge(field)}
-    length = engineering_unit(depth, "m")
-    figure = _titled(4.2 * len(lines) + 1.4, 4.8, title)
-    place = {"left": 0.08, "right": 0.86, "bottom": 0.11, "top": 0.88, "wspace": 0.08}
-    axes = figure.subplots(1, len(lines), sharey=True, squeeze=False, gridspec_kw=place)[0]
-    for ax, (where, points) in zip(axes, lines.items(), strict=True):
-        draw_depth(ax, points, body, depth, length)
-        ax.set_title(where)
-    axes[0].set_ylabel(length.labelled("depth z"))
-    style.legend_beside(axes[-1])
-    return figure
-
-
-def surface_plot(field: StressField, body: Body, title: str) -> Figure:
-    """Draw σ_xx and σ_yy along the surface. Call within `figure_style`."""
-    figure = _titled(6.4, 3.4, title)
-    place = {"left": 0.12, "right": 0.97, "bottom": 0.15, "top": 0.8}
-    draw_surface(figure.subplots(gridspec_kw=place), field)
+    figure = _titled(11.0, 4.4, title)
+    place = {"left": 0.06, "right": 0.98, "bottom": 0.12, "top": 0.84, "wspace": 0.25}
+    axis, below, surface = figure.subplots(1, 3, gridspec_kw=place)
+    draw_depth(axis, field, body, field.axis, "on the axis")
+    draw_depth(below, field, body, *_below_edge(field))
+    draw_surface(surface, field)
     return figure
 
 
@@ -172,38 +149,34 @@ def _at_surface(field: StressField) -> StressPoints:
     return points.chosen(at[np.argsort(points.x.flat[at], kind="stable")])
 
 
-def _below_edge(field: StressField) -> dict[str, StressPoints]:
+def _below_edge(field: StressField) -> tuple[StressPoints, str]:
     """Select the points of the stress section below the trailing contact edge, sorted by depth.
 
-    The trailing edge is the edge with the larger σ_xx at the surface. The result is a dictionary
-    with one entry: the title of the panel, and the points.
+    The trailing edge is the edge with the larger σ_xx at the surface.
+
+    Returns the points, and their place in words.
     """
     surface, points = _at_surface(field), field.section
     ends = [int(np.argmin(np.abs(surface.x - x))) for x in _places_of_ends(field)]
     edge = float(surface.x[max(ends, key=lambda k: surface.components["xx"][k])])
     below = np.flatnonzero(np.abs(points.x - edge) <= 1e-9 * _radius(field))
     order = np.lexsort([points.material.flat[below], points.depth.flat[below]])
-    where = f"below the edge, x = {engineering_unit(abs(edge), 'm').text(edge, 3)}"
-    return {where: points.chosen(below[order])}
+    return points.chosen(below[order]), f"below the edge x = {quantity(edge, 'm', 3)}"
 
 
-def draw_depth(
-    ax: Any,
-    points: StressPoints,
-    body: Body,
-    deepest: float,
-    length: EngineeringUnit,
-) -> None:
+def draw_depth(ax: Any, field: StressField, body: Body, points: StressPoints, where: str) -> None:
     """Draw stress components and the von Mises stress over depth, z downward.
 
     There is one line per stress and material.
 
-    ax       axes of matplotlib
-    points   points on a vertical line
-    body     layers and base, for the interfaces
-    deepest  largest depth of the figure [length]
-    length   unit of the depth axis
+    ax      axes of matplotlib
+    field   stress below a contact, whose visible depth limits the figure
+    body    layers and base, for the interfaces
+    points  points on a vertical line
+    where   place of this line in words
     """
+    deepest = field.shown[1]
+    length = engineering_unit(deepest, "m")
     line = points.chosen(points.depth <= deepest)
     lines = {_named(name): line.components[name] for name in ("xx", "yy", "zz", "xz")}
     lines["von Mises"] = line.von_mises
@@ -219,7 +192,9 @@ def draw_depth(
             )
     ax.axvline(0.0, color="black", linewidth=0.5)
     ax.set_xlabel(unit.labelled("stress"))
+    ax.set_ylabel(length.labelled(f"depth z {where}"))
     show_depths(ax, body, deepest, length)
+    style.legend_above(ax)
 
 
 def _named(component: str) -> str:
