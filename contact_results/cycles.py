@@ -63,7 +63,7 @@ class FrettingCycle(WithFields):
         float | None,
         Reported("J", "Work of the loads in the cycle, the area of their loops over the motions."),
     ]
-    dissipated_energy: Annotated[float, Reported("J", "Energy lost to friction in the cycle.")]
+    energy_per_cycle: Annotated[float, Reported("J", "Energy lost to friction in the cycle.")]
     dissipation: Annotated[
         Field | None, Reported("J/m^2", "Energy per area lost to friction in the cycle.", F)
     ]
@@ -85,7 +85,7 @@ class FrettingCycle(WithFields):
         f2 = self.ruiz_f2
         return {
             "cycle_start": self.cycle.start,
-            "energy_per_cycle": self.dissipated_energy,
+            "energy_per_cycle": self.energy_per_cycle,
             "slip_amplitude": float(np.max(self.slip_amplitude)),
             "ruiz_f1": float(np.max(self.ruiz_f1)),
             "ruiz_f2": None if f2 is None else float(np.max(f2)),
@@ -140,7 +140,7 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
         if all(increment.dissipated_energy is not None for increment in path):
             stress = tension.within(path) if tension else None
             found = _fretting_cycle(surface, cycle, path, stress)
-            loop = loop_numbers(path, found.dissipated_energy, result.scene.friction, surface)
+            loop = loop_numbers(path, found.energy_per_cycle, result.scene.friction, surface)
             cycles.append(fields.stored(replace(found, loop={"from_virgin": False, **loop})))
     if cycles:
         cycles[0] = replace(cycles[0], loop={**cycles[0].loop, "from_virgin": True})
@@ -162,7 +162,7 @@ def _fretting_cycle(
     return FrettingCycle(
         cycle=cycle,
         input_work=_gain(start.input_work, end.input_work),
-        dissipated_energy=dissipated,
+        energy_per_cycle=dissipated,
         dissipation=_gain(getattr(start, "dissipation", None), getattr(end, "dissipation", None)),
         slip_amplitude=_slip_amplitude(lambda: _along(surface, path, "slip")),
         largest_shear=reduce(np.maximum, shears),

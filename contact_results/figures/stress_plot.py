@@ -71,7 +71,7 @@ def line_plot(field: StressField, body: Body, title: str) -> Figure:
     The trailing edge is the edge with the larger σ_xx at the surface. Call within `figure_style`.
     """
     figure = _titled(11.0, 4.4, title)
-    place = {"left": 0.06, "right": 0.98, "bottom": 0.12, "top": 0.84, "wspace": 0.25}
+    place = {"left": 0.06, "right": 0.97, "bottom": 0.12, "top": 0.84, "wspace": 0.25}
     axis, below, surface = figure.subplots(1, 3, gridspec_kw=place)
     draw_depth(axis, field, body, field.axis, "on the axis")
     draw_depth(below, field, body, *_below_edge(field))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from array import array
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -134,17 +133,13 @@ def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
         attribute = "index" if name == "increment" else name
         values = [getattr(i, attribute) for i in increments]
         _write(group, name, values, Reported("", meaning), PER_INCREMENT)
-    rows: dict[str, array[float]] = {name: array("d") for name in SCALARS}
-    for increment in increments:
-        for name, row in rows.items():
-            value = getattr(increment, name)
-            row.extend(np.full(len(components(name)), np.nan) if value is None else np.ravel(value))
     for name, mark in SCALARS.items():
-        found = np.array(rows[name])
+        nothing = np.full(len(components(name)), np.nan)
+        given = (getattr(i, name) for i in increments)
+        found = np.array([nothing if value is None else np.ravel(value) for value in given])
         if np.all(np.isnan(found)):
             continue
-        if mark.kind is Kind.VECTOR:
-            found = found.reshape(len(increments), -1)
+        found = found if mark.kind is Kind.VECTOR else found[:, 0]
         _write(group, name, found, mark, (*PER_INCREMENT, *COMPONENT)[: found.ndim])
 
 

@@ -118,120 +118,42 @@ def write_increments(result: Result, directory: Path) -> None:
     write_table(directory / INCREMENTS, INCREMENT_COLUMNS, rows)
 
 
-# Numbers of a fretting loop that no other column contains.
-OF_LOOPS = [
-    name
-    for name in OF_CYCLES
-    if name not in ("energy_per_cycle", "slip_amplitude", "ruiz_f1", "ruiz_f2")
-]
-LARGEST = "Largest value on the surface: "
-
-
-def _cycle_columns() -> tuple[Column, ...]:
-    """Return the columns of `cycles.csv`.
-
-    The columns contain energies, largest values of the fields, the places of Ruiz's parameters,
-    numbers of the loop, and stated errors.
-    """
-    marks = reported(FrettingCycle)
-    columns = [
-        Column("start_step", None, "Step at whose end the cycle begins."),
-        Column("end_step", None, "Step at whose end the cycle closes."),
-        marked("input_work", marks["input_work"]),
-        marked("dissipated_energy", marks["dissipated_energy"]),
-        marked("largest_dissipation", marks["dissipation"], LARGEST),
-        marked("slip_amplitude", marks["slip_amplitude"], LARGEST),
-    ]
-    for name, before in (("ruiz_f1", ()), ("ruiz_f2", ("surface_tension",))):
-        columns += (marked(field, marks[field], LARGEST) for field in (*before, name))
-        columns += (Column(f"{name}_{axis}", "m", f"Where {name} is largest.") for axis in "xy")
-    loop = reported(Closed)
-    columns += (Column("regime", None, loop["regime"].meaning),)
-    columns += (marked("from_virgin", loop["from_virgin"]),)
-    columns += (marked(part, OF_CYCLES[name]) for name in OF_LOOPS for part in _parts(name))
-    for name, mark in OF_CYCLES.items():
-        means = f"Stated error of {name}; empty where nothing can be said."
-        columns += (Column(f"{part}_error", mark.unit, means) for part in _parts(name))
-    return tuple(columns)
-
-
-def _parts(name: str) -> tuple[str, ...]:
-    """Return the column names of a scalar of a load cycle: two for a vector, else one."""
-    vector = OF_CYCLES[name].kind is Kind.VECTOR
-    return (f"{name}_x", f"{name}_y") if vector else (name,)
-
-
-def _values(name: str, value: Any) -> tuple[float | None, ...]:
-    """Return the table cells of a scalar of a load cycle: two for a vector, else one.
-
-    name   name of the scalar
-    value  number, or pair of numbers; None gives empty cells
-    """
-    return value if isinstance(value, tuple) else (value,) * len(_parts(name))
-
-
-CYCLE_COLUMNS = _cycle_columns()
-
-
-def write_cycles(
-    cycles: Sequence[FrettingCycle],
-    surface: Surface,
-    directory: Path,
-    errors: Sequence[Mapping[str, StatedError]] | None = None,
-) -> None:
-    """Write `cycles.csv` with one row per closed load cycle; no file if there is no cycle.
+def _cycle_cells(
+    cycle: FrettingCycle, surface: Surface, errors: Mapping[str, StatedError]
+) -> Iterator[tuple[Column, str | int | float | None]]:
+    """Yield column and value of each cell of one row of `cycles.csv`.
 
     A field is represented by its largest value, and Ruiz's parameters also by the place of this
     value.
 
-    surface    surface grid of the fields
-    directory  directory of the run
-    errors     stated errors of the scalars of every load step, by name; None if they were not
-               computed
+    surface  surface grid of the fields
+    errors   stated errors at the load step that closes the cycle, by name; empty if not computed
     """
-    if not cycles:
-        return
-    rows = (
-        [
-            *_cycle_row(cycle, surface),
-            *_loop_row(cycle, errors[cycle.cycle.end - 1] if errors else {}),
-        ]
-        for cycle in cycles
-    )
-    write_table(directory / CYCLES, CYCLE_COLUMNS, rows)
-
-
-def _loop_row(
-    cycle: FrettingCycle, errors: Mapping[str, StatedError]
-) -> Iterator[str | int | float | None]:
-    """Yield the cells of a row of `cycles.csv` from the slip regime to the stated errors.
-
-    errors  stated errors at the load step that closes the cycle, by name; empty if not computed
-    """
-    numbers = cycle.numbers
-    yield numbers["regime"].value
-    yield int(numbers["from_virgin"])
-    for name in OF_LOOPS:
-        yield from _values(name, numbers.get(name))
-    for name in OF_CYCLES:
+    fields, words, values = reported(FrettingCycle), reported(Closed), cycle.numbers
+    yield Column("start_step", None, "Step at whose end the cycle begins."), cycle.cycle.start
+    yield Column("end_step", None, "Step at whose end the cycle closes."), cycle.cycle.end
+    yield Column("regime", None, words["regime"].meaning), values["regime"].value
+    yield marked("from_virgin", words["from_virgin"]), int(values["from_virgin"])
+    yield marked("input_work", fields["input_work"]), cycle.input_work
+    for name, field in (
+        ("largest_dissipation", "dissipation"),
+        ("surface_tension", "surface_tension"),
+    ):
+        largest, *_ = _largest(getattr(cycle, field), surface)
+        yield marked(name, fields[field], "Largest value on the surface: "), largest
+    for name, mark in OF_CYCLES.items():
+        vector = mark.kind is Kind.VECTOR
         stated = errors.get(name)
-        yield from _values(name, None if stated is None else stated.error)
-
-
-def _cycle_row(cycle: FrettingCycle, surface: Surface) -> list[int | float | None]:
-    """Return the first cells of a row of `cycles.csv`: load steps, energies, largest values."""
-    tension = cycle.surface_tension
-    return [
-        cycle.cycle.start,
-        cycle.cycle.end,
-        cycle.input_work,
-        cycle.dissipated_energy,
-        None if cycle.dissipation is None else float(np.max(cycle.dissipation)),
-        float(np.max(cycle.slip_amplitude)),
-        *_largest(cycle.ruiz_f1, surface),
-        None if tension is None else float(np.max(tension)),
-        *_largest(cycle.ruiz_f2, surface),
-    ]
+        means = f"Stated error of {name}; empty where nothing can be said."
+        for number, part in enumerate((f"{name}_x", f"{name}_y") if vector else (name,)):
+            both = (values.get(name), None if stated is None else stated.error)
+            value, error = (v[number] if isinstance(v, tuple) else v for v in both)
+            yield marked(part, mark), value
+            yield Column(f"{part}_error", mark.unit, means), error
+    for name in ("ruiz_f1", "ruiz_f2"):
+        _, *place = _largest(getattr(cycle, name), surface)
+        for axis, at in zip("xy", place, strict=True):
+            yield Column(f"{name}_{axis}", "m", f"Where {name} is largest."), at
 
 
 def _largest(field: Field | None, surface: Surface) -> tuple[float | None, ...]:
@@ -261,8 +183,15 @@ def write_tables(
     errors     stated errors of the scalars of every load step, by name; None if they were not
                computed
     """
+    tables = {PROFILES: PROFILE_COLUMNS, INCREMENTS: INCREMENT_COLUMNS}
     write_profiles(result, directory)
     write_increments(result, directory)
-    write_cycles(cycles, surface_of(result), directory, errors)
-    tables = {PROFILES: PROFILE_COLUMNS, INCREMENTS: INCREMENT_COLUMNS}
-    write_meanings(directory / COLUMNS, tables | ({CYCLES: CYCLE_COLUMNS} if cycles else {}))
+    if cycles:
+        surface = surface_of(result)
+        rows = [
+            list(_cycle_cells(cycle, surface, errors[cycle.cycle.end - 1] if errors else {}))
+            for cycle in cycles
+        ]
+        tables[CYCLES] = tuple(column for column, _ in rows[0])
+        write_table(directory / CYCLES, tables[CYCLES], ([cell for _, cell in r] for r in rows))
+    write_meanings(directory / COLUMNS, tables)
