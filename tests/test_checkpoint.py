@@ -184,12 +184,13 @@ def differences(one: Any, other: Any, where: str = "") -> Iterator[str]:
 def checkpoint(
     directory: Path, said: list[str], identity: str = "this solve"
 ) -> CheckpointDirectory:
-    return CheckpointDirectory(directory / "checkpoint", identity, said.append, 0.0)
+    return CheckpointDirectory(directory / "checkpoint", identity, said.append)
 
 
 @pytest.fixture(autouse=True)
 def _every_increment(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("contact_results.directory.checkpoint.SHARE", np.inf)
+    monkeypatch.setattr("contact_results.directory.checkpoint.SECONDS_BETWEEN", 0.0)
 
 
 @pytest.mark.parametrize("name", SOLVES)
@@ -245,7 +246,6 @@ def test_part_that_cannot_be_used_is_named_and_computed_again(
     solve, said = SOLVES["similar"], []
     store = checkpoint(tmp_path, said)
     whole = solve(store)
-    store.close()
     path = tmp_path / "checkpoint" / f"part-{number:06d}"
     path.write_bytes(damage(path.read_bytes()))
     store = checkpoint(tmp_path, said)
@@ -285,9 +285,8 @@ def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
     ("error", "stays"), [(None, False), (GrossSliding("no"), False), (OSError(28, "full"), True)]
 )
 def test_checkpoint_stays_only_where_it_is_of_use(
-    error: Exception | None, stays: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    error: Exception | None, stays: bool, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr("contact_results.directory.checkpoint.SECONDS_BETWEEN", 0.0)
     outcome = nullcontext() if error is None else pytest.raises(type(error))
     with outcome, checkpointed(tmp_path / "out", "this solve", print) as store:
         SOLVES["similar"](store)

@@ -1,6 +1,7 @@
 """What a report, a record or a baseline says is believed only as far as it agrees with itself."""
 
 import errno
+import fcntl
 import json
 import os
 import subprocess
@@ -14,7 +15,6 @@ import pytest
 from command import slipstick
 from report_examples import case, made_by, report_of, run_record, study, verdict
 
-from contact_results.directory.run_lock import acquire, release
 from slipstick.cli.errors import ExitCode, exit_code
 from verification.cases.catalogue import CaseToJudge, JudgedCase
 from verification.judging.outcome import CaseOutcome, ChangeKind, Status, order_text
@@ -290,13 +290,14 @@ def test_an_order_that_its_interval_says_nothing_of_is_no_number(
 
 
 def test_reports_into_one_directory_are_written_one_after_the_other(tmp_path: Path) -> None:
-    lock = acquire(tmp_path, wait=True)
+    descriptor = os.open(tmp_path, os.O_RDONLY)
+    fcntl.flock(descriptor, fcntl.LOCK_EX)
     writing = threading.Thread(target=write_report, args=(three_cases(), tmp_path))
     writing.start()
     writing.join(0.5)
     assert writing.is_alive()
     assert list(tmp_path.iterdir()) == []
-    release(lock)
+    os.close(descriptor)
     writing.join(20)
     assert load_report(tmp_path / RECORD) == three_cases()
 

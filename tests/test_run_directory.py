@@ -12,7 +12,6 @@ import pytest
 from contact_results.directory.atomic_file import OutputRefused
 from contact_results.directory.file_names import SUMMARY, TIMING
 from contact_results.directory.run_directory import run_directory
-from contact_results.directory.run_lock import acquire, release
 from contact_results.directory.timing import Stopwatch, write_timing
 
 
@@ -93,19 +92,14 @@ def test_foreign_results_are_refused_before_work_unless_told(tmp_path: Path) -> 
     assert contents(tmp_path) == {SUMMARY: "new", "profiles.csv": "new"}
 
 
-def test_abandoned_directory_is_cleared_away_and_a_live_one_is_not(tmp_path: Path) -> None:
+def test_abandoned_directory_is_cleared_away(tmp_path: Path) -> None:
     abandoned = tmp_path / ".out.partial-0badcafe"
     abandoned.mkdir()
     (abandoned / "result.h5").write_text("half")
-    live = tmp_path / ".out.partial-0decade0"
-    live.mkdir()
-    lock = acquire(live, wait=False)
     with run_directory(tmp_path / "out") as staging:
         assert not abandoned.exists()
-        assert live.exists()
         fill(staging)
-    release(lock)
-    assert sorted(os.listdir(tmp_path)) == [live.name, "out"]
+    assert os.listdir(tmp_path) == ["out"]
 
 
 @pytest.fixture

@@ -10,24 +10,19 @@ import json
 import os
 import secrets
 import shutil
-import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
 from contact_results.directory.atomic_file import OutputRefused, create_parents, remove_empty
 from contact_results.directory.file_names import RUN_FILES, SUMMARY, TIMING
-from contact_results.directory.run_lock import acquire, in_sole_use, release
+from contact_results.directory.run_lock import in_sole_use
 from contact_results.directory.stop_signals import cleaned_up_when_stopped, stop_signals_held
-
-PAUSES = (0.1, 0.4, 1.6)  # seconds between attempts to replace a file
 
 
 @contextmanager
 def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
     """Yield an empty directory for the files of a run; publish it as `target` on success.
-
-    The directory `target` is locked during the `with` block, so that no other run can use it.
 
     target     directory of the results; missing parents are created
     overwrite  also replace files of the same names that no run of slipstick has written
@@ -36,20 +31,8 @@ def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
     """
     target = Path(os.path.realpath(target))
     _refuse_occupied(target, overwrite)
-    created = create_parents(target)
-
-    def remove_created() -> None:
-        remove_empty(created)
-
-    try:
-        with (
-            cleaned_up_when_stopped(remove_created),
-            in_sole_use(target),
-            files_at_once(target, SUMMARY, RUN_FILES) as staging,
-        ):
-            yield staging
-    finally:
-        remove_created()
+    with files_at_once(target, SUMMARY, RUN_FILES) as staging:
+        yield staging
 
 
 @contextmanager
@@ -57,6 +40,7 @@ def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterato
     """Yield an empty directory; move its files into `target` if the `with` block succeeds.
 
     Existing files of the same names are replaced. If the block fails, the existing files remain.
+    The directory `target` is locked during the block, so that no other process can use it.
 
     target   directory of the results; missing parents are created
     summary  name of the file that is removed first and written last
@@ -67,22 +51,42 @@ def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterato
     target = Path(os.path.realpath(target))
     refuse_files_above(target)
     created = create_parents(target)
+
+    def remove_created() -> None:
+        remove_empty(created)
+
     try:
-        with _staging(target) as staging:
+        with (
+            cleaned_up_when_stopped(remove_created),
+            in_sole_use(target),
+            _staging(target) as staging,
+        ):
             yield staging
             with stop_signals_held():
                 _publish(staging, target, summary, earlier)
     finally:
-        remove_empty(created)
+        remove_created()
 
 
 @contextmanager
 def _staging(target: Path) -> Iterator[Path]:
-    """Provide a hidden, locked directory for new files, and remove it after the `with` block.
+    """Provide a hidden directory for new files, and remove it after the `with` block.
 
-    target  directory into which the files are moved later
+    The hidden directory is inside `target` if `target` exists and is not empty, or if its parent is
+    not writable: `target` may be a mount point or the only writable directory. Otherwise it is next
+    to `target`. Hidden directories of killed runs are removed first.
+
+    target  directory into which the files are moved later, in sole use of this process
     """
-    staging, lock = _create_staging(target)
+    prefix = f".{target.name}.partial-"
+    for left in (*target.parent.glob(f"{prefix}*"), *target.glob(f"{prefix}*")):
+        shutil.rmtree(left, ignore_errors=True)
+    beside = os.access(target.parent, os.W_OK) and not (target.is_dir() and any(target.iterdir()))
+    staging = (target.parent if beside else target) / (prefix + secrets.token_hex(4))
+    try:
+        staging.mkdir()
+    except OSError as error:
+        raise OutputRefused(f"cannot write into {staging.parent}: {error.strerror}") from error
 
     def clean() -> None:
         shutil.rmtree(staging, ignore_errors=True)
@@ -95,7 +99,6 @@ def _staging(target: Path) -> Iterator[Path]:
         raise
     finally:
         clean()
-        release(lock)
 
 
 def _name_file(error: OSError, staging: Path, target: Path) -> None:
@@ -155,49 +158,6 @@ def _is_earlier_run(directory: Path) -> bool:
     return isinstance(record, dict) and record.get("program") == "slipstick"
 
 
-def _create_staging(target: Path) -> tuple[Path, int | None]:
-    """Create and lock a hidden directory for new files; remove the unlocked ones of killed runs.
-
-    The hidden directory is inside `target` if `target` exists and is not empty, or if its parent is
-    not writable: `target` may be a mount point or the only writable directory. Otherwise it is next
-    to `target`.
-
-    Returns the directory and the descriptor of its lock, which is None without locks in the system.
-    """
-    prefix = f".{target.name}.partial-"
-    for place in (target.parent, target):
-        _remove_abandoned(place, prefix)
-    beside = os.access(target.parent, os.W_OK) and not (target.is_dir() and any(target.iterdir()))
-    place = target.parent if beside else target
-    while True:
-        staging = place / (prefix + secrets.token_hex(4))
-        try:
-            staging.mkdir()
-        except OSError as error:
-            raise OutputRefused(f"cannot write into {place}: {error.strerror}") from error
-        lock = acquire(staging, wait=True)
-        if staging.exists():  # another run may have removed it before it was locked
-            return staging, lock
-        release(lock)
-
-
-def _remove_abandoned(place: Path, prefix: str) -> None:
-    """Remove the hidden directories of killed runs, which no process has locked.
-
-    place   directory that contains them
-    prefix  beginning of their names
-    """
-    if not place.is_dir():
-        return
-    for name in os.listdir(place):
-        if not name.startswith(prefix):
-            continue
-        lock = acquire(place / name, wait=False)
-        if lock is not None:
-            shutil.rmtree(place / name, ignore_errors=True)
-            release(lock)
-
-
 def _publish(staging: Path, target: Path, summary: str, earlier: Sequence[str]) -> None:
     """Move the new files into `target`: by one rename if possible, else file by file.
 
@@ -214,7 +174,7 @@ def _publish(staging: Path, target: Path, summary: str, earlier: Sequence[str]) 
             _flush(target.parent)
             return
         except OSError:
-            # Another run created the target, the target is a mount point, or the system is Windows.
+            # Another program created the target, or the target is a mount point.
             if not target.is_dir():
                 raise
     _replace_files(staging, target, summary, earlier)
@@ -231,36 +191,13 @@ def _replace_files(staging: Path, target: Path, summary: str, earlier: Sequence[
     """
     new = {path.name for path in staging.iterdir()}
     ours = summary != SUMMARY or _is_earlier_run(target)
-    lock = acquire(target, wait=True)
-    try:
-        if summary in new:
-            (target / summary).unlink(missing_ok=True)
-        for name in set(earlier) - new if ours else ():
-            (target / name).unlink(missing_ok=True)
-        for name in sorted(new, key=lambda name: (name == summary, name != TIMING, name)):
-            _replace(staging / name, target / name)
-        _flush(target)
-    finally:
-        release(lock)
-
-
-def _replace(new: Path, old: Path) -> None:
-    """Replace the file `old` by the file `new`, with up to four attempts.
-
-    Windows refuses to replace a file that another program has open. Raises OutputRefused after the
-    last attempt.
-    """
-    for pause in (*PAUSES, None):
-        try:
-            os.replace(new, old)
-            return
-        except PermissionError as error:
-            if pause is None:
-                raise OutputRefused(
-                    f"{old} cannot be replaced: {error.strerror}; close the program that has it "
-                    "open, and give the same command again"
-                ) from error
-            time.sleep(pause)
+    if summary in new:
+        (target / summary).unlink(missing_ok=True)
+    for name in set(earlier) - new if ours else ():
+        (target / name).unlink(missing_ok=True)
+    for name in sorted(new, key=lambda name: (name == summary, name != TIMING, name)):
+        os.replace(staging / name, target / name)
+    _flush(target)
 
 
 def _flush(path: Path) -> None:
@@ -268,8 +205,6 @@ def _flush(path: Path) -> None:
 
     They then survive a power failure.
     """
-    if os.name == "nt" and path.is_dir():
-        return  # Windows cannot open a directory
     descriptor = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)
     try:
         os.fsync(descriptor)

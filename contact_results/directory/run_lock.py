@@ -4,6 +4,7 @@ A hidden file is locked and contains the name of the process. The system release
 end of the process. The next process reuses the file of a killed process.
 """
 
+import fcntl
 import os
 import socket
 from collections.abc import Iterator
@@ -13,57 +14,6 @@ from pathlib import Path
 from contact_results.directory.atomic_file import OutputRefused
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 
-# Systems without these flags, such as Windows, have no locks.
-DIRECTORY, NO_LINK, NO_WAITING = (
-    getattr(os, flag, 0) for flag in ("O_DIRECTORY", "O_NOFOLLOW", "O_NONBLOCK")
-)
-
-
-def lock(descriptor: int, *, wait: bool) -> None:
-    """Lock an open file for this process.
-
-    descriptor  file descriptor
-    wait        wait until another process releases the lock
-
-    Raises BlockingIOError if another process has the lock and `wait` is False, and OSError if the
-    system or the file system has no locks.
-    """
-    try:
-        from fcntl import LOCK_EX, LOCK_NB, flock
-    except ImportError as error:
-        raise OSError("this system has no locks") from error
-    flock(descriptor, LOCK_EX | (0 if wait else LOCK_NB))
-
-
-def acquire(directory: Path, *, wait: bool) -> int | None:
-    """Lock a directory for this process and return the descriptor of the lock.
-
-    Returns None if another process has the lock, if the system has no locks, or if the directory is
-    a symbolic link, which another user may have created.
-
-    wait  wait until another process releases the lock
-    """
-    try:
-        descriptor = os.open(directory, os.O_RDONLY | DIRECTORY | NO_LINK)
-    except OSError:
-        return None
-    try:
-        lock(descriptor, wait=wait)
-    except OSError:
-        os.close(descriptor)
-        return None
-    return descriptor
-
-
-def release(descriptor: int | None) -> None:
-    """Release the lock of a directory; do nothing for None.
-
-    descriptor  descriptor of the lock, from `acquire`
-    """
-    if descriptor is not None:
-        os.close(descriptor)
-
-
 LONGEST_NAME = 300
 
 
@@ -72,7 +22,7 @@ def in_sole_use(target: Path) -> Iterator[None]:
     """Lock a directory of results for the duration of the `with` block.
 
     The lock file is in `target`, or next to `target` while `target` does not exist. Without locks
-    in the system, other processes are not excluded.
+    in the file system, other processes are not excluded.
 
     target  directory of the results; its parent exists
 
@@ -114,7 +64,7 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
 
 
 def _lock(path: Path, target: Path) -> int | None:
-    """Create and lock a lock file, and return its descriptor; None if the system has no locks.
+    """Create and lock a lock file, and return its descriptor; None if the file system has no locks.
 
     path    path of the lock file
     target  directory of the results, for messages
@@ -126,7 +76,7 @@ def _lock(path: Path, target: Path) -> int | None:
         if descriptor is None:
             return None
         try:
-            lock(descriptor, wait=False)
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             holder = os.pread(descriptor, LONGEST_NAME, 0).decode(errors="replace").strip()
             os.close(descriptor)
@@ -134,7 +84,7 @@ def _lock(path: Path, target: Path) -> int | None:
                 f"{target} is in use by {holder or 'another process'}; wait for its end, or choose "
                 "another directory with --output"
             ) from None
-        except OSError:  # the system has no locks
+        except OSError:  # the file system has no locks
             os.close(descriptor)
             with suppress(OSError):
                 path.unlink()
@@ -152,9 +102,9 @@ def _opened(path: Path) -> int | None:
 
     A file of another user is opened for reading only.
     """
-    for access in (os.O_RDWR | os.O_CREAT, os.O_RDONLY | NO_WAITING):
+    for access in (os.O_RDWR | os.O_CREAT, os.O_RDONLY | os.O_NONBLOCK):
         with suppress(OSError):
-            return os.open(path, access | NO_LINK, 0o666)
+            return os.open(path, access | os.O_NOFOLLOW, 0o666)
     return None
 
 

@@ -10,10 +10,7 @@ from typing import Any
 
 Handler = Callable[[int, FrameType | None], Any]
 
-# Windows has no hangup.
-STOPS = tuple(
-    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)
-)
+STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 STDERR = 2
 NOTHING_KEPT = "nothing is stored yet: the same command starts from the beginning"
 SHOW_CURSOR = b"\x1b[?25h"  # a progress bar hides it

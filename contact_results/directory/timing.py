@@ -1,7 +1,7 @@
 """`timing.json`: seconds of a run, counters of the solver, machine and versions."""
 
 import json
-import sys
+import resource
 import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -48,7 +48,7 @@ def write_timing(
         "version": program_version(),
         "wall_seconds": stopwatch.wall_seconds,
         "cpu_seconds": stopwatch.cpu_seconds,
-        "peak_memory_bytes": _peak_memory(),
+        "peak_memory_bytes": 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
         "counters": _counters(increments),
         "machine": machine(),
         "libraries": library_versions(),
@@ -70,13 +70,3 @@ def _counters(increments: Iterable[ReportedIncrement]) -> list[dict[str, int | N
         }
         steps.append({"step": number, "increments": len(within), **sums})
     return steps
-
-
-def _peak_memory() -> int | None:
-    """Return the largest memory of this process so far [byte]; None on Windows."""
-    try:
-        import resource
-    except ImportError:  # on Windows
-        return None
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak if sys.platform == "darwin" else 1024 * peak  # macOS counts bytes, Linux kibibytes

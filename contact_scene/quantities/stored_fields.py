@@ -128,11 +128,6 @@ def _state(value: WithFields, own: dict[str, Any]) -> dict[str, Any]:
     return state
 
 
-def stored_bytes(value: WithFields) -> int:
-    """Compute the size of all arrays of a result, in memory or in its file [byte]."""
-    return sum(getattr(array, "nbytes", 0) for array in vars(value).values())
-
-
 class FieldStore:
     """Storage of the results of all increments of one load history, in their order.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import secrets
 from collections.abc import Iterator, Mapping, Sequence
@@ -9,7 +10,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from contact_results.directory.atomic_file import OutputRefused, atomic_file
-from contact_results.directory.run_lock import acquire, release
 from contact_results.directory.stop_signals import stop_signals_held
 from verification.running.records import EARLIER
 from verification.running.report_record import PACKED_SUFFIX, Report, dump_report
@@ -167,8 +167,10 @@ def _remove(directory: Path, names: Sequence[str]) -> None:
 @contextmanager
 def _alone_in(directory: Path) -> Iterator[None]:
     """Lock an output directory for a block; wait while another process writes a report there."""
-    lock = acquire(directory, wait=True)
+    descriptor = os.open(directory, os.O_RDONLY)
     try:
+        with suppress(OSError):  # the file system has no locks
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
         yield
     finally:
-        release(lock)
+        os.close(descriptor)
