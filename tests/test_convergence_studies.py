@@ -23,13 +23,7 @@ from verification.judging.outcome import Status
 from verification.quantities import named_values
 from verification.references import load_reference
 from verification.running.study import Conclusion, Settings
-from verification.studies.refinement.scene_level import FLOOR
-from verification.studies.refinement.study import (
-    SceneStudyOf,
-    domain_study,
-    increments_study,
-    mesh_study,
-)
+from verification.studies.refinement import FLOOR, SceneStudyOf, increments_study, mesh_study
 
 R, W, MU = 18e-3, 1e3, 0.1
 E = 210e9 / 0.91  # contact modulus of a rigid body on steel, or of two bodies of twice the modulus
@@ -138,8 +132,6 @@ SCENES = {
     "smooth Hertz": Scene(PRESSED, SMOOTH, 1e-5),
     # The end of the section leaves 2e-5.
     "smooth Hertz on elements": Scene(PRESSED, SMOOTH, 1e-5, None, solver=FEM, u=2e-5),
-    # 32 elements over the radius leave 2e-4.
-    "section": Scene(PRESSED, {"approach": HERTZ.approach}, 1e-5, 32, domain_study, FEM, 2e-4),
     "edge-singular flat punch": Scene(
         text('shape = "flat_punch"\nradius = "0.4 mm"', RIGID, STEEL),
         {"approach": PUNCH.approach, "contact_radius": 0.4e-3}, 0.1,
@@ -261,8 +253,7 @@ def test_a_refused_level_is_shown_with_its_reason(tmp_path: Path) -> None:
     [
         (["mesh", "SCENE", "--cells", "16"], "more --cells or fewer levels"),
         (["mesh", "SCENE", "--step", "2"], "step 2 was asked for, and the scene has 1"),
-        (["domain", "SCENE", "--solver", "semi-analytical"], "for study domain"),
-        (["domain", "SCENE", "--set", "fem_reference.box=6"], "larger fem_reference.box"),
+        (["mesh", "SCENE", "--solver", "radial"], "for study mesh"),
         (["mesh"], "needs a scene file"),
     ],
 )

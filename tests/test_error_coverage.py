@@ -19,8 +19,17 @@ from verification.judging.outcome import Status
 from verification.problems.drawn.drawing import APPROACH, Truth
 from verification.problems.problem import Reference, ReferenceKind
 from verification.running.study import CaseRecord, Row, Settings
-from verification.studies.error_coverage.case import Coverage, Share, judged
-from verification.studies.error_coverage.study import ASKED, ENOUGH, REQUESTS, TRUE, cases, conclude
+from verification.studies.error_coverage import (
+    ASKED,
+    ENOUGH,
+    REQUESTS,
+    TRUE,
+    Coverage,
+    Share,
+    cases,
+    conclude,
+    coverage_row,
+)
 
 SETTINGS = Settings(Level.FULL)
 
@@ -34,7 +43,7 @@ def row(
     """Judge an approach of 2 by its relative errors."""
     truth = Truth(1, APPROACH, Reference(2.0, ReferenceKind.CLOSED_FORM, "test", 2 * uncertain))
     error = StatedError(error=2 * stated, parts={"cells": 2 * stated}, status=status)
-    return judged(truth, 2.0 * (1 + wrong), error)
+    return coverage_row(truth, 2.0 * (1 + wrong), error)
 
 
 def coverage(rows: Sequence[Row]) -> Coverage:

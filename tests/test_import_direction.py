@@ -188,7 +188,6 @@ ORDERS = {
         *("cases", "defects", "peers", "challenge", "adapters", "studies"),
         *("showcase", "report", "judged_by_pytest"),
     ),
-    "verification.studies.refinement": ("scene_level", "study"),
     "verification.studies.stability": ("cell", "pose", "judged", "study"),
 }
 

@@ -20,11 +20,14 @@ from verification.judging.outcome import Status
 from verification.peers.environment import FAILED, PEERS, made_environment
 from verification.running.cold_cache import CACHE, cold_cache
 from verification.running.study import CaseRecord, Conclusion, Settings, parameters_of
-from verification.studies.work_precision.setting import CONTACTS, OWN, Method, PrecisionCase
-from verification.studies.work_precision.study import (
+from verification.studies.work_precision import (
+    CONTACTS,
+    OWN,
     STUDY,
     TARGETS,
+    Method,
     Point,
+    PrecisionCase,
     cases,
     cheapest,
     dependable,

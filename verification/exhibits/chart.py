@@ -198,9 +198,6 @@ def percent(part: float) -> str:
     return f"{plain(100 * part, 2)} %"
 
 
-NOT_REACHED = "–"
-
-
 EXTRAPOLATED = "≈"  # marks an extrapolated cost
 
 

@@ -30,7 +30,7 @@ from verification.running.case_pool import CaseStore, Workers
 from verification.running.provenance import provenance
 from verification.running.study import CaseRecord, Settings, Study, StudyRecord, row_files
 from verification.studies.catalogue import SCENE_STUDIES, STUDIES
-from verification.studies.refinement.scene_level import CELLS, CannotRefine
+from verification.studies.refinement import CELLS, METHODS, CannotRefine
 
 LEAST_CELLS = 16
 LEAST_LEVELS, MAX_LEVELS = 4, 10
@@ -64,7 +64,7 @@ def study(
             "--solver",
             metavar="NAME",
             help="Solver of SCENE: 'semi-analytical', or finite elements, 'fem' with a penalty and "
-            "'fem-complementarity' without one. Default: the first solver of the study.",
+            "'fem-complementarity' without one. Default: 'semi-analytical'.",
         ),
     ] = None,
     levels: Annotated[
@@ -108,7 +108,7 @@ def study(
     """
     if list_studies:
         rows = [(known.name, known.title) for known in STUDIES.values()]
-        rows += [(f"{known} SCENE", study.title) for known, study in SCENE_STUDIES.items()]
+        rows += [(f"{known} SCENE", title) for known, (title, _) in SCENE_STUDIES.items()]
         print_table(("study", "title"), rows)
         return
     known = [*STUDIES, *SCENE_STUDIES]
@@ -205,15 +205,15 @@ def _scene_study(
 
     Raises BadParameter if the options do not fit the study, or if the scene cannot be refined.
     """
-    known = SCENE_STUDIES[name]
-    chosen = known.solvers[0] if solver is None else solver.value
-    if chosen not in known.solvers:
-        able = " or ".join(known.solvers)
+    chosen = CELLS if solver is None else solver.value
+    if chosen not in (CELLS, *METHODS):
+        able = " or ".join((CELLS, *METHODS))
         raise typer.BadParameter(f"got --solver {solver}, expected {able} for study {name}")
     if chosen == CELLS:
         _refuse_odd(settings.cells)
     try:
-        study = known.of(scene, overrides, step, chosen)
+        _, study_of = SCENE_STUDIES[name]
+        study = study_of(scene, overrides, step, chosen)
         study.cases(settings)
     except CannotRefine as error:
         raise typer.BadParameter(str(error)) from None

@@ -1,2 +1,0 @@
-"""Convergence studies of a user's scene: limit under refinement, its uncertainty,
-remaining error."""

@@ -1,2 +1,0 @@
-"""Study of the cost of accuracy: error against CPU time, with one curve for each
-solution method."""
