@@ -141,7 +141,7 @@ class ContactModel:
         """
         nx, ny = self.window.cells
         spring = self.springs[0] / self.domain.images
-        zz = self.coefficients.zz[: nx // 4 + 1, : ny // 4 + 1] - spring
+        zz = self.coefficients["zz"][: nx // 4 + 1, : ny // 4 + 1] - spring
         return modulus_of(zz, self.grid.spacing)
 
     def operator(self, shape: Pair) -> DisplacementOperator:

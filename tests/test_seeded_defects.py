@@ -5,7 +5,6 @@ from typing import Any
 
 import pytest
 
-from semi_analytical.influence.layered_response import Components
 from verification.cases.catalogue import CASES
 from verification.defects.defect import planted, product_modules
 from verification.defects.registry import DEFECTS
@@ -54,7 +53,7 @@ def namespaces() -> dict[tuple[str, str], Any]:
             if isinstance(value, type) and value.__module__ == module.__name__:
                 place = f"{module.__name__}.{name}"
                 found |= {(place, inner): held for inner, held in vars(value).items()}
-            if isinstance(value, type | FunctionType | Components):
+            if isinstance(value, type | FunctionType):
                 found[module.__name__, name] = value
     return found
 

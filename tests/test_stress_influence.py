@@ -155,9 +155,7 @@ def test_closed_form_carries_the_traction_at_the_surface():
 def test_closed_form_moves_the_surface_like_the_surface_coefficients():
     surface = HalfSpaceCoefficients(RectangleIntegrals(DX, DY, (3, 2)), 1.7, 0.3)
     moved = under_cell(2 * DX, DY, 0.0, 0.3)[:3]
-    xx, yy, zz, xy, zx, zy = (
-        getattr(surface, name)[2, 1] for name in ("xx", "yy", "zz", "xy", "zx", "zy")
-    )
+    xx, yy, zz, xy, zx, zy = (surface[name][2, 1] for name in ("xx", "yy", "zz", "xy", "zx", "zy"))
     expected = [[xx, xy, -zx], [xy, yy, -zy], [zx, zy, zz]]
     np.testing.assert_allclose(moved, expected, rtol=1e-13)
 

@@ -6,17 +6,17 @@ correction adds these displacements to those of tractions that are uniform in ea
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain
 
 import numpy as np
 
 from contact_scene.array_types import Field, Indices
-from semi_analytical.edge.kernels import PARTS, REACH, EdgeKernels, part_centres, spectra_of
+from semi_analytical.edge.kernels import PARTS, REACH, EdgeKernels, part_centres
 from semi_analytical.operator.domain import WINDOW, Pair, ReducedDomain
 from semi_analytical.operator.operator import Array, Response, response
-from semi_analytical.operator.spectra import KernelSpectrum
+from semi_analytical.operator.spectra import kernel_spectrum
 from semi_analytical.operator.transforms import Convolutions, Transforms
 
 # Sign and kernels of a component: rows are displacements, columns tractions.
@@ -144,7 +144,6 @@ class EdgeOperator:
         kernels: Matrix,
         shape: Pair,
         counter: Convolutions,
-        known: Mapping[str, KernelSpectrum] | None = None,
         domain: ReducedDomain = WINDOW,
     ) -> None:
         """Compute the Fourier spectra of the slope kernels and the displacement tables of the edge
@@ -154,8 +153,6 @@ class EdgeOperator:
                  component
         shape    number of cells of the domain along x and y
         counter  counter of convolutions, which a call increases
-        known    spectra of even components of the influence coefficients, which need no new
-                 transform
         domain   domain of all fields; a reduced domain is for pressures only
         """
         self._transforms = Transforms(shape, ReducedDomain(domain.mirrors), counter)
@@ -167,8 +164,12 @@ class EdgeOperator:
         self._components: dict[str, Sequence[Response]] = {}
         for _, of in chain.from_iterable(kernels):
             if of.component not in self._components:
-                spectrum = known.get(of.component) if known else None
-                moments = spectra_of(of, self._transforms.reach, spectrum)
+                (s_x, s_y), reach = of.parity, self._transforms.reach
+                parities = (-s_x, s_y), (s_x, -s_y)
+                moments = [
+                    kernel_spectrum(moment, parity, reach)
+                    for moment, parity in zip(of.moments, parities, strict=True)
+                ]
                 pairs = zip(("xz", "yz"), moments, strict=True)
                 self._components[of.component] = (
                     [response(self._transforms, *pair) for pair in pairs] if reduced else moments

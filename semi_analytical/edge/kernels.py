@@ -13,13 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from contact_scene.array_types import Field
-from semi_analytical.influence.coefficients import InfluenceCoefficients
-from semi_analytical.operator.spectra import (
-    KernelSpectrum,
-    even_transform,
-    mixed_transform,
-    odd_transform,
-)
+from semi_analytical.influence.coefficients import PARITY, InfluenceCoefficients
 
 PARTS = 11
 # Distance in cells up to which remainders cause displacements.
@@ -29,16 +23,6 @@ REACH = 2
 NEAR = 8
 # Number of offsets of influence coefficients at the spacing of subcells.
 PART_OFFSETS = NEAR * PARTS + PARTS // 2 + 1
-
-# Parity along x and y of each component of the influence coefficients.
-PARITY = {
-    "zz": (1, 1),
-    "xx": (1, 1),
-    "yy": (1, 1),
-    "xy": (-1, -1),
-    "zx": (-1, 1),
-    "zy": (1, -1),
-}
 
 
 def part_centres() -> Field:
@@ -80,7 +64,7 @@ class EdgeKernels:
 
         Entry (i, j) belongs to the offset (i, j) >= 0. The tractions x and y are in cells.
         """
-        A = getattr(self.cells, self.component)
+        A = self.cells[self.component]
         moments = np.stack([-_slope(A, axis, self.parity[axis]) / 12 for axis in (0, 1)])
         nx, ny = (min(n, NEAR + 1) for n in A.shape)
         moments[:, :nx, :ny] = self.near_moments[:, :nx, :ny]
@@ -93,7 +77,7 @@ class EdgeKernels:
 
         The shape is (2, NEAR + 1, NEAR + 1).
         """
-        K = getattr(self.parts, self.component)[:PART_OFFSETS, :PART_OFFSETS]
+        K = self.parts[self.component][:PART_OFFSETS, :PART_OFFSETS]
         x, one = part_centres(), np.ones(PARTS)
         along_x, along_y = (_subcell_sums(x, parity) for parity in self.parity)
         across_x, across_y = (_subcell_sums(one, parity) for parity in self.parity)
@@ -107,7 +91,7 @@ class EdgeKernels:
 
         The shape is (2 REACH + 1, 2 REACH + 1, PARTS, PARTS), for cell offsets -REACH … REACH.
         """
-        K = getattr(self.parts, self.component)
+        K = self.parts[self.component]
         i = PARTS * np.arange(-REACH, REACH + 1)[:, None] - np.arange(PARTS) + PARTS // 2
         sign_x, sign_y = (np.where(i < 0, parity, 1) for parity in self.parity)
         near = K[np.abs(i)[:, None, :, None], np.abs(i)[:, None]]
@@ -145,97 +129,3 @@ def _slope(values: Field, axis: int, parity: int) -> Field:
     slope = np.gradient(v, axis=0)
     slope[2:-2] = (8 * (v[3:-1] - v[1:-3]) - (v[4:] - v[:-4])) / 12
     return np.moveaxis(slope[2:], 0, axis)
-
-
-def spectra_of(
-    of: EdgeKernels, reach: tuple[slice, slice], known: KernelSpectrum | None = None
-) -> tuple[KernelSpectrum, KernelSpectrum]:
-    """Compute the Fourier spectra of the displacement kernels (moments) of slopes along x and y.
-
-    The spectra are -i times the real result if the component has the same parity along x and y.
-
-    of     kernels of one component
-    reach  slices of the offsets that are transformed
-    known  spectrum of the influence coefficients of an even component; saves the transforms
-    """
-    if known is not None:
-        return _by_differences(of, known, 0), _by_differences(of, known, 1)
-    x, y = of.parity
-    along_x, along_y = (moment[reach] for moment in of.moments)
-    return _spectrum(along_x, (-x, y)), _spectrum(along_y, (x, -y))
-
-
-def _spectrum(moment: Field, parity: tuple[int, int]) -> KernelSpectrum:
-    """Compute the real Fourier spectrum of a displacement kernel from its parity along x and y.
-
-    The kernel is a first moment of influence coefficients. The spectrum is -i times the result if
-    the two parities differ.
-
-    moment  kernel at offsets >= 0
-    parity  parity along x and y: 1 even, -1 odd
-    """
-    if parity == (1, 1):
-        return even_transform(moment)
-    if parity == (-1, -1):
-        return odd_transform(moment)
-    return mixed_transform(moment, odd_axis=parity.index(-1))
-
-
-def _by_differences(of: EdgeKernels, known: KernelSpectrum, axis: int) -> KernelSpectrum:
-    """Compute the spectrum of a first moment from the known spectrum of the influence coefficients.
-
-    The moment is the displacement by a traction that is linear in the cell. Far from the cell
-    moments are differences of the coefficients, so that their spectrum is a known factor times that
-    of the coefficients. The transform of the near moments minus these differences is added.
-
-    of     kernels of one component
-    known  spectrum of the influence coefficients
-    axis   direction of the slope: 0 for x, 1 for y
-    """
-    periods = known.quarter.shape[1] - 1, known.quarter.shape[0] - 1
-    near = of.near_moments[axis][tuple(slice(m + 1) for m in periods)]
-    values = getattr(of.cells, of.component)
-    along = values[:, : near.shape[1]] if axis == 0 else values[: len(near)].T
-    far = _differences(along, periods[axis], near.shape[axis])
-    correction = near - (far if axis == 0 else far.T)
-    by_x, by_y = (
-        _waves(np.sin if side == axis else np.cos, m, n)
-        for side, (m, n) in enumerate(zip(periods, near.shape, strict=True))
-    )
-    angle = np.pi / periods[axis] * np.arange(periods[axis] + 1)
-    symbol = (8 * np.sin(angle) - np.sin(2 * angle)) / 72
-    quarter = known.quarter * (symbol[:, None] if axis else symbol)
-    quarter += by_y @ correction.T @ by_x.T
-    return KernelSpectrum(quarter, 1 if axis else -1)
-
-
-def _differences(values: Field, m: int, count: int) -> Field:
-    """Approximate first moments of influence coefficients by fourth-order differences, along the
-    first axis.
-
-    The coefficients are continued periodically.
-
-    values  influence coefficients at offsets >= 0 along the first axis
-    m       half the period
-    count   number of offsets of the result (count, …)
-    """
-    far = np.zeros((count, *values.shape[1:]))
-    for step, weight in ((1, 8), (-1, -8), (2, -1), (-2, 1)):
-        far -= weight / 144 * values[m - np.abs(m - np.abs(np.arange(count) + step))]
-    return far
-
-
-def _waves(wave: np.ufunc, m: int, count: int) -> Field:
-    """Return the matrix of a cosine or sine transform over the first offsets of a period, (m + 1,
-    count).
-
-    Offsets strictly between 0 and m have the factor 2, because they occur with both signs.
-
-    wave   sine or cosine
-    m      half the period
-    count  number of offsets
-    """
-    values = wave(np.pi / m * np.arange(2 * m))
-    waves = values[np.outer(np.arange(m + 1), np.arange(count)) % (2 * m)]
-    waves[:, 1:m] *= 2
-    return np.asarray(waves)

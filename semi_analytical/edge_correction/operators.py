@@ -10,9 +10,10 @@ import numpy as np
 from contact_scene.array_types import Mask
 from semi_analytical.edge.displacement import EdgeOperator
 from semi_analytical.edge.film import FilmLaw, film_law
-from semi_analytical.edge.kernels import PARITY, PART_OFFSETS, PARTS, EdgeKernels
+from semi_analytical.edge.kernels import PART_OFFSETS, PARTS, EdgeKernels
 from semi_analytical.edge.shape import depth_of
 from semi_analytical.influence.bodies import influence_coefficients
+from semi_analytical.influence.coefficients import PARITY
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
@@ -70,11 +71,8 @@ class EdgeOperators:
     def _operator(self, rows: Matrix, domain: ReducedDomain) -> EdgeOperator:
         model = self.model
         kernels = [[(sign, self._kernels[name]) for sign, name in row] for row in rows]
-        known = {}
-        if rows is not SHEAR:
-            known["zz"] = model.operator(model.grid.cells).spectrum("zz")
         cells = domain.cells(model.window.cells)
-        return EdgeOperator(kernels, cells, model.convolutions, known, domain)
+        return EdgeOperator(kernels, cells, model.convolutions, domain)
 
     @cached_property
     def _kernels(self) -> dict[str, EdgeKernels]:

@@ -102,57 +102,16 @@ class HalfSpaceCoefficients:
     shear_modulus: float
     poisson_ratio: float
 
-    @property
-    def _c(self) -> float:
-        return 1 / (2 * pi * self.shear_modulus)
-
-    @property
-    def zz(self) -> Field:
-        """Normal displacement u_z by a unit pressure on one cell, at all cell offsets (nx, ny).
-
-        The unit is [length^3/force].
-        """
-        return self._c * (1 - self.poisson_ratio) * (self.integrals.xx_r3 + self.integrals.yy_r3)
-
-    @property
-    def xx(self) -> Field:
-        """Tangential displacement u_x by a unit shear q_x on one cell, at all cell offsets (nx,
-        ny).
-
-        The unit is [length^3/force].
-        """
-        return self._c * (self.integrals.xx_r3 + (1 - self.poisson_ratio) * self.integrals.yy_r3)
-
-    @property
-    def yy(self) -> Field:
-        """Tangential displacement u_y by a unit shear q_y on one cell, at all cell offsets (nx,
-        ny).
-
-        The unit is [length^3/force].
-        """
-        return self._c * (self.integrals.yy_r3 + (1 - self.poisson_ratio) * self.integrals.xx_r3)
-
-    @property
-    def xy(self) -> Field:
-        """Tangential displacement u_x by a unit shear q_y on one cell, at all cell offsets (nx,
-        ny).
-
-        The unit is [length^3/force].
-        """
-        return self._c * self.poisson_ratio * self.integrals.xy_r3
-
-    @property
-    def zx(self) -> Field:
-        """Normal displacement u_z by a unit shear q_x on one cell, at all cell offsets (nx, ny).
-
-        The unit is [length^3/force].
-        """
-        return self._c * (0.5 - self.poisson_ratio) * self.integrals.x_r2
-
-    @property
-    def zy(self) -> Field:
-        """Normal displacement u_z by a unit shear q_y on one cell, at all cell offsets (nx, ny).
-
-        The unit is [length^3/force].
-        """
-        return self._c * (0.5 - self.poisson_ratio) * self.integrals.y_r2
+    def __getitem__(self, component: str) -> Field:
+        """Return one component at all cell offsets (nx, ny) [length^3/force]."""
+        nu = self.poisson_ratio
+        integrals = {
+            "zz": {"xx_r3": 1 - nu, "yy_r3": 1 - nu},
+            "xx": {"xx_r3": 1.0, "yy_r3": 1 - nu},
+            "yy": {"yy_r3": 1.0, "xx_r3": 1 - nu},
+            "xy": {"xy_r3": nu},
+            "zx": {"x_r2": 0.5 - nu},
+            "zy": {"y_r2": 0.5 - nu},
+        }[component]
+        total = sum(factor * getattr(self.integrals, name) for name, factor in integrals.items())
+        return np.asarray(total / (2 * pi * self.shear_modulus))

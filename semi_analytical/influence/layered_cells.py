@@ -1,16 +1,22 @@
-"""Integrals of the point response of a layered body over the cells of a grid: influence
-coefficients."""
+"""Integrals over the cells of a grid of the response of a layered body to a point force.
+
+The integration in real space has neither aliasing nor periodic images. Cells near the singularity
+of the response are divided into boxes that are small compared with their distance from it, and
+integrated by Gauss points. On other cells the response at cell centres is averaged.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from scipy.ndimage import correlate1d
 
 from contact_scene.array_types import Field, Indices
-from semi_analytical.frf.stack import Stack
-from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
-from semi_analytical.influence.layered_boxes import Boxes, boxes_around_core, boxes_of_cells
-from semi_analytical.influence.layered_response import BATCH, Components, point_response
-from semi_analytical.influence.radial_table import RadialTable
 
+Response = Callable[[Field, Field], Field]
+
+# Number of points evaluated at a time (some megabytes of work space).
+BATCH = 1 << 16
 # Cell average from the values at the centre and at four neighbours on each side; exact for
 # polynomials of degree nine.
 CELL_AVERAGE = (
@@ -20,60 +26,71 @@ CELL_AVERAGE = (
 MARGIN = len(CELL_AVERAGE) // 2
 # Distance in cells beyond which the nine-point average of 1/r has a relative error below 4e-14.
 FAR = 32
+# Least distance of a box from the singularity over its half side. For a function analytic except
+# there, POINTS Gauss points have the relative error (4 + sqrt 15)^(-2 POINTS) = 1e-18. The margin
+# is for oscillating responses.
+CLEAR = 4.0
+POINTS = 10
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(POINTS)
+NODES_X, NODES_Y = (grid.ravel() for grid in np.meshgrid(NODES, NODES, indexing="ij"))
+AREAS = np.outer(WEIGHTS, WEIGHTS).ravel()
+AT_ONCE = BATCH // 4 // POINTS**2  # number of boxes
+QUARTERS = np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
 
 
 def cell_integrals(
-    table: RadialTable,
-    stack: Stack,
-    components: Components,
+    response: Response,
+    parities: Sequence[tuple[int, int]],
     spacing: tuple[float, float],
     shape: tuple[int, int],
+    clearance: float = 0.0,
 ) -> Field:
-    """Integrate the point response of a layered body over the cells at all offsets i < nx, j < ny.
+    """Integrate components of a response over the cells at all offsets i < nx, j < ny.
 
-    The result has the shape (components, nx, ny).
+    The result has the shape (components, nx, ny). Without a clearance the integral over the cell at
+    the origin, which contains the singularity, is not computed.
 
-    table       point response up to MARGIN cells beyond the window
-    components  displacement-traction pairs to be integrated
-    spacing     cell sides [length]
-    shape       number of offsets along x and y
+    response   function of x and y relative to the force that returns (components, *x.shape)
+    parities   parity of each component along x and y: 1 even, -1 odd
+    spacing    cell sides [length]
+    shape      number of offsets along x and y
+    clearance  height of the singularity above the origin [length]
     """
-    result = _averaged(table, components, spacing, shape)
-    cells = _near_cells(spacing, shape)
-    result[:, cells[:, 0], cells[:, 1]] = _near(table, components, spacing, cells)
-    result[:, 0, 0] = _loaded_cell(table, stack, components, spacing)
-    for component, (parity_x, parity_y) in zip(result, components.parity, strict=True):
+    result = _averaged(response, parities, spacing, shape)
+    radius = FAR * max(spacing)
+    i, j = (np.arange(min(n, int(radius / d) + 1)) for n, d in zip(shape, spacing, strict=True))
+    distance = np.hypot(np.hypot((i * spacing[0])[:, None], j * spacing[1]), clearance)
+    cells = np.argwhere((distance < radius) & (distance > 0))
+    result[:, cells[:, 0], cells[:, 1]] = integrals_near(response, cells, spacing, clearance)
+    for component, (along_x, along_y) in zip(result, parities, strict=True):
         # Odd components are exactly zero on their symmetry line.
-        if parity_x < 0:
+        if along_x < 0:
             component[0, :] = 0
-        if parity_y < 0:
+        if along_y < 0:
             component[:, 0] = 0
     return result
 
 
 def _averaged(
-    table: RadialTable,
-    components: Components,
+    response: Response,
+    parities: Sequence[tuple[int, int]],
     spacing: tuple[float, float],
     shape: tuple[int, int],
 ) -> Field:
-    """Integrate the point response over all cells from nine points per cell and direction.
+    """Average the response at cell centres over each cell, times the cell area.
 
-    The result (components, nx, ny) is accurate only for cells far from the origin.
+    The result (components, nx, ny) is accurate only for cells far from the singularity.
     """
-    x = np.arange(shape[0] + MARGIN) * spacing[0]
-    y = np.arange(shape[1] + MARGIN) * spacing[1]
-    points = np.empty((len(components.names), len(x), len(y)))
+    x, y = ((np.arange(n + MARGIN) * d) for n, d in zip(shape, spacing, strict=True))
+    points = np.empty((len(parities), len(x), len(y)))
     rows = max(1, BATCH // len(y))
     for start in range(0, len(x), rows):
-        X, Y = np.broadcast_arrays(x[start : start + rows, None], y)
-        X = np.where((X == 0) & (Y == 0), spacing[0], X)  # see `_loaded_cell`
-        points[:, start : start + rows] = point_response(table, components, X, Y)
-    result = np.empty((len(components.names), *shape))
-    area = spacing[0] * spacing[1]
-    for k, (parity_x, parity_y) in enumerate(components.parity):
-        averaged = _averaged_along(_averaged_along(points[k], 0, parity_x), 1, parity_y)
-        np.multiply(averaged, area, out=result[k])
+        some = slice(start, start + rows)
+        points[:, some] = response(*np.broadcast_arrays(x[some, None], y))
+    points *= spacing[0] * spacing[1]
+    result = np.empty((len(parities), *shape))
+    for averaged, field, (along_x, along_y) in zip(result, points, parities, strict=True):
+        averaged[:] = _averaged_along(_averaged_along(field, 0, along_x), 1, along_y)
     return result
 
 
@@ -85,80 +102,34 @@ def _averaged_along(field: Field, axis: int, parity: int) -> Field:
     parity  parity of the response along the axis
     """
     mirrored = parity * np.flip(np.take(field, range(1, MARGIN + 1), axis), axis)
-    whole = np.concatenate([mirrored, field], axis)
-    averaged = correlate1d(whole, CELL_AVERAGE, axis)
-    return np.take(averaged, range(MARGIN, whole.shape[axis] - MARGIN), axis)
+    averaged = correlate1d(np.concatenate([mirrored, field], axis), CELL_AVERAGE, axis)
+    return np.take(averaged, range(MARGIN, averaged.shape[axis] - MARGIN), axis)
 
 
-def _near_cells(spacing: tuple[float, float], shape: tuple[int, int]) -> Indices:
-    """Return the indices (i, j) of the cells closer to the origin than FAR, without the loaded
-    cell.
+def integrals_near(
+    response: Response, cells: Indices, spacing: tuple[float, float], clearance: float
+) -> Any:
+    """Integrate a response over cells near its singularity (components, n); 0 without cells.
 
-    FAR is in units of the longer cell side.
+    Cells are divided into four boxes until each box is small compared with its distance from the
+    singularity.
+
+    cells      offsets (i, j) of the cells (n, 2)
+    clearance  height of the singularity above the origin [length]
     """
-    radius = FAR * max(spacing)
-    i = np.arange(min(shape[0], int(radius / spacing[0]) + 1))
-    j = np.arange(min(shape[1], int(radius / spacing[1]) + 1))
-    distance = np.hypot((i * spacing[0])[:, None], j * spacing[1])
-    cells = np.argwhere(distance < radius)
-    return cells[cells.any(axis=1)]
-
-
-def _near(
-    table: RadialTable,
-    components: Components,
-    spacing: tuple[float, float],
-    cells: Indices,
-) -> Field:
-    """Integrate the point response over cells near the loaded cell by Gauss quadrature.
-
-    The result has the shape (components, cells).
-
-    table       radial functions of the point response
-    components  displacement-traction pairs to be integrated
-    spacing     cell sides [length]
-    cells       indices (i, j) of the cells (cells, 2)
-    """
-    result = np.zeros((len(components.names), len(cells)))
-    for start in range(0, len(cells), BATCH):
-        of_batch = result[:, start : start + BATCH]
-        for part in boxes_of_cells(spacing, cells[start : start + BATCH]).batches(BATCH):
-            integrals = _integrals(table, components, part)
-            for total, integral in zip(of_batch, integrals, strict=True):
-                total += np.bincount(part.cell, integral, len(total))
-    return result
-
-
-def _loaded_cell(
-    table: RadialTable, stack: Stack, components: Components, spacing: tuple[float, float]
-) -> Field:
-    """Integrate the point response over the loaded cell; shape (components,).
-
-    Near the origin, within the first panel of the table, the closed form of the outer material
-    contains the singularity. The rest of the cell is divided into boxes.
-    """
-    (core_x, core_y), boxes = boxes_around_core(spacing, table.core)
-    quadrant = Boxes.single(core_x / 2, core_y / 2, core_x / 2, core_y / 2)
-    result = 4 * _integrals(table.remainder(), components, quadrant)[:, 0]
-    for part in boxes.batches(BATCH):
-        result += 4 * _integrals(table, components, part).sum(axis=1)
-    core = HalfSpaceCoefficients(RectangleIntegrals(2 * core_x, 2 * core_y, (1, 1)), *stack.outer)
-    for k, (name, parity) in enumerate(zip(components.names, components.parity, strict=True)):
-        # Odd components are zero at the loaded cell; four times a quadrant would be wrong.
-        result[k] = result[k] + getattr(core, name)[0, 0] if parity == (1, 1) else 0
-    return result
-
-
-def _integrals(table: RadialTable, components: Components, boxes: Boxes) -> Field:
-    """Integrate the point response of a layered body over boxes by Gauss quadrature.
-
-    The result has the shape (components, boxes).
-
-    table       radial functions of the point response
-    components  displacement-traction pairs to be integrated
-    boxes       integration rectangles
-    """
-    x, y, weight = boxes.gauss_points()
-    values = point_response(table, components, x, y)
-    integrals: Field = np.einsum("fbp,bp->fb", values, weight)
-    return integrals
+    half, centres, cell = np.array(spacing) / 2, cells * np.array(spacing), np.arange(len(cells))
+    total: Any = 0.0
+    while len(cell):
+        distance = np.hypot(np.hypot(centres[:, 0], centres[:, 1]), clearance)
+        large = CLEAR * np.max(half) > distance
+        boxes, of_boxes = centres[~large], cell[~large]
+        for start in range(0, len(boxes), AT_ONCE):
+            x, y = boxes[start : start + AT_ONCE].T[..., None]
+            values = response(x + half[0] * NODES_X, y + half[1] * NODES_Y)
+            integrals = values @ (half[0] * half[1] * AREAS)
+            at = of_boxes[start : start + AT_ONCE]
+            total = total + np.stack([np.bincount(at, one, len(cells)) for one in integrals])
+        half = half / 2
+        centres = (centres[large][:, None] + half * QUARTERS).reshape(-1, 2)
+        cell = np.repeat(cell[large], len(QUARTERS))
+    return total

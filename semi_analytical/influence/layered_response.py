@@ -1,64 +1,82 @@
-"""Surface displacement of a layered body at a point by unit forces at the origin."""
+"""Surface displacement of a layered body at a point by unit forces at the origin.
 
-from collections.abc import Callable
-from typing import NamedTuple
+The response is that of a half-space of the outermost material plus a remainder by the layers. With
+the difference of the two surface FRFs (frequency response functions) the remainder is
+
+    zz    K0 = 1/2pi  int  C22 J0(alpha r) alpha d alpha,
+    mean  P  = 1/4pi  int (C11 + Csh) J0(alpha r) alpha d alpha,
+    twist Q  = 1/4pi  int (C11 - Csh) J2(alpha r) alpha d alpha,
+    cross C  = 1/2pi  int  C12 J1(alpha r) alpha d alpha,
+
+with u_z = K0 p, u_x = (P - cos 2phi Q) q_x - sin 2phi Q q_y, u_z = cos phi C q_x.
+"""
+
+from math import pi
 
 import numpy as np
+from scipy.special import j0, j1
 
-from contact_scene.array_types import Field
-from semi_analytical.influence.radial_table import RadialTable
+from contact_scene.array_types import Array, Field
+from semi_analytical.frf.stack import HalfSpace, Stack
+from semi_analytical.frf.surface import remainder_scalars
+from semi_analytical.influence.radial_table import RadialTable, tabulate
 
-# Number of points evaluated at a time (some megabytes of work space).
-BATCH = 1 << 16
 
+def remainder_table(stack: Stack, reach: float) -> RadialTable:
+    """Tabulate the remainder (zz, mean, twist, cross) of a layered body up to a distance.
 
-class Components(NamedTuple):
-    """Displacement-traction pairs whose point response depends on the same radial functions.
+    Its nearest singularity is the image of the force in the first interface, at twice the
+    thickness of the outermost layer.
 
-    names   names as in InfluenceCoefficients, e.g. "zz"
-    radial  columns of the radial table
-    parity  parity of each pair along x and y: 1 even, -1 odd
-    turned  function of the radial functions (n, columns), cos phi and sin phi that returns the
-            response (len(names), n) in the axes x, y
+    reach  largest distance from the force [length]
     """
 
-    names: tuple[str, ...]
-    radial: slice
-    parity: tuple[tuple[int, int], ...]
-    turned: Callable[[Field, Field, Field], Field]
+    def transforms(r: Array, alpha: Array, weight: Array) -> Array:
+        c11, c12, c22, csh = alpha * weight / (4 * pi) * remainder_scalars(stack, alpha)
+        phase = np.outer(r, alpha)
+        bessel0, bessel1 = j0(phase), j1(phase)
+        bessel2 = 2 * bessel1 / phase - bessel0
+        zz, mean = bessel0 @ (2 * c22), bessel0 @ (c11 + csh)
+        return np.stack([zz, mean, bessel2 @ (c11 - csh), bessel1 @ (2 * c12)], axis=1)
+
+    return RadialTable(*tabulate(transforms, 2 * stack.layers[0].thickness, reach))
 
 
-def _normal(radial: Field, cos: Field, sin: Field) -> Field:
-    return radial.T
+def half_space_response(material: HalfSpace) -> Array:
+    """Return r times the radial functions (zz, mean, twist, cross) of a homogeneous half-space
+    (4,).
+
+    The products are constants. r is the distance from a point force on the surface.
+    """
+    G, nu = material
+    return np.array([2 - 2 * nu, 2 - nu, -nu, 1 - 2 * nu]) / (4 * pi * G)
 
 
-def _tangential(radial: Field, cos: Field, sin: Field) -> Field:
-    mean, twist = radial.T
+def point_response(
+    component: str, remainder: RadialTable, half_space: Array, x: Field, y: Field
+) -> Field:
+    """Compute the surface displacement at points (x, y) by a unit force at the origin
+    [length/force].
+
+    At the origin the part of the half-space is not defined; a finite number is returned.
+
+    component   displacement and force, e.g. "zx"
+    remainder   table of the remainder by the layers
+    half_space  r times the response of the half-space (4,); zeros for the remainder alone
+    returns     shape (1, *x.shape)
+    """
+    r = np.hypot(x, y)
+    away = np.where(r > 0, r, 1.0)
+    cos, sin = np.where(r > 0, x / away, 1.0), y / away
+    functions = remainder(r.ravel()) + half_space[:, None] / away.ravel()
+    zz, mean, twist, cross = functions.reshape(4, *r.shape)
     along = (cos - sin) * (cos + sin) * twist
-    return np.stack([mean - along, mean + along, -2 * cos * sin * twist])
-
-
-def _coupling(radial: Field, cos: Field, sin: Field) -> Field:
-    return np.stack([cos, sin]) * radial.T
-
-
-NORMAL = Components(("zz",), slice(0, 1), ((1, 1),), _normal)
-TANGENTIAL = Components(("xx", "yy", "xy"), slice(1, 3), ((1, 1), (1, 1), (-1, -1)), _tangential)
-COUPLING = Components(("zx", "zy"), slice(3, 4), ((-1, 1), (1, -1)), _coupling)
-
-
-def point_response(table: RadialTable, components: Components, x: Field, y: Field) -> Field:
-    """Compute surface displacements at points (x, y) by unit forces at the origin [length/force].
-
-    The origin is excluded.
-
-    returns  shape (number of components, *x.shape)
-    """
-    flat_x, flat_y = x.ravel(), y.ravel()
-    values = np.empty((len(components.names), x.size))
-    for start in range(0, x.size, BATCH):
-        part = slice(start, start + BATCH)
-        r = np.hypot(flat_x[part], flat_y[part])
-        radial = table(r, components.radial) / r[:, None]
-        values[:, part] = components.turned(radial, flat_x[part] / r, flat_y[part] / r)
-    return values.reshape(-1, *x.shape)
+    found = {
+        "zz": zz,
+        "xx": mean - along,
+        "yy": mean + along,
+        "xy": -2 * cos * sin * twist,
+        "zx": cos * cross,
+        "zy": sin * cross,
+    }
+    return found[component][None]

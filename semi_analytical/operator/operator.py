@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.array_types import Field
-from semi_analytical.influence.coefficients import InfluenceCoefficients
+from semi_analytical.influence.coefficients import PARITY, InfluenceCoefficients
 from semi_analytical.operator.domain import Pair, ReducedDomain
 from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
 from semi_analytical.operator.spectra import KernelSpectrum, kernel_spectrum
@@ -184,13 +184,16 @@ class DisplacementOperator:
         pair  names of displacement and traction component in alphabetical order, e.g. "xz"
         """
         if pair not in self._spectra:
-            self._spectra[pair] = kernel_spectrum(self._coefficients, pair, self.transforms.reach)
+            name = pair if pair in PARITY else pair[::-1]
+            self._spectra[pair] = kernel_spectrum(
+                self._coefficients[name], PARITY[name], self.transforms.reach
+            )
         return self._spectra[pair]
 
     @property
     def self_compliance(self) -> float:
         """Tangential displacement of a cell under unit shear, mean of x and y [length^3/force]."""
-        return float(0.5 * (self._coefficients.xx[0, 0] + self._coefficients.yy[0, 0]))
+        return float(0.5 * (self._coefficients["xx"][0, 0] + self._coefficients["yy"][0, 0]))
 
     def precondition(self, displacement: Field) -> Field:
         """Apply the approximate inverse of `normal` to a normal displacement; return a pressure

@@ -10,7 +10,6 @@ import numpy as np
 from scipy.fft import dct, dst
 
 from contact_scene.array_types import Field
-from semi_analytical.influence.coefficients import InfluenceCoefficients
 
 
 @dataclass(frozen=True)
@@ -36,53 +35,24 @@ class KernelSpectrum:
 
 
 def kernel_spectrum(
-    coefficients: InfluenceCoefficients, pair: str, reach: tuple[slice, slice]
+    values: Field, parity: tuple[int, int], reach: tuple[slice, slice]
 ) -> KernelSpectrum:
-    """Compute the real Fourier spectrum S of the influence coefficients of two components.
+    """Compute the real Fourier spectrum S of a kernel that is even or odd along each axis.
 
-    For the pairs xz and yz, whose coefficients are odd along one axis, the spectrum is -i S.
+    The Fourier spectrum is S if both parities are equal, else -i S. The convolution does not use
+    the last offset; its true value makes the periodic continuation of even kernels continuous, and
+    the spectrum of a positive kernel positive.
 
-    pair   names of the two components in alphabetical order, e.g. "xz"
-    reach  slices of the offsets along x and y that are transformed
+    values  kernel at offsets 0 … m along each axis
+    parity  parity along x and y: 1 even, -1 odd
+    reach   slices of the offsets along x and y that are transformed
     """
-    if pair == "xy":
-        return odd_transform(coefficients.xy[reach])
-    if pair == "xz":
-        return mixed_transform(coefficients.zx[reach], odd_axis=0)
-    if pair == "yz":
-        return mixed_transform(coefficients.zy[reach], odd_axis=1)
-    even: Field = getattr(coefficients, pair)
-    return even_transform(even[reach])
-
-
-def even_transform(coefficients: Field) -> KernelSpectrum:
-    """Transform influence coefficients that are even along both axes.
-
-    coefficients  values at offsets 0 … m along each axis. The convolution does not use the last
-                  offset; its true value makes the periodic continuation continuous, and the
-                  spectrum of a positive kernel positive
-    """
-    return KernelSpectrum(dct(dct(coefficients.T, type=1, axis=1), type=1, axis=0), 1)
-
-
-def odd_transform(coefficients: Field) -> KernelSpectrum:
-    """Transform influence coefficients that are odd along both axes; the spectrum is real as
-    (-i)^2 = -1."""
-    quarter = np.zeros(coefficients.T.shape)
-    lines = dst(coefficients[1:-1, 1:-1].T, type=1, axis=1)
-    quarter[1:-1, 1:-1] = -dst(lines, type=1, axis=0)
-    return KernelSpectrum(quarter, -1)
-
-
-def mixed_transform(coefficients: Field, odd_axis: int) -> KernelSpectrum:
-    """Transform influence coefficients that are odd along one axis and even along the other.
-
-    The result is the real S; the Fourier spectrum is -i S.
-
-    odd_axis  0 if odd along x, 1 if odd along y
-    """
-    quarter = np.zeros(coefficients.T.shape)
-    odd, even = 1 - odd_axis, odd_axis  # transposed
-    inner = (slice(1, -1), slice(None)) if odd == 0 else (slice(None), slice(1, -1))
-    quarter[inner] = dct(dst(coefficients.T[inner], type=1, axis=odd), type=1, axis=even)
-    return KernelSpectrum(quarter, -1 if odd_axis == 0 else 1)
+    quarter, (x, y) = values[reach].T, parity
+    for axis, sign in ((1, x), (0, y)):
+        if sign > 0:
+            quarter = dct(quarter, type=1, axis=axis)
+        else:
+            inner = (slice(1, -1), slice(None))[:: 1 if axis == 0 else -1]
+            quarter, values = np.zeros(quarter.shape), quarter[inner]
+            quarter[inner] = dst(values, type=1, axis=axis)
+    return KernelSpectrum(-quarter if x == y == -1 else quarter, x)

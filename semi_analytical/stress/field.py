@@ -205,7 +205,7 @@ def depth_coefficients(
         for level in levels:
             yield _closed_form(stack, level, spacing, shape, sheared)
         return
-    from semi_analytical.stress.cells import layered_coefficients
+    from semi_analytical.stress.radial_table import layered_coefficients
 
     by_layers = layered_coefficients(stack, levels, spacing, shape, sheared=sheared)
     for level, result in zip(levels, by_layers, strict=True):

@@ -9,14 +9,14 @@ the angle phi of the observer, seen from the force, isotropy leaves 15 functions
 and nine for shear (transforms along and across the wave, rotated to the axes of the scene).
 """
 
-from dataclasses import dataclass
-from itertools import pairwise
-from math import pi
+from collections.abc import Iterator
+from functools import partial
+from math import hypot, pi
 
 import numpy as np
 from scipy.special import j0, j1
 
-from contact_scene.array_types import Array
+from contact_scene.array_types import Array, Field
 from semi_analytical.frf.depth import (
     DepthScalars,
     Descent,
@@ -26,50 +26,15 @@ from semi_analytical.frf.depth import (
     material_at,
 )
 from semi_analytical.frf.stack import Stack
-from semi_analytical.influence.hankel_points import faded_points, hankel_points
-from semi_analytical.influence.radial_panels import (
-    coefficients_of,
-    interpolated,
-    nodes_between,
-    panel_edges,
-    places_on_panels,
-)
-from semi_analytical.stress.components import empty_response
+from semi_analytical.influence.layered_cells import MARGIN, cell_integrals
+from semi_analytical.influence.radial_table import RadialTable, tabulate
+from semi_analytical.stress.components import FIELDS, acting, empty_response, parity
 
-# Value of alpha d above which exp(-alpha d) (alpha d)^2 is below 1e-17.
-REACH = 48.0
-
+# Levels per table, so that its work space is some tens of megabytes.
+AT_ONCE = 16
 # Order of the Bessel function of each radial function.
 ORDERS = (1, 0, 0, 1, 0, 2, 0, 2, 1, 0, 2, 1, 1, 1, 3)
 BY_PRESSURE = 6  # number of functions for pressure, which are first
-
-
-@dataclass(frozen=True)
-class DepthTable:
-    """Radial functions of displacement and stress at several depths, on 0 <= r <= edges[-1].
-
-    edges         panel bounds [length], shape (panels + 1,), edges[0] = 0
-    coefficients  Chebyshev coefficients, shape (levels, panels, NODES, functions)
-    """
-
-    edges: Array
-    coefficients: Array
-
-    @property
-    def sheared(self) -> bool:
-        """True if the table includes the responses to shear."""
-        return self.coefficients.shape[-1] > BY_PRESSURE
-
-    def at(self, level: int, r: Array) -> Array:
-        """Interpolate the radial functions of one depth at distances r, shape (functions, len(r)).
-
-        level  index of the depth in the table
-        """
-        coefficients = self.coefficients[level]
-        values = np.empty((coefficients.shape[2], len(r)))
-        for panel, inside, place in places_on_panels(self.edges, r):
-            values[:, inside] = interpolated(coefficients[panel], place)
-        return values
 
 
 def clearance(stack: Stack, level: Level) -> float:
@@ -86,9 +51,9 @@ def clearance(stack: Stack, level: Level) -> float:
     return level.depth
 
 
-def depth_table(
+def depth_tables(
     stack: Stack, levels: tuple[Level, ...], reach: float, *, sheared: bool = True
-) -> DepthTable:
+) -> list[RadialTable]:
     """Tabulate displacement and stress of a layered body at some depths, up to a distance from the
     force.
 
@@ -97,42 +62,38 @@ def depth_table(
     """
     orders = ORDERS if sheared else ORDERS[:BY_PRESSURE]
     nearest = min(clearance(stack, level) for level in levels)
-    edges = panel_edges(min(nearest / 2, reach), reach)
-    values = []
-    for panel, (low, high) in enumerate(pairwise(edges)):
-        died_out = REACH / nearest
-        points = faded_points(low, high, died_out) if panel else hankel_points(high, died_out)
-        values.append(_transforms(stack, levels, nodes_between(low, high), *points, orders))
-    return DepthTable(edges, coefficients_of(np.stack(values, axis=1)))
+    edges, coefficients = tabulate(partial(_transforms, stack, levels, orders), nearest, reach)
+    return [RadialTable(edges, of_level) for of_level in coefficients]
 
 
 def _transforms(
     stack: Stack,
     levels: tuple[Level, ...],
+    orders: tuple[int, ...],
     r: Array,
     alpha: Array,
     weight: Array,
-    orders: tuple[int, ...],
 ) -> Array:
     """Compute the Hankel transforms of all radial functions, shape (levels, len(r), functions).
 
+    orders         order of the Bessel function of each radial function
     r              distances from the force [length]
     alpha, weight  wavenumbers and quadrature weights
-    orders         order of the Bessel function of each radial function
     """
     descent = Descent(stack, alpha)
-    sources = np.stack([_integrands(descent, level)[: len(orders)] for level in levels])
+    each = [descent.remainder(level) for level in levels]
+    planes = [
+        in_plane(one, material_at(stack, at), alpha) for one, at in zip(each, levels, strict=True)
+    ]
+    sources = np.stack(
+        [integrands(*pair)[: len(orders)] for pair in zip(each, planes, strict=True)]
+    )
     sources *= alpha * weight / (2 * pi)
     values = np.empty((len(levels), len(r), len(orders)))
     for order, bessel in enumerate(_bessel(np.outer(r, alpha))):
         chosen = [k for k, of in enumerate(orders) if of == order]
         values[:, :, chosen] = np.einsum("ra,lfa->lrf", bessel, sources[:, chosen], optimize=True)
     return values
-
-
-def _integrands(descent: Descent, level: Level) -> Array:
-    fields = descent.remainder(level)
-    return integrands(fields, in_plane(fields, material_at(descent.stack, level), descent.alpha))
 
 
 def _bessel(x: Array) -> tuple[Array, Array, Array, Array]:
@@ -201,3 +162,48 @@ def in_scene_axes(functions: Array, cos: Array, sin: Array) -> Array:
     by_x[6], by_x[7], by_x[8] = across, along - t_mean, slide_x
     by_y[6], by_y[7], by_y[8] = -along - t_mean, across, slide_y
     return result
+
+
+def layered_coefficients(
+    stack: Stack,
+    levels: tuple[Level, ...],
+    spacing: tuple[float, float],
+    shape: tuple[int, int],
+    *,
+    sheared: bool,
+) -> Iterator[Field]:
+    """Iterate over the response of a layered body to unit tractions on one cell, at each depth.
+
+    The response are displacements [length^3/force] and stresses [1] at all cell offsets >= 0. At a
+    depth in the outermost layer, the response of a half-space of its material is excluded.
+
+    stack    layers and base of the body
+    levels   depths, each with the index of its layer
+    spacing  cell sides [length]
+    shape    number of offsets along x and y, including zero
+    sheared  include the responses to shear, before those to pressure
+    yields   shape (FIELDS, acting tractions, nx, ny)
+    """
+    reach = hypot(*((n + MARGIN) * d for n, d in zip(shape, spacing, strict=True)))
+    parities = [parity(field, traction) for field in FIELDS for traction in acting(sheared)]
+    for start in range(0, len(levels), AT_ONCE):
+        batch = levels[start : start + AT_ONCE]
+        for level, table in zip(
+            batch, depth_tables(stack, batch, reach, sheared=sheared), strict=True
+        ):
+            response = partial(_point_response, table)
+            distance = clearance(stack, level)
+            result = cell_integrals(response, parities, spacing, shape, distance)
+            yield result.reshape(len(FIELDS), -1, *shape)
+
+
+def _point_response(table: RadialTable, x: Field, y: Field) -> Field:
+    """Compute displacement and stress at (x, y) by unit point forces at the origin.
+
+    The result has the shape (FIELDS times acting tractions, *x.shape).
+    """
+    r = np.hypot(x, y)
+    away = np.where(r > 0, r, 1.0)  # on the axis functions of the direction vanish
+    functions = table(r.ravel()).reshape(-1, *x.shape)
+    found = in_scene_axes(functions, np.where(r > 0, x / away, 1.0), y / away)
+    return found.reshape(-1, *x.shape)

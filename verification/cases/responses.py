@@ -73,10 +73,10 @@ def _coefficient_error(row: Mapping[str, Any]) -> float:
     K = _coefficients(row["G1"], row["nu1"], (row["G2"], row["nu2"]), row["d"])
     i, j = round(row["x"] / row["d"]), round(row["y"] / row["d"])
     errors = [
-        abs((np.sign(j) if j and name == "xy" else 1) * getattr(K, name)[i, abs(j)] - expected)
+        abs((np.sign(j) if j and name == "xy" else 1) * K[name][i, abs(j)] - expected)
         for name, expected in row["colloc"].items()
     ]
-    return float(worst(*errors) / max(K.zz[0, 0], K.xx[0, 0]))
+    return float(worst(*errors) / max(K["zz"][0, 0], K["xx"][0, 0]))
 
 
 def layered_reference(level: Level = Level.QUICK) -> Case:

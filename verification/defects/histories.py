@@ -431,10 +431,10 @@ CONTACT_AND_FRICTION = (
 )  # fmt: skip
 
 
-@replaces(Composite, "_mirrored")
+@replaces(Composite, "_combined")
 def _indenter_couples_as_the_body(whole: Any, self: Composite, component: str) -> Any:
     right = whole(self, component)
-    return right if self.lower else -right
+    return right if self.lower or component not in ("zx", "zy") else -right
 
 
 @replaces(compliance, "composite")

@@ -13,7 +13,6 @@ from semi_analytical.frf import stack, surface
 from semi_analytical.influence import layered_response
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients
 from semi_analytical.influence.coefficients import Composite
-from semi_analytical.influence.layered_response import Components
 from semi_analytical.operator import operator, spectra
 from semi_analytical.operator.operator import DisplacementOperator
 from semi_analytical.operator.spectra import KernelSpectrum
@@ -32,9 +31,9 @@ def scaled(pairs: tuple[str, ...], factor: float) -> Replacements:
     factor  wrong factor; 1 is correct
     """
 
-    @replaces(operator, "kernel_spectrum")
-    def spectrum(whole: Any, coefficients: Any, pair: str, reach: Any) -> KernelSpectrum:
-        found: KernelSpectrum = whole(coefficients, pair, reach)
+    @replaces(DisplacementOperator, "spectrum")
+    def spectrum(whole: Any, self: DisplacementOperator, pair: str) -> KernelSpectrum:
+        found: KernelSpectrum = whole(self, pair)
         return replace(found, quarter=factor * found.quarter) if pair in pairs else found
 
     return spectrum
@@ -48,39 +47,43 @@ def _periodic(_: Any, self: DisplacementOperator, pressure: Any) -> Any:
     return operator.Product(self.transforms, entries, "z", "z", padded=False)(pressure[None])[0]
 
 
-@replaces(spectra, "even_transform")
-def _without_mean(whole: Any, coefficients: Any) -> Any:
-    spectrum = whole(coefficients)
-    spectrum.quarter[0, 0] = 0.0
+@replaces(spectra, "kernel_spectrum")
+def _without_mean(whole: Any, values: Any, parity: Any, reach: Any) -> Any:
+    spectrum = whole(values, parity, reach)
+    if parity == (1, 1):
+        spectrum.quarter[0, 0] = 0.0
     return spectrum
 
 
-@replaces(spectra, "mixed_transform")
-def _with_nyquist_row(whole: Any, coefficients: Any, odd_axis: int) -> Any:
-    spectrum = whole(coefficients, odd_axis)
-    along = np.moveaxis(spectrum.quarter, 1 - odd_axis, 0)
-    along[-1] = along[-2]
+@replaces(spectra, "kernel_spectrum")
+def _with_nyquist_row(whole: Any, values: Any, parity: Any, reach: Any) -> Any:
+    spectrum = whole(values, parity, reach)
+    if parity[0] != parity[1]:
+        along = np.moveaxis(spectrum.quarter, 1 - parity.index(-1), 0)
+        along[-1] = along[-2]
     return spectrum
 
 
-@replaces(Composite, "xy")
-def _without_cross_term(_: Any, self: Composite) -> Any:
-    return np.zeros_like(self.xx)
+@replaces(Composite, "_combined")
+def _without_cross_term(whole: Any, self: Composite, component: str) -> Any:
+    return (component != "xy") * whole(self, component)
 
 
 def _one_body(components: tuple[str, ...]) -> Replacements:
-    @replaces(Composite, "_added")
-    def added(whole: Any, self: Composite, component: str) -> Any:
+    @replaces(Composite, "_combined")
+    def combined(whole: Any, self: Composite, component: str) -> Any:
         if component in components and self.lower and self.upper:
-            return np.asarray(getattr(self.lower[0], component))
+            return np.asarray(self.lower[0][component])
         return whole(self, component)
 
-    return added
+    return combined
 
 
-@replaces(Composite, "_mirrored")
-def _coupling_added(_: Any, self: Composite, component: str) -> Any:
-    return self._added(component)
+@replaces(Composite, "_combined")
+def _coupling_added(whole: Any, self: Composite, component: str) -> Any:
+    if component not in ("zx", "zy"):
+        return whole(self, component)
+    return sum(body[component] for body in self.lower + self.upper)
 
 
 @replaces(surface, "_underside")
@@ -121,15 +124,14 @@ def _half_space_only(whole: Any, body: stack.Stack, alpha: Any) -> Any:
     return surface.SurfaceScalars(*(0.0 * value for value in whole(body, alpha)))
 
 
-@replaces(layered_response, "COUPLING")
-def _parity(right: Components) -> Components:
-    turned = right.turned
-    return Components(right.names, right.radial, right.parity, lambda *given: turned(*given)[::-1])
+@replaces(layered_response, "point_response")
+def _parity(whole: Any, component: str, *given: Any) -> Any:
+    return whole({"zx": "zy", "zy": "zx"}.get(component, component), *given)
 
 
-@replaces(HalfSpaceCoefficients, "xy")
-def _minus_ratio(_: Any, self: HalfSpaceCoefficients) -> Any:
-    return -self._c * self.poisson_ratio * self.integrals.xy_r3
+@replaces(HalfSpaceCoefficients, "__getitem__")
+def _minus_ratio(whole: Any, self: HalfSpaceCoefficients, component: str) -> Any:
+    return (-1 if component == "xy" else 1) * whole(self, component)
 
 
 SURFACE_RESPONSE = (

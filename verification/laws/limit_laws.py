@@ -456,8 +456,8 @@ def dense_operator(K: LayeredCoefficients, shape: tuple[int, int]) -> np.ndarray
     di, dj = i[:, None] - i, j[:, None] - j
     at = abs(di), abs(dj)
     odd_x, odd_y = np.sign(di), np.sign(dj)
-    xy, zx, zy = K.xy[at] * odd_x * odd_y, K.zx[at] * odd_x, K.zy[at] * odd_y
-    return np.block([[K.xx[at], xy, -zx], [xy, K.yy[at], -zy], [zx, zy, K.zz[at]]])
+    xy, zx, zy = K["xy"][at] * odd_x * odd_y, K["zx"][at] * odd_x, K["zy"][at] * odd_y
+    return np.block([[K["xx"][at], xy, -zx], [xy, K["yy"][at], -zy], [zx, zy, K["zz"][at]]])
 
 
 def _identical(rng: Generator) -> float:
