@@ -77,6 +77,9 @@ class FiniteElementDiscretisation(Description):
     """Outer radius and depth of the section, in contact radii; absent: chosen, at least 100, more
     for thick or stiff layers."""
 
+    mesher: Literal["tensor", "gmsh"] = "tensor"
+    """Mesh generator: a graded grid of rectangles, or gmsh."""
+
     harmonics: Harmonics = 12
     """Highest angular harmonic, for a tangential load that is coupled with the pressure."""
 

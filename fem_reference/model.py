@@ -171,10 +171,17 @@ class ContactModel:
 
 
 def _section(body: Body, discretisation: FiniteElementDiscretisation) -> SectionMesh | None:
-    """Create the mesh of the meridional section of a body, or return None for a rigid body."""
+    """Create the mesh of the meridional section of a body, or return None for a rigid body.
+
+    The discretisation selects the mesher: tensor-product rectangles, or gmsh.
+    """
     if not body.deforms:
         return None
-    return section_mesh(body, discretisation.elements_per_radius, discretisation.box)
+    make = section_mesh
+    if discretisation.mesher == "gmsh":
+        # Imported here because gmsh requires libraries that are not installed everywhere.
+        from fem_reference.mesh.gmsh_mesh import gmsh_section_mesh as make
+    return make(body, discretisation.elements_per_radius, discretisation.box)
 
 
 def outermost_modulus(scene: Scene) -> float:

@@ -92,6 +92,7 @@ def documents(draw: st.DrawFn) -> Document:
                 {"elements_per_radius": st.integers(4, 512)},
                 optional={
                     "box": st.floats(5.0, 1e6),
+                    "mesher": st.sampled_from(["tensor", "gmsh"]),
                     "harmonics": st.integers(2, 64),
                     "tolerance": st.floats(1e-12, 0.1),
                 },

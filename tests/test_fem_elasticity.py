@@ -7,12 +7,23 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Layer
+from contact_scene import (
+    RIGID,
+    Body,
+    FiniteElementDiscretisation,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Scene,
+    Sphere,
+)
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference.elasticity.hat_functions import hats_on
 from fem_reference.elasticity.section_basis import displacement_basis
 from fem_reference.elasticity.weak_form import dilatation, element_stiffness
+from fem_reference.mesh.gmsh_mesh import gmsh_section_mesh
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
+from slipstick import solve, stated_errors
 
 R = 10.0
 ALL, PLANE, ANGULAR = (0, 1, 2), (0, 2), (1,)
@@ -172,7 +183,7 @@ def test_compliance_stays_symmetric_and_positive(radii, seed) -> None:
     assert np.linalg.eigvalsh(weak).min() > -1e-9 * np.abs(weak).max()
 
 
-# ---- Meshes fill the section they are given.
+# ---- Both meshers fill the section they are given.
 
 
 SOFT = IsotropicMaterial(young_modulus=1.0, poisson_ratio=0.3)
@@ -195,9 +206,26 @@ BODIES = {
 }
 
 
+@pytest.fixture(name="gmsh")
+def loaded_gmsh():
+    try:
+        import gmsh
+    except (ImportError, OSError) as error:
+        pytest.skip(f"gmsh cannot be loaded: {error}")
+    return gmsh
+
+
+@pytest.fixture(params=["tensor", "gmsh"])
+def mesher(request):
+    if request.param == "tensor":
+        return section_mesh
+    request.getfixturevalue("gmsh")
+    return gmsh_section_mesh
+
+
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-def test_no_element_crosses_an_interface(body):
-    section = section_mesh(body, 8)
+def test_no_element_crosses_an_interface(mesher, body):
+    section = mesher(body, 8)
     top, base = np.array(section.outline.pieces).T
     depth = section.points[1, section.quads]
     assert np.all(depth >= top[section.layer])
@@ -206,8 +234,8 @@ def test_no_element_crosses_an_interface(body):
 
 
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-def test_a_refined_mesh_is_nested(body):
-    coarse = section_mesh(body, 4)
+def test_a_refined_mesh_is_nested(mesher, body):
+    coarse = mesher(body, 4)
     fine = coarse.refined()
     assert fine.quads.shape[1] == 4 * coarse.quads.shape[1]
     assert np.array_equal(fine.radii[::2], coarse.radii)
@@ -227,6 +255,36 @@ def test_a_refined_mesh_is_nested(body):
         (stack(2e6), {"elements_per_radius": 8}, UnsupportedScene, "substrate has no effect"),
     ],
 )
-def test_sizes_that_make_no_mesh_are_refused(body, arguments, error, message):
+def test_sizes_that_make_no_mesh_are_refused(mesher, body, arguments, error, message):
     with pytest.raises(error, match=message):
-        section_mesh(body, **arguments)
+        mesher(body, **arguments)
+
+
+@pytest.mark.usefixtures("gmsh")
+def test_both_meshers_agree_within_the_stated_errors() -> None:
+    scene = Scene(
+        title="ball on a coating",
+        indenter=Sphere(radius=18e-3, material=RIGID),
+        body=Body(
+            material=IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3),
+            layers=(
+                Layer(
+                    thickness=4e-4,
+                    material=IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3),
+                ),
+            ),
+        ),
+        loading=(LoadStep(normal_force=1e3),),
+    )
+    tensor, other = (
+        solve(
+            scene,
+            solver="fem",
+            discretisation=FiniteElementDiscretisation(elements_per_radius=12, mesher=mesher),
+        )
+        for mesher in ("tensor", "gmsh")
+    )
+    errors = stated_errors(tensor).steps[-1]
+    for name in ("approach", "peak_pressure", "contact_radius"):
+        difference = getattr(tensor.steps[-1], name) - getattr(other.steps[-1], name)
+        assert 0 < abs(difference) < errors[name].error, name

@@ -113,7 +113,7 @@ ORDERS = {
         "history",
         "stress",
     ),
-    "fem_reference.mesh": ("section_outline", "section_mesh"),
+    "fem_reference.mesh": ("section_outline", "section_mesh", "gmsh_mesh"),
     "fem_reference.elasticity": (
         *("motion", "section_basis", "weak_form", "numbering"),
         *("factored_section", "compliance", "hat_functions"),

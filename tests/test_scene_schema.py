@@ -98,6 +98,7 @@ TABLE = """
 elements_per_radius = 64
 contact_radius = "0.4 mm"
 box = 200
+mesher = "gmsh"
 harmonics = 12
 penalty = 30.0
 augmentations = 2
@@ -116,6 +117,7 @@ def test_every_key_is_read(tmp_path):
         elements_per_radius=64,
         contact_radius=4e-4,
         box=200.0,
+        mesher="gmsh",
         harmonics=12,
         penalty=30.0,
         augmentations=2,
@@ -137,6 +139,7 @@ MISTAKES = {
     'contact_radius = "1 N"': "a positive length",
     "box = 4": "a number from 5 to 1e6",
     'box = "100 mm"': "a number from 5 to 1e6",
+    'mesher = "netgen"': '"tensor" or "gmsh"',
     "harmonics = 1": "a whole number from 2 to 64",
     "penalty = 0": "a number from 0.01 to 1e4",
     "augmentations = -1": "a whole number from 0 to 100",
@@ -156,7 +159,7 @@ def test_a_mistake_is_named_with_its_line_and_key(tmp_path, line):
 
 
 def test_refined_has_twice_the_elements_and_all_else():
-    coarse = FiniteElementDiscretisation(elements_per_radius=16, box=50.0)
+    coarse = FiniteElementDiscretisation(elements_per_radius=16, box=50.0, mesher="gmsh")
     fine = coarse.refined()
     assert fine == coarse.model_copy(update={"elements_per_radius": 32})
     with pytest.raises(ValueError, match="from 4 to 512"):

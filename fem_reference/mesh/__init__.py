@@ -1,1 +1,1 @@
-"""Meshes of the meridional section of a body: outline, and graded rectangles."""
+"""Meshes of the meridional section of a body: outline, graded rectangles, and gmsh."""

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from skfem import MeshQuad
 
 from contact_scene.body import Body
+from contact_scene.solver_errors import SolverError
 from fem_reference.mesh.section_outline import CONTACT_ZONE, SectionOutline, graded, section_outline
 
 SHRINK, SHRINKS = 1 / 4, 8
@@ -24,7 +25,9 @@ CLOSEST = 0.25
 class SectionMesh:
     """Mesh of quadrilaterals in a meridional section of a body.
 
-    The unit of length is the expected contact radius.
+    The unit of length is the expected contact radius. The constructor raises SolverError if the sum
+    of the element areas differs from the area of the section, that is if elements are missing or
+    overlap.
 
     points   corners (r, z) of the elements (2, n), exact on an outer edge, an interface or the axis
     quads    indices of the 4 corners of every element (4, e), in order around the element
@@ -34,6 +37,14 @@ class SectionMesh:
     points: NDArray[np.float64]
     quads: NDArray[np.int64]
     outline: SectionOutline
+
+    def __post_init__(self) -> None:
+        whole = self.outline.box * self.outline.depth
+        if not abs(self.areas.sum() / whole - 1.0) < 1e-9:
+            raise SolverError(
+                f"{self.quads.shape[1]} elements cover an area of {self.areas.sum():.9g} in a "
+                f"section of {whole:.9g}: the mesh has holes or overlaps"
+            )
 
     @property
     def mesh(self) -> MeshQuad:
@@ -48,6 +59,15 @@ class SectionMesh:
             "far": lambda x: (x[0] == outline.box) | (x[1] == outline.depth),
         }
         return MeshQuad(self.points, self.quads).with_boundaries(boundaries)
+
+    @cached_property
+    def areas(self) -> NDArray[np.float64]:
+        """Area of every element in the (r, z) plane (e,).
+
+        The unit of length is the contact radius.
+        """
+        (r0, r1, r2, r3), (z0, z1, z2, z3) = self.points[:, self.quads]
+        return np.abs((r2 - r0) * (z3 - z1) - (r3 - r1) * (z2 - z0)) / 2.0
 
     @cached_property
     def layer(self) -> NDArray[np.int64]:

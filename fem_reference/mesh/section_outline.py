@@ -1,4 +1,4 @@
-"""Outline of a section: edges, interfaces and element sizes."""
+"""Outline of a section, common to all meshers: edges, interfaces and element sizes."""
 
 from dataclasses import dataclass
 
