@@ -19,8 +19,7 @@ from verification.judging.case import (
     Followed,
     Level,
     NotYetAsymptotic,
-    OrderOfChange,
-    OrderOfConvergence,
+    Order,
     Quantity,
     Refinement,
 )
@@ -42,7 +41,7 @@ def judged_at(level: Level) -> frozenset[Place]:
         (
             order.of,
             case.run(order.levels[0]).solver,
-            Refinement.MESH if isinstance(order, OrderOfConvergence) else order.refined,
+            order.refined,
         )
         for case in choose(level)
         for order in case.orders
@@ -61,7 +60,7 @@ def judged(errors: np.ndarray, expected: float) -> Verdict:
         SimpleNamespace(label=label, solver=Solver.CELLS, spacing=SIZES[int(label.split(",")[0])])
         for label in results
     )
-    order = OrderOfConvergence(
+    order = Order(
         "order", Followed.SHIFT, "a planted value", tuple(results), lambda result: result.error,
         expected, "planted",
     )  # fmt: skip
@@ -154,10 +153,10 @@ def judged_change(errors, expected, not_yet=None):
         f"level {n}": SimpleNamespace(size=size, value=LIMIT + error)
         for n, (size, error) in enumerate(zip(HALVED, errors, strict=True))
     }
-    order = OrderOfChange(
-        "order", Followed.APPROACH, Refinement.INCREMENTS, "a planted value", tuple(results),
-        lambda one, other: abs(one.value - other.value), lambda result: result.size, expected,
-        "planted", not_yet,
+    order = Order(
+        "order", Followed.APPROACH, "a planted value", tuple(results),
+        lambda one, other: abs(one.value - other.value), expected, "planted", not_yet,
+        refined=Refinement.INCREMENTS, size=lambda result: result.size, apart=1,
     )  # fmt: skip
     runs = tuple(SimpleNamespace(label=label, solver=Solver.CELLS) for label in results)
     case = Case("planted", "planted", "", runs, (), orders=(order,))
@@ -179,10 +178,10 @@ def test_changes_over_two_levels_tell_the_same_order():
         for n, size in enumerate(sizes)
     }
     runs = tuple(SimpleNamespace(label=label, solver=Solver.CELLS) for label in results)
-    order = OrderOfChange(
-        "order", Followed.APPROACH, Refinement.INCREMENTS, "a planted value", tuple(results),
-        lambda one, other: abs(one.value - other.value), lambda result: result.size, 1.5,
-        "planted", apart=2,
+    order = Order(
+        "order", Followed.APPROACH, "a planted value", tuple(results),
+        lambda one, other: abs(one.value - other.value), 1.5, "planted",
+        refined=Refinement.INCREMENTS, size=lambda result: result.size, apart=2,
     )  # fmt: skip
     verdict = judge_order(order, Case("planted", "", "", runs, (), orders=(order,)), results)
     assert verdict.value == pytest.approx(1.5, abs=1e-6)

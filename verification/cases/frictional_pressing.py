@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from math import atanh, exp, log, sqrt
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,7 @@ from verification.judging.case import (
     Followed,
     Level,
     NotYetAsymptotic,
-    OrderOfChange,
+    Order,
     Quantity,
     Refinement,
     Required,
@@ -269,25 +270,22 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
     )
 
 
-@dataclass(frozen=True)
-class Change:
-    """Difference between successive refinement levels, and its expected order of convergence.
+def change(
+    of: Followed,
+    meaning: str,
+    difference: Callable[[Any, Any], float],
+    expected: float,
+    because: str,
+    not_yet: NotYetAsymptotic | None = None,
+    name: str = "",
+) -> Order:
+    """Declare the order of the differences between successive levels; `Refined` has the levels.
 
-    of        quantity whose order is determined
-    change    function from the results of a coarse and a fine level to the difference
-    expected  expected order
-    coarsest  number of coarse levels that are left out of the order
-    name      name of the verdict after `order_of_`; default: the name of the quantity
+    difference  function from the results of a coarse and a fine level to the difference
+    name        name of the verdict after `order_of_`; default: the name of the quantity
     """
-
-    of: Followed
-    meaning: str
-    change: Callable[[Any, Any], float]
-    expected: float
-    because: str
-    not_yet: NotYetAsymptotic | None = None
-    coarsest: int = 0
-    name: str = ""
+    name = f"order_of_{name or of.value.replace(' ', '_')}"
+    return Order(name, of, meaning, (), difference, expected, because, not_yet)
 
 
 @dataclass(frozen=True)
@@ -300,27 +298,31 @@ class Refined:
     x_label  label of h in charts
     changes  differences whose order is judged
     apart    number of levels between the two runs of a difference
+    left_out  number of coarse levels that are left out of an order, by quantity
     """
 
     runs: tuple[AnyRun, ...]
     refined: Refinement
     size: Callable[[Any], float]
     x_label: str
-    changes: tuple[Change, ...]
+    changes: tuple[Order, ...]
     apart: int
+    left_out: Mapping[Followed, int] = MappingProxyType({})
 
     @property
-    def orders(self) -> tuple[OrderOfChange, ...]:
+    def orders(self) -> tuple[Order, ...]:
         """Orders of convergence of all differences between successive runs."""
         labels = tuple(run.label for run in self.runs)
         return tuple(
-            OrderOfChange(
-                f"order_of_{one.name or one.of.value.replace(' ', '_')}", one.of, self.refined,
-                one.meaning, labels[one.coarsest :], one.change, self.size, one.expected,
-                one.because, one.not_yet, self.apart,
+            replace(
+                one,
+                levels=labels[self.left_out.get(one.of, 0) :],
+                refined=self.refined,
+                size=self.size,
+                apart=self.apart,
             )
             for one in self.changes
-        )  # fmt: skip
+        )
 
     def chart(self, name: str, title: str, caption: str) -> Drawing:
         """Return a function that draws the differences against the refined parameter."""
@@ -331,12 +333,10 @@ class Refined:
             return convergence_chart(
                 name, title, caption,
                 [self.size(coarse) for coarse, _ in pairs],
-                {one.of.value: [one.change(*pair) for pair in pairs] for one in self.changes},
+                {one.of.value: [one.error(*pair) for pair in pairs] for one in self.changes},
                 {one.of.value: one.expected for one in self.changes},
                 self.x_label,
-                {
-                    one.of.value: len(pairs) - one.coarsest for one in self.changes if one.coarsest
-                },
+                {of.value: len(pairs) - count for of, count in self.left_out.items()},
             )  # fmt: skip
 
         return draw
@@ -453,7 +453,7 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
         tuple(_half_on_cells(count, 20) for count in cells), Refinement.MESH,
         lambda result: result.grid.spacing[0] / HALF.contact_radius, "cell side / contact radius",
         (
-            Change(
+            change(
                 Followed.SHEAR, "shear (L1) with 20 increments", _shear_change, 1.5, edges,
                 name="shear_in_cells",
             ),
@@ -464,11 +464,11 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
         tuple(_half_on_cells(128, count) for count in increments), Refinement.INCREMENTS,
         _increment_size, "1 / increments",
         (
-            Change(
+            change(
                 Followed.APPROACH, "approach on 128 x 128 cells", _approach_change, 2.0, KEPT_SLIP,
                 name="approach_in_increments",
             ),
-            Change(
+            change(
                 Followed.SHEAR, "shear (L1) on 128 x 128 cells", _shear_change, 1.5, FIXED_SHEAR,
                 name="shear_in_increments",
             ),
@@ -568,11 +568,11 @@ def sheared_increments(
     paths = Refined(
         runs, Refinement.INCREMENTS, _increment_size, "1 / increments of a step",
         (
-            Change(Followed.SHIFT, "tangential shift", _shift_change, 1.0, backward, name="shift"),
-            Change(Followed.SHEAR, "shear (L1)", _shear_change, 1.0, backward),
-            Change(Followed.APPROACH, "approach", _approach_change, 1.0, backward, coarsest=1),
+            change(Followed.SHIFT, "tangential shift", _shift_change, 1.0, backward, name="shift"),
+            change(Followed.SHEAR, "shear (L1)", _shear_change, 1.0, backward),
+            change(Followed.APPROACH, "approach", _approach_change, 1.0, backward),
         ),
-        apart=1,
+        apart=1, left_out={Followed.APPROACH: 1},
     )  # fmt: skip
     return case(
         "sheared_increments",
@@ -856,9 +856,9 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
         ),
         Refinement.INCREMENTS, _increment_size, "1 / increments",
         (
-            Change(Followed.APPROACH, "approach", _approach_change, 2.0, KEPT_SLIP),
-            Change(Followed.CONTACT_RADIUS, "contact radius", _radius_change, 2.0, KEPT_SLIP),
-            Change(
+            change(Followed.APPROACH, "approach", _approach_change, 2.0, KEPT_SLIP),
+            change(Followed.CONTACT_RADIUS, "contact radius", _radius_change, 2.0, KEPT_SLIP),
+            change(
                 Followed.SHEAR, "shear (L1)", _shear_change_on_rings, 1.5, FIXED_SHEAR, slowly
             ),
         ),

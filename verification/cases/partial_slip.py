@@ -32,7 +32,6 @@ from fem_reference.history import solved_increments
 from fem_reference.model import ContactModel
 from verification.closed_forms.cattaneo_mindlin import superpose
 from verification.closed_forms.cone import ConeContact
-from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import (
     ENERGY,
@@ -554,40 +553,6 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
         judged(exact, rows),
         judged(steel, beside_mindlin),
         judged(disc, (of_disc,)),
-        charts=(lambda results: _chart(results[exact.levels[0]], results[steel.levels[0]]),),
         limits=("The resolution of the stick zone is one element in radius and 22.5° in angle.",),
         no_order="on one mesh: fem_partial_slip judges the orders of meshes of the same elements",
     )
-
-
-def _chart(exact: Any, steel: Any) -> Chart:
-    """Draw q_x on the line of the load for both Poisson ratios, and q_y on rays for ν = 0.3."""
-    step, a, limit = PARTS.index(0.6) + 1, HERTZ.contact_radius, FRICTION * HERTZ.peak_pressure
-
-    def on_ray(result: Any, r: Any, degrees: float) -> Any:
-        theta = np.radians(degrees)
-        q, _ = tractions_at(result.steps[step], a * r * np.cos(theta), a * r * np.sin(theta))
-        return q / limit
-
-    x, r = np.linspace(-1.1, 1.1, 221), np.linspace(0, 1.1, 111)
-    known = CATTANEO.ends[step].shear(np.abs(x) * a) / limit
-    along = [
-        curve(name, x, on_ray(result, x, 0.0)[0], series=series)
-        for series, (name, result) in enumerate((("ν = 0", exact), ("ν = 0.3", steel)))
-    ]
-    across = [
-        curve(f"θ = {angle:g}°", r, on_ray(steel, r, angle)[1], series=series)
-        for series, angle in enumerate((22.5, 45.0, 67.5))
-    ]
-    return Chart(
-        name="fem_harmonics_shear",
-        title="Shear at 0.6 µW by harmonics 0 … 8",
-        caption="Above: shear along the load on the line y = 0 for ν = 0 and ν = 0.3, with the "
-        "closed form in grey. Below: shear across the load along three rays for ν = 0.3, which "
-        "is zero in the closed form.",
-        rows=(
-            (Panel(x_label="x / a", y_label="q_x / µp_H",
-                   curves=(curve("closed form", x, known, Look.REFERENCE), *along), height=2.0),),
-            (Panel(x_label="r / a", y_label="q_y / µp_H", curves=tuple(across), height=1.4),),
-        ),
-    )  # fmt: skip

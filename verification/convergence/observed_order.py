@@ -127,15 +127,7 @@ def observed_order(sizes: Sequence[float], errors: Sequence[float]) -> ObservedO
     sizes   sizes h of the levels, all different
     errors  errors > 0 on these levels
     """
-    if len(sizes) < 3:
-        raise ValueError(f"{len(sizes)} levels cannot give an interval; use at least 3")
-    x, y = np.log(np.asarray(sizes)), np.log(np.asarray(errors))
-    spread = np.sum((x - x.mean()) ** 2)
-    order = np.sum((x - x.mean()) * (y - y.mean())) / spread
-    scatter = y - y.mean() - order * (x - x.mean())
-    freedom = len(x) - 2
-    deviation = np.sqrt(np.sum(scatter**2) / freedom / spread)
-    return _known_to(float(order), float(deviation), freedom)
+    return error_line(sizes, errors).observed
 
 
 def refined_value(sizes: Sequence[float], values: Sequence[float], expected: float) -> RefinedValue:
@@ -345,12 +337,15 @@ def error_line(sizes: Sequence[float], errors: Sequence[float]) -> ErrorLine:
     sizes   sizes h of the levels
     errors  errors > 0 on these levels
     """
-    observed = observed_order(sizes, errors)
+    if len(sizes) < 3:
+        raise ValueError(f"{len(sizes)} levels cannot give an interval; use at least 3")
     x, y = np.log(np.asarray(sizes)), np.log(np.asarray(errors))
-    left = y - y.mean() - observed.order * (x - x.mean())
-    freedom = len(x) - 2
-    deviation = np.sqrt(np.sum(left**2) / freedom / len(x))
-    reach = float(stdtrit(freedom, (1 + CONFIDENCE) / 2) * deviation)
+    spread, freedom = np.sum((x - x.mean()) ** 2), len(x) - 2
+    order = np.sum((x - x.mean()) * (y - y.mean())) / spread
+    left = y - y.mean() - order * (x - x.mean())
+    scatter = np.sqrt(np.sum(left**2) / freedom)
+    observed = _known_to(float(order), float(scatter / np.sqrt(spread)), freedom)
+    reach = float(stdtrit(freedom, (1 + CONFIDENCE) / 2) * scatter / np.sqrt(len(x)))
     return ErrorLine(observed, float(x.mean()), float(y.mean()), reach)
 
 

@@ -56,61 +56,37 @@ class NotYetAsymptotic:
 
 
 @dataclass(frozen=True)
-class OrderOfConvergence:
-    """Order at which the error of a quantity falls with the cell or element size h, and its
-    expectation.
+class Order:
+    """Order at which the error of a quantity falls under refinement, and its expectation.
+
+    The changes between refinement levels replace the errors where the exact answer is not known, or
+    contains the error of another kind of refinement. They fall with the order of the error.
 
     of        quantity whose order is determined
-    meaning   description of the error
-    levels    labels of the runs, coarse to fine; runs with cells of one size form one level, with
-              the root mean square of their errors
-    error     function from the result of a run to its error, of either sign
+    meaning   description of the error or change
+    levels    labels of the runs, coarse to fine; runs of equal size form one level, with the root
+              mean square of their errors
+    error     function from the result of a run to its error, of either sign; for changes, function
+              from the results of two levels to their difference > 0
     expected  exponent p of h^p according to theory
     because   reason for the expected order
     not_yet   allowance for levels that are not asymptotic; None if there is no known reason
-    """
-
-    name: str
-    of: Followed
-    meaning: str
-    levels: tuple[str, ...]
-    error: Callable[[Any], float]
-    expected: float
-    because: str
-    not_yet: NotYetAsymptotic | None = None
-
-
-@dataclass(frozen=True)
-class OrderOfChange:
-    """Order at which the differences between successive refinement levels fall, and its
-    expectation.
-
-    Used where the exact answer is not known, or contains the error of another kind of refinement.
-    The differences fall with the order of the error.
-
-    of        quantity whose order is determined
     refined   discretisation parameter that is refined
-    meaning   description of the difference
-    levels    labels of the runs, coarse to fine
-    change    difference > 0 between the results of two levels; the ratio of their sizes is constant
-    size      function from a result to its discretisation parameter h
-    expected  exponent p of h^p according to theory
-    because   reason for the expected order
-    not_yet   allowance for levels that are not asymptotic; None if there is no known reason
-    apart     distance between the two compared levels in the list of levels
+    size      function from a result to its discretisation parameter h; None: cell or element side
+    apart     distance between the two compared levels in the list of levels; 0 for errors
     """
 
     name: str
     of: Followed
-    refined: Refinement
     meaning: str
     levels: tuple[str, ...]
-    change: Callable[[Any, Any], float]
-    size: Callable[[Any], float]
+    error: Callable[..., float]
     expected: float
     because: str
     not_yet: NotYetAsymptotic | None = None
-    apart: int = 1
+    refined: Refinement = Refinement.MESH
+    size: Callable[[Any], float] | None = None
+    apart: int = 0
 
 
 class Level(IntEnum):
@@ -262,7 +238,7 @@ class Case:
     problem: str
     runs: tuple[AnyRun, ...]
     quantities: tuple[Quantity, ...]
-    orders: tuple[OrderOfConvergence | OrderOfChange, ...] = ()
+    orders: tuple[Order, ...] = ()
     findings: tuple[Finding, ...] = ()
     comparisons: tuple[Comparison, ...] = ()
     checks: tuple[Check, ...] = ()

@@ -26,8 +26,7 @@ from verification.judging.case import (
     Finding,
     Followed,
     NotYetAsymptotic,
-    OrderOfChange,
-    OrderOfConvergence,
+    Order,
     Quantity,
     Required,
 )
@@ -407,7 +406,7 @@ class Judged:
 
     runs: tuple[AnyRun, ...]
     quantities: tuple[Quantity, ...] = ()
-    orders: tuple[OrderOfConvergence, ...] = ()
+    orders: tuple[Order, ...] = ()
     findings: tuple[Finding, ...] = ()
     equations: tuple[str, ...] = ()
 
@@ -446,7 +445,7 @@ def case(
     runs: tuple[AnyRun, ...] = (),
     quantities: tuple[Quantity, ...] = (),
     findings: tuple[Finding, ...] = (),
-    orders: tuple[OrderOfChange, ...] = (),
+    orders: tuple[Order, ...] = (),
     comparisons: tuple[Comparison, ...] = (),
     checks: tuple[Check, ...] = (),
     charts: Sequence[Drawing] = (),
@@ -532,10 +531,10 @@ def _quantity(
     )
 
 
-def _order(row: Falls, ladder: RefinementLevels) -> OrderOfConvergence:
+def _order(row: Falls, ladder: RefinementLevels) -> Order:
     what = row.what
     assert what.of is not None
-    return OrderOfConvergence(
+    return Order(
         name=f"order_of_{what.name}",
         of=what.of,
         meaning=row.meaning or what.said(ladder.judged.words),

@@ -20,10 +20,8 @@ from verification.judging.case import (
     Check,
     Comparison,
     Derived,
-    OrderOfChange,
-    OrderOfConvergence,
+    Order,
     Quantity,
-    Refinement,
     Required,
 )
 from verification.judging.outcome import (
@@ -137,7 +135,7 @@ def expanded_uncertainty(
     return COVERAGE * math.hypot(u_num, quantity.reference.uncertainty)
 
 
-def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: Results) -> Verdict:
+def judge_order(study: Order, case: Case, results: Results) -> Verdict:
     """Judge an observed order of convergence against the expected order.
 
     The verdict is INCONCLUSIVE if the 95 % interval of the observed order is too wide. It is a
@@ -149,8 +147,7 @@ def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: 
     difference = math.nan if observed is None else abs(observed.order - study.expected)
     off = 0.0 if study.not_yet is None else study.not_yet.allowance
     kept = False if observed is None else observed.keeps(study.expected, off)
-    changes = isinstance(study, OrderOfChange)
-    runs = "" if changes or len(errors) == len(study.levels) else (
+    runs = "" if study.apart or len(errors) == len(study.levels) else (
         f", each the root mean square of {len(study.levels) / len(errors):.3g} runs"
     )  # fmt: skip
     return Verdict(
@@ -171,7 +168,7 @@ def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: 
         because=f"an order passes where it is at 95 % no lower than {ORDER_OFF} below what is "
         f"promised{_not_yet(study)}, and not known to be as much higher; it is judged where its "
         f"95 % interval is no wider than ± {ORDER_WIDTH}; "
-        f"{len(errors)} {'changes' if changes else 'levels'}{runs}",
+        f"{len(errors)} {'changes' if study.apart else 'levels'}{runs}",
         status=order_status(kept),
         interval=None if observed is None else observed.half_width,
         margin=None if observed is None else observed.margin,
@@ -179,30 +176,28 @@ def judge_order(study: OrderOfConvergence | OrderOfChange, case: Case, results: 
             of=study.of,
             meaning=study.meaning,
             solver=case.run(study.levels[0]).solver,
-            refined=study.refined if isinstance(study, OrderOfChange) else Refinement.MESH,
+            refined=study.refined,
             sizes=tuple(sizes),
             errors=tuple(errors) if known else (),
         ),
     )
 
 
-def _not_yet(study: OrderOfConvergence | OrderOfChange) -> str:
+def _not_yet(study: Order) -> str:
     known = study.not_yet
     return "" if known is None else f", here {known.allowance:g}, as {known.because}"
 
 
-def _refined(
-    study: OrderOfConvergence | OrderOfChange, case: Case, results: Results
-) -> tuple[list[float], list[float]]:
+def _refined(study: Order, case: Case, results: Results) -> tuple[list[float], list[float]]:
     """Return the discretisation sizes, coarse to fine, and the errors (or changes) at these sizes.
 
-    The sizes are cell or element sizes, or the sizes that an order of change defines. Runs on cells
-    of one size are combined by the root mean square of their errors.
+    The sizes are cell or element sizes, or the sizes that an order of changes defines. Runs of one
+    size are combined by the root mean square of their errors.
     """
     levels = [results[label] for label in study.levels]
-    if isinstance(study, OrderOfChange):
+    if study.size is not None:
         pairs = list(zip(levels, levels[study.apart :], strict=False))
-        return [study.size(one) for one, _ in pairs], [study.change(*pair) for pair in pairs]
+        return [study.size(one) for one, _ in pairs], [study.error(*pair) for pair in pairs]
     return by_size(_spacings(case, study.levels), [study.error(level) for level in levels])
 
 

@@ -137,12 +137,6 @@ class Recording(Description):
     findings: tuple[RecordedFinding, ...]
     runs: tuple[RecordedRun, ...]
 
-    @model_validator(mode="before")
-    @classmethod
-    def _without_time(cls, values: dict[str, object]) -> dict[str, object]:
-        """Remove the obsolete entry `loops` (CPU time) of older recordings."""
-        return {name: value for name, value in values.items() if name != "loops"}
-
 
 class Baseline(Description):
     """Accepted results of one case at all levels at which they were recorded:
