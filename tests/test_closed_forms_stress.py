@@ -9,8 +9,8 @@ from surface_quadrature import ray_integral
 
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
 from verification.closed_forms.flat_punch import TiltedPunch
-from verification.closed_forms.hamilton_stress import hamilton_stress
 from verification.closed_forms.huber_stress import (
+    hamilton_stress,
     huber_stress,
     sliding_axis_shear,
     stress_by_hertz_pressure,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from verification.cases.external_codes import Recorded
+from verification.cases.cross_check import Recorded
 
 RUNS = ((16, 1000.0), (32, 1000.0), (32, 500.0))  # elements, stiffness
 

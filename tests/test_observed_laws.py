@@ -16,10 +16,9 @@ from verification.judging.run import (
     per_radius,
 )
 from verification.observed.cells import states_on_cells
-from verification.observed.contact_state import imbalances, violations
+from verification.observed.contact_state import imbalances, missed, violations
 from verification.observed.elements import states_on_elements
 from verification.observed.laws import observed
-from verification.observed.prescribed import missed
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import (
     FRICTION_LIMIT,

@@ -51,8 +51,7 @@ from radial.stress.subsurface_disc import SubsurfaceDisc
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import HalfSpace, Stack, stack_of
 from slipstick.against import comparison
-from verification.closed_forms.hamilton_stress import hamilton_stress
-from verification.closed_forms.huber_stress import huber_stress
+from verification.closed_forms.huber_stress import hamilton_stress, huber_stress
 
 # a = 1, E* = π/2 and p_H = 1.
 SOFT = IsotropicMaterial(young_modulus=0.91 * np.pi / 2, poisson_ratio=0.3)

@@ -100,7 +100,7 @@ MODULES = {
     "torsion": ("torsion", "torsion_coated", "fem_torsion", "radial_torsion", "radial_turning"),
     "coatings": (
         *("coated_paraboloid", "coated_unlike_ratios", "layered_identities", "thin_layer"),
-        *("film_stiffness", "fem_coated", "radial_pressing"),
+        *("film_stiffness", "fem_coated", "radial_pressing", "layered_reference", "frf_laws"),
     ),
     "frictional_pressing": (
         *("frictional_indentation", "indentation_refinement", "sheared_increments"),
@@ -111,7 +111,7 @@ MODULES = {
         *("load_paths", "coupled_history", "same_surface", "forced_effects", "exchanged_bodies"),
         *("led_histories", "fem_far_field"),
     ),
-    "responses": ("layered_reference", "frf_laws"),
+    "cross_check": ("cross_check", "external_codes"),
     "stress": ("subsurface_stress", "edge_stress", "radial_stress"),
 }
 MODULE_OF = {name: module for module, names in MODULES.items() for name in names}

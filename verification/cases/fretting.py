@@ -91,7 +91,7 @@ from verification.quantities import (
 
 if TYPE_CHECKING:
     from semi_analytical import Increment, Result
-    from verification.closed_forms.tangential_history import TangentialHistory
+    from verification.closed_forms.cattaneo_mindlin import TangentialHistory
 
 
 MICROMETRE = 1e-6

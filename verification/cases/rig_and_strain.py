@@ -15,9 +15,8 @@ from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_scene import Ellipsoid, IsotropicMaterial, Layer, LoadStep, Rig
 from contact_scene.quantities.summary import OF_CYCLES
-from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.elliptical_contact import EllipticalContact
-from verification.closed_forms.tangential_history import TangentialHistory
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import (
     ENERGY,

@@ -27,9 +27,9 @@ from semi_analytical.frf.stack import stack_of
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import SubsurfaceField, interfaces, subsurface, subsurface_section
 from semi_analytical.stress.near_edge import NearEdge, near_edge
-from verification.closed_forms.hamilton_stress import hamilton_stress
 from verification.closed_forms.huber_stress import (
     axis_stress,
+    hamilton_stress,
     huber_stress,
     sliding_axis_shear,
     stress_by_hertz_pressure,

@@ -29,9 +29,8 @@ from verification.challenge.requested_quantities import (
     round_halves,
     stick_radius,
 )
-from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import TiltedPunch
-from verification.closed_forms.tangential_history import TangentialHistory
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import AMPLITUDE, sheared
 from verification.problems.classical import (

@@ -43,7 +43,7 @@ from verification.challenge.requested_quantities import (
     tabulated,
 )
 from verification.closed_forms.flat_punch import FlatPunchContact
-from verification.closed_forms.hamilton_stress import hamilton_stress
+from verification.closed_forms.huber_stress import hamilton_stress
 from verification.closed_forms.torsion import TorsionalPartialSlip
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import OVER_LIMIT

@@ -10,15 +10,30 @@ only for ν = 0. With the full vector law, identical bodies and ν = 0.3, the tr
 4.5 % of the peak µp, the shear of slipping points turns by up to 7.5°, and the last stick vanishes
 between 0.987 and 0.9996 µW instead of at µW. Compare with small tolerances for ν = 0, and with 1 to
 5 % for ν = 0.3. `slip` is therefore defined for ν = 0 only.
+
+Histories of the tangential force follow Masing's rule with return-point memory. A branch after a
+reversal is the curve of the first loading with force and displacement doubled. When the force
+returns to an earlier reversal, the loop closes and both reversals are removed. For Hertz point
+contact this rule is exact (Mindlin and Deresiewicz 1953; Jäger 1998).
+
+Ruiz's fretting parameters between ±T*, ν = 0, are F1 = τ δ and F2 = σ_T τ δ (Ruiz, Boddington and
+Chen 1984, Exp. Mech. 24, 208-217). τ is the largest shear at a position in a cycle, δ half the
+range of slip, and σ_T the largest surface stress along the force at the ends of the cycle.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import copysign, expm1, log1p, pi
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from verification.closed_forms.huber_stress import (
+    stress_by_hertz_pressure,
+    stress_by_hertz_shear,
+)
 
 # µW computed on two paths differs in the last digits; that much excess counts as T = µW.
 ROUNDING = 1e-14
@@ -215,3 +230,169 @@ def _refuse_gross_slip(force: float, limit: float) -> None:
             f"tangential force {force!r} exceeds the friction limit {limit!r}: gross slip, no "
             "static solution"
         )
+
+
+@dataclass(frozen=True)
+class TangentialHistory:
+    """State of a Hertz contact after a history of tangential forces at constant normal load.
+
+    virgin             the contact without tangential force
+    turning_points     forces at the reversals of open loops, with decreasing differences [force]
+    tangential_force   current T [force]
+    dissipated_energy  energy dissipated by friction since the start [force*length]
+    """
+
+    virgin: PartialSlip
+    turning_points: tuple[float, ...] = ()
+    tangential_force: float = 0.0
+    dissipated_energy: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.virgin.tangential_force != 0:
+            raise ValueError("a history starts from a contact without tangential force")
+
+    def loaded_to(self, force: float) -> "TangentialHistory":
+        """Compute the state after a monotonic change of the tangential force to `force` [force].
+
+        Raises ValueError if |force| exceeds the friction limit µW.
+        """
+        replace(self.virgin, tangential_force=force)
+        if force == self.tangential_force:
+            return self
+        points, lost = self.turning_points, self.dissipated_energy
+        here, rising = self.tangential_force, force > self.tangential_force
+        origin = points[-1] if points else 0.0
+        if here != origin and (here > origin) != rising:
+            points = (*points, here)
+        while points:
+            closing = points[-2] if len(points) > 1 else -points[0]
+            if (force < closing) if rising else (force > closing):
+                break
+            lost += self._lost(points, closing) - self._lost(points, here)
+            points, here = points[:-2], closing
+        lost += self._lost(points, force) - self._lost(points, here)
+        return TangentialHistory(self.virgin, points, force, lost)
+
+    @property
+    def shift(self) -> float:
+        """Tangential shift of the indenter relative to the body [length]."""
+        return sum(scale * state.shift for scale, state in self.branches())
+
+    def shear(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Compute the shear on the lower body at distance r from the axis [force/length²]."""
+        total = np.zeros_like(np.asarray(r, dtype=float))
+        for scale, state in self.branches():
+            total = total + scale * state.shear(r)
+        return total
+
+    def slip(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Compute the slip of the lower surface relative to the indenter at distance r <= a
+        [length].
+
+        The formula holds for ν = 0.
+        """
+        total = np.zeros_like(np.asarray(r, dtype=float))
+        for scale, state in self.branches():
+            total = total + scale * state.slip(r)
+        return total
+
+    @property
+    def stick_radius(self) -> float:
+        """Radius of the zone that has not slipped since the last reversal [length]."""
+        return self.branches()[-1][1].stick_radius
+
+    def branches(self) -> list[tuple[float, PartialSlip]]:
+        """Return the first-loading states whose weighted sum is the current state, with their
+        weights.
+
+        The first has weight 1; each later branch has weight 2.
+        """
+        forces = (*self.turning_points, self.tangential_force)
+        branches = [(1.0, replace(self.virgin, tangential_force=forces[0]))]
+        for start, end in pairwise(forces):
+            branches.append((2.0, replace(self.virgin, tangential_force=(end - start) / 2)))
+        return branches
+
+    def _lost(self, points: tuple[float, ...], force: float) -> float:
+        """Compute the energy dissipated on the branch from the last reversal to a force
+        [force*length].
+
+        points  forces at the reversals; empty for the first loading [force]
+        """
+        if not points:
+            return replace(self.virgin, tangential_force=force).dissipated_energy
+        half = (force - points[-1]) / 2
+        return 2 * replace(self.virgin, tangential_force=half).dissipated_energy
+
+
+Values = NDArray[np.float64]
+
+# Places at which the largest value is looked for, dense near the edge where σ_T turns to tension.
+PLACES = 20_001
+
+
+@dataclass(frozen=True)
+class CycledContact:
+    """Steady cycles of a Hertz contact between tangential forces T* and -T* at constant normal
+    load.
+
+    Both materials have ν = 0.
+
+    end            state at the end of the first loading, at T* > 0
+    peak_pressure  p0 of the Hertz contact [force/length²]
+    """
+
+    end: PartialSlip
+    peak_pressure: float
+
+    def slip_amplitude(self, r: ArrayLike) -> Values:
+        """Compute the slip amplitude δ of a steady cycle at distance r <= a from the axis [length].
+
+        δ is half the range of slip. By Masing's rule the slip of a reversal, which is the whole
+        range, is twice that of the first loading.
+        """
+        return np.abs(self.end.slip(r))
+
+    def largest_shear(self, r: ArrayLike) -> Values:
+        """Compute the largest shear τ of a steady cycle at distance r from the axis
+        [force/length²].
+
+        τ is the shear at ±T*, which is µp in the slip annulus.
+        """
+        return np.abs(self.end.shear(r))
+
+    def surface_tension(self, x: ArrayLike) -> Values:
+        """Compute the largest tensile stress σ_T of a steady cycle at the surface point (x, 0)
+        [force/length²].
+
+        σ_T is the larger value of σ_xx at the two ends of the cycle.
+        """
+        a, c = self.end.contact_radius, self.end.stick_radius
+        q0 = self.end.friction_coefficient * self.peak_pressure
+        sheared = stress_by_hertz_shear(x, a, q0, 0.0)
+        if c > 0:
+            sheared = sheared - stress_by_hertz_shear(x, c, q0 * c / a, 0.0)
+        return stress_by_hertz_pressure(x, a, self.peak_pressure, 0.0) + np.abs(sheared)
+
+    @property
+    def largest_f1(self) -> float:
+        """Largest first Ruiz parameter τ δ on the surface [force/length]."""
+        return float(np.max(self._f1(self._radii())))
+
+    @property
+    def largest_f2(self) -> float:
+        """Largest second Ruiz parameter σ_T τ δ on the surface [force²/length³].
+
+        At a given r the tensile stress is largest on the line through the centre along the force.
+        """
+        r = self._radii()
+        return float(np.max(np.maximum(self.surface_tension(r), 0.0) * self._f1(r)))
+
+    def _f1(self, r: Values) -> Values:
+        return self.largest_shear(r) * self.slip_amplitude(r)
+
+    def _radii(self) -> Values:
+        """Return radii between the stick zone and the contact edge, dense near the edge
+        [length]."""
+        a, c = self.end.contact_radius, self.end.stick_radius
+        return np.asarray(a - (a - c) * np.linspace(1.0, 0.0, PLACES) ** 2)

@@ -1,6 +1,6 @@
-"""Hertz point contact: closed form for a paraboloid on a half-space.
+"""Hertz point contact: closed forms for a paraboloid and for a ball with its exact arc.
 
-The undeformed gap is r²/2R; for a ball this is the leading term of the exact arc, see `sphere`. The
+The gap of the paraboloid is r²/2R, the leading term of the exact arc. The
 solution is valid for a << R, frictionless surfaces or pairs without normal-tangential coupling.
 """
 

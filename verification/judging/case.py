@@ -1,4 +1,4 @@
-"""Data of a verification case: its runs, the quantities measured on them, and their references."""
+"""Data of a verification case: runs, quantities measured on them, references and orders."""
 
 from __future__ import annotations
 

@@ -44,8 +44,8 @@ from verification.judging.verdicts import (
     judge_worst,
     unsolved,
 )
+from verification.observed.contact_state import Imbalance
 from verification.observed.laws import Observed, observed
-from verification.observed.prescribed import Imbalance
 from verification.quantities import largest_residual
 
 WITHIN = (

@@ -1,5 +1,7 @@
-"""List of the laws of the surface FRF: limits, bounds, monotonicity, symmetries and positive
-energy.
+"""Laws of the surface frequency response function (FRF) of layered bodies.
+
+The FRF is the surface displacement per unit traction in Fourier space. The laws are limits, bounds,
+monotonicity, symmetries and positive energy.
 
 Each function draws a random layered body and returns the violation of one law.
 """

@@ -6,8 +6,13 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any, NamedTuple
 
-from verification.observed.contact_state import ContactState, imbalances, violations
-from verification.observed.prescribed import largest_of, missed
+from verification.observed.contact_state import (
+    ContactState,
+    imbalances,
+    largest_of,
+    missed,
+    violations,
+)
 
 
 class Observed(NamedTuple):

@@ -14,8 +14,7 @@ import numpy as np
 
 from contact_scene import IsotropicMaterial
 from contact_scene.loading import LoadStep
-from verification.closed_forms.ruiz import CycledContact
-from verification.closed_forms.tangential_history import TangentialHistory
+from verification.closed_forms.cattaneo_mindlin import CycledContact, TangentialHistory
 from verification.norms import shear_error
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO

@@ -1,4 +1,4 @@
-"""Classical frictionless problems under a force of 1 kN: ball, cone, flat punch and barrel.
+"""Frictionless problems under a force of 1 kN: ball, cone, flat punch, barrel, and coated bodies.
 
 The pressure is infinite at the apex of the cone and at the rim of the punch.
 """

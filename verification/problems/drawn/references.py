@@ -32,13 +32,12 @@ from contact_scene.quantities.stated_error import (
     StatedErrors,
 )
 from contact_scene.stepping.increment_error import with_error
-from verification.closed_forms.cattaneo_mindlin import PartialSlip
+from verification.closed_forms.cattaneo_mindlin import CycledContact, PartialSlip
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.huber_stress import (
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
 )
-from verification.closed_forms.ruiz import CycledContact
 from verification.problems.drawn.drawing import (
     AMPLITUDE,
     APPROACH,
