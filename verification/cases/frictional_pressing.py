@@ -4,10 +4,9 @@ increments."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from math import atanh, exp, log, sqrt
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -293,11 +292,11 @@ class Refined:
     """Runs with one refined discretisation parameter, coarse to fine, and differences between the
     runs.
 
-    refined  kind of the discretisation parameter
-    size     function from a result to the parameter h
-    x_label  label of h in charts
-    changes  differences whose order is judged
-    apart    number of levels between the two runs of a difference
+    refined   kind of the discretisation parameter
+    size      function from a result to the parameter h
+    x_label   label of h in charts
+    changes   differences whose order is judged
+    apart     number of levels between the two runs of a difference
     left_out  number of coarse levels that are left out of an order, by quantity
     """
 
@@ -307,7 +306,7 @@ class Refined:
     x_label: str
     changes: tuple[Order, ...]
     apart: int
-    left_out: Mapping[Followed, int] = MappingProxyType({})
+    left_out: Mapping[Followed, int] = field(default_factory=dict)
 
     @property
     def orders(self) -> tuple[Order, ...]:

@@ -1,7 +1,7 @@
 """Hertz point contact: closed forms for a paraboloid and for a ball with its exact arc.
 
-The gap of the paraboloid is r²/2R, the leading term of the exact arc. The
-solution is valid for a << R, frictionless surfaces or pairs without normal-tangential coupling.
+The gap of the paraboloid is r²/2R, the leading term of the exact arc. The solution is valid for
+a << R, frictionless surfaces or pairs without normal-tangential coupling.
 """
 
 import math
