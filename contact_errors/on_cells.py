@@ -22,7 +22,6 @@ from contact_errors.coarse_solves import (
 from contact_errors.cost_estimate import Work, work_on_cells
 from contact_errors.error_formula import PEAK, Features, has_cusp, is_singular
 from contact_results.result_warnings import left_out
-from contact_results.stress import on_cells as stress_on_cells
 from contact_scene import SurfaceDiscretisation
 from contact_scene.quantities.stated_error import (
     Part,
@@ -206,6 +205,8 @@ class CellSolver(DiscretisedSolver):
         run = memory.estimated_bytes(fineness.space, self.plan.cut_into(fineness.increments))
         if not self.stress or not self.scene.body.deforms:
             return run
+        from contact_results.stress import on_cells as stress_on_cells
+
         stress = stress_on_cells.estimated_bytes(fineness.space)
         return max(run, memory.LIBRARIES + stress)
 

@@ -143,13 +143,15 @@ def _make_room(newest: Path) -> None:
     newest  file of the newest entry, which is deleted last
     """
     entries = []
-    for path in newest.parent.glob("*" + SUFFIX):
+    for entry in os.scandir(newest.parent):
         with contextlib.suppress(OSError):  # another process may delete entries, too
-            status = path.stat()
-            entries.append((path != newest, -status.st_mtime, status.st_size, path))
+            if entry.name.endswith(SUFFIX):
+                status = entry.stat()
+                is_older = entry.name != newest.name
+                entries.append((is_older, -status.st_mtime, status.st_size, entry.path))
     total = 0
     for _, _, size, path in sorted(entries):
         total += size
         if total > LARGEST_CACHE:
             with contextlib.suppress(OSError):
-                path.unlink()
+                os.unlink(path)

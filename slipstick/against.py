@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 
 from contact_results.files.measured_table import ACTUATOR, LOAD, PLACE, PRESSURE, SHEAR, SHIFT
 from contact_results.files.stored_run import StoredRun
-from contact_results.files.stored_values import ends_of_steps
 from contact_results.surface import Rings
 from contact_scene.quantities.summary import StepSummary
 from contact_scene.rig import compliances
@@ -217,7 +216,7 @@ def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterat
     end, surface = run.summary.steps[step - 1], run.surface
     if isinstance(surface, Rings):
         surface = surface.on_both_sides()
-    state: Any = run.increment(int(ends_of_steps(run.increments["step"].array)[step - 1]))
+    state: Any = run.end_of_step(step - 1)
     shear = surface.vector(state, SHEAR)
     of_run = {
         PRESSURE: surface.scalar(state, PRESSURE),

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from matplotlib.figure import FigureBase
 from numpy.typing import NDArray
-from scipy.ndimage import map_coordinates
 
 from contact_results.surface import Cells, Rings
 from contact_scene.array_types import Field
@@ -106,6 +105,8 @@ class RingsAbove:
 
         field  values (rings,) or (rings, angles)
         """
+        from scipy.ndimage import map_coordinates
+
         radius, angle = self._polar()
         at = [np.interp(radius, self.rings.radii, np.arange(len(self.rings.radii)))]
         if field.ndim > 1:

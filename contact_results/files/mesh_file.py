@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import meshio
 import numpy as np
 from numpy.typing import NDArray
 
@@ -59,6 +58,8 @@ def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
     path        path of the file, which is written atomically
     convention  text about units, axes and signs, written as a comment
     """
+    import meshio
+
     whole = meshio.Mesh(
         mesh.points,
         [mesh.cells],

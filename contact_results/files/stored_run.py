@@ -21,6 +21,7 @@ from contact_results.directory.file_names import (
 from contact_results.files.stored_values import (
     MAPS,
     MISREAD,
+    ends_of_steps,
     fields_digest,
     opened,
     row_of,
@@ -129,6 +130,19 @@ class StoredRun:
         """Surface grid of the stored fields: cells or rings."""
         axes = {name: values.array for name, values in self.coordinates.items()}
         return surface_on(axes, self.direction)
+
+    @property
+    def solver(self) -> str:
+        """Name of the solver of the run."""
+        return self.summary.solver
+
+    def end_of_step(self, number: int) -> SimpleNamespace:
+        """Read scalars and fields at the end of a load step, see `increment`.
+
+        number  index of the load step, from 0
+        """
+        steps = self.increments["step"].array
+        return self.increment(int(ends_of_steps(steps)[number]))
 
     def increment(self, number: int) -> SimpleNamespace:
         """Read scalars and fields of an increment; they are attributes, as in a result.

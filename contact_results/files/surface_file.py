@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from contact_results.directory.run_directory import files_at_once
 from contact_results.files.mesh_file import Mesh, write_mesh
 from contact_results.files.stored_run import StoredRun
-from contact_results.files.stored_values import ends_of_steps
 from contact_results.surface import SURFACE_FIELDS, Rings, Surface
 
 # Names of the arrays with their units, by the name of the field.
@@ -144,8 +143,8 @@ def write_paraview(run: StoredRun, directory: Path) -> None:
     """
     entries = []
     with files_at_once(directory, COLLECTION, ()) as staging:
-        for number in ends_of_steps(run.increments["step"].array).tolist():
-            end = run.increment(number)
+        for number in range(len(run.summary.steps)):
+            end = run.end_of_step(number)
             file = f"surface_step_{int(end.step)}.vtu"
             write_surface(run.surface, end, staging / file, run.summary.convention)
             entries.append(f'<DataSet timestep="{int(end.step)}" file="{file}"/>\n')

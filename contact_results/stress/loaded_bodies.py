@@ -12,8 +12,6 @@ import numpy as np
 
 from contact_results.directory.atomic_file import Refused
 from contact_results.directory.file_names import FIELDS
-from contact_results.files.stored_run import StoredRun, load
-from contact_results.files.stored_values import MISREAD, FieldsAtEndsOnly, ends_of_steps
 from contact_results.stress.points import StressPoints
 from contact_results.surface import Surface, surface_of, surface_on
 from contact_scene import Body, CoulombFriction, FiniteElementDiscretisation, Scene
@@ -28,6 +26,7 @@ from contact_scene.quantities.stated_error import (
 )
 
 if TYPE_CHECKING:
+    from contact_results.files.stored_run import StoredRun
     from contact_results.surface import Result
 
 
@@ -158,9 +157,8 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
     """
     with _reading(directory) as run:
         number = _existing(step, len(run.summary.steps))
-        last = int(ends_of_steps(run.increments["step"].array)[number])
         errors = run.summary.steps[number].errors
-        return _in_contact(_state(run.scene, run.surface, run, run.increment(last), errors))
+        return _in_contact(_state(run.scene, run.surface, run, run.end_of_step(number), errors))
 
 
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
@@ -185,6 +183,9 @@ def _reading(directory: Path) -> Iterator[StoredRun]:
 
     directory  directory of the run
     """
+    from contact_results.files.stored_run import load
+    from contact_results.files.stored_values import MISREAD, FieldsAtEndsOnly
+
     try:
         run = load(directory)
     except (FileNotFoundError, ValueError) as error:
@@ -213,7 +214,6 @@ def _state(
     """
     if not end.contact_area:
         return None
-    solver = source.summary.solver if isinstance(source, StoredRun) else source.solver
     pressed = (scene.indenter, end.contact_radius, end.approach or 0.0)
     fields = {name: surface.scalar(end, name) for name in TRACTIONS}
     return LoadedBodies(
@@ -228,7 +228,7 @@ def _state(
         edges=end.edge_change is not None,
         by_increments=None if errors is None else _by_increments(end, errors),
         direction=surface.direction,
-        pressed=pressed if solver == RADIAL else None,
+        pressed=pressed if source.solver == RADIAL else None,
         contact_radius=end.contact_radius,
         peak_pressure=end.peak_pressure,
         strain=None if end.bulk_strain is None else (*end.bulk_strain, end.bulk_shear or 0.0),
