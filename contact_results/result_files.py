@@ -1,24 +1,18 @@
-"""Writers of all files of a result, or of the stress below a contact, in one call."""
+"""Writer of all files of a result in one call."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from contact_results.cycles import fretting_cycles
-from contact_results.directory.file_names import STRESS, STRESS_PAGE
-from contact_results.directory.run_directory import files_at_once
 from contact_results.files.field_file import write_fields
 from contact_results.files.summary_file import write_summary
 from contact_results.files.tables import write_tables
 from contact_results.key_numbers import cycle_columns
-from contact_scene.quantities.stated_error import AccuracyReached, StatedError, StatedErrors
+from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
 
 if TYPE_CHECKING:
-    from contact_results.stress.loaded_bodies import LoadedBodies
-    from contact_results.stress.points import StressField
-    from contact_results.stress.stress_maxima import Extreme
     from contact_results.surface import Result
 
 
@@ -54,43 +48,3 @@ def write_result(
         write_figures(result, cycles, directory, of_last, everything=figures == "all")
         write_page(result, directory, of_last, shown)
     return shown
-
-
-def write_stress(
-    state: LoadedBodies,
-    which: str,
-    field: StressField,
-    found: Sequence[Extreme],
-    directory: Path,
-    *,
-    with_figures: bool,
-    errors: Sequence[StatedError] | None = None,
-    accuracy: AccuracyReached | None = None,
-) -> None:
-    """Write all files of the stress below a contact.
-
-    These are tables, column descriptions, meshes, figures, HTML page and summary. The files replace
-    earlier ones atomically.
-
-    state         bodies and tractions that cause the stress
-    which         "body" for the lower body, or "indenter"
-    field         computed stress
-    found         largest stresses
-    directory     output directory
-    with_figures  also write figures and page
-    errors        stated errors of `found`; None if they were not computed
-    accuracy      requested and reached accuracy; None if none was requested
-    """
-    from contact_results.stress.files import VOLUME, write_files
-    from contact_results.stress.stress_maxima import maxima_columns
-
-    with files_at_once(directory, STRESS, (VOLUME, STRESS_PAGE)) as staging:
-        write_files(state, which, field, found, staging, errors, accuracy)
-        if with_figures:
-            from contact_results.figures.run_page import write_stress_page
-            from contact_results.figures.stress_plot import write_stress_figures
-
-            title = f"{state.title or 'Stress'}: {which}, step {state.step}"
-            body = state.indenter if which == "indenter" else state.body
-            names = write_stress_figures(field, body, staging, title)
-            write_stress_page(maxima_columns(found, errors), title, names, staging)

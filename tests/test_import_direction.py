@@ -147,7 +147,7 @@ ORDERS = {
         "stress",
         "figures",
         "result_files",
-        "stress_history",
+        "stress_result",
     ),
     "contact_errors": (
         *("values", "error_formula", "cost_estimate", "coarse_solves"),

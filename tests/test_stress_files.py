@@ -19,13 +19,14 @@ from test_surface import COATED, FRICTION, pressed_and_pushed
 
 import slipstick
 from contact_results.files.mesh_file import Mesh, write_mesh
-from contact_results.result_files import write_result, write_stress
+from contact_results.result_files import write_result
 from contact_results.stress import on_cells
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField
 from contact_results.stress.stress_maxima import extremes
+from contact_results.stress_result import write_stress
 from contact_scene.quantities.field_metadata import CONVENTION
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.stress import field as stress_field

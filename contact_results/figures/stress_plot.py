@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 from textwrap import fill
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
@@ -16,6 +17,9 @@ from contact_results.figures.section_panel import draw_section, show_depths
 from contact_results.stress.points import StressField, StressPoints
 from contact_scene import Body
 from contact_scene.reading.engineering_units import engineering_unit, quantity
+
+if TYPE_CHECKING:
+    from contact_results.stress_result import StressIncrement
 
 BAR = {"fraction": 0.05, "pad": 0.03}
 SECTION, LINES = "stress_section.png", "stress_lines.png"
@@ -210,3 +214,52 @@ def _titled(width: float, height: float, title: str) -> Figure:
     figure = style.new_figure(width, height, arranged=False)
     figure.suptitle(fill(title, int(13 * width)), fontsize=9.0)
     return figure
+
+
+def write_history_figure(
+    history: Sequence[StressIncrement], layers: int, path: Path, title: str
+) -> None:
+    """Draw the stress at chosen points over the increments, with one panel per point.
+
+    layers  number of layers of the body
+    path    path of the image file, which is written atomically
+    """
+    count = len(history[0].errors)
+    with style.figure_style(), atomic_file(path) as temporary:
+        figure = style.new_figure(6.4, 0.5 + 2.6 * count)
+        figure.suptitle(title, fontsize=style.STYLE["axes.titlesize"])
+        axes = figure.subplots(count, sharex=True, squeeze=False)[:, 0]
+        for n, ax in enumerate(axes):
+            _draw_point(ax, history, n, layers)
+        axes[-1].set_xlabel("increment; dotted: ends of load steps")
+        style.save(figure, temporary)
+
+
+def _draw_point(ax: Any, history: Sequence[StressIncrement], n: int, layers: int) -> None:
+    """Draw σ_xx, σ_zz, σ_xz and the largest principal stress of one point over the increments.
+
+    The stated errors are drawn as error bars. Dotted lines mark the ends of load steps.
+
+    ax      axes of matplotlib
+    n       index of the point
+    layers  number of layers of the body
+    """
+    values = {
+        _named(name): [each.points.components[name][n] for each in history]
+        for name in ("xx", "zz", "xz")
+    }
+    values["$σ_1$"] = [each.points.principal[0][n] for each in history]
+    errors = np.array([each.errors[n] for each in history])
+    unit = engineering_unit(float(np.max(np.abs(list(values.values())))), "Pa")
+    numbers = np.arange(1, len(history) + 1)
+    for number, (label, stress) in enumerate(values.items()):
+        bars, y = errors / unit.size, np.array(stress) / unit.size
+        ax.errorbar(numbers, y, bars, label=label, linewidth=1.2, **style.line(number))
+    for k in np.flatnonzero(np.diff([each.step for each in history])):
+        ax.axvline(k + 1, color=style.GREY, linewidth=0.7, linestyle=":")
+    point = history[0].points
+    place = (quantity(float(field[n]), "m") for field in (point.x, point.y, point.depth))
+    ax.set_title(f"x, y, depth = {', '.join(place)}, {point.material_name(n, layers)}")
+    ax.set_ylabel(unit.labelled("stress"))
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+    style.legend_beside(ax)

@@ -28,6 +28,15 @@ MEASURES = {
 ON_INTERFACES = frozenset({"interface_shear", "interface_tensile_stress"})
 
 
+def layer_name(layer: int, layers: int) -> str:
+    """Return the name of a material of a layered body, such as `layer 1` or `base`.
+
+    layer   index of the layer, 0 for the outermost; the number of layers denotes the base
+    layers  number of layers
+    """
+    return f"layer {layer + 1}" if layer < layers else "base"
+
+
 @dataclass(frozen=True, eq=False)
 class StressPoints:
     """Displacement and stress at points of a body; the points form an array of any shape (…).
@@ -80,6 +89,15 @@ class StressPoints:
     def components(self) -> Mapping[str, Field]:
         """Stress components at the points (…) [force/length^2], by name: xx, yy, zz, yz, xz, xy."""
         return dict(zip(COMPONENTS, self.stress, strict=True))
+
+    def material_name(self, n: int, layers: int) -> str:
+        """Return the name of the material at point n, such as `layer 1` or `base`.
+
+        The name is "body" without layers.
+
+        layers  number of layers of the body
+        """
+        return layer_name(int(self.material[n]), layers) if layers else "body"
 
     def turned(self, direction: tuple[float, float]) -> StressPoints:
         """Transform places, displacement and stress to the axes of the scene.

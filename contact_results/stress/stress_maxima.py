@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.number_text import number_text, uncertainty
-from contact_results.stress.points import ON_INTERFACES, StressField, StressPoints
+from contact_results.stress.points import ON_INTERFACES, StressField, StressPoints, layer_name
 from contact_scene import Body, IsotropicMaterial
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.reading.engineering_units import engineering_unit
@@ -83,15 +83,6 @@ def _extremes(
             x, y = along * x - across * y + 0.0, across * x + along * y + 0.0
             at_edge = bool(points.at_edge.flat[k])
             yield Extreme(region, measure, value, x, y, depth, at_edge)
-
-
-def layer_name(layer: int, layers: int) -> str:
-    """Return the name of a material of a layered body, such as `layer 1` or `base`.
-
-    layer   index of the layer, 0 for the outermost; the number of layers denotes the base
-    layers  number of layers
-    """
-    return f"layer {layer + 1}" if layer < layers else "base"
 
 
 def interface_sides(body: Body) -> list[tuple[int, str, float, int]]:

@@ -13,7 +13,6 @@ from pydantic import TypeAdapter, ValidationError
 
 from contact_errors.stress_errors import stress_at, stress_errors
 from contact_results.directory.run_directory import refuse_files_above
-from contact_results.result_files import write_stress
 from contact_results.stress.loaded_bodies import (
     LoadedBodies,
     state_of_result,
@@ -27,6 +26,7 @@ from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField
 from contact_results.stress.radial_body import is_sheared, refuse_infinite, refuse_turned
 from contact_results.stress.stress_maxima import extremes, maxima_columns
+from contact_results.stress_result import StressIncrement, write_history, write_stress
 from contact_scene import Body, SceneFile, read_scene_file
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
@@ -278,8 +278,6 @@ def _write_points(
     history   true for all increments
     indenter  true for points in the indenter, false for points in the lower body
     """
-    from contact_results.stress_history import StressIncrement, write_history
-
     made = []
     left_out: SolverError = ContactNotResolved("the bodies are separated and have no stress")
     if contents is None:
