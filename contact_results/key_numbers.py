@@ -5,7 +5,7 @@ Each number has a suitable unit and its stated error. Round-off is shown as zero
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
@@ -80,13 +80,22 @@ def outcome_columns(
     """
     stated: Sequence[Errors] = errors if errors is not None else [{}] * len(ends)
     numbered, gap = _shown(list(enumerate(zip(ends, stated, strict=True), 1)))
-    columns = {"step": [str(number) for number, _ in numbered]}
-    for heading, unit, texts in _texts([end for _, end in numbered], ends):
-        columns[f"{heading}\n{unit}"] = texts
+    first = {"step": [str(number) for number, _ in numbered]}
+    return _table(first, _columns([end for _, end in numbered], ends), gap)
+
+
+def _table(
+    first: dict[str, list[str]], columns: Iterable[_Column], gap: int | None
+) -> dict[str, list[str]]:
+    """Return the texts of a table: given first columns, and columns of numbers by heading and unit.
+
+    gap  index of the row of dots for omitted rows; None without omitted rows
+    """
+    texts = first | {f"{heading}\n{unit}": texts for heading, unit, texts in _texts(columns)}
     if gap is not None:
-        for texts in columns.values():
-            texts.insert(gap, "…")
-    return columns
+        for column in texts.values():
+            column.insert(gap, "…")
+    return texts
 
 
 def key_numbers(history: Sequence[State], errors: Errors | None) -> Iterator[tuple[str, str]]:
@@ -97,23 +106,18 @@ def key_numbers(history: Sequence[State], errors: Errors | None) -> Iterator[tup
     history  states at the ends of the load steps
     errors   stated errors of the last load step, by name; None if they were not computed
     """
-    for heading, unit, (text,) in _texts([(history[-1], errors or {})], history):
+    for heading, unit, (text,) in _texts(_columns([(history[-1], errors or {})], history)):
         yield heading.replace("\n", " ").strip(), f"{text} {unit}"
 
 
-def _texts(
-    steps: Sequence[tuple[State, Errors]], history: Sequence[State]
-) -> Iterator[tuple[str, str, list[str]]]:
-    """Yield heading, unit and number texts of each column of the table of key numbers.
-
-    steps    rows of the table: state at the end of a load step, and its stated errors
-    history  states at the ends of all load steps, which determine the limit of round-off
-    """
-    shown = list(_columns(steps, history))
+def _texts(columns: Iterable[_Column]) -> Iterator[tuple[str, str, list[str]]]:
+    """Yield heading, unit and number texts of each column of a table."""
+    shown = list(columns)
     for column in shown:
         alike = [other.entries for other in shown if other.like == column.like]
         sizes = [abs(value) for entries in alike for value, _ in entries if value is not None]
-        scale = engineering_unit(float(np.max(sizes, initial=0.0)), column.unit)
+        size = float(np.max(sizes, initial=0.0))
+        scale = PRODUCTS.get(column.unit) or engineering_unit(size, column.unit)
         texts = [number_text(value, error, scale.size) for value, error in column.entries]
         yield column.heading, scale.name, texts
 
@@ -187,13 +191,14 @@ def cycle_columns(
     shown, gap = _shown(cycles)
     rows = [cycle.numbers for cycle in shown]
     stated = [errors[cycle.cycle.end - 1] if errors is not None else {} for cycle in shown]
-    columns = {
+    first = {
         "cycle": [
             f"{cycle.cycle.start + 1}–{cycle.cycle.end}{' (first)' * row['from_virgin']}"
             for cycle, row in zip(shown, rows, strict=True)
         ],
         "regime": [str(row["regime"].value) for row in rows],
     }
+    columns = []
     for name, symbol in SYMBOLS.items():
         mark, found = OF_CYCLES[name], [row.get(name) for row in rows]
         for axis in "xy" if mark.kind is Kind.VECTOR else " ":
@@ -201,11 +206,7 @@ def cycle_columns(
             known = [abs(value) for value in values if value is not None]
             if not known or (mark.kind is Kind.VECTOR and not any(known)):
                 continue
-            unit = PRODUCTS.get(mark.unit) or engineering_unit(max(known), mark.unit)
             bars = [uncertainty(of_step.get(name), axis) for of_step in stated]
-            texts = [number_text(*pair, unit.size) for pair in zip(values, bars, strict=True)]
-            columns[f"{symbol} {axis}".strip() + f"\n{unit.name}"] = texts
-    if gap is not None:
-        for texts in columns.values():
-            texts.insert(gap, "…")
-    return columns
+            heading = f"{symbol} {axis}".strip()
+            columns.append(_Column(heading, heading, mark.unit, [*zip(values, bars, strict=True)]))
+    return _table(first, columns, gap)

@@ -24,12 +24,8 @@ from contact_errors.stress_errors import largest_stresses
 from contact_results.cycles import fretting_cycles
 from contact_results.files.summary_file import summary_of
 from contact_results.number_text import uncertainty
-from contact_results.stress.points import MEASURES, ON_INTERFACES
-from contact_results.stress.stress_maxima import (
-    SURFACE,
-    interface_sides,
-    layer_name,
-)
+from contact_results.stress.points import MEASURES, ON_INTERFACES, layer_name
+from contact_results.stress.stress_maxima import SURFACE, interface_sides
 from contact_scene import Body, SceneError, read_scene_file
 from contact_scene.quantities.field_metadata import (
     Kind,

@@ -21,15 +21,14 @@ Values = NDArray[np.float64]
 class Loop(NamedTuple):
     """Loop of a load over its displacement: force over shift, or torque over twist.
 
-    The values are those at the ends of all increments that have both.
+    Force and shift are components along the largest force.
 
-    path      these increments
-    force     name of the load: tangential_force or torque
-    forces    values of the load (n,)
-    motion    name of the displacement: tangential_shift or twist
-    motions   values of the displacement (n,)
-    along     direction of the force and the shift, in words; empty for torque
-    actuator  shift of the actuator of a test rig (n,); None without one
+    path     increments that have both load and displacement
+    force    name of the load: tangential_force or torque
+    forces   values of the load at the ends of these increments (n,)
+    motion   name of the displacement: tangential_shift or twist
+    motions  values of the displacement (n,)
+    along    unit vector of the force and the shift (2,); None for torque
     """
 
     path: list[Increment]
@@ -37,96 +36,60 @@ class Loop(NamedTuple):
     forces: Values
     motion: str
     motions: Values
-    along: str
-    actuator: Values | None = None
+    along: Values | None
 
     @property
     def work(self) -> float:
-        """Sum over all increments of the magnitude of the work of the load, by the trapezoidal
-        rule.
+        """Sum of the magnitudes of the work of the load in all increments, by the trapezoidal rule.
 
         Work put in and work recovered both count as positive.
         """
         return float(np.sum(np.abs((self.forces[1:] + self.forces[:-1]) * np.diff(self.motions))))
 
 
-def moved(increments: Sequence[Increment]) -> int:
-    """Count the increments with a non-zero tangential force or torque.
+def load_loop(increments: Sequence[Increment]) -> Loop | None:
+    """Return the loop of a load history with more work: force over shift, or torque over twist.
 
-    Force and torque are counted separately, and the larger count is returned. A fretting loop is
-    drawn only if there are enough of these increments.
+    Returns None if tangential force and torque are zero in all increments.
     """
-    loops = _loops(increments)
-    return max((int(np.count_nonzero(loop.forces)) for loop in loops), default=0)
+    found = []
+    for force, motion in (("tangential_force", "tangential_shift"), ("torque", "twist")):
+        names = (force, motion)
+        path = [i for i in increments if all(getattr(i, name) is not None for name in names)]
+        forces, motions = (np.array([getattr(i, name) for i in path]) for name in names)
+        if np.any(forces):
+            along = _direction(forces) if forces.ndim > 1 else None
+            if along is not None:
+                forces, motions = forces @ along, motions @ along
+            found.append(Loop(path, force, forces, motion, motions, along))
+    return max(found, key=lambda loop: loop.work, default=None)
 
 
-def draw_loop(ax: Any, result: Result) -> None:
+def draw_loop(ax: Any, loop: Loop) -> None:
     """Draw the fretting loop: tangential force over shift, or torque over twist.
-
-    The loop with more work is drawn. Force and shift are components along the largest force.
 
     ax  axes of matplotlib
     """
-    path, force, forces, motion, motions, along, actuator = max(
-        _loops(result.increments), key=lambda loop: loop.work
-    )
-    x, across = on_axis(motion, motions, along)
-    y, upward = on_axis(force, forces, along)
-
+    words = "" if loop.along is None else _direction_name(loop.along)
+    x, across = on_axis(loop.motion, loop.motions, words)
+    y, upward = on_axis(loop.force, loop.forces, words)
     ax.axhline(0.0, color=style.GREY, linewidth=0.5)
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)
     ax.plot(x, y, color=style.LINE_COLOURS[0], marker=".", markersize=3.5, linewidth=1.2)
-    if actuator is not None:
-        unit = motions @ x / (motions @ motions)  # factor from SI to the unit of the axis
+    actuator = [i.actuator_shift for i in loop.path]
+    if loop.along is not None and all(shift is not None for shift in actuator):
+        unit = loop.motions @ x / (loop.motions @ loop.motions)  # from SI to the unit of the axis
         style_of = {"color": style.LINE_COLOURS[2], "linestyle": "--", "linewidth": 1.0}
-        ax.plot(unit * actuator, y, label="actuator", **style_of)
-    ends = [n for n, i in enumerate(path) if i.index == i.increments_in_step]
+        ax.plot(unit * (np.array(actuator) @ loop.along), y, label="actuator", **style_of)
+    ends = [n for n, i in enumerate(loop.path) if i.index == i.increments_in_step]
     ax.plot(x[ends], y[ends], "o", color=style.LINE_COLOURS[1], markersize=5, label="end of a step")
     ax.margins(0.08)
     ax.set_xlabel(across)
     ax.set_ylabel(upward)
-    energy = path[-1].dissipated_energy
+    energy = loop.path[-1].dissipated_energy
     if energy is not None:
         ax.plot([], [], " ", label=f"dissipated: {quantity(energy, 'J')}")
     style.legend_above(ax)
-
-
-def _loops(increments: Sequence[Increment]) -> list[Loop]:
-    """Return the loops of a load history: force over shift, and torque over twist.
-
-    A loop is omitted if its load is zero in all increments.
-    """
-    found = []
-    path = [i for i in increments if i.tangential_shift is not None]
-    force = np.array([i.tangential_force for i in path])
-    if np.any(force):
-        direction = _direction(force)
-        shift = np.array([i.tangential_shift for i in path]) @ direction
-        found.append(
-            Loop(
-                path, "tangential_force", force @ direction, "tangential_shift", shift,
-                _along(direction), _actuator(path, direction),
-            )
-        )  # fmt: skip
-    path = [i for i in increments if i.torque is not None and i.twist is not None]
-    torque = np.array([i.torque for i in path])
-    if np.any(torque):
-        twist = np.array([i.twist for i in path])
-        found.append(Loop(path, "torque", torque, "twist", twist, ""))
-    return found
-
-
-def _actuator(path: Sequence[Increment], direction: Values) -> Values | None:
-    """Return the shift of the actuator along a direction at each increment (n,).
-
-    Returns None if an increment has no such shift.
-
-    direction  unit vector (2,)
-    """
-    shifts = [i.actuator_shift for i in path]
-    if any(shift is None for shift in shifts):
-        return None
-    return np.array(shifts) @ direction
 
 
 def _direction(force: Values) -> Values:
@@ -139,7 +102,7 @@ def _direction(force: Values) -> Values:
     return np.asarray(largest / np.hypot(*largest))
 
 
-def _along(direction: Values) -> str:
+def _direction_name(direction: Values) -> str:
     """Return the name of a direction in the plane of contact, such as "along x".
 
     direction  unit vector (2,)

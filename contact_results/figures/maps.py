@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import floor, log10
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +22,7 @@ from contact_results.figures.map_panels import (
     outline,
 )
 from contact_results.figures.shown_steps import selected, step_title
-from contact_scene.array_types import Field, Mask
+from contact_scene.array_types import Field
 from contact_scene.reading.engineering_units import (
     EngineeringUnit,
     engineering_unit,
@@ -47,39 +46,18 @@ ZONES = (
 )
 
 
-@dataclass(frozen=True, eq=False)
-class Panel:
-    """Contents of one map of the surface.
-
-    title     title of the map
-    values    values of the cells (nx, ny); NaN shows the background
-    arrows    vector field (2, nx, ny), and mask of the cells that may have arrows; None without
-              arrows
-    outlined  mask of the cells with a line around them; None without a line
-    """
-
-    title: str
-    values: Field
-    arrows: tuple[Field, Mask] | None = None
-    outlined: Mask | None = None
-
-
-def draw_panel(ax: Any, frame: MapFrame, panel: Panel, largest: float) -> Any:
+def draw_panel(ax: Any, frame: MapFrame, title: str, values: Field, largest: float) -> Any:
     """Draw one map of the surface, and return its image of matplotlib for the colour bar.
 
     ax       axes of matplotlib
     frame    cells, limits and unit of length
-    panel    contents of the map
+    title    title of the map
+    values   values of the cells (nx, ny); NaN shows the background
     largest  value at the upper end of the colour scale
     """
-    image = draw_cells(ax, frame, panel.values, cmap=style.MAGNITUDE_MAP, vmin=0.0, vmax=largest)
     ax.set_facecolor(style.OUTSIDE_COLOUR)
-    ax.set_title(panel.title)
-    if panel.arrows is not None:
-        draw_arrows(ax, frame, *panel.arrows)
-    if panel.outlined is not None:
-        outline(ax, frame, panel.outlined, "white")
-    return image
+    ax.set_title(title)
+    return draw_cells(ax, frame, values, cmap=style.MAGNITUDE_MAP, vmin=0.0, vmax=largest)
 
 
 def field_map(result: Result, cells: Above, name: str) -> Figure | None:
@@ -102,23 +80,18 @@ def field_map(result: Result, cells: Above, name: str) -> Figure | None:
     sizes = [np.hypot(*field) if is_vector else field for _, field in shown]
     largest = float(np.max(sizes))
     unit = engineering_unit(largest, symbol)
-    panels = []
-    for (step, field), size in zip(shown, sizes, strict=True):
+    figure = style.new_figure(*frame.figure_size(len(shown)))
+    axes = map_axes(figure, frame, len(shown))
+    for ax, (step, field), size in zip(axes, shown, sizes, strict=True):
         touching, sticking = cells.scalar(step, "in_contact"), cells.scalar(step, "in_stick")
         assert touching is not None
         inside = touching | (size > 0 if name == "dissipation" else False)
-        panels.append(
-            Panel(
-                step_title(step),
-                np.where(inside, size / unit.size, np.nan),
-                (field, touching) if is_vector else None,
-                sticking,
-            )
-        )
-    figure = style.new_figure(*frame.figure_size(len(panels)))
-    axes = map_axes(figure, frame, len(panels))
-    for ax, panel in zip(axes, panels, strict=True):
-        image = draw_panel(ax, frame, panel, largest / unit.size)
+        values = np.where(inside, size / unit.size, np.nan)
+        image = draw_panel(ax, frame, step_title(step), values, largest / unit.size)
+        if is_vector:
+            draw_arrows(ax, frame, field, touching)
+        if sticking is not None:
+            outline(ax, frame, sticking, "white")
     figure.colorbar(image, ax=axes, label=unit.labelled(label), shrink=0.9)
     figure.supylabel("white line: border of stick", fontsize=style.CAPTION_SIZE)
     return figure
@@ -141,8 +114,9 @@ def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
     inside = (cycle.largest_shear > 0) | (cycle.slip_amplitude > 0)
     axes = map_axes(figure, frame, len(fields))
     for ax, (title, unit, values) in zip(axes, fields, strict=True):
-        panel = Panel(f"{title} ({unit.name})", np.where(inside, values / unit.size, np.nan))
-        image = draw_panel(ax, frame, panel, float(np.max(values)) / unit.size or 1.0)
+        largest = float(np.max(values)) / unit.size or 1.0
+        seen = np.where(inside, values / unit.size, np.nan)
+        image = draw_panel(ax, frame, f"{title} ({unit.name})", seen, largest)
         figure.colorbar(image, ax=ax, shrink=0.8)
     return figure
 

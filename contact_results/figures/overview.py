@@ -11,9 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from contact_results.figures import style
-from contact_results.figures.load_plot import draw_loading, draw_loop, moved
+from contact_results.figures.load_plot import draw_loading, draw_loop, load_loop
 from contact_results.figures.map_panels import Above, MapFrame
-from contact_results.figures.maps import Panel, draw_panel, draw_zones, zone_patches
+from contact_results.figures.maps import draw_panel, draw_zones, zone_patches
 from contact_results.figures.profile_plot import draw_end
 from contact_results.figures.section_panel import draw_section, stretches
 from contact_results.figures.stress_plot import draw_depth, draw_surface
@@ -78,8 +78,9 @@ def overview(
     )
     draw_end(profile, result, surface_of(result))
     _draw_seen(figure, zones, result, above)
-    if moved(result.increments) >= LEAST_MOVES:
-        draw_loop(history, result)
+    loop = load_loop(result.increments)
+    if loop is not None and np.count_nonzero(loop.forces) >= LEAST_MOVES:
+        draw_loop(history, loop)
     elif field and len(result.increments) == 1:
         draw_depth(history, field, result.scene.body, field.axis, "on the axis")
     else:
@@ -168,7 +169,7 @@ def _draw_seen(figure: Figure, ax: Any, result: Result, above: Above) -> None:
     assert pressure is not None
     unit = engineering_unit(float(np.max(pressure)), "Pa")
     seen = np.where(pressure > 0, pressure / unit.size, np.nan)
-    image = draw_panel(ax, frame, Panel("", seen), float(np.max(pressure)) / unit.size or 1.0)
+    image = draw_panel(ax, frame, "", seen, float(np.max(pressure)) / unit.size or 1.0)
     figure.colorbar(image, ax=ax, label=unit.labelled("pressure p"), **BAR)
 
 

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contact_results.stress.points import layer_name
 from contact_results.stress.stress_maxima import (
     SURFACE,
     interface_sides,
-    layer_name,
 )
 from contact_scene import Body, IsotropicMaterial
 from contact_scene.array_types import Field

@@ -13,11 +13,16 @@ from contact_results.directory.file_names import STRESS
 from contact_results.files.csv_file import Column, write_meanings, write_table
 from contact_results.files.mesh_file import Mesh, tensor, write_mesh
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.points import COMPONENTS, MEASURES, StressField, StressPoints
+from contact_results.stress.points import (
+    COMPONENTS,
+    MEASURES,
+    StressField,
+    StressPoints,
+    layer_name,
+)
 from contact_results.stress.stress_maxima import (
     Extreme,
     interface_sides,
-    layer_name,
 )
 from contact_scene import Body
 from contact_scene.quantities.field_metadata import (
