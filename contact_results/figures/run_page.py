@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
@@ -22,6 +23,7 @@ STYLE = (
     "background:#fff}h1{font-size:1.5rem}h2{font-size:1.15rem;margin:1rem 0 .3rem}"
     "img{max-width:100%;height:auto}td,th{text-align:left;vertical-align:top;"
     "padding:.15rem 1rem .15rem 0}td{font-variant-numeric:tabular-nums}"
+    ".wide{overflow-x:auto}.wide td+td{white-space:nowrap}"
     "pre{overflow-x:auto;background:#f2f2f2;padding:.5rem}.soft{color:#595959;max-width:46rem}"
     "@media(prefers-color-scheme:dark){body{color:#e8e8e8;background:#16181b}pre{background:#24272c}"
     ".soft{color:#a9adb2}a{color:#7cc4ee}img{background:#fff;padding:.5rem;box-sizing:border-box}}"
@@ -145,7 +147,7 @@ def _cycles(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
     """
     yield "<h2>Load cycles</h2>"
     yield from _table(columns)
-    yield f'<p class="soft">{LOOPS}</p>'
+    yield f'<p class="soft">{_words(LOOPS)}</p>'
 
 
 def _table(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
@@ -153,16 +155,22 @@ def _table(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
 
     columns  texts of the cells by heading of their column
     """
-    yield "<table><tr>"
-    yield from (f'<th scope="col">{escape(heading)}</th>' for heading in columns)
+    yield '<div class="wide"><table><tr>'
+    yield from (f'<th scope="col">{_words(heading)}</th>' for heading in columns)
     for texts in zip(*columns.values(), strict=True):
-        yield "</tr><tr>" + "".join(f"<td>{escape(text)}</td>" for text in texts)
-    yield "</tr></table>"
+        yield "</tr><tr>" + "".join(f"<td>{_words(text)}</td>" for text in texts)
+    yield "</tr></table></div>"
 
 
 def _row(name: str, text: str) -> str:
     """Return the HTML of a table row with a name and a text."""
-    return f'<tr><th scope="row">{escape(name)}</th><td>{escape(text)}</td></tr>'
+    return f'<tr><th scope="row">{_words(name)}</th><td>{_words(text)}</td></tr>'
+
+
+def _words(text: str) -> str:
+    """Return the HTML of a text: subscripts of symbols such as E_d, and spaces in names."""
+    symbols = re.sub(r"_(\w)\b", r"<sub>\1</sub>", escape(text))
+    return symbols.replace("_", " ").replace("\n", "<br>")
 
 
 def _figures(paths: Iterable[Path]) -> Iterator[str]:
