@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from contact_results.directory.file_names import STRESS, STRESS_PAGE
@@ -11,10 +10,9 @@ from contact_results.directory.run_directory import files_at_once
 from contact_results.files.csv_file import STEP, Column, write_meanings, write_table
 from contact_results.stress.files import INVARIANTS, PLACE, VOLUME, write_files
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.points import COMPONENTS, StressField, StressPoints
+from contact_results.stress.points import COMPONENTS, StressField, StressIncrement
 from contact_results.stress.stress_maxima import Extreme, maxima_columns
 from contact_scene import Body
-from contact_scene.array_types import Field
 from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
 TABLE, MEANINGS, FIGURE = "stress_history.csv", "stress_history_columns.csv", "stress_history.png"
@@ -67,23 +65,6 @@ def write_stress(
             body = state.indenter if which == "indenter" else state.body
             names = write_stress_figures(field, body, staging, title)
             write_stress_page(maxima_columns(found, errors), title, names, staging)
-
-
-@dataclass(frozen=True, eq=False)
-class StressIncrement:
-    """Stress at chosen points of a body at the end of one increment.
-
-    step    load step, from 1
-    index   increment within the load step, from 1; None if the history has the ends of load steps
-            only
-    points  stress at the n points
-    errors  stated error of every stress component, one number per point (n,) [force/length^2]
-    """
-
-    step: int
-    index: int | None
-    points: StressPoints
-    errors: Field
 
 
 def write_history(

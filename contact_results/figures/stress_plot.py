@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -14,12 +14,9 @@ from matplotlib.ticker import MaxNLocator
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
 from contact_results.figures.section_panel import draw_section, show_depths
-from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.points import StressField, StressIncrement, StressPoints
 from contact_scene import Body
 from contact_scene.reading.engineering_units import engineering_unit, quantity
-
-if TYPE_CHECKING:
-    from contact_results.stress_result import StressIncrement
 
 BAR = {"fraction": 0.05, "pad": 0.03}
 SECTION, LINES = "stress_section.png", "stress_lines.png"

@@ -208,6 +208,23 @@ class StressPoints:
 
 
 @dataclass(frozen=True, eq=False)
+class StressIncrement:
+    """Stress at chosen points of a body at the end of one increment.
+
+    step    load step, from 1
+    index   increment within the load step, from 1; None if the history has the ends of load steps
+            only
+    points  stress at the n points
+    errors  stated error of every stress component, one number per point (n,) [force/length^2]
+    """
+
+    step: int
+    index: int | None
+    points: StressPoints
+    errors: Field
+
+
+@dataclass(frozen=True, eq=False)
 class FittedEdge:
     """Edge of the contact at the surface, fitted between the cell centres.
 

@@ -23,10 +23,10 @@ from contact_results.stress.loaded_bodies import (
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.on_section import stress_on_section
-from contact_results.stress.points import StressField
+from contact_results.stress.points import StressField, StressIncrement
 from contact_results.stress.radial_body import is_sheared, refuse_infinite, refuse_turned
 from contact_results.stress.stress_maxima import extremes, maxima_columns
-from contact_results.stress_result import StressIncrement, write_history, write_stress
+from contact_results.stress_result import write_history, write_stress
 from contact_scene import Body, SceneFile, read_scene_file
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
