@@ -114,9 +114,5 @@ class RadialDiscretisation(Description):
     """Number of output radii of the fields over the largest contact of the history, denser towards
     its edge."""
 
-    extrapolated: bool = False
-    """If true, a history with a tangential load is also solved with twice the increments, and its
-    scalars are extrapolated to the limit of fine increments. Takes three times as long."""
-
     tolerance: Tolerance = 1e-10
     """Limit of every dimensionless residual at the end of an increment."""

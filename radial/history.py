@@ -5,7 +5,7 @@ The module also contains the solver of load steps without friction.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -89,57 +89,10 @@ def solve(
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(scene, decided)
     solver = _solver(scene, discretisation, decided)
-    if discretisation.extrapolated and decided.circle:
-        return Result(
-            scene, discretisation, decided, _extrapolated(scene, solver, decided, progress, store)
-        )
-    increments = _solved_increments(scene, solver, decided, store, progress)
-    return Result(scene, discretisation, decided, tuple(increments))
-
-
-def _solved_increments(
-    scene: Scene,
-    solver: Any,
-    plan: Plan,
-    store: CheckpointStore | None,
-    progress: Progress | None = None,
-) -> Iterator[Increment]:
-    """Yield all increments of the load history, resumed from a checkpoint if there is one.
-
-    The increments of the checkpoint come first. Newly solved increments follow.
-
-    scene     contact problem
-    solver    solver of single increments, created by `_solver`
-    plan      number of increments of each load step
-    store     checkpoints; None if the run stores none
-    progress  called with each increment
-    """
     last = store.last() if store else None
-    history = resumable_increments(scene, plan.increments, solver, last)
-    return with_checkpoints(history, last, store, progress, None)
-
-
-def _extrapolated(
-    scene: Scene, solver: Any, plan: Plan, progress: Progress | None, store: CheckpointStore | None
-) -> tuple[Increment, ...]:
-    """Solve the load history twice and extrapolate to infinitely many increments per load step.
-
-    The second history has twice the number of increments. Only the second history stores
-    checkpoints.
-    """
-    from radial.richardson import (
-        doubled,
-        extrapolated,
-    )
-
-    coarse = iter([*_solved_increments(scene, solver, plan, None)])
-    increments = []
-    for fine in _solved_increments(scene, solver, doubled(plan), store):
-        if fine.index % 2 == 0:
-            increments.append(extrapolated(next(coarse), fine))
-            if progress is not None:
-                progress(increments[-1])
-    return tuple(increments)
+    history = resumable_increments(scene, decided.increments, solver, last)
+    increments = with_checkpoints(history, last, store, progress, None)
+    return Result(scene, discretisation, decided, tuple(increments))
 
 
 def _solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> Any:

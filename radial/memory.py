@@ -38,7 +38,12 @@ def estimated_bytes(scene: Scene, plan: Plan) -> int:
     """
     reported = LIGHT * sum(plan.increments)
     libraries = LIBRARIES + reported
-    waves = _wavenumbers(scene)
+    waves = 0
+    if scene.body.layers or scene.indenter.layers:
+        # Imported here, because a plan without layers does not need scipy.
+        from radial.largest_contact import wavenumbers
+
+        waves = wavenumbers(scene)
     if plan.circle:
         solved = WHOLE if plan.circle is Circle.WHOLE else PUSHED
         return reported + max(solved + PER_WAVE_PUSHED * waves, DRAWN)
@@ -57,15 +62,3 @@ def refuse_if_too_large(scene: Scene, plan: Plan) -> None:
             f"{sum(plan.increments)} increments, and {available / 2**30:.1f} GiB are available. "
             "Use a smaller load or fewer increments"
         )
-
-
-def _wavenumbers(scene: Scene) -> int:
-    """Return the number of wavenumbers of the Hankel integrals for the largest contact of a scene.
-
-    The number is 0 for bodies without layers, which need no such integrals.
-    """
-    if not scene.body.layers and not scene.indenter.layers:
-        return 0
-    from radial.largest_contact import wavenumbers
-
-    return wavenumbers(scene)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_scene import ControlKind, Scene
+from contact_scene import Scene
 from contact_scene.array_types import Array
 from contact_scene.rig import compliances
 from contact_scene.solver_errors import UnsupportedScene
@@ -38,11 +38,11 @@ def largest_targets(scene: Scene) -> Iterator[Target]:
     Values at the ends of the load steps are compared. A kind of control that the history lacks is
     skipped.
     """
-    for kind in ControlKind:
-        ends = [ramp.normal.end for ramp in scene.load_path() if ramp.normal.kind is kind]
-        if any(ends):
-            force = kind is ControlKind.FORCE
-            yield target(scene, max(ends) if force else None, None if force else max(ends))
+    ends = list(targets(scene))
+    for by_force in (True, False):
+        same = [end for end in ends if (end.force is not None) is by_force]
+        if same:
+            yield max(same, key=lambda end: end.prescribed)
 
 
 def targets(scene: Scene) -> Iterator[Target]:
@@ -51,10 +51,8 @@ def targets(scene: Scene) -> Iterator[Target]:
     Load steps that end without contact are skipped.
     """
     for ramp in scene.load_path():
-        force = ramp.normal.kind is ControlKind.FORCE
         if ramp.normal.end:
-            end = ramp.normal.end
-            yield target(scene, end if force else None, None if force else end)
+            yield target(scene, *ramp.normal.prescribed(1.0, (0.0, 0.0)))
 
 
 def target(scene: Scene, force: float | None, approach: float | None) -> Target:

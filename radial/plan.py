@@ -6,6 +6,7 @@ The checks raise UnsupportedScene before the solve.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import takewhile
 from math import ceil, hypot
 
 from contact_scene import ControlKind, LoadRamp, Scene, effect
@@ -115,7 +116,10 @@ def plan(scene: Scene) -> Plan:
     rough = scene.friction is not None and scene.friction.largest > 0
     frictional = rough and (couples or strained)
     curved = pushed and not along_one_line(ramps)
-    twists = friction and any(_twists(ramp, curved) for ramp in ramps)
+    # The indenter also twists if its twist is free and the tangential load turns.
+    twists = friction and any(
+        ramp.twisting.end or (curved and ramp.twisting.kind is ControlKind.FORCE) for ramp in ramps
+    )
     circle = _circle(scene, frictional, twists, pushed, curved)
     if frictional or circle:
         _refuse_friction(scene, circle)
@@ -133,20 +137,12 @@ def plan(scene: Scene) -> Plan:
         effect.coupled(scene, rough and couples, why),
         effect.load_history(frictional or twists or pushed),
     )
-    increments = _pushed_increments(scene, circle) if circle else _increments(scene, frictional)
+    loops = loop_increments(ramps) if circle else (1,) * len(ramps)
+    increments = tuple(
+        ramp.increments or max(of_loop, _path_increments(scene, ramp, circle, frictional))
+        for ramp, of_loop in zip(ramps, loops, strict=True)
+    )
     return Plan(frictional, twists, pushed, increments, effects, first_direction(ramps), circle)
-
-
-def _twists(ramp: LoadRamp, curved: bool) -> bool:
-    """Return true if the indenter twists in a load step.
-
-    The load step has a nonzero torque or twist, or the twist is free while the tangential loads of
-    the history are not on one line.
-
-    ramp    load step
-    curved  true if the tangential loads of the history are not on one line
-    """
-    return bool(ramp.twisting.end) or (curved and ramp.twisting.kind is ControlKind.FORCE)
 
 
 def _circle(
@@ -180,42 +176,28 @@ def _normal_changes_in_torsion(ramps: tuple[LoadRamp, ...]) -> bool:
 
     ramps  load steps of the history
     """
-    twisted = False
-    for ramp in ramps:
-        twisted = twisted or bool(ramp.twisting.end)
-        if twisted and ramp.normal.start != ramp.normal.end:
-            return True
-    return False
+    untwisted = list(takewhile(lambda ramp: not ramp.twisting.end, ramps))
+    return any(ramp.normal.start != ramp.normal.end for ramp in ramps[len(untwisted) :])
 
 
-def _pushed_increments(scene: Scene, circle: Circle) -> tuple[int, ...]:
-    """Return the number of increments of each load step with tangential load or torsion.
+def _path_increments(scene: Scene, ramp: LoadRamp, circle: Circle | None, frictional: bool) -> int:
+    """Return the number of increments that the path dependence of friction requires in a load step.
 
-    A number in the scene has precedence. Otherwise the result is the larger one of two numbers: for
-    load cycles, and for the change of the loads in the load step.
+    Without a solve at points, a step is path-dependent if friction acts while the normal load or
+    the bulk strain changes. At points, the number is fixed if the normal load or the twist changes,
+    or if displacements are prescribed. Otherwise it is proportional to the change of the tangential
+    force over the friction limit. It is 1 if no load changes.
 
-    circle  angles at which the contact is solved on a ring
+    ramp        load step
+    circle      angles of a solve at points (rings × angles); None without such a solve
+    frictional  true if friction acts under a normal load alone
     """
-    ramps = scene.load_path()
-    return tuple(
-        ramp.increments or max(of_loop, _on_path(scene, ramp, circle))
-        for ramp, of_loop in zip(ramps, loop_increments(ramps), strict=True)
-    )
-
-
-def _on_path(scene: Scene, ramp: LoadRamp, circle: Circle) -> int:
-    """Return the number of increments that the change of the loads in a load step requires.
-
-    Tangential load and torsion with friction are path-dependent. The number is fixed if the normal
-    load or the twist changes, or if displacements are prescribed. Otherwise it is proportional to
-    the change of the tangential force over the friction limit. It is 1 if no load changes.
-
-    ramp    load step
-    circle  angles on a ring, which determine the fixed number
-    """
+    presses = ramp.normal.start != ramp.normal.end
+    if circle is None:
+        return PATH_INCREMENTS if frictional and (presses or ramp.strains) else 1
     start, end = ramp.tangential.start, ramp.tangential.end
     most = PATH_INCREMENTS if circle is Circle.ONE else PUSHED_INCREMENTS
-    if ramp.normal.start != ramp.normal.end or ramp.twisting.start != ramp.twisting.end:
+    if presses or ramp.twisting.start != ramp.twisting.end:
         return most
     if start == end:
         return 1
@@ -226,28 +208,6 @@ def _on_path(scene: Scene, ramp: LoadRamp, circle: Circle) -> int:
         return most
     change = hypot(end[0] - start[0], end[1] - start[1])
     return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF))
-
-
-def _increments(scene: Scene, frictional: bool) -> tuple[int, ...]:
-    """Return the number of increments of each load step of a contact without tangential load.
-
-    A number in the scene has precedence. Otherwise the result is 1, or `PATH_INCREMENTS` if
-    friction makes the load step path-dependent.
-
-    frictional  true if friction acts under a normal load alone
-    """
-    return tuple(
-        ramp.increments or (PATH_INCREMENTS if frictional and _moves(ramp) else 1)
-        for ramp in scene.load_path()
-    )
-
-
-def _moves(ramp: LoadRamp) -> bool:
-    """Return true if the normal load or the bulk strain changes in a load step.
-
-    Either change can cause slip, so the load step is path-dependent with friction.
-    """
-    return ramp.normal.start != ramp.normal.end or ramp.strains
 
 
 def _refuse_shape(scene: Scene) -> None:

@@ -109,7 +109,6 @@ ORDERS = {
         "frictional",
         "tangential",
         "torsion",
-        "richardson",
         "history",
         "stress",
     ),

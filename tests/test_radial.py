@@ -42,7 +42,6 @@ from radial.normal.surface import (
     pressure,
 )
 from radial.response.bodies import Bodies
-from radial.richardson import extrapolated
 from radial.torsion.torsion import (
     PartialSlip,
     Torsion,
@@ -180,18 +179,6 @@ def test_a_peak_between_rings_is_found() -> None:
     few, many = np.linspace(0, 1, 6), np.linspace(0, 1, 4001)
     found = largest_pressure(made, few, pressure(made, few))
     assert_allclose(found, np.max(pressure(made, many)), rtol=1e-6)
-
-
-def test_the_work_of_an_extrapolated_state_is_that_of_the_finer_history() -> None:
-    few, many = (
-        radial.solve(Scene(
-            indenter=BALL, body=Body(material=STEEL), friction={"coefficient": 0.2},
-            loading=({"normal_force": FORCE, "increments": count},),
-        )).steps[-1]
-        for count in (2, 4)
-    )  # fmt: skip
-    assert_allclose(extrapolated(few, many).trapezoidal_work, many.trapezoidal_work, rtol=1e-12)
-    assert few.unresolved_work
 
 
 def _scene(indenter: ShapedBody, body: Body, **step: Any) -> Scene:

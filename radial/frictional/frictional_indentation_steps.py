@@ -39,7 +39,6 @@ from radial.frictional.stick_slip import (
 )
 from radial.normal.pressing import (
     ROUND_OFF,
-    NormalContact,
     Target,
     contact_at_target,
     normal_contact,
@@ -75,8 +74,6 @@ class FrictionalSteps(StepsOnRings):
     tolerance  upper bound of every residual
     fineness   multiple of the number of rings, and of the number of solves within an increment
     radii      radii of the output rings (n,) [length]
-    largest    frictionless contacts at the largest prescribed loads, solved to place the output
-               rings
     """
 
     coupling: Coupling
@@ -84,7 +81,6 @@ class FrictionalSteps(StepsOnRings):
     tolerance: float
     fineness: float
     radii: Array
-    largest: tuple[NormalContact, ...]
 
     @classmethod
     def of(
@@ -100,15 +96,13 @@ class FrictionalSteps(StepsOnRings):
                         increment
         """
         coupling = Coupling.of(scene)
-        largest = tuple(
+        largest = [
             normal_contact(coupling.bodies, scene.indenter, target)
             for target in largest_targets(scene)
-        )
+        ]
         radii = output_radii(discretisation.rings, largest, scene.indenter.rim)
         assert scene.friction is not None
-        return cls(
-            scene, coupling, scene.friction, discretisation.tolerance, fineness, radii, largest
-        )
+        return cls(scene, coupling, scene.friction, discretisation.tolerance, fineness, radii)
 
     def advance(
         self,

@@ -11,7 +11,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import exp, log
-from typing import TypeAlias
 
 import numpy as np
 from scipy.special import ellipe, ellipkm1, j0, j1
@@ -22,7 +21,7 @@ from radial.response.array_cache import (
     cached_within,
 )
 from radial.response.quadrature import unit_gauss
-from radial.response.wavenumbers import Waves
+from radial.response.wavenumbers import Waves, wave_blocks
 
 # Stick radii c within this interval of log(c/(a - c)) share their rings; a is the contact radius.
 SHARED = 0.08
@@ -33,7 +32,6 @@ GRADED, TOWARDS, FINEST = 0.5, 0.6, 9
 AT_AXIS, AT_EDGE = 4, 6
 POINTS, WAVE_POINTS = 14, 6  # Gauss points of an element
 CACHED = 64
-MAX_AT_ONCE = 1 << 18  # numbers in a block of Bessel functions: 2 MiB
 # Positions outside the contact at which displacements are computed, over the contact radius.
 OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
 
@@ -183,8 +181,9 @@ class Rings:
         total[..., 1:] += right
         return total
 
+    @cached_within(MAX_CACHED)
     def transforms(self, waves: Waves) -> tuple[Array, Array, Array, Array]:
-        """Return Hankel transforms of the hat functions, and Bessel functions at the positions.
+        """Compute Hankel transforms of the hat functions, and Bessel functions at the positions.
 
         Layers add displacements that are integrals of the products of both over the wavenumber κ. φ
         is the hat function of a node. Rows are positions x of displacements, columns nodes of
@@ -193,45 +192,26 @@ class Rings:
             ∫ φ J₀(κs) s ds for the pressure,    ∫ φ J₁(κs) s ds for the shear    (κ, columns)
             J₀(κx),    J₁(κx)    (rows, κ)
 
-        with κ of the panels `waves`.
+        with κ of the panels `waves`. The results are cached.
         """
-        return _transforms(self, waves)
+        kappa = waves.rule[0]
+        length = np.diff(self.x)[:, None]
+        v, weights = unit_gauss(WAVE_POINTS)
+        s = self.x[:-1, None] + length * v
+        left, right = self._shapes(s, np.broadcast_to(v, s.shape), length * weights * s)
+        found = [np.empty((len(kappa), len(self.x))) for _ in range(2)]
+        for some in wave_blocks(len(kappa), s.size):
+            at = np.multiply.outer(kappa[some], s)
+            for total, bessel in zip(found, (j0, j1), strict=True):
+                part = bessel(at)
+                total[some] = self._on_nodes((part * left).sum(-1), (part * right).sum(-1))
+        at = np.multiply.outer(self.places, kappa)
+        return found[0][:, :-1], found[1][:, 1:-1], j0(at), j1(at)
 
 
 def _root(x: Array) -> Array:
     """Return √(1 - x²), the behaviour of tractions at the edge; x is r over the contact radius."""
     return np.asarray(np.sqrt((1 - x) * (1 + x)))
-
-
-Transforms: TypeAlias = tuple[Array, Array, Array, Array]
-
-
-@cached_within(MAX_CACHED)
-def _transforms(rings: Rings, waves: Waves) -> Transforms:
-    """Compute Hankel transforms of hat functions on rings, and Bessel functions, for layers.
-
-    The four results are ∫ φ J₀(κs) s ds and ∫ φ J₁(κs) s ds (κ, columns), and J₀(κx) and J₁(κx)
-    (rows, κ). φ are the hat functions of the nodes of pressure and of shear, x the positions of
-    displacements. The results are cached.
-
-    rings  nodes over the contact
-    waves  dimensionless wavenumbers κ
-    """
-    kappa = waves.rule[0]
-    length = np.diff(rings.x)[:, None]
-    v, weights = unit_gauss(WAVE_POINTS)
-    s = rings.x[:-1, None] + length * v
-    left, right = rings._shapes(s, np.broadcast_to(v, s.shape), length * weights * s)
-    found = [np.empty((len(kappa), len(rings.x))) for _ in range(2)]
-    step = max(MAX_AT_ONCE // s.size, 1)
-    for start in range(0, len(kappa), step):
-        some = slice(start, start + step)
-        at = np.multiply.outer(kappa[some], s)
-        for total, bessel in zip(found, (j0, j1), strict=True):
-            part = bessel(at)
-            total[some] = rings._on_nodes((part * left).sum(-1), (part * right).sum(-1))
-    at = np.multiply.outer(rings.places, kappa)
-    return found[0][:, :-1], found[1][:, 1:-1], j0(at), j1(at)
 
 
 def place_of(front: float) -> int:

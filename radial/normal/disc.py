@@ -42,7 +42,7 @@ from radial.response.quadrature import (
     shifted,
     unit_gauss,
 )
-from radial.response.wavenumbers import Waves
+from radial.response.wavenumbers import Waves, wave_blocks
 
 if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
@@ -53,7 +53,6 @@ ROUND_OFF = 1e-12
 SMOOTH = 1e-9  # G(1) below this multiple of the approach is round-off: the edge is smooth
 ELSEWHERE = "solve it with the semi-analytical solver"
 FEWEST_ORDERS, MAX_ORDERS = 8, 256
-AT_ONCE = 8192  # wavenumbers in a block of the Galerkin integrals
 # Number of points at which the error of the contact equation is evaluated.
 PLACES = 40
 
@@ -172,8 +171,7 @@ class _Galerkin:
         The matrix is positive definite because the normal response of the bodies is positive.
         """
         kernel = np.zeros((self.count, self.count))
-        for first in range(0, len(self.excess), AT_ONCE):
-            some = slice(first, first + AT_ONCE)
+        for some in wave_blocks(len(self.excess), self.count):
             kernel += (self.bases[:, some] * self.excess[some]) @ self.bases[:, some].T
         matrix = np.eye(self.count) + 2 / pi * self.scale[:, None] * kernel * self.scale
         return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from math import exp, inf, isfinite, log
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
@@ -125,7 +126,12 @@ class NormalContact:
 
 
 def normal_contact(
-    bodies: Bodies, indenter: ShapedBody, target: Target, fineness: int = 1
+    bodies: Bodies,
+    indenter: ShapedBody,
+    target: Target,
+    fineness: int = 1,
+    most: int | None = None,
+    tolerance: float = ROUND_OFF,
 ) -> NormalContact:
     """Solve the frictionless contact under a prescribed force or approach.
 
@@ -135,20 +141,17 @@ def normal_contact(
     indenter  shape of the indenter
     target    prescribed normal force or approach
     fineness  multiple of the numbers of polynomials and quadrature points
+    most      largest number of polynomials, for estimates; None without a limit
+    tolerance bound of the relative error of force or approach
     raises    NotConverged, and UnsupportedScene for a gap that is not smooth
     """
+    solve = partial(disc, bodies, indenter, fineness=fineness, most=most)
     if indenter.rim is not None:
-        whole = disc(bodies, indenter, indenter.rim, fineness=fineness)
+        whole = solve(indenter.rim)
         if target.prescribed > target.value(whole):
-            contact = _contact_at_rim(bodies, indenter, target, whole, fineness)
-            return NormalContact(contact, target, 1)
-
-    def solve(radius: float) -> Disc:
-        """Solve the frictionless contact of a given radius [length], for the secant method."""
-        return disc(bodies, indenter, radius, fineness=fineness)
-
+            return NormalContact(_contact_at_rim(solve, target, whole), target, 1)
     radius = first_radius(bodies, indenter, target)
-    contact, iterations, _ = contact_at_target(solve, target, radius, 2.0)
+    contact, iterations, _ = contact_at_target(solve, target, radius, 2.0, tolerance)
     return NormalContact(contact, target, iterations)
 
 
@@ -190,25 +193,21 @@ def contact_at_target(
     raise NotConverged("the contact radius", MAX_ITERATIONS, nearest, ROUND_OFF)
 
 
-def _contact_at_rim(
-    bodies: Bodies, indenter: ShapedBody, target: Target, whole: Disc, fineness: int
-) -> Disc:
+def _contact_at_rim(solve: Callable[..., Disc], target: Target, whole: Disc) -> Disc:
     """Solve the frictionless contact over the whole face of an indenter with a rim.
 
     Force and pressure are linear in the approach, so two contacts determine the approach.
 
-    bodies    normal response of both bodies
-    indenter  shape of the indenter
-    target    prescribed normal force or approach
-    whole     contact that just reaches the rim
-    fineness  multiple of the numbers of polynomials and quadrature points
+    solve   function that solves the contact of a radius [length] and an approach [length]
+    target  prescribed normal force or approach
+    whole   contact that just reaches the rim
     """
     missing = further = target.prescribed - target.value(whole)
     if target.force is not None:
-        further = missing / (2 * bodies.modulus * whole.radius)
-    probe = disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
+        further = missing / (2 * whole.bodies.modulus * whole.radius)
+    probe = solve(whole.radius, whole.approach + further)
     further *= missing / (target.value(probe) - target.value(whole))
-    return disc(bodies, indenter, whole.radius, whole.approach + further, fineness)
+    return solve(whole.radius, whole.approach + further)
 
 
 def first_radius(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:

@@ -16,9 +16,9 @@ from radial.response.quadrature import (
     shifted,
     unit_gauss,
 )
+from radial.response.wavenumbers import wave_blocks
 
 POINTS = 48
-AT_ONCE = 8192  # wavenumbers in a block of Bessel functions
 PLACE = 1e-9  # error of the position of the largest pressure over the contact radius
 
 
@@ -104,6 +104,23 @@ def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
     return max(float(p[at]), -float(found.fun))
 
 
+def abel_integral(contact: Disc, x: Array) -> Array:
+    """Compute ∫ G(t)/√(x²-t²) dt over t < x and t < 1, for the displacement by a pressure (n,).
+
+    G is the function of which the pressure is the Abel transform, t a coordinate between the axis
+    (0) and the contact edge (1). 2/π times the integral is the normal surface displacement of both
+    bodies without their layers [length].
+
+    contact  frictionless contact
+    x        radii over the contact radius, above 0 (n,)
+    """
+    v, weights = unit_gauss(POINTS + len(contact.profile.abel) + len(contact.layers))
+    angle = np.arcsin(np.minimum(1 / x, 1.0))
+    return np.asarray(
+        angle * (contact.transform(x[:, None] * np.sin(angle[:, None] * v)) @ weights)
+    )
+
+
 def displacement(contact: Disc, x: Array) -> Array:
     """Compute the normal surface displacement outside a frictionless contact (n,) [length].
 
@@ -116,9 +133,7 @@ def displacement(contact: Disc, x: Array) -> Array:
     contact  frictionless contact
     x        radii over the contact radius, above 1 (n,)
     """
-    v, weights = unit_gauss(POINTS + len(contact.layers))
-    angle = np.arcsin(1 / x)
-    direct = angle * (contact.transform(x[:, None] * np.sin(angle[:, None] * v)) @ weights)
+    direct = abel_integral(contact, x)
     if not contact.bodies.layered:
         return np.asarray(2 / pi * direct)
     reach = 2.0 ** np.ceil(np.log2(np.max(x)))  # powers of 2: few values, which contacts share
@@ -127,7 +142,6 @@ def displacement(contact: Disc, x: Array) -> Array:
     spectrum = weights * contact.bodies.excess(waves, contact.radius)
     spectrum *= contact.wave_transform(waves)
     added = np.zeros_like(x)
-    for first in range(0, len(spectrum), AT_ONCE):
-        some = slice(first, first + AT_ONCE)
+    for some in wave_blocks(len(spectrum), len(x)):
         added += j0(np.multiply.outer(x, places[some])) @ spectrum[some]
     return np.asarray(2 / pi * (direct + added))

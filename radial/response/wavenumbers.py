@@ -6,7 +6,7 @@ the contact, only their number does. Contacts of different radii therefore share
 
 from __future__ import annotations
 
-from functools import lru_cache
+from collections.abc import Iterator
 from math import ceil, floor, log
 from typing import NamedTuple
 
@@ -27,9 +27,7 @@ PHASE = 6.0
 GROWTH = 3.0
 # Contacts whose radii differ by less than this ratio share their panels.
 SHARED = 1.25
-# Number of cached quadratures. A solve needs two; more than a few contacts exceed the processor
-# cache.
-CACHED = 8
+MAX_AT_ONCE = 1 << 20  # numbers in a block of functions of the wavenumbers: 8 MiB
 
 
 class Waves(NamedTuple):
@@ -48,18 +46,41 @@ class Waves(NamedTuple):
     equal: int
 
     @property
+    @cached_within(MAX_CACHED)
     def rule(self) -> tuple[Array, Array]:
         """Return the Gauss points κ (n,) of the wavenumbers, and their quadrature weights (n,)."""
-        return _rule(self)
+        last = floor(log(self.widest) / log(GROWTH))
+        growing = GROWTH ** np.arange(self.first, last + 1.0)
+        equal = growing[-1] + self.widest * np.arange(1.0, self.equal + 1)
+        edges = np.concatenate([[0.0], growing, equal])
+        widths = np.diff(edges)[:, None]
+        points, weights = unit_gauss(POINTS)
+        return (edges[:-1, None] + widths * points).ravel(), (widths * weights).ravel()
 
+    @cached_within(MAX_CACHED)
     def even_transforms(self, count: int) -> Array:
-        """Return the cosine transforms of even Legendre polynomials at all wavenumbers κ.
+        """Compute the cosine transforms of even Legendre polynomials at all wavenumbers (count, κ).
 
             ∫₀¹ P_2n(t) cos κt dt = (-1)ⁿ j_2n(κ),    n < count
 
-        j is the spherical Bessel function (Abramowitz and Stegun 10.1.14). The shape is (count, κ).
+        j is the spherical Bessel function (Abramowitz and Stegun 10.1.14). The results are cached.
+
+        count  number of polynomials
         """
-        return _even_transforms(self, count)
+        places = self.rule[0]
+        found = np.empty((count, len(places)))
+        near = places < 2 * count
+        for order in range(count):
+            found[order, near] = spherical_jn(2 * order, places[near])
+        far = places[~near]
+        # The upward recurrence is stable for orders below the argument.
+        last, now = spherical_jn(0, far), spherical_jn(1, far)
+        for order in range(count):
+            found[order, ~near] = last
+            last = (4 * order + 3) / far * now - last
+            now = (4 * order + 5) / far * last - now
+        found[1::2] *= -1
+        return found
 
     def shifted_transform(self, coefficients: Array) -> Array:
         """Return the cosine transform of a Legendre series f on 0 < t < 1, at all wavenumbers (κ,).
@@ -69,7 +90,24 @@ class Waves(NamedTuple):
         coefficients  c_l; j_l is the spherical Bessel function
         """
         count = 8 * ceil(len(coefficients) / 8)
-        return np.asarray(coefficients @ _shifted_transforms(self, count)[: len(coefficients)])
+        return np.asarray(coefficients @ self._shifted_transforms(count)[: len(coefficients)])
+
+    @cached_within(MAX_CACHED)
+    def _shifted_transforms(self, count: int) -> Array:
+        """Compute the cosine transforms of shifted Legendre polynomials (count, κ).
+
+            ∫₀¹ P_l(2t - 1) cos κt dt = Re iˡ exp(iκ/2) j_l(κ/2),    l < count
+
+        j is the spherical Bessel function. The transforms are computed at all wavenumbers κ and
+        cached.
+
+        count  number of polynomials
+        """
+        half = self.rule[0] / 2
+        found = np.empty((count, len(half)))
+        for order, row in enumerate(found):
+            row[:] = np.cos(order * np.pi / 2 + half) * spherical_jn(order, half)
+        return found
 
 
 def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> Waves:
@@ -89,61 +127,12 @@ def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> W
     return Waves(first, widest, ceil(SHARED ** ceil(log(shortest / widest, SHARED))))
 
 
-@lru_cache(maxsize=CACHED)
-def _rule(chosen: Waves) -> tuple[Array, Array]:
-    """Compute the quadrature points κ (n,) and weights (n,) of a quadrature over wavenumbers.
+def wave_blocks(count: int, size: int) -> Iterator[slice]:
+    """Yield slices of an array of wavenumbers that limit the memory of functions of them.
 
-    chosen  intervals of the quadrature
+    count  number of wavenumbers
+    size   number of values of the functions for each wavenumber
     """
-    last = floor(log(chosen.widest) / log(GROWTH))
-    growing = GROWTH ** np.arange(chosen.first, last + 1.0)
-    equal = growing[-1] + chosen.widest * np.arange(1.0, chosen.equal + 1)
-    edges = np.concatenate([[0.0], growing, equal])
-    widths = np.diff(edges)[:, None]
-    points, weights = unit_gauss(POINTS)
-    return (edges[:-1, None] + widths * points).ravel(), (widths * weights).ravel()
-
-
-@cached_within(MAX_CACHED)
-def _even_transforms(chosen: Waves, count: int) -> Array:
-    """Compute the cosine transforms of even Legendre polynomials at all wavenumbers (count, κ).
-
-        ∫₀¹ P_2n(t) cos κt dt = (-1)ⁿ j_2n(κ),    n < count
-
-    j is the spherical Bessel function. The results are cached.
-
-    chosen  quadrature over the wavenumbers κ
-    count   number of polynomials
-    """
-    places = chosen.rule[0]
-    found = np.empty((count, len(places)))
-    near = places < 2 * count
-    for order in range(count):
-        found[order, near] = spherical_jn(2 * order, places[near])
-    far = places[~near]
-    # The upward recurrence is stable for orders below the argument.
-    last, now = spherical_jn(0, far), spherical_jn(1, far)
-    for order in range(count):
-        found[order, ~near] = last
-        last = (4 * order + 3) / far * now - last
-        now = (4 * order + 5) / far * last - now
-    found[1::2] *= -1
-    return found
-
-
-@cached_within(MAX_CACHED)
-def _shifted_transforms(chosen: Waves, count: int) -> Array:
-    """Compute the cosine transforms of shifted Legendre polynomials at all wavenumbers (count, κ).
-
-        ∫₀¹ P_l(2t - 1) cos κt dt = Re iˡ exp(iκ/2) j_l(κ/2),    l < count
-
-    j is the spherical Bessel function. The results are cached.
-
-    chosen  quadrature over the wavenumbers κ
-    count   number of polynomials
-    """
-    half = chosen.rule[0] / 2
-    found = np.empty((count, len(half)))
-    for order, row in enumerate(found):
-        row[:] = np.cos(order * np.pi / 2 + half) * spherical_jn(order, half)
-    return found
+    step = max(MAX_AT_ONCE // size, 1)
+    for start in range(0, count, step):
+        yield slice(start, start + step)

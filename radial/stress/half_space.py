@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from contact_scene.array_types import Array
 from radial.normal.disc import Disc
-from radial.normal.surface import pressure
+from radial.normal.surface import abel_integral, pressure
 from radial.response.quadrature import unit_gauss
 from semi_analytical.frf.stack import HalfSpace
 
@@ -44,7 +44,10 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
     modulus = contact.bodies.modulus / pi
     if depth < SURFACE:
         p, mean = pressure(contact, x), modulus / contact.radius * _mean(contact, x)
-        out, down = -(1 - 2 * nu) * mean * contact.radius * true, modulus * _settled(contact, x)
+        out, down = (
+            -(1 - 2 * nu) * mean * contact.radius * true,
+            modulus * abel_integral(contact, x),
+        )
         radial = mean * (1 - 2 * nu)
         stress = [radial - p, -radial - 2 * nu * p, -p, np.zeros_like(p)]
         return np.stack([out / (2 * G), (1 - nu) * down / G, *stress])
@@ -158,19 +161,3 @@ def _mean(contact: Disc, x: Array) -> Array:
     nearer = (contact.rate(rho * v) * v) @ weights
     found[inside] = contact.edge / (1 + chord[:, 0]) - further - nearer
     return found
-
-
-def _settled(contact: Disc, x: Array) -> Array:
-    """Compute the integral ∫ G~ J₀(κx) dκ of the surface displacement u_z by a pressure (n,).
-
-    The integral equals ∫ G(t)/√(x²-t²) dt over t < x and t < 1. G is the function of which the
-    pressure is the Abel transform (see `disc`), G~ its cosine transform.
-
-    contact  frictionless contact
-    x        radii of the points over the contact radius (n,)
-    """
-    v, weights = unit_gauss(2 * POINTS + len(contact.profile.abel) + len(contact.layers))
-    angle = np.arcsin(np.minimum(1 / x, 1.0))
-    return np.asarray(
-        angle * (contact.transform(x[:, None] * np.sin(angle[:, None] * v)) @ weights)
-    )

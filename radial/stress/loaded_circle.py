@@ -80,12 +80,6 @@ class LoadedCircle:
         place = np.minimum(eta, 1.0) * (n - 1)
         k = np.minimum(place.astype(np.intp), n - 2)
         off = place - k
-        if self.is_round:
-            rays = self.smooth[:, :, 0]
-            outward, around, p = root * (rays[:, k] * (1 - off) + rays[:, k + 1] * off)
-            safe = np.where(eta > 0, eta, 1.0)
-            cos, sin = x / safe, y / safe
-            return np.stack([outward * cos - around * sin, outward * sin + around * cos, p])
         turn = np.arctan2(y, x) * (angles / (2 * np.pi)) % angles
         j = np.minimum(turn.astype(np.intp), angles - 1)
         offset = turn - j
@@ -93,7 +87,12 @@ class LoadedCircle:
         here, next_ = k * angles + j, k * angles + (j + 1) % angles
         inner = flat[:, here] * (1 - offset) + flat[:, next_] * offset
         outer = flat[:, here + angles] * (1 - offset) + flat[:, next_ + angles] * offset
-        return np.asarray(root * (inner * (1 - off) + outer * off))
+        found = np.asarray(root * (inner * (1 - off) + outer * off))
+        if self.is_round:
+            outward, around, p = found
+            cos, sin = (np.divide(part, eta, out=0 * eta, where=eta > 0) for part in (x, y))
+            return np.stack([outward * cos - around * sin, outward * sin + around * cos, p])
+        return found
 
     def harmonics(self, eta: Array, highest: int) -> tuple[Complex, Complex, Complex]:
         """Return the angular harmonics of the tractions on rings, for m = 0 … highest.

@@ -17,8 +17,9 @@ import numpy as np
 
 from contact_scene.array_types import Array
 from radial.frictional.coupling import Coupling
+from radial.response.wavenumbers import wave_blocks
 from radial.tangential.ring_energies import (
-    blocks,
+    WAVE_POINTS,
     transforms,
     unit_energies,
 )
@@ -80,7 +81,7 @@ def _of_layers(coupling: Coupling, nodes: tuple[float, ...], radius: float, high
     waves = coupling.bodies.waves(radius, max(1.0, nodes[-1]))
     kappa = waves.rule[0]
     scalars = waves.rule[1] * coupling.added(waves, radius)
-    for some in blocks(kappa, len(nodes), highest):
+    for some in wave_blocks(len(kappa), (WAVE_POINTS + highest + 2) * len(nodes)):
         fields = transforms(nodes, highest, kappa[some])
         along, c12, c22, across = scalars[:, some]
         mean, apart, half = (along + across) / 4, (across - along) / 4, c12 / 2

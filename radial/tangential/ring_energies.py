@@ -33,7 +33,6 @@ CACHED = 8
 # The downward recurrence of Bessel functions starts at this number of orders above the highest one,
 # where J is negligible.
 BEYOND = 32
-MAX_AT_ONCE = 1 << 21  # numbers in a block of Bessel functions: 16 MiB
 
 
 class Unit(NamedTuple):
@@ -188,16 +187,3 @@ def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
         last, now = now, 2 * (m - 1) / safe * now - last
         now[near] = np.where(small < m, ratios[m] * last[near], now[near])
         yield now
-
-
-def blocks(kappa: Array, nodes: int, highest: int) -> Iterator[slice]:
-    """Yield slices of the wavenumbers that limit the memory of the Hankel transforms of rings.
-
-    kappa    wavenumbers
-    nodes    number of nodes of the rings
-    highest  highest angular harmonic
-    """
-    points = WAVE_POINTS * nodes + (highest + 2) * nodes
-    step = max(MAX_AT_ONCE // points, 1)
-    for start in range(0, len(kappa), step):
-        yield slice(start, start + step)

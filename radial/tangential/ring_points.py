@@ -320,7 +320,16 @@ class Points:
         field  values at the points (n count,)
         sense  1 for a field that is even about θ = 0, -1 for an odd field
         """
-        return self._around(field.reshape(-1, self.count), sense, self.output_angles)
+        values, angles = field.reshape(-1, self.count), self.angles
+        if self.circle is Circle.HALF:
+            values = np.hstack([values, sense * values[:, ::-1]])
+            angles = np.concatenate([angles, 2 * np.pi - angles[::-1]])
+        values, angles = (
+            np.hstack([values, values[:, :1]]),
+            np.append(angles, angles[0] + 2 * np.pi),
+        )
+        spline = CubicSpline(angles, values, axis=1, bc_type="periodic")
+        return np.asarray(spline(self.output_angles))
 
     @property
     def output_angles(self) -> Array:
@@ -329,39 +338,3 @@ class Points:
         They include the direction of the load, unlike the angles of the points.
         """
         return self.circle.shown(self.highest)
-
-    def _around(self, field: Array, sense: float, angles: Array) -> Array:
-        """Interpolate a field from the angles of the points to other angles, by a periodic spline.
-
-        field   values at the points (n, count)
-        sense   1 for a field that is even about θ = 0, -1 for an odd field
-        angles  other angles [radian]
-        """
-        return field @ self._spline(sense, tuple(angles))
-
-    @cached_property
-    def _spline(self) -> Callable[[float, tuple[float, ...]], Array]:
-        """Return a function that gives the matrix of angular interpolation of fields on rings.
-
-        The matrix interpolates from the angles of the points to other angles, by a periodic spline.
-        Its shape is (angles, other angles).
-        """
-
-        @lru_cache
-        def weights(sense: float, others: tuple[float, ...]) -> Array:
-            """Return the matrix of angular interpolation of fields, by a periodic spline.
-
-            sense   1 for fields that are even about θ = 0, -1 for odd fields
-            others  angles to which the matrix (angles, others) interpolates [radian]
-            """
-            every, whole = self.angles, np.eye(self.count)
-            if self.circle is Circle.HALF:
-                every = np.concatenate([every, 2 * np.pi - every[::-1]])
-                whole = np.hstack([whole, sense * whole[:, ::-1]])
-            every = np.append(every, every[0] + 2 * np.pi)
-            whole = np.hstack([whole, whole[:, :1]])
-            return np.ascontiguousarray(
-                CubicSpline(every, whole, axis=1, bc_type="periodic")(np.array(others))
-            )
-
-        return weights

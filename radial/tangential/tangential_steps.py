@@ -261,15 +261,9 @@ class TangentialSteps(StepsOnRings):
             self.taken.append(error.iterations)
             raise
         self.taken.append(end.steps)
-        smooth = None if points.is_resolved(end.pressure) else self._smooth_radius(loads)
+        resolved = points.is_resolved(end.pressure)
+        smooth = None if resolved else self._pressed(loads).contact.radius
         return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
-
-    def _smooth_radius(self, loads: Loads) -> float:
-        """Return the radius of the frictionless contact under the same normal load [length].
-
-        loads  prescribed loads and motions, of which only the normal one is used
-        """
-        return self._pressed(loads).contact.radius
 
     def _pressed(self, loads: Loads) -> NormalContact:
         """Solve the frictionless contact under a prescribed normal force or approach.

@@ -35,60 +35,61 @@ PANELS, NODES = 26, 26
 
 @dataclass(frozen=True)
 class FrictionLimit:
-    """Transform of the friction limit of a contact, for a coefficient of friction of 1.
+    """Transform N(t)/t of shear q = µp at the friction limit of a contact.
 
-    Shear at the friction limit then equals the pressure p. The class holds the function h(s)/t, s =
-    a t, whose Abel transform is this shear: q(r) = -d/dr ∫ᵣᵃ h/√(s²-r²) ds. The function is
-    expanded in Chebyshev series on the panels 2^-(n+1) < t < 2^-n of the range 2^-26 < t <= 1.
+    N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
+    the torsional modulus G and the contact radius a. N/t is expanded in Chebyshev series on the
+    panels 2^-(n+1) < t < 2^-n of the range 2^-26 < t <= 1, where t is a coordinate between the axis
+    (0) and the contact edge (1).
 
-    a       contact radius
-    t       coordinate between the axis (0) and the contact edge (1)
-    slopes  Chebyshev coefficients of h/t on each panel (panels, nodes) [force/length]
-    rates   Chebyshev coefficients of d(h/t)/dt on each panel, times 2^-n (panels, nodes - 1)
+    slopes  Chebyshev coefficients of N/t on each panel (panels, nodes) [1]
+    rates   Chebyshev coefficients of d(N/t)/dt on each panel, times 2^-n (panels, nodes - 1) [1]
     """
 
     slopes: Array
     rates: Array
 
     @classmethod
-    def of(cls, contact: Disc) -> FrictionLimit:
-        """Compute the transform of the friction limit of a contact, for µ = 1.
+    def of(cls, contact: Disc, friction: float, modulus: float) -> FrictionLimit:
+        """Compute the transform N/t of shear at the friction limit µp of a contact.
 
-        contact  frictionless contact, whose pressure is the friction limit
+        contact   frictionless contact with the pressure p
+        friction  coefficient of friction µ
+        modulus   torsional modulus G: reciprocal of the sum of 1/G of the outermost materials
+                  [force/length²]
         """
         count = NODES + len(contact.layers)
         points = chebyshev.chebpts1(count)
         t = (3 + points) / 4 * 0.5 ** np.arange(PANELS)[:, None]
         fit = chebyshev.chebvander(points, count - 1) * (2.0 / count)
         fit[:, 0] /= 2
-        slopes = _slope(contact, t) @ fit
+        slopes = friction / (modulus * contact.radius) * _unit_limit(contact, t) @ fit
         rates = np.asarray(4 * chebyshev.chebder(slopes, axis=1), dtype=np.float64)
         return cls(slopes, rates)
 
     def slope(self, t: Array) -> Array:
-        """Evaluate the transform h/t of shear at the friction limit, for µ = 1 [force/length].
+        """Evaluate the transform N/t of shear at the friction limit µp [1].
 
-        h(s), s = a t, is the function whose Abel transform is the shear: q(r) = -d/dr ∫ᵣᵃ
-        h/√(s²-r²) ds. Here the shear equals the pressure.
+        N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt,
+        with the torsional modulus G and the contact radius a.
 
         t  coordinates between the axis (0) and the contact edge (1)
         """
-        panel, place = _place(t)
-        return _summed(self.slopes, panel, place)
+        return _evaluate_panels(self.slopes, *_panel_positions(t))
 
     def slope_rate(self, t: Array) -> Array:
-        """Evaluate the derivative d(h/t)/dt for shear at the friction limit, µ = 1 [force/length].
+        """Evaluate the derivative d(N/t)/dt of the transform of shear at the friction limit µp [1].
 
-        h(s), s = a t, is the function whose Abel transform is the shear: q(r) = -d/dr ∫ᵣᵃ
-        h/√(s²-r²) ds. Here the shear equals the pressure.
+        N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt,
+        with the torsional modulus G and the contact radius a.
 
         t  coordinates between the axis (0) and the contact edge (1)
         """
-        panel, place = _place(t)
-        return np.asarray(_summed(self.rates, panel, place) * 2.0**panel)
+        panel, place = _panel_positions(t)
+        return np.asarray(_evaluate_panels(self.rates, panel, place) * 2.0**panel)
 
 
-def _place(t: Array) -> tuple[NDArray[np.int64], Array]:
+def _panel_positions(t: Array) -> tuple[NDArray[np.int64], Array]:
     """Find the interval of a piecewise Chebyshev series that contains each point.
 
     Interval n is 2^-(n+1) < t < 2^-n. The function returns the indices n and the positions within
@@ -100,7 +101,7 @@ def _place(t: Array) -> tuple[NDArray[np.int64], Array]:
     return panel, np.asarray(4 * t * 2.0**panel - 3)
 
 
-def _summed(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Array:
+def _evaluate_panels(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Array:
     """Evaluate a piecewise Chebyshev series at points (Clenshaw's recurrence).
 
     coefficients  Chebyshev coefficients of every interval (intervals, nodes)
@@ -113,7 +114,7 @@ def _summed(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Arra
     return np.asarray(coefficients[panel, 0] + place * now - last)
 
 
-def _slope(contact: Disc, t: Array) -> Array:
+def _unit_limit(contact: Disc, t: Array) -> Array:
     """Compute the transform h/t of shear at the friction limit, for µ = 1 [force/length].
 
     Shear at the friction limit equals the pressure. h(s), s = a t, is the function whose Abel
@@ -122,7 +123,8 @@ def _slope(contact: Disc, t: Array) -> Array:
 
         h/t = (2E*/π²) [G(1) K'(t) - ∫ₜ¹ G'(τ) K'(t/τ) dτ/τ],    K'(t) = K(√(1-t²)).
 
-    The integral is evaluated with τ = t exp(y).
+    K is the complete elliptic integral of the first kind. The integral is evaluated with τ = t
+    exp(y).
 
     contact  frictionless contact
     t        coordinates between the axis (0) and the contact edge (1)
@@ -130,11 +132,6 @@ def _slope(contact: Disc, t: Array) -> Array:
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + 2 * len(contact.layers))
     furthest = -np.log(t)[..., None]
     y = furthest * v
-    inner = -contact.rate(np.minimum(t[..., None] * np.exp(y), 1.0)) * _complete(np.exp(-y))
-    found = np.sum(inner * furthest * weights, axis=-1) + contact.edge * _complete(t)
+    inner = -contact.rate(np.minimum(t[..., None] * np.exp(y), 1.0)) * ellipkm1(np.exp(-2 * y))
+    found = np.sum(inner * furthest * weights, axis=-1) + contact.edge * ellipkm1(t**2)
     return np.asarray(2 * contact.bodies.modulus / pi**2 * found)
-
-
-def _complete(t: Array) -> Array:
-    """Return the complementary complete elliptic integral of the first kind, K'(t) = K(√(1-t²))."""
-    return np.asarray(ellipkm1(t**2))

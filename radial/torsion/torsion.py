@@ -90,41 +90,14 @@ class Torsion:
         waves = ceil(places[-1] * width / 2) if len(places) else 0
         return self.fineness * (POINTS + len(self.contact.layers) + waves)
 
-    def limit(self, t: Array) -> Array:
-        """Evaluate the transform N(t)/t of shear at the friction limit µp [1].
-
-        N(t)  function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
-              the torsional modulus G and the contact radius a
-        t     coordinates between the axis (0) and the contact edge (1)
-        """
-        return np.asarray(self._scale * self._limit.slope(t))
-
-    def limit_rate(self, t: Array) -> Array:
-        """Evaluate the derivative d(N/t)/dt of the transform of shear at the friction limit µp [1].
-
-        N(t)  function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
-              the torsional modulus G and the contact radius a
-        t     coordinates between the axis (0) and the contact edge (1)
-        """
-        return np.asarray(self._scale * self._limit.slope_rate(t))
-
     @cached_property
-    def _limit(self) -> FrictionLimit:
-        """Return the transform of shear at the friction limit, for a coefficient of friction of 1.
+    def limit(self) -> FrictionLimit:
+        """Return the transform N(t)/t of shear at the friction limit µp.
 
-        `_scale` converts the transform to the dimensionless function of this class.
+        N(t) is the function whose Abel transform is the shear. t is a coordinate between the axis
+        (0) and the contact edge (1).
         """
-        return FrictionLimit.of(self.contact)
-
-    @property
-    def _scale(self) -> float:
-        """Return µ/(G a), which makes the transform of the friction limit dimensionless.
-
-        The transform for a coefficient of friction of 1 has the unit [force/length]. µ is the
-        coefficient of friction, G the torsional modulus, a the contact radius. The unit is
-        [length/force].
-        """
-        return self.friction / (self.modulus * self.contact.radius)
+        return FrictionLimit.of(self.contact, self.friction, self.modulus)
 
     @cached_property
     def whole(self) -> PartialSlip:
@@ -190,7 +163,7 @@ class Torsion:
         )
         mass = stick / (4 * np.arange(count) + 3)
         by_twist, alone = np.linalg.solve(matrix + np.diag(mass), right.T).T
-        edge = stick * float(self.limit(np.array([stick]))[0])
+        edge = stick * float(self.limit.slope(np.array([stick]))[0])
         twist = (edge + np.sum(alone)) / (4 / pi * stick - np.sum(by_twist))
         layers = twist * by_twist + alone
         return PartialSlip(self, stick, float(twist), layers, panels)
@@ -210,7 +183,7 @@ class Torsion:
         for low, high in pairwise(edges):
             v, _ = unit_gauss(self.points(high - low))
             t = low + (high - low) * v
-            made.append(Panel(float(low), float(high), t * self.limit(t)))
+            made.append(Panel(float(low), float(high), t * self.limit.slope(t)))
         return made
 
 
@@ -369,7 +342,8 @@ class PartialSlip:
         v, weights = unit_gauss(2 * self.of.points(0.0))
         first, last = np.arccosh(np.maximum(self.stick / rho, 1.0)), np.arccosh(1 / rho)
         slipping = (last - first) * (
-            self.of.limit_rate(np.minimum(rho * np.cosh(first + (last - first) * v), 1.0)) @ weights
+            self.of.limit.slope_rate(np.minimum(rho * np.cosh(first + (last - first) * v), 1.0))
+            @ weights
         )[:, None]
         total = -slipping[:, 0]
         if len(self.layers) > 1:
@@ -377,7 +351,7 @@ class PartialSlip:
             t = np.minimum(rho * np.cosh(first * y), self.stick)
             total -= first[:, 0] * (self._layers_rate(t) @ shares)
         if self.of.contact.edge:
-            rim = self.of.limit(np.ones(1)) if self.stick < 1 else self.inside(np.ones(1))
+            rim = self.of.limit.slope(np.ones(1)) if self.stick < 1 else self.inside(np.ones(1))
             total += float(rim[0]) / np.sqrt((1 - at) * (1 + at))
         found[sticks] = self.of.modulus * at * total
         return found
@@ -413,7 +387,7 @@ class PartialSlip:
         border = np.arcsin(self.stick / rho)
         angle = border + (pi / 2 - border) * v
         t = np.maximum(rho * np.sin(angle), AXIS)
-        moved = (pi / 2 - border[:, 0]) * (t * self.of.limit(t) * np.sin(angle) @ weights)
+        moved = (pi / 2 - border[:, 0]) * (t * self.of.limit.slope(t) * np.sin(angle) @ weights)
         if self.stick:
             angle = border * v
             sticking = self.inside(rho * np.sin(angle)) * np.sin(angle)

@@ -84,19 +84,15 @@ class TorsionSteps(StepsOnRings):
         fraction  fraction of the linear change of the loads, 0 to 1
         raises    GrossSliding if the torque is not below its friction limit
         """
-        start_contact = start.normal_contact if start else None
-        constant = before is not None and ramp.normal.start == ramp.normal.end
-        if constant and before is not None:
-            normal_contact = before.normal_contact
+        if before is not None and ramp.normal.start == ramp.normal.end:
+            normal_contact, path = before.normal_contact, before.path
         else:
+            start_contact = start.normal_contact if start else None
             normal_contact = self.pressing.advance(ramp, start_contact, None, fraction)
+            contact = normal_contact.contact
+            path = TwistPath(Torsion.of(self.scene, contact, self.friction, self.fineness))
         since = (start.torque, start.twist) if start else (0.0, 0.0)
         torque, twist = ramp.twisting.prescribed(fraction, since)
-        if constant and before is not None:
-            path = before.path
-        else:
-            torsion = Torsion.of(self.scene, normal_contact.contact, self.friction, self.fineness)
-            path = TwistPath(torsion)
         if twist is None:
             assert torque is not None
             return TorsionState(normal_contact, path.to_torque(torque), (ControlKind.FORCE, torque))
