@@ -6,7 +6,7 @@ The checks raise UnsupportedScene before the solve.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import takewhile
+from itertools import dropwhile
 from math import ceil, hypot
 
 from contact_scene import ControlKind, LoadRamp, Scene, effect
@@ -121,10 +121,8 @@ def plan(scene: Scene) -> Plan:
         ramp.twisting.end or (curved and ramp.twisting.kind is ControlKind.FORCE) for ramp in ramps
     )
     circle = _circle(scene, frictional, twists, pushed, curved)
-    if frictional or circle:
-        _refuse_friction(scene, circle)
-    elif twists:
-        _refuse_map(scene)
+    if frictional or twists or pushed:
+        _refuse_friction(scene, frictional, circle)
     is_resolved = "a step pushes sideways" if pushed else "no step pushes sideways"
     effects = (
         effect.PRESSURE,
@@ -163,21 +161,12 @@ def _circle(
         return Circle.WHOLE if twists or curved else Circle.HALF
     if not twists:
         return None
-    # The shear of torsion has a closed form if the limit is µp and the pressure is constant.
+    # The shear of torsion has a closed form if the limit is µp, and the pressure is constant from
+    # the first torsion on.
     proportional = scene.friction is not None and scene.friction.uniform is not None
-    closed = proportional and not frictional and not _normal_changes_in_torsion(scene.load_path())
-    return None if closed else Circle.ONE
-
-
-def _normal_changes_in_torsion(ramps: tuple[LoadRamp, ...]) -> bool:
-    """Return true if the normal load changes in the first load step with torsion or a later one.
-
-    The shear of torsion then has no closed form.
-
-    ramps  load steps of the history
-    """
-    untwisted = list(takewhile(lambda ramp: not ramp.twisting.end, ramps))
-    return any(ramp.normal.start != ramp.normal.end for ramp in ramps[len(untwisted) :])
+    twisted = dropwhile(lambda ramp: not ramp.twisting.end, scene.load_path())
+    changes = any(ramp.normal.start != ramp.normal.end for ramp in twisted)
+    return None if proportional and not frictional and not changes else Circle.ONE
 
 
 def _path_increments(scene: Scene, ramp: LoadRamp, circle: Circle | None, frictional: bool) -> int:
@@ -220,27 +209,23 @@ def _refuse_shape(scene: Scene) -> None:
         )
 
 
-def _refuse_map(scene: Scene) -> None:
-    """Raise UnsupportedScene if the coefficient of friction is a map (values over the surface)."""
+def _refuse_friction(scene: Scene, frictional: bool, circle: Circle | None) -> None:
+    """Raise UnsupportedScene if the solver does not support the friction of a scene.
+
+    The solver does not support a coefficient of friction that varies over the surface. It supports
+    friction below an indenter with a rim only for torsion in closed form. Tangential load and
+    torsion at points require a coefficient above zero.
+
+    frictional  true if friction acts under a normal load alone
+    circle      angles of a solve at points (rings × angles); None without such a solve
+    """
     assert scene.friction is not None
     if scene.friction.varying is not None:
         raise UnsupportedScene(
             "the coefficient of friction is a map, and this solver requires one number. Give one "
             f"number, or {ELSEWHERE}"
         )
-
-
-def _refuse_friction(scene: Scene, circle: Circle | None) -> None:
-    """Raise UnsupportedScene if the solver does not support the friction of a scene.
-
-    The solver does not support a coefficient of friction that varies over the surface, or friction
-    below an indenter with a rim. Tangential load and torsion require a coefficient above zero.
-
-    circle  angles of a solve at points (rings × angles); None without such a solve
-    """
-    _refuse_map(scene)
-    assert scene.friction is not None
-    if scene.indenter.rim is not None:
+    if scene.indenter.rim is not None and (frictional or circle):
         raise UnsupportedScene(
             "the scene has friction below an indenter with a rim, where tractions are infinite, "
             f"and this solver requires a smooth edge. Remove [friction], or {ELSEWHERE}"

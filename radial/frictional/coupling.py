@@ -14,10 +14,9 @@ from radial.frictional.rings import Rings
 from radial.normal.disc import Disc
 from radial.response.bodies import (
     Bodies,
-    added_by,
+    layer_responses,
 )
 from radial.response.quadrature import unit_gauss
-from radial.response.wavenumbers import Waves
 from semi_analytical.frf.stack import Stack, stack_of
 
 POINTS = 40
@@ -49,8 +48,8 @@ class Coupling:
     tangential by pressure) subtract.
 
     bodies   normal response of both bodies
-    stacks   layers and base of each body, with the sign of its coupling response: 1 for the lower
-             body, -1 for the indenter
+    stacks   each body with layers, with the sign of its coupling response: 1 for the lower body, -1
+             for the indenter
     direct   Σ (1-ν)/G of the outermost materials [length²/force]
     across   Σ 1/G [length²/force]
     crossed  Σ ± (1-2ν)/2G, plus for the lower body, minus for the indenter [length²/force]
@@ -69,21 +68,20 @@ class Coupling:
         outer = [(stack.outer, sign) for stack, sign in stacks if not stack.is_rigid]
         return cls(
             Bodies.of(scene),
-            stacks,
+            tuple((stack, sign) for stack, sign in stacks if stack.layers),
             sum((1 - nu) / G for (G, nu), _ in outer),
             sum(1 / G for (G, _), _ in outer),
             sum(sign * (1 - 2 * nu) / (2 * G) for (G, nu), sign in outer),
         )
 
-    def response(self, rings: Rings, radius: float, fineness: int = 1) -> Response:
+    def response(self, rings: Rings, radius: float) -> Response:
         """Compute the compliance matrices between rings of a contact.
 
         The outermost materials have closed forms or quadratures. Layers add u = ∫ k F t~ J dk, with
         the frequency response F, the transform t~ of the traction and a Bessel function J.
 
-        rings     nodes over the contact
-        radius    contact radius [length]
-        fineness  multiple of the number of wavenumbers
+        rings   nodes over the contact
+        radius  contact radius [length]
         """
         by_pressure, by_shear = rings.logarithmic
         shear_lifts, pressure_draws = rings.sideways
@@ -91,47 +89,29 @@ class Coupling:
         zz, rr = direct * by_pressure, direct * by_shear
         zr, rz = crossed * shear_lifts, crossed * pressure_draws
         if self.bodies.layered:
-            waves = self.bodies.waves(radius, fineness=fineness)
+            waves = self.bodies.waves(radius)
             p, q, at_zeroth, at_first = rings.transforms(waves)
-            c11, c12, c22, _ = radius * waves.rule[1] * self.added(waves, radius)
+            c11, c12, c22, _ = radius * waves.rule[1] * layer_responses(self.stacks, waves, radius)
             zz, rr = zz + (at_zeroth * c22) @ p, rr + (at_first * c11) @ q
             zr, rz = zr - (at_zeroth * c12) @ q, rz - (at_first * c12) @ p
         return Response(zz, zr, rz, rr)
 
-    def frictionless_displacement(self, contact: Disc, rings: Rings, fineness: int = 1) -> Array:
+    def frictionless_displacement(self, contact: Disc, rings: Rings) -> Array:
         """Return the radial surface displacement by the pressure without friction (rows,) [length].
 
         The displacement is that of the lower body relative to the indenter, at the nodes of the
         rings and at points outside (`Rings.places`).
 
-        contact   frictionless contact
-        fineness  multiple of the number of wavenumbers
+        contact  frictionless contact
         """
         a, x = contact.radius, rings.places
         found = -self.crossed * a * np.divide(_carried(contact, x), x, where=x > 0, out=0 * x)
         if self.bodies.layered:
-            waves = self.bodies.waves(a, fineness=fineness)
+            waves = self.bodies.waves(a)
             transform = contact.bodies.modulus / pi * contact.wave_transform(waves)
-            c12 = waves.rule[1] * self.added(waves, a)[1]
+            c12 = waves.rule[1] * layer_responses(self.stacks, waves, a)[1]
             found -= rings.transforms(waves)[3] @ (c12 * transform)
         return np.asarray(found)
-
-    def added(self, waves: Waves, radius: float) -> Array:
-        """Compute the contribution of layers to the surface responses at wavenumbers k (4, κ).
-
-        The responses are displacements per unit traction, times k [length²/force]: c11 along the
-        wave vector, c12 coupling, c22 normal, csh transverse. They are summed over both bodies.
-
-        waves   dimensionless wavenumbers κ = k times radius
-        radius  contact radius [length]
-        """
-        k = waves.rule[0] / radius
-        total = np.zeros((4, len(k)))
-        for stack, sign in self.stacks:
-            if stack.layers:
-                added = added_by(stack, waves, radius)
-                total += (added.c11, sign * added.c12, added.c22, added.csh)
-        return k * total
 
 
 def _carried(contact: Disc, x: Array) -> Array:

@@ -123,15 +123,26 @@ class FrictionalSteps(StepsOnRings):
         target = target_of(self.scene, *ramp.normal.prescribed(fraction, reached))
         radius, iterations = self._first_radius(target, before)
         start_radius = before.end.radius if before else FIRST * radius
+        count = round(COUNT * self.fineness)
         last, strain = before.strain if before else 0.0, (ramp.strain(fraction) or UNSTRAINED)[0]
+        # The stick zone depends on the sequence of contact radii, so large increments pass through
+        # intermediate radii.
+        passing = Target(None, None)
         for passed in _intermediate_radii(start_radius, radius, GROWTH ** (1 / self.fineness)):
             part = (passed - start_radius) / (radius - start_radius)
-            before = self._intermediate(passed, before, last + part * (strain - last))
+            between = last + part * (strain - last)
+            share = before.mid_stick_radius / before.end.radius if before else MIDDLE
+            end = self._contact_solver(rings_about(share, count), before, between)(passed)
+            power = self._power(passing, before)
+            before = frictional_state(
+                self.friction, end, passing, self.radii, before, power, 0, between
+            )
             iterations += 1
         share = before.mid_stick_radius / before.end.radius if before else MIDDLE
         for _ in range(MAX_LAID):
-            rings = rings_about(share, self._count)
-            end, more, power = self._reach(target, radius, rings, before, strain)
+            solve = self._contact_solver(rings_about(share, count), before, strain)
+            power = self._power(target, before)
+            end, more, power = contact_at_target(solve, target, radius, power, 10 * ROUND_OFF)
             iterations, radius = iterations + more, end.radius
             previous, share = share, stick_share(end)
             if abs(place_of(share) - place_of(previous)) <= 1:
@@ -140,55 +151,30 @@ class FrictionalSteps(StepsOnRings):
             self.friction, end, target, self.radii, before, power, iterations, strain
         )
 
-    @property
-    def _count(self) -> int:
-        """Return the number of rings over the contact, without those of the dense regions.
+    def _contact_solver(
+        self, rings: Rings, before: FrictionalState | None, strain: float
+    ) -> Callable[[float], FrictionalContact]:
+        """Return a function that solves pressure and shear of a contact of given radius [length].
 
-        Dense regions are at the border of the stick zone, at the axis and at the contact edge.
-        """
-        return round(COUNT * self.fineness)
+        The slip zone of the last solve is the initial guess of the next one.
 
-    def _intermediate(
-        self, radius: float, before: FrictionalState | None, strain: float
-    ) -> FrictionalState:
-        """Solve a contact with friction between the start and the end of an increment.
-
-        The stick zone depends on the sequence of contact radii, so large increments pass through
-        intermediate radii.
-
-        radius  contact radius [length]
+        rings   nodes over the contact
         before  state of the preceding contact; None before first contact
         strain  bulk strain of the lower body, equal in all directions [1]
         """
-        share = before.mid_stick_radius / before.end.radius if before else MIDDLE
+        radial_displacement = _reference_displacement(before, strain)
         like = before.end if before else None
-        end = self._at(
-            radius, rings_about(share, self._count), _reference_displacement(before, strain), like
-        )
-        target = Target(None, None)
-        power = self._power(target, before)
-        return frictional_state(self.friction, end, target, self.radii, before, power, 0, strain)
 
-    def _at(
-        self,
-        radius: float,
-        rings: Rings,
-        radial_displacement: Callable[[Array], Array],
-        like: FrictionalContact | None,
-    ) -> FrictionalContact:
-        """Solve pressure and shear of a contact with friction and given radius.
+        def solve(radius: float) -> FrictionalContact:
+            """Solve pressure and shear of a contact with friction of a given radius [length]."""
+            nonlocal like
+            like = frictional_contact(
+                self.coupling, self.scene.indenter, radius, rings, self.friction,
+                radial_displacement(radius * rings.places), _sliding(like, rings),
+            )  # fmt: skip
+            return like
 
-        radius               contact radius [length]
-        rings                nodes over the contact
-        radial_displacement  radial displacement [length] that stick requires, as a function of the
-                             radius
-        like                 contact with a similar slip zone, as an initial guess; None if there is
-                             none
-        """
-        return frictional_contact(
-            self.coupling, self.scene.indenter, radius, rings, self.friction,
-            radial_displacement(radius * rings.places), _sliding(like, rings),
-        )  # fmt: skip
+        return solve
 
     def _first_radius(self, target: Target, before: FrictionalState | None) -> tuple[float, int]:
         """Estimate the contact radius under a prescribed load, as an initial guess [length].
@@ -218,40 +204,6 @@ class FrictionalSteps(StepsOnRings):
         if before is not None and (before.target.force is None) == (target.force is None):
             return before.power
         return 3.0 if target.approach is None else 2.0
-
-    def _reach(
-        self,
-        target: Target,
-        radius: float,
-        rings: Rings,
-        before: FrictionalState | None,
-        strain: float,
-    ) -> tuple[FrictionalContact, int, float]:
-        """Find the contact radius at which the contact with friction has the prescribed load.
-
-        The secant method returns the contact, the number of radii tried, and the exponent of the
-        load as a power of the radius.
-
-        target  prescribed normal force or approach
-        radius  initial guess [length]
-        rings   nodes over the contact
-        before  state of the preceding contact; None before first contact
-        strain  bulk strain of the lower body
-        """
-        radial_displacement = _reference_displacement(before, strain)
-        like = before.end if before else None
-
-        def solve(a: float) -> FrictionalContact:
-            """Solve the contact with friction of a given radius [length], for the secant method.
-
-            The slip zone of the last solve is the initial guess.
-            """
-            nonlocal like
-            like = self._at(a, rings, radial_displacement, like)
-            return like
-
-        power = self._power(target, before)
-        return contact_at_target(solve, target, radius, power, 10 * ROUND_OFF)
 
     def report(self, reached: Reached[FrictionalState], last: Increment | None) -> Increment:
         """Compute the output of an increment: fields at the rings, energies and residuals.

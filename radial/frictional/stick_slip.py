@@ -128,7 +128,6 @@ def frictional_contact(
     friction: CoulombFriction,
     before: Array,
     guess: Signs,
-    fineness: int = 1,
 ) -> FrictionalContact:
     """Solve pressure, radial shear and stick zone of a contact with friction and given radius.
 
@@ -141,12 +140,11 @@ def frictional_contact(
               [length]
     guess     initial guess of the slip zone: signs of the shear of slipping nodes, 0 for sticking
               nodes (n + 1,)
-    fineness  multiple of the numbers of polynomials and wavenumbers
     raises    NotConverged if the sticking nodes cannot be determined, and errors of `disc`
     """
-    contact = disc(coupling.bodies, indenter, radius, fineness=fineness)
-    response = coupling.response(rings, radius, fineness)
-    frictionless_displacement = coupling.frictionless_displacement(contact, rings, fineness)
+    contact = disc(coupling.bodies, indenter, radius)
+    response = coupling.response(rings, radius)
+    frictionless_displacement = coupling.frictionless_displacement(contact, rings)
     smooth = pressure(contact, rings.x)
     found, sliding = _newton(
         response, rings.count, friction, smooth[1:-1],

@@ -19,7 +19,7 @@ from radial.response.wavenumbers import (
     waves,
 )
 from semi_analytical.frf.stack import Stack, stack_of
-from semi_analytical.frf.surface import SurfaceScalars, remainder_scalars
+from semi_analytical.frf.surface import remainder_scalars
 
 # Largest wavenumber times thickness, k h: exp(-2 k h) (k h)², the relative contribution of a layer,
 # is below 1e-17 for larger values.
@@ -88,22 +88,29 @@ class Bodies:
         waves   dimensionless wavenumbers κ
         radius  contact radius [length]
         """
-        added = np.sum([added_by(stack, waves, radius).c22 for stack in self.layered], axis=0)
-        return np.asarray(0.5 * self.modulus * (waves.rule[0] / radius) * added)
+        stacks = tuple((stack, 1.0) for stack in self.layered)
+        return np.asarray(0.5 * self.modulus * layer_responses(stacks, waves, radius)[2])
 
 
 @lru_cache(maxsize=CACHED)
-def added_by(stack: Stack, waves: Waves, radius: float) -> SurfaceScalars:
-    """Compute the contribution of layers to the surface response of one body at wavenumbers (κ,).
+def layer_responses(stacks: tuple[tuple[Stack, float], ...], waves: Waves, radius: float) -> Array:
+    """Compute the contribution of layers to surface responses at wavenumbers k (4, κ).
 
-    The result is the response of the body minus that of a half-space of its outermost material. The
-    responses are displacements per unit traction [length³/force].
+    The contribution of a body is its response minus that of a half-space of its outermost material.
+    The responses are displacements per unit traction, times k [length²/force]: along the wave
+    vector, coupling, normal, transverse. They are summed over the bodies.
 
-    stack   the body with its layers
-    waves   dimensionless wavenumbers κ, the wavenumber times `radius`
+    stacks  bodies with layers, with the sign of their coupling response: 1 for the lower body, -1
+            for the indenter
+    waves   dimensionless wavenumbers κ = k times radius
     radius  contact radius [length]
     """
-    return remainder_scalars(stack, waves.rule[0] / radius)
+    k = waves.rule[0] / radius
+    total = np.zeros((4, len(k)))
+    for stack, sign in stacks:
+        added = remainder_scalars(stack, k)
+        total += (added.c11, sign * added.c12, added.c22, added.csh)
+    return k * total
 
 
 def longest(stack: Stack, radius: float) -> float:

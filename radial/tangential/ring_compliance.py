@@ -17,6 +17,7 @@ import numpy as np
 
 from contact_scene.array_types import Array
 from radial.frictional.coupling import Coupling
+from radial.response.bodies import layer_responses
 from radial.response.wavenumbers import wave_blocks
 from radial.tangential.ring_energies import (
     WAVE_POINTS,
@@ -80,7 +81,7 @@ def _of_layers(coupling: Coupling, nodes: tuple[float, ...], radius: float, high
     found = np.zeros((highest + 1, 6, len(nodes), len(nodes)))
     waves = coupling.bodies.waves(radius, max(1.0, nodes[-1]))
     kappa = waves.rule[0]
-    scalars = waves.rule[1] * coupling.added(waves, radius)
+    scalars = waves.rule[1] * layer_responses(coupling.stacks, waves, radius)
     for some in wave_blocks(len(kappa), (WAVE_POINTS + highest + 2) * len(nodes)):
         fields = transforms(nodes, highest, kappa[some])
         along, c12, c22, across = scalars[:, some]

@@ -98,15 +98,6 @@ class PointState:
         """Return the approach of the indenter [length]."""
         return float(self.motion[NORMAL])
 
-    def forces(self, points: Points) -> Array:
-        """Compute the resultants of the tractions (4,) [force, force length].
-
-        They are the tangential force along θ = 0 and across it, the torque and the normal force.
-
-        points  points of the contact, with their areas
-        """
-        return carried(points, self.tractions)
-
     def every_angle(self, points: Points) -> PointState:
         """Extend an axisymmetric state from one angle per ring to all angles of given points.
 

@@ -25,6 +25,7 @@ from radial.tangential.ring_state import (
     TORSION,
     Loads,
     PointState,
+    carried,
 )
 
 REST = 1e-11  # slip below this multiple of the approach is round-off
@@ -132,8 +133,8 @@ def tangential_state(
     start = last.shear if last else np.zeros((2, len(nothing)))
     limits = (friction.limit(last.pressure) if last else nothing), friction.limit(end.pressure)
     rubbing = sliding_friction(start, end.shear, passed, *limits)
-    carried, motion = end.forces(points), last.motion if last else np.zeros(4)
-    both = carried + (before.carried if before else 0.0)
+    forces, motion = carried(points, end.tractions), last.motion if last else np.zeros(4)
+    both = forces + (before.carried if before else 0.0)
     stick_through = None
     if smooth is None:
         area = points.stick_area(end.share, end.shear, limits[1])
@@ -147,7 +148,7 @@ def tangential_state(
     open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
     return TangentialState(
         end, points.circle, prescribed, radius, start_radius, stick_through, stick_radius,
-        slip - passed, carried,
+        slip - passed, forces,
         (before.work if before else 0.0) + 0.5 * float(both @ (end.motion - motion)),
         (before.dissipated if before else 0.0) + float(np.sum(rubbing * passed, axis=0) @ areas),
         (before.uncertainty if before else 0.0) + float(open_ @ areas),

@@ -93,7 +93,6 @@ class TangentialSteps(StepsOnRings):
         scene: Scene,
         discretisation: RadialDiscretisation,
         plan: Plan,
-        angle_factor: float = 1.0,
     ) -> TangentialSteps:
         """Create the solver of load steps of a contact at points (rings × angles), for a scene.
 
@@ -103,12 +102,11 @@ class TangentialSteps(StepsOnRings):
         scene           contact problem
         discretisation  settings, of which only the tolerance of the residuals is used
         plan            effects of the scene, numbers of rings and angles
-        angle_factor    factor of the planned number of angles
         """
         assert scene.friction is not None
         assert plan.circle is not None
         friction, circle = scene.friction, plan.circle
-        count, highest = plan.rings, round(plan.highest * angle_factor)
+        count = plan.rings
         both = Coupling.of(scene)
 
         def smooth(prescribed: Target) -> float:
@@ -128,7 +126,7 @@ class TangentialSteps(StepsOnRings):
 
             circle  angles of the points on a ring
             """
-            harmonics = 0 if circle is Circle.ONE else highest
+            harmonics = 0 if circle is Circle.ONE else plan.highest
             points = lay_out(
                 both, scene.indenter, edges, count, harmonics, circle, friction.largest, scene.rig
             )
@@ -440,17 +438,17 @@ class TangentialSteps(StepsOnRings):
         """
         if points.count == 1:
             # The axis has no direction.
-            outward, angle_factor = vector * (points.radii > 0)
-            return outward, angle_factor
-        outward, angle_factor = points.shown(vector[0], 1.0), points.shown(vector[1], -1.0)
+            outward, around = vector * (points.radii > 0)
+            return outward, around
+        outward, around = points.shown(vector[0], 1.0), points.shown(vector[1], -1.0)
         q_r, q_t = vector[:, : points.count]
         cos, sin = np.cos(points.angles), np.sin(points.angles)
         along = np.mean(q_r * cos - q_t * sin)
         # On a half circle the component across is zero by symmetry.
         across = np.mean(q_r * sin + q_t * cos) if points.circle is Circle.WHOLE else 0.0
         cos, sin = np.cos(points.output_angles), np.sin(points.output_angles)
-        outward[0], angle_factor[0] = along * cos + across * sin, across * cos - along * sin
-        return outward, angle_factor
+        outward[0], around[0] = along * cos + across * sin, across * cos - along * sin
+        return outward, around
 
 
 def _moving(points: Points, loads: Loads) -> Loads:

@@ -18,8 +18,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from math import ceil, log2, pi
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -33,7 +33,7 @@ from radial.normal.disc import (
 )
 from radial.response.bodies import (
     Bodies,
-    added_by,
+    layer_responses,
 )
 from radial.response.quadrature import unit_gauss
 from radial.torsion.friction_limit import FrictionLimit
@@ -134,8 +134,8 @@ class Torsion:
         of_layers = Bodies(self.layered, self.modulus)
         waves = of_layers.waves(a, fineness=self.fineness)
         places, weights = waves.rule
-        added = np.sum([added_by(stack, waves, a).csh for stack in self.layered], axis=0)
-        return places, np.asarray(weights * self.modulus * places / a * added)
+        added = layer_responses(tuple((stack, 1.0) for stack in self.layered), waves, a)[3]
+        return places, weights * self.modulus * added
 
     def partial_slip(self, stick: float) -> PartialSlip:
         """Solve the state of monotonic torsion that has a given stick radius.
@@ -156,7 +156,7 @@ class Torsion:
         t, weights = unit_gauss(self.points(stick) + 2 * count)
         odd = legendre.legvander(t, 2 * count - 1)[:, 1::2]
         bases = stick * (odd.T * weights) @ np.sin(np.multiply.outer(stick * t, places))
-        by_annulus = sum((panel.transform(places) for panel in panels), np.zeros_like(places))
+        by_annulus = sum((panel.sine_transform(places) for panel in panels), np.zeros_like(places))
         matrix = 2 / pi * (bases * wave_weights) @ bases.T
         right = np.stack(
             [4 / pi * stick * matrix[:, 0], 2 / pi * bases @ (wave_weights * by_annulus)]
@@ -180,53 +180,37 @@ class Torsion:
             return []
         edges = np.geomspace(stick, 1.0, ceil(log2(1 / stick)) + 1)
         made = []
-        for low, high in pairwise(edges):
-            v, _ = unit_gauss(self.points(high - low))
-            t = low + (high - low) * v
-            made.append(Panel(float(low), float(high), t * self.limit.slope(t)))
+        for low, width in zip(edges, np.diff(edges), strict=False):
+            v, weights = unit_gauss(self.points(width))
+            t = low + width * v
+            made.append(Panel(t, width * weights, t * self.limit.slope(t)))
         return made
 
 
-@dataclass(frozen=True)
-class Panel:
-    """Interval of the coordinate t, with values of the transform N of the circumferential shear.
+class Panel(NamedTuple):
+    """Gauss points of an interval, with values of the transform N of the circumferential shear.
 
-    N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt.
-    Torque and energy are integrals of N over all intervals.
+    N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
+    the torsional modulus G and the contact radius a. Torque and energy are integrals of N over all
+    intervals.
 
-    t          coordinate between the axis (0) and the contact edge (1)
-    low, high  ends of the interval of t
-    values     N at the Gauss points of the interval (n,)
+    t        coordinates of the points between the axis (0) and the contact edge (1) (n,)
+    weights  quadrature weights (n,)
+    values   N at the points (n,)
     """
 
-    low: float
-    high: float
+    t: Array
+    weights: Array
     values: Array
 
-    def integral(self, power: int, factor: int = 1) -> float:
-        """Integrate N^factor t^power over the interval, for torque and elastic energy.
-
-        N(t)    function whose Abel transform is the circumferential shear
-        t       coordinate between the axis (0) and the contact edge (1)
-        power   exponent of t
-        factor  exponent of N
-        """
-        v, weights = unit_gauss(len(self.values))
-        width = self.high - self.low
-        t = self.low + width * v
-        return float(width * np.sum(weights * self.values**factor * t**power))
-
-    def transform(self, places: Array) -> Array:
+    def sine_transform(self, places: Array) -> Array:
         """Compute the sine transform ∫ N sin κt dt over the interval, at given wavenumbers (κ,).
 
         N(t)    function whose Abel transform is the circumferential shear
         t       coordinate between the axis (0) and the contact edge (1)
         places  wavenumbers κ, multiplied by the contact radius
         """
-        v, weights = unit_gauss(len(self.values))
-        width = self.high - self.low
-        waves = np.sin(np.multiply.outer(self.low + width * v, places))
-        return np.asarray(width * (weights * self.values) @ waves)
+        return np.asarray((self.weights * self.values) @ np.sin(np.multiply.outer(self.t, places)))
 
 
 @dataclass(frozen=True)
@@ -273,8 +257,9 @@ class PartialSlip:
         """
         if self.stick == 0:
             return []
-        v, _ = unit_gauss(self.of.points(self.stick) + 2 * len(self.layers))
-        return [Panel(0.0, self.stick, self.inside(self.stick * v))]
+        v, weights = unit_gauss(self.of.points(self.stick) + 2 * len(self.layers))
+        t = self.stick * v
+        return [Panel(t, self.stick * weights, self.inside(t))]
 
     @cached_property
     def torque(self) -> float:
@@ -283,7 +268,7 @@ class PartialSlip:
         N(t) is the function whose Abel transform is the shear, G the torsional modulus, a the
         contact radius.
         """
-        total = sum(panel.integral(1) for panel in (*self._disc, *self.panels))
+        total = sum(float(w * t @ N) for t, w, N in (*self._disc, *self.panels))
         return 4 * pi * self.of.modulus * self.of.contact.radius**3 * total
 
     @cached_property
@@ -294,7 +279,7 @@ class PartialSlip:
         are those of `Torsion.waves`.
         """
         places, _ = self.of.waves
-        parts = [panel.transform(places) for panel in (*self._disc, *self.panels)]
+        parts = [panel.sine_transform(places) for panel in (*self._disc, *self.panels)]
         return np.asarray(np.sum(parts, axis=0))
 
     @cached_property
@@ -307,7 +292,7 @@ class PartialSlip:
         Y - 1  contribution of the layers to the torsional compliance, relative to half-spaces
         G, a   torsional modulus and contact radius
         """
-        squares = sum(panel.integral(0, 2) for panel in (*self._disc, *self.panels))
+        squares = sum(float(w @ N**2) for _, w, N in (*self._disc, *self.panels))
         _, wave_weights = self.of.waves
         by_layers = float(np.sum(wave_weights * self.transform**2)) if len(wave_weights) else 0.0
         scale = pi * self.of.modulus * self.of.contact.radius**3
