@@ -61,7 +61,9 @@ def project(
         step = -defect / slope if slope > 0 else np.copysign(np.inf, -defect)
         guess = multiplier + step
         if not low < guess < high or abs(step) > 10 * jump:
-            guess = _between(low, high, jump)
+            # The middle of the bracket, or a longer step from its finite end.
+            finite = low + jump if np.isinf(high) else high - jump
+            guess = finite if np.isinf(high - low) else 0.5 * (low + high)
             jump *= 2
         if guess in (low, high):
             break
@@ -88,16 +90,3 @@ def _slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
     pushed = (push[0] * moved[1] - push[1] * moved[0]) / safe
     inside = np.where(outside, 0.0, np.sum(along * push, axis=0))
     return float(np.sum(np.where(outside, bound / safe * across * pushed, inside)))
-
-
-def _between(low: float, high: float, jump: float) -> float:
-    """Return a trial value of the load multiplier λ inside its bracket.
-
-    Used if a Newton step for λ leaves the bracket. The value is the middle of a finite bracket.
-
-    low, high  ends of the bracket, which may be infinite
-    jump       distance of the value from the finite end if the other end is infinite
-    """
-    if np.isinf(high):
-        return low + jump
-    return high - jump if np.isinf(low) else 0.5 * (low + high)

@@ -12,14 +12,12 @@ from contact_scene import Scene
 from contact_scene.array_types import Array
 from radial.frictional.rings import Rings
 from radial.normal.disc import Disc
+from radial.normal.surface import half_mean_pressure
 from radial.response.bodies import (
     Bodies,
     layer_responses,
 )
-from radial.response.quadrature import unit_gauss
 from semi_analytical.frf.stack import Stack, stack_of
-
-POINTS = 40
 
 
 class Response(NamedTuple):
@@ -105,29 +103,10 @@ class Coupling:
         contact  frictionless contact
         """
         a, x = contact.radius, rings.places
-        found = -self.crossed * a * np.divide(_carried(contact, x), x, where=x > 0, out=0 * x)
+        found = -self.crossed * a * x * half_mean_pressure(contact, x)
         if self.bodies.layered:
             waves = self.bodies.waves(a)
             transform = contact.bodies.modulus / pi * contact.wave_transform(waves)
             c12 = waves.rule[1] * layer_responses(self.stacks, waves, a)[1]
             found -= rings.transforms(waves)[3] @ (c12 * transform)
         return np.asarray(found)
-
-
-def _carried(contact: Disc, x: Array) -> Array:
-    """Integrate the pressure of a frictionless contact from the axis, ∫₀ˣ p x dx (n,).
-
-    The integral [force/length²] is the load over 2πa² minus the part outside x, (E*/π a) [G(1)
-    √(1-x²) - ∫ₓ¹ G'(t) √(t²-x²) dt]. G is the function of which the pressure is the Abel transform,
-    see `disc`. Used for the radial displacement by the pressure.
-
-    contact  frictionless contact of radius a
-    x        radii over the contact radius (n,)
-    """
-    inside = np.minimum(x, 1.0)[:, None]
-    chord = np.sqrt((1 - inside) * (1 + inside))
-    v, weights = unit_gauss(POINTS + len(contact.layers))
-    t = np.hypot(inside, chord * v)
-    outside = contact.edge * chord[:, 0] - (chord**3 * v**2 * contact.rate(t) / t) @ weights
-    unit = contact.bodies.modulus / (pi * contact.radius)
-    return np.asarray(contact.load / (2 * pi * contact.radius**2) - unit * outside)

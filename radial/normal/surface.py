@@ -5,20 +5,19 @@ from __future__ import annotations
 from math import pi
 
 import numpy as np
-from numpy.polynomial import legendre
 from scipy.optimize import minimize_scalar
 from scipy.special import j0
 
 from contact_scene.array_types import Array
 from radial.normal.disc import Disc
 from radial.response.quadrature import (
-    every_order,
-    shifted,
     unit_gauss,
 )
 from radial.response.wavenumbers import wave_blocks
 
 POINTS = 48
+# Smallest radius over the contact radius in integrals. It changes no digit of the results.
+AXIS = 1e-7
 PLACE = 1e-9  # error of the position of the largest pressure over the contact radius
 
 
@@ -29,8 +28,8 @@ def pressure(contact: Disc, x: Array) -> Array:
 
         p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
 
-    G is the function of the contact equation, see `disc`. The substitutions t² = x² + (1-x²) v² for
-    the contribution of layers and t = x cosh y for the profile make both integrands smooth.
+    G is the function of which the pressure is the Abel transform. The substitution t = x cosh y
+    makes the integrand smooth.
 
     contact  frictionless contact of radius a
     x        radii over the contact radius (n,)
@@ -38,48 +37,38 @@ def pressure(contact: Disc, x: Array) -> Array:
     found = np.zeros_like(x)
     inside = x < 1
     rho = x[inside]
-    chord = np.sqrt((1 - rho) * (1 + rho))
-    total = _of_profile(contact, rho, chord) - _of_layers(contact, rho, chord)
-    if contact.edge:
-        total += contact.edge / chord
-    found[inside] = contact.bodies.modulus / (pi * contact.radius) * total
+    chord, axis = np.sqrt((1 - rho) * (1 + rho)), rho == 0
+    v, weights = unit_gauss(POINTS + len(contact.profile.abel) + len(contact.layers))
+    furthest = np.arcsinh(chord / np.where(axis, 1.0, rho))
+    t = np.minimum(rho[:, None] * np.cosh(furthest[:, None] * v), 1.0)
+    total = furthest * (contact.rate(t) @ weights)
+    total[axis] = -np.inf if contact.profile.apex else weights @ (contact.rate(v) / v)
+    found[inside] = contact.bodies.modulus / (pi * contact.radius) * (contact.edge / chord - total)
     return found
 
 
-def _of_layers(contact: Disc, rho: Array, chord: Array) -> Array:
-    """Compute ∫ₓ¹ C'(t)/√(t²-x²) dt, the contribution of layers to the contact pressure (n,).
+def half_mean_pressure(contact: Disc, x: Array) -> Array:
+    """Compute half the mean pressure within the radius of each point (n,) [force/length²].
 
-    C is the contribution of the layers to the function G of which the pressure is the Abel
-    transform. The unit is [length]. The integrand is a polynomial after a substitution, since C'/t
-    is one.
+    The value is ∫₀ˣ p x dx / x². The radial displacement by the pressure is proportional to it.
 
     contact  frictionless contact
-    rho      radii x < 1 over the contact radius (n,)
-    chord    √(1-x²) (n,)
+    x        radii of the points over the contact radius (n,)
     """
-    rate = legendre.legder(every_order(contact.layers))
-    v, weights = unit_gauss(len(contact.layers) + 1)
-    t = np.hypot(rho[:, None], chord[:, None] * v)
-    return np.asarray(chord * ((legendre.legval(t, rate) / t) @ weights))
-
-
-def _of_profile(contact: Disc, rho: Array, chord: Array) -> Array:
-    """Compute ∫ₓ¹ S'(t)/√(t²-x²) dt, the contribution of the gap to the contact pressure (n,).
-
-    S is the Abel transform of the undeformed gap [length]. The value at the axis is infinite below
-    a tip.
-
-    contact  frictionless contact
-    rho      radii x < 1 over the contact radius (n,)
-    chord    √(1-x²) (n,)
-    """
-    shape = contact.profile
-    v, weights = unit_gauss(POINTS + len(shape.abel))
-    axis = rho == 0
-    furthest = np.arcsinh(chord / np.where(axis, 1.0, rho))
-    t = rho[:, None] * np.cosh(furthest[:, None] * v)
-    found = furthest * (shifted(shape.rate, t) @ weights)
-    found[axis] = np.inf if shape.apex else weights @ (shifted(shape.rate, v) / v)
+    found, x = np.empty_like(x), np.maximum(x, AXIS)
+    inside = x < 1
+    found[~inside] = contact.load / (2 * pi * (contact.radius * x[~inside]) ** 2)
+    rho = x[inside][:, None]
+    chord = np.sqrt((1 - rho) * (1 + rho))
+    v, weights = unit_gauss(POINTS + len(contact.profile.abel) + len(contact.layers))
+    furthest = np.arcsinh(chord / rho)
+    y = furthest * v
+    further = furthest[:, 0] * (
+        (contact.rate(np.minimum(rho * np.cosh(y), 1.0)) * np.sinh(y) * np.exp(-y)) @ weights
+    )
+    nearer = (contact.rate(rho * v) * v) @ weights
+    unit = contact.bodies.modulus / (pi * contact.radius)
+    found[inside] = unit * (contact.edge / (1 + chord[:, 0]) - further - nearer)
     return found
 
 

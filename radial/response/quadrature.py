@@ -25,13 +25,14 @@ def shifted(coefficients: Array, t: Array) -> Array:
     return np.asarray(legendre.legval(2 * t - 1, coefficients))
 
 
-def every_order(coefficients: Array) -> Array:
-    """Return the coefficients of a Legendre series of all orders from those of its even orders.
+def every_order(coefficients: Array, first: int = 0) -> Array:
+    """Return the coefficients of a Legendre series of all orders from those of one parity.
 
-    The coefficients of odd orders are 0. The result is evaluated with numpy's Legendre functions.
+    The other coefficients are 0. The result is evaluated with numpy's Legendre functions.
 
-    coefficients  c_0, c_2, c_4, …
+    coefficients  c_0, c_2, c_4, … or c_1, c_3, c_5, …
+    first         0 for even orders, 1 for odd orders
     """
-    every = np.zeros(2 * len(coefficients) - 1)
-    every[::2] = coefficients
+    every = np.zeros(2 * len(coefficients) - 1 + first)
+    every[first::2] = coefficients
     return every

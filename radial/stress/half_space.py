@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from contact_scene.array_types import Array
 from radial.normal.disc import Disc
-from radial.normal.surface import abel_integral, pressure
+from radial.normal.surface import AXIS, abel_integral, half_mean_pressure, pressure
 from radial.response.quadrature import unit_gauss
 from semi_analytical.frf.stack import HalfSpace
 
@@ -25,8 +25,6 @@ Complex = NDArray[np.complex128]
 POINTS = 16
 WIDTH = 1.5  # largest width of a panel of the coordinate y
 SURFACE = 1e-16  # points at smaller depths over the contact radius are on the surface
-# Smallest radius over the contact radius in integrals. It changes no digit of the results.
-AXIS = 1e-7
 
 
 def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -> Array:
@@ -43,7 +41,7 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
     G, nu = material
     modulus = contact.bodies.modulus / pi
     if depth < SURFACE:
-        p, mean = pressure(contact, x), modulus / contact.radius * _mean(contact, x)
+        p, mean = pressure(contact, x), half_mean_pressure(contact, x)
         out, down = (
             -(1 - 2 * nu) * mean * contact.radius * true,
             modulus * abel_integral(contact, x),
@@ -136,28 +134,3 @@ def _distance(x: Array, depth: float, offset: Array) -> tuple[Complex, Complex]:
     t = x + offset
     c = np.asarray(depth + 1j * t, dtype=np.complex128)
     return c, np.asarray(np.sqrt(depth**2 - offset * (x + t) + 2j * depth * t))
-
-
-def _mean(contact: Disc, x: Array) -> Array:
-    """Compute half the mean pressure within the radius of each point, in units of E*/πa (n,).
-
-    The radial displacement and the radial and hoop stress at the surface contain this mean.
-
-    contact  frictionless contact of radius a, with the contact modulus E*
-    x        radii of the points over the contact radius (n,)
-    """
-    found = np.empty_like(x)
-    inside = x < 1
-    beyond = x[~inside]
-    found[~inside] = contact.load / (2 * contact.bodies.modulus * contact.radius) / beyond**2
-    rho = x[inside][:, None]
-    chord = np.sqrt((1 - rho) * (1 + rho))
-    v, weights = unit_gauss(2 * POINTS + len(contact.profile.abel) + len(contact.layers))
-    furthest = np.arcsinh(chord / rho)
-    y = furthest * v
-    further = furthest[:, 0] * (
-        (contact.rate(np.minimum(rho * np.cosh(y), 1.0)) * np.sinh(y) * np.exp(-y)) @ weights
-    )
-    nearer = (contact.rate(rho * v) * v) @ weights
-    found[inside] = contact.edge / (1 + chord[:, 0]) - further - nearer
-    return found

@@ -241,17 +241,14 @@ def _by_rays(
     pu, pw, pss, ptt, pzz, psz, su, sw, sss, stt, szz, ssz, tu, tst = _kernels(material, d, depth)
     q_x, q_y, p = t * weight
 
-    def total(field: Array) -> Array:
-        """Sum the integrand over the quadrature points of every ray."""
-        return np.asarray(np.sum(field, axis=-1))
-
     c, s = cos[..., None], sin[..., None]
     along, across = c * q_x + s * q_y, c * q_y - s * q_x
-    return np.stack([
-        total(pu * p + su * along), total(tu * across), total(pw * p + sw * along),
-        total(pss * p + sss * along), total(ptt * p + stt * along), total(pzz * p + szz * along),
-        total(psz * p + ssz * along), total(tst * across),
-    ])  # fmt: skip
+    integrands = (
+        pu * p + su * along, tu * across, pw * p + sw * along,
+        pss * p + sss * along, ptt * p + stt * along, pzz * p + szz * along,
+        psz * p + ssz * along, tst * across,
+    )  # fmt: skip
+    return np.stack([np.sum(integrand, axis=-1) for integrand in integrands])
 
 
 def _finite_part(

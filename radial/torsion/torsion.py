@@ -35,7 +35,7 @@ from radial.response.bodies import (
     Bodies,
     layer_responses,
 )
-from radial.response.quadrature import unit_gauss
+from radial.response.quadrature import every_order, unit_gauss
 from radial.torsion.friction_limit import FrictionLimit
 from semi_analytical.frf.stack import Stack, stack_of
 
@@ -244,9 +244,8 @@ class PartialSlip:
         φ, D  twist of the indenter, and contribution of the layers
         t     coordinates between the axis (0) and the stick radius over the contact radius
         """
-        every = np.zeros(2 * len(self.layers))
-        every[1::2] = self.layers
-        return np.asarray(4 / pi * self.twist * t - legendre.legval(t / self.stick, every))
+        change = legendre.legval(t / self.stick, every_order(self.layers, 1))
+        return np.asarray(4 / pi * self.twist * t - change)
 
     @property
     def _disc(self) -> list[Panel]:
@@ -349,9 +348,7 @@ class PartialSlip:
 
         t  coordinates between the axis (0) and the stick radius over the contact radius
         """
-        every = np.zeros(2 * len(self.layers))
-        every[1::2] = self.layers
-        x = t / self.stick
+        x, every = t / self.stick, every_order(self.layers, 1)
         changed, rate = legendre.legval(x, every), legendre.legval(x, legendre.legder(every))
         return np.asarray((changed / x - rate) / (x * self.stick**2))
 
