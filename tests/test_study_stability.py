@@ -30,7 +30,12 @@ from verification.studies.stability.cell import (
     study_cells,
     views,
 )
-from verification.studies.stability.judged import Solved, StabilityRun, by_superposition, judged
+from verification.studies.stability.judged import (
+    SolvedContact,
+    StabilityRun,
+    by_superposition,
+    judged,
+)
 from verification.studies.stability.pose import Posed, pose
 from verification.studies.stability.study import CLASSES, class_of, view_chart
 
@@ -125,7 +130,7 @@ def test_more_than_friction_carries_is_refused() -> None:
 def test_what_a_cell_is_refused_for_does_not_hang_on_words(
     error: Exception, kind: Refusal, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse(posed: Posed) -> Solved:
+    def refuse(posed: Posed) -> SolvedContact:
         raise error
 
     monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, refuse)
@@ -175,7 +180,7 @@ def test_a_wrong_field_is_seen_in_the_fields_alone(defect: str) -> None:
 
 
 def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch: pytest.MonkeyPatch) -> None:
-    def careless(posed: Posed) -> Solved:
+    def careless(posed: Posed) -> SolvedContact:
         return by_superposition(replace(posed, tolerance=1e-4))
 
     monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, careless)
@@ -183,7 +188,7 @@ def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch: pytest.Mon
 
 
 def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch) -> None:
-    def helpless(posed: Posed) -> Solved:
+    def helpless(posed: Posed) -> SolvedContact:
         raise NotConverged("the shear", 60, 1e-3, 1e-8)
 
     monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, helpless)
@@ -207,7 +212,7 @@ def test_contact_that_outgrows_its_window_gets_a_larger_one(
 ) -> None:
     narrow = pose(ORDINARY)
     grid = replace(narrow.grid, window=tuple(0.7 * side for side in narrow.grid.window))
-    assert len(judging.by_superposition(replace(narrow, grid=grid)).increments) == 4
+    assert len(by_superposition(replace(narrow, grid=grid)).result.increments) == 4
 
 
 def kept(found: dict[str, CellRecord]) -> dict[str, CaseRecord]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -38,62 +38,29 @@ MAX_WINDOWS = 4
 ELEMENTS_PER_HARMONIC = 2
 
 
-class WithResiduals(Protocol):
-    """Interface of the residuals of an increment: `worst` is the largest that the solver states."""
+class SolvedContact(NamedTuple):
+    """Result of one solver for one contact of the stability map.
 
-    @property
-    def worst(self) -> float: ...
-
-
-class SolvedIncrement(Protocol):
-    """Interface of a solved increment of any solver, as the stability map reads it."""
-
-    @property
-    def residuals(self) -> WithResiduals: ...
-    @property
-    def iterations(self) -> int: ...
-    @property
-    def halvings(self) -> int: ...
-
-
-@dataclass(frozen=True)
-class Solved:
-    """Hold the results of one solver for one contact that the verdict requires.
-
-    increments    all increments of the load history
-    observed      largest violation of the contact and friction laws, computed from the fields
-    way           solution method in words
-    rounds        largest number of alternating iterations of pressure and shear in an increment
-    convolutions  number of convolutions; 0 for finite elements
+    result  result of the solver
+    way     solution method in words
+    rounds  largest number of alternating iterations of pressure and shear in an increment
     """
 
-    increments: Sequence[SolvedIncrement]
-    observed: float
+    result: Any
     way: str
     rounds: int
-    convolutions: int = 0
 
 
-def by_superposition(posed: Posed) -> Solved:
+def by_superposition(posed: Posed) -> SolvedContact:
     """Solve a contact with the semi-analytical solver, in a wider window if the contact requires
     one.
-
-    Returns increments, violations of the laws of contact and friction, and iterations.
     """
     result = _solved(posed)
-    increments = result.increments
-    return Solved(
-        increments=increments,
-        observed=observed(result).violation,
-        way=_way(result.plan),
-        rounds=max(i.rounds for i in increments),
-        convolutions=sum(i.convolutions for i in increments),
-    )
+    return SolvedContact(result, _way(result.plan), max(i.rounds for i in result.increments))
 
 
-def by_elements(posed: Posed, method: Method) -> Solved:
-    """Solve a contact with finite elements; return increments, violations of the laws and
-    iterations.
+def by_elements(posed: Posed, method: Method) -> SolvedContact:
+    """Solve a contact with finite elements.
 
     posed   scene and discretisation of the contact
     method  enforcement of contact and friction: complementarity or penalty
@@ -108,17 +75,12 @@ def by_elements(posed: Posed, method: Method) -> Solved:
         tolerance=posed.tolerance,
     )
     result = fem_reference.solve(posed.scene, discretisation, method)
-    increments = result.increments
-    ways = sorted({i.path for i in increments if i.path is not None})
-    return Solved(
-        increments=increments,
-        observed=observed(result).violation,
-        way="; ".join([result.plan.path.value, *ways]),
-        rounds=max(i.sweeps for i in increments),
-    )
+    ways = sorted({i.path for i in result.increments if i.path is not None})
+    way = "; ".join([result.plan.path.value, *ways])
+    return SolvedContact(result, way, max(i.sweeps for i in result.increments))
 
 
-SOLVERS: dict[Solver, Callable[[Posed], Solved]] = {
+SOLVERS: dict[Solver, Callable[[Posed], SolvedContact]] = {
     Solver.SEMI_ANALYTICAL: by_superposition,
     Solver.COMPLEMENTARITY: partial(by_elements, method=Method.COMPLEMENTARITY),
     Solver.PENALTY: partial(by_elements, method=Method.PENALTY),
@@ -177,12 +139,12 @@ def judged(cell: StabilityCell) -> CellRecord:
         return _without_answer(Verdict.REFUSED, error, TOLERANCE)
     tolerance = posed.tolerance
     try:
-        solved = SOLVERS[cell.solver](posed)
+        result, way, rounds = SOLVERS[cell.solver](posed)
     except REFUSALS as error:
         return _without_answer(Verdict.REFUSED, error, tolerance)
     except SolverError as error:
         return _without_answer(Verdict.NOT_CONVERGED, error, tolerance)
-    increments, seen = solved.increments, solved.observed
+    increments, seen = result.increments, observed(result).violation
     # np.max propagates a residual that is NaN.
     residual = float(np.max([increment.residuals.worst for increment in increments]))
     sound = residual <= tolerance and seen <= OTHER_NORMS * tolerance
@@ -194,10 +156,10 @@ def judged(cell: StabilityCell) -> CellRecord:
         observed=_finite(seen),
         increments=len(increments),
         halvings=sum(increment.halvings for increment in increments),
-        rounds=solved.rounds,
-        way=solved.way,
+        rounds=rounds,
+        way=way,
         iterations=sum(increment.iterations for increment in increments),
-        convolutions=solved.convolutions,
+        convolutions=sum(getattr(increment, "convolutions", 0) for increment in increments),
     )
 
 

@@ -325,18 +325,10 @@ def _texts(values: Iterable[Any]) -> tuple[str, ...]:
     return tuple(str(v) if isinstance(v, str) else plain(v, 6) for v in values)
 
 
-MAX_ROWS = 60  # of the table of the hardest contacts
-
-
 def tables(found: Found) -> tuple[Table, ...]:
-    """Return the tables of the solvers, of the contacts not solved, and of the hardest contacts."""
-    groups = [[i for i in found.items() if i[0].solver.by_elements is kind] for kind in WORK]
+    """Return the tables of the solvers and of the contacts that are not solved."""
     bad = [*ended(found, Verdict.NOT_CONVERGED, Verdict.SILENT).items()]
-    return (
-        _of_solvers(found),
-        *([_of_bad(bad)] if bad else []),
-        *(_of_cells(group) for group in reversed(groups) if group),
-    )
+    return (_of_solvers(found), *([_of_bad(bad)] if bad else []))
 
 
 def _of_solvers(found: Found) -> Table:
@@ -369,49 +361,6 @@ def _of_bad(bad: list[Item]) -> Table:
         },
         bad,
     )
-
-
-def _of_cells(group: list[Item]) -> Table:
-    """Build the table of the hardest contacts of the stability map for one kind of solver.
-
-    The contacts are sorted by legend class, then by bisections, then by work, the largest first.
-    """
-    by_elements = group[0][0].solver.by_elements
-    solver = "finite elements" if by_elements else "the semi-analytical solver"
-    shown = sorted(group, key=_hardness)[:MAX_ROWS]
-    some = f"The {len(shown)} hardest of {len(group)} cells of {solver}"
-    return table_of(
-        f"The cells of {solver}" if len(shown) == len(group) else some,
-        {
-            "cell": lambda i: i[0].name,
-            "verdict": lambda i: _outcome(i[1]),
-            "worst residual": lambda i: _number(i[1].residual),
-            "from the fields": lambda i: _number(i[1].observed),
-            "increments": lambda i: str(i[1].increments),
-            "halved": lambda i: str(i[1].halvings),
-            "way": lambda i: i[1].way or "–",
-            "rounds": lambda i: str(i[1].rounds),
-            WORK[by_elements]: lambda i: str(i[1].work),
-        },
-        shown,
-        "A cell is named by the coordinates that differ from the ordinary ones; all of them "
-        "are in `rows.csv`, which `slipstick maintain study stability` writes. Rounds: the most "
-        "that pressure and shear took to agree in an increment.",
-    )
-
-
-def _hardness(item: Item) -> tuple[int, int, int]:
-    record = item[1]
-    return -class_of(record), -record.halvings, -record.work
-
-
-def _outcome(record: CellRecord) -> str:
-    """Return the verdict on a contact of the stability map as text, with the reason
-    of a failure."""
-    reason = record.reason
-    if record.verdict is Verdict.REFUSED:
-        reason = reason.partition(": ")[2] or reason
-    return f"{record.verdict}: {reason}" if reason else str(record.verdict)
 
 
 def _largest(values: Iterable[float | None]) -> str:
