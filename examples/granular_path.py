@@ -9,7 +9,7 @@ C in a shift, or if the law errs by less than 5 %.
 """
 
 from verification import Answer, CannotDo, judge
-from verification.adapters import radius
+from verification.adapters.own_solvers import answer_on_radii
 
 PATH, KNOWN = "changing_loads/nu=0.3", 0.05  # of the largest shift
 
@@ -43,7 +43,7 @@ if __name__ == "__main__":
     errors = {row.quantity: row.error for row in law.rows if row.error is not None}
     for quantity, error in errors.items():
         print(f"law without slip history, {quantity}: error {error:.2f} of the largest shift")
-    reference = judge(PATH, radius.answer, levels=1)
+    reference = judge(PATH, answer_on_radii, levels=1)
     print(f"radial: {reference.line}")
     missed = [row for row in reference.rows if row.status == "fail" and "shift" in row.quantity]
     if max(errors.values()) < KNOWN or missed:

@@ -13,7 +13,8 @@ from contact_results.directory.machine import program_version
 from contact_scene import Scene
 from contact_scene.solver_errors import NotConverged
 from verification import Answer, CannotDo, Solver, judge
-from verification.adapters import half_spaces, radius, section, surface
+from verification.adapters import half_spaces
+from verification.adapters import own_solvers as own
 from verification.challenge.cases import challenges
 from verification.challenge.judgement import Judgement
 from verification.challenge.python_api import (
@@ -22,15 +23,15 @@ from verification.challenge.python_api import (
 )
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.peers.drivers.exchange import approach_of, gap_of
+from verification.peers.drivers import approach_of, gap_of
 from verification.peers.environment import PEERS
 from verification.running.study import Settings
 from verification.studies import scoreboard
 
 Solve = Callable[[Posed, int], Answer]
-CELLS = (surface.answer, surface.ON_CELLS)
-ELEMENTS = (section.answer, section.ON_ELEMENTS)
-RADII = (radius.answer, radius.ON_RADII)
+CELLS = (own.answer_on_cells, own.ON_CELLS)
+ELEMENTS = (own.answer_on_elements, own.ON_ELEMENTS)
+RADII = (own.answer_on_radii, own.ON_RADII)
 
 
 def failed(found: Judgement) -> set[str]:
@@ -64,22 +65,22 @@ def test_paths_of_changing_loads_are_judged() -> None:
     name = "changing_loads/nu=0.3"
 
     def exchanged(asked: Posed, level: int) -> Answer:
-        found = surface.answer(asked, level)
+        found = own.answer_on_cells(asked, level)
         swapped = {"shift_x": "shift_y", "shift_y": "shift_x"}
         scalars = {(swapped.get(q, q), step): value for (q, step), value in found.scalars.items()}
         return Answer(found.h, {k: scalars.get(k, v) for k, v in found.scalars.items()})
 
-    assert not failed(judge(name, surface.answer, levels=2))
+    assert not failed(judge(name, own.answer_on_cells, levels=2))
     assert failed(judge(name, exchanged, levels=1)) >= {"shift_x", "shift_y"}
 
 
 @pytest.mark.parametrize(
     ("answer", "name", "said"),
     [
-        (radius.answer, "hertz_elliptical", "not axisymmetric"),
-        (radius.answer, "sliding_stress", "stress below the surface"),
-        (section.answer, "hertz_elliptical", "not axisymmetric"),
-        (section.answer, "layered_patch/G1_over_G2=2", "contacts only"),
+        (own.answer_on_radii, "hertz_elliptical", "not axisymmetric"),
+        (own.answer_on_radii, "sliding_stress", "stress below the surface"),
+        (own.answer_on_elements, "hertz_elliptical", "not axisymmetric"),
+        (own.answer_on_elements, "layered_patch/G1_over_G2=2", "contacts only"),
     ],
 )
 def test_who_cannot_says_why(answer: Solve, name: str, said: str) -> None:
@@ -88,10 +89,15 @@ def test_who_cannot_says_why(answer: Solve, name: str, said: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("module", "solve"), [(surface, "solve_discretised"), (section, "solve"), (radius, "solve")]
+    ("module", "solve", "answer"),
+    [
+        (own, "solve_discretised", own.answer_on_cells),
+        (own.fem_reference, "solve", own.answer_on_elements),
+        (own.radial, "solve", own.answer_on_radii),
+    ],
 )
 def test_a_level_that_does_not_converge_is_given_up_and_others_are_judged(
-    monkeypatch: pytest.MonkeyPatch, module: Any, solve: str
+    monkeypatch: pytest.MonkeyPatch, module: Any, solve: str, answer: Solve
 ) -> None:
     right, calls = getattr(module, solve), []
 
@@ -102,7 +108,7 @@ def test_a_level_that_does_not_converge_is_given_up_and_others_are_judged(
         return right(*posed)
 
     monkeypatch.setattr(module, solve, stops_at_the_first)
-    found = judge("hertz_point", module.answer, 3, at_least="C")
+    found = judge("hertz_point", answer, 3, at_least="C")
     (told,) = (row for row in found.rows if row.quantity == "solved")
     assert "the increment did not converge" in told.because
     assert failed(found) == {"solved"}, found.rows
@@ -113,7 +119,7 @@ def test_a_level_that_does_not_converge_is_given_up_and_others_are_judged(
 
 
 def test_shear_between_rings_is_what_pulls() -> None:
-    found = judge("cattaneo_mindlin", section.answer, 1, solver=section.ON_ELEMENTS)
+    found = judge("cattaneo_mindlin", own.answer_on_elements, 1, solver=own.ON_ELEMENTS)
     assert {"shear_x", "shear_x: load carried", "shift_x"} <= {row.quantity for row in found.rows}
     assert "shear_x: load carried" not in failed(found)
 
@@ -147,7 +153,7 @@ def test_moments_of_a_given_tilt_are_told_by_axis(name: str) -> None:
     """Our cells bear the tilt as a slope of the gap, which no closed form knows of; who exchanges
     the axes, or the sign, misses both moments."""
     challenge = challenges()[name]
-    assert failed(judge(name, surface.answer, 3, "C", surface.ON_CELLS)) <= {"approach"}
+    assert failed(judge(name, own.answer_on_cells, 3, "C", own.ON_CELLS)) <= {"approach"}
     right = {(v.quantity, v.step): v.value for v in challenge.values}
     x, y = right["moment_x", 1], right["moment_y", 1]
     for moments in ((y, x), (-x, -y)):
@@ -177,46 +183,22 @@ def test_increments_are_refined_with_the_cells_where_the_way_matters(
         taken.append([step.increments for step in scene.loading])
         raise CannotDo("enough")
 
-    monkeypatch.setattr(surface, "solve_discretised", solve)
+    monkeypatch.setattr(own, "solve_discretised", solve)
     for name, level in (("paper_figure_4", 0), ("paper_figure_4", 2), ("torsion", 2)):
         with pytest.raises(CannotDo, match="enough"):
-            surface.answer(posed(name), level)
+            own.answer_on_cells(posed(name), level)
     assert taken == [[10] * 4, [40] * 4, [1] * 4]
-
-
-def test_increments_are_refined_with_the_elements_where_the_way_matters(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    taken: list[list[int | None]] = []
-
-    def solve(scene: Scene, on: object) -> None:
-        taken.append([step.increments for step in scene.loading])
-        raise CannotDo("enough")
-
-    monkeypatch.setattr(section, "solve", solve)
-    for name, level in (
-        ("paper_figure_4", 0),
-        ("paper_figure_4", 2),
-        ("torsion", 2),
-        ("cone_contact", 2),
-    ):
-        with pytest.raises(CannotDo, match="enough"):
-            section.answer(posed(name), level)
-    coarse, fine, *others = taken
-    assert all(count and count > 1 for count in coarse)
-    assert fine == [4 * count for count in coarse if count]
-    assert others == [[1] * 4, [None]]
 
 
 def test_finer_levels_on_rings_take_finer_increments() -> None:
     """Or they stall at the error of the path."""
-    found = judge("frictional_indentation/nu_zero", radius.answer, 3, solver=radius.ON_RADII)
+    found = judge("frictional_indentation/nu_zero", own.answer_on_radii, 3, solver=own.ON_RADII)
     assert failed(found) == set()
 
 
 def test_the_scoreboard_names_the_version_and_the_price_of_a_code() -> None:
-    run = scoreboard.ScoredRun(radius.ON_RADII.name, "hertz_point", 2)
-    refused = scoreboard.ScoredRun(radius.ON_RADII.name, "tilted_ball", 2)
+    run = scoreboard.ScoredRun(own.ON_RADII.name, "hertz_point", 2)
+    refused = scoreboard.ScoredRun(own.ON_RADII.name, "tilted_ball", 2)
     records = {one.name: one.compute() for one in (run, refused)}
     found = scoreboard.conclude(Settings(level=Level.QUICK, levels=2), records)
     (line,) = found.statements

@@ -19,7 +19,7 @@ from contact_scene import Body, load_scene
 from slipstick.cli import main
 from tests.cell_means import ellipse_means
 from verification import Answer, CannotDo, Field, Solver, judge
-from verification.adapters import surface
+from verification.adapters import own_solvers as own
 from verification.challenge.answer_reader import read_answers
 from verification.challenge.cases import challenges
 from verification.challenge.export import toml_text
@@ -694,7 +694,7 @@ def test_a_blind_export_does_not_print_the_answer(name: str, tmp_path: Path) -> 
 
 
 def test_our_own_solver_enters_by_the_door_of_all(tmp_path: Path) -> None:
-    found = judge("hertz_point", surface.answer, levels=3, solver=surface.ON_CELLS)
+    found = judge("hertz_point", own.answer_on_cells, levels=3, solver=own.ON_CELLS)
     by_name = {row.quantity: row for row in found.rows}
     assert by_name["approach"].status is Status.PASS
     assert by_name["pressure"].grade == "C"
@@ -709,8 +709,8 @@ def test_our_own_solver_enters_by_the_door_of_all(tmp_path: Path) -> None:
 
 def test_edges_inside_the_cells_are_worth_a_class(tmp_path: Path) -> None:
     for answer, solver, grade in (
-        (surface.answer, surface.ON_CELLS, "C"),
-        (surface.answer_with_edges, surface.WITH_EDGES, "B"),
+        (own.answer_on_cells, own.ON_CELLS, "C"),
+        (own.answer_with_edges, own.WITH_EDGES, "B"),
     ):
         assert judge("hertz_point", answer, levels=3, solver=solver).grade == grade
 
@@ -720,7 +720,7 @@ def test_a_body_that_is_five_per_cent_too_stiff_fails_in_everything() -> None:
         scene = json.loads(json.dumps(posed.scene))
         for body in ("indenter", "body"):
             scene[body]["material"]["young_modulus"] *= 1.05
-        return surface.answer(replace(posed, scene=scene), level)
+        return own.answer_on_cells(replace(posed, scene=scene), level)
 
     found = judge("hertz_point", stiff, levels=2, at_least="C")
     failed = {row.quantity for row in found.rows if row.status is Status.FAIL}

@@ -137,5 +137,5 @@ def test_what_names_no_solver_is_refused(
 
 
 def test_our_own_solvers_are_named_by_their_module() -> None:
-    solver = "verification.adapters.radius:answer"
+    solver = "verification.adapters.own_solvers:answer_on_radii"
     assert judge(solver, "--case", "coated_paraboloid/E1_over_E2=2", "--levels", "2") == 0

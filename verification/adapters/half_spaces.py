@@ -34,8 +34,9 @@ def driven(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str, An
     error output if it fails.
     """
     done = subprocess.run(
-        [str(python), "-m", peer.driver], input=json.dumps(request), capture_output=True,
-        text=True, check=False, timeout=SECONDS_ALLOWED,
+        [str(python), "-m", "verification.peers.drivers", peer.module],
+        input=json.dumps(request), capture_output=True, text=True, check=False,
+        timeout=SECONDS_ALLOWED,
         env={**os.environ, **dict.fromkeys(VARIABLES, "1"), "PYTHONPATH": str(SOURCES)},
     )  # fmt: skip
     if done.returncode:
@@ -85,7 +86,7 @@ def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], floa
     modulus = 1 / sum((1 - m["poisson_ratio"] ** 2) / m["young_modulus"] for m in pair)
     length = posed.window / 3
     force, shape = modulus * length**2, scene["indenter"]
-    asked: dict[str, Any] = {"radius": 1.0, "approach": True}
+    asked: dict[str, Any] = {"radius": 1.0}
     if shape["shape"] == "cone":
         asked["slope"] = tan(shape["slope_angle"])
     elif "radii" in shape:
@@ -97,7 +98,7 @@ def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], floa
     asked["tilt"] = scene["loading"][0]["tilt"] or (0.0, 0.0)
     rubbed = {"tangential_forces": [t[0] / force for _, t in posed.loads[1:]]} if friction else {}
     request = {
-        "cells": cells, "window": 3.0, "modulus": 1.0, **asked, "tangential_force": 0.0, **rubbed,
+        "cells": cells, "window": 3.0, "modulus": 1.0, **asked, **rubbed,
         "force": posed.loads[0][0] / force, "friction": friction, "tolerance": TOLERANCE,
     }  # fmt: skip
     return request, length, modulus

@@ -28,7 +28,7 @@ class Peer:
     """Another contact code.
 
     distribution  name and version of the package that is installed
-    module        module that is imported; its driver is MODULE_driver in lower case
+    module        module that is imported, and name of its driver
     friction      True if friction is requested from the code
     settings      environment variables for the build
     """
@@ -37,11 +37,6 @@ class Peer:
     module: str
     friction: bool = False
     settings: tuple[tuple[str, str], ...] = ()
-
-    @property
-    def driver(self) -> str:
-        """Module name of the program that runs the code."""
-        return f"verification.peers.drivers.{self.module.lower()}_driver"
 
 
 PEERS = (

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from contact_results.directory.machine import program_version
-from verification.adapters import radius, section, surface
+from verification.adapters import own_solvers as own
 from verification.adapters.half_spaces import answering
 from verification.challenge.answer import Solver
 from verification.challenge.cases import challenges
@@ -32,10 +32,10 @@ from verification.running.study import (
 )
 
 OURS = {
-    surface.ON_CELLS.name: (surface.ON_CELLS, surface.answer),
-    surface.WITH_EDGES.name: (surface.WITH_EDGES, surface.answer_with_edges),
-    section.ON_ELEMENTS.name: (section.ON_ELEMENTS, section.answer),
-    radius.ON_RADII.name: (radius.ON_RADII, radius.answer),
+    own.ON_CELLS.name: (own.ON_CELLS, own.answer_on_cells),
+    own.WITH_EDGES.name: (own.WITH_EDGES, own.answer_with_edges),
+    own.ON_ELEMENTS.name: (own.ON_ELEMENTS, own.answer_on_elements),
+    own.ON_RADII.name: (own.ON_RADII, own.answer_on_radii),
 }
 NO_ANSWER = "–"
 LEVELS = {Level.QUICK: 3, Level.STANDARD: 3, Level.FULL: 4}

@@ -1,0 +1,329 @@
+"""Adapters of this program's solvers to the challenges: cells, finite elements and rings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import pi, sqrt
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import RectBivariateSpline
+
+import fem_reference
+import radial
+from contact_scene import (
+    RIGID,
+    Body,
+    FiniteElementDiscretisation,
+    RadialDiscretisation,
+    Scene,
+    SurfaceDiscretisation,
+)
+from contact_scene.discretisation import EdgeCorrection
+from contact_scene.quantities.increment import State
+from contact_scene.solver_errors import NotConverged, UnsupportedScene
+from semi_analytical import Increment, Result, SurfaceGrid, solve_discretised
+from semi_analytical.influence.bodies import influence_coefficients
+from semi_analytical.stress import subsurface
+from verification.challenge.answer import Answer, Field, Key, Solver, Vector
+from verification.challenge.python_api import CannotDo, Posed
+from verification.observed.ring_errors import along_radii, at_radii, outward
+from verification.quantities import shear_of
+
+ON_CELLS = Solver("slipstick, semi-analytical")
+WITH_EDGES = Solver("slipstick, edges inside the cells", sampling="cell")
+ON_ELEMENTS = Solver("slipstick, finite elements")
+ON_RADII = Solver("slipstick, radial")
+# On the coarsest level: cells per side, elements over the contact radius, and rings. Fields are
+# linear between rings, and scalars do not depend on them.
+CELLS, ELEMENTS, RINGS = 32, 16, 32
+INCREMENTS = 10  # on the coarsest level, of load steps that prescribe none
+HARMONICS = 8
+TOLERANCE = 1e-8
+
+
+def scene_on_level(posed: Posed, level: int) -> Scene:
+    """Return the scene of a challenge, with increments that double at each refinement level.
+
+    Load steps with a prescribed number of increments keep the number. Raises CannotDo for
+    prescribed tractions.
+    """
+    if "indenter" not in posed.scene:
+        raise CannotDo("contacts only, no given tractions")
+    scene = Scene.model_validate(posed.scene)
+    if scene.friction is None:
+        return scene
+    number = INCREMENTS * 2**level
+    steps = (s.model_copy(update={"increments": s.increments or number}) for s in scene.loading)
+    return scene.model_copy(update={"loading": tuple(steps)})
+
+
+def given_up(posed: Posed, fineness: int, error: Exception) -> Answer:
+    """Return the answer to a challenge on a level whose load history did not converge, without
+    results.
+
+    posed     challenge: a problem with a known solution
+    fineness  cells or elements over a contact radius, which is about a third of the window
+    """
+    return Answer(posed.window / 3 / fineness, gave_up={0: str(error)})
+
+
+def scalar_result(posed: Posed, key: Key, steps: Sequence[State]) -> float | None:
+    """Return a scalar result at the end of a load step; None if the solver does not provide it.
+
+    key    name of the quantity and number of the load step, from 1
+    steps  states at the ends of all load steps
+    """
+    quantity, step = key
+    end = steps[step - 1]
+    if quantity in ("shift_x", "shift_y"):
+        shift = end.tangential_shift
+        return None if shift is None else float(shift["xy".index(quantity[-1])])
+    if quantity in ("moment_x", "moment_y"):
+        return None if end.moment is None else float(end.moment["xy".index(quantity[-1])])
+    if quantity == "energy_per_cycle":
+        lost = end.dissipated_energy
+        before = steps[posed.since[key] - 1].dissipated_energy
+        return None if lost is None or before is None else lost - before
+    found = getattr(end, quantity, None)
+    return None if found is None else float(found)
+
+
+PER_INTERVAL = 4  # points of Gauss between two rings
+TRACTIONS = {
+    "pressure": "pressure", "shear_x": "shear_along_load", "shear_radial": "shear_radial",
+    "shear_around": "shear_circumferential",
+}  # fmt: skip
+
+
+def answer_on_rings(posed: Posed, steps: Any, h: float) -> Answer:
+    """Build the answer to a challenge from results on rings (finite elements or radial solver).
+
+    Quantities that the solver does not provide are left out. Raises CannotDo if none is left.
+
+    steps  states at the ends of all load steps
+    h      size of an element or ring [length]
+    """
+    scalars: dict[Key, float] = {}
+    for key in posed.asked:
+        value = scalar_result(posed, key, steps)
+        if key[0] == "central_pressure" and np.ndim(steps[0].pressure) == 1:
+            value = float(at_radii(steps[0], steps[0].pressure, np.zeros(1))[0])
+        if value is not None:
+            scalars[key] = value
+    fields, points = {}, {}
+    for key in posed.fields:
+        traction = ring_traction(steps, key)
+        if traction is not None:
+            fields[key] = field_between_rings(steps[key[1] - 1], traction)
+    for key, places in posed.places.items():
+        traction = ring_traction(steps, key)
+        if traction is not None:
+            points[key] = at_radii(
+                steps[key[1] - 1], traction, np.hypot(places[:, 0], places[:, 1])
+            )
+    if not scalars and not fields and not points:
+        raise CannotDo("the ring results contain no stress below the surface")
+    return Answer(h, scalars, fields, points=points)
+
+
+def ring_traction(steps: Any, key: Key) -> Vector | None:
+    """Return a traction on the rings as a function of the radius at the end of a load step.
+
+    The result is None if the traction is absent or depends on the angle.
+
+    key  name of the traction and number of the load step, from 1
+    """
+    end = steps[key[1] - 1]
+    found = getattr(end, TRACTIONS.get(key[0], ""), None)
+    return None if found is None or np.ndim(found) != 1 else found
+
+
+def field_between_rings(end: Any, traction: Vector) -> Field:
+    """Interpolate a traction from rings to Gauss points between the rings in the contact.
+
+    Returns the points with the traction and the area of each.
+
+    end       state at the end of a load step
+    traction  values at the rings [stress]
+    """
+    inside = end.radii <= 1.05 * end.contact_radius
+    r0 = end.radii[:-1][inside[:-1]]
+    r1 = end.radii[1:][inside[:-1]]
+    nodes, weights = np.polynomial.legendre.leggauss(PER_INTERVAL)
+    r = (0.5 * (r0 + r1)[:, None] + 0.5 * (r1 - r0)[:, None] * nodes).ravel()
+    area = 2 * pi * r * (0.5 * (r1 - r0)[:, None] * weights).ravel()
+    return Field(r, np.zeros_like(r), np.interp(r, end.radii, traction), area)
+
+
+def answer_on_elements(posed: Posed, level: int) -> Answer:
+    """Solve a challenge with finite elements, 16 per contact radius, doubled at each level.
+
+    Raises CannotDo if the finite elements do not support the scene.
+    """
+    elements = ELEMENTS * 2**level
+    on = FiniteElementDiscretisation(elements_per_radius=elements, harmonics=HARMONICS)
+    try:
+        steps = fem_reference.solve(scene_on_level(posed, level), on).steps
+    except UnsupportedScene as error:
+        raise CannotDo(str(error)) from error
+    except NotConverged as error:
+        return given_up(posed, elements, error)
+    end = steps[-1]
+    sides = np.diff(end.radii)
+    at_edge = int(np.searchsorted(end.radii, end.contact_radius))
+    return answer_on_rings(posed, steps, float(sides[min(at_edge, sides.size) - 1]))
+
+
+def answer_on_radii(posed: Posed, level: int) -> Answer:
+    """Solve a challenge with the radial solver on 32 rings over the contact, doubled at each level.
+
+    Raises CannotDo if the solver does not support the scene.
+    """
+    rings = RINGS * 2**level
+    try:
+        on = RadialDiscretisation(rings=rings)
+        steps = radial.solve(scene_on_level(posed, level), on).steps
+    except UnsupportedScene as error:
+        raise CannotDo(str(error)) from error
+    except NotConverged as error:
+        return given_up(posed, rings, error)
+    return answer_on_rings(posed, steps, steps[-1].contact_radius / rings)
+
+
+COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
+# Names of displacement by traction in the challenge, and of the influence coefficients.
+MOVED = {
+    "u_z_by_pressure": "zz", "u_x_by_shear_x": "xx", "u_y_by_shear_y": "yy",
+    "u_x_by_shear_y": "xy", "u_z_by_shear_x": "zx",
+}  # fmt: skip
+
+
+def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
+    """Compute the stress components (6, n) at points below the surface [force/length²].
+
+    Values at the cell centres are interpolated by cubic splines.
+
+    end     state at the end of a load step
+    places  coordinates of the points (n, 3) [length]
+    """
+    grid = result.grid
+    depths, of = np.unique(places[:, 2], return_inverse=True)
+    field = subsurface(result.scene, grid, end.pressure, shear_of(end), list(depths)).stress
+    return np.array(
+        [
+            [
+                float(RectBivariateSpline(grid.x, grid.y, field[level, n])(x, y)[0, 0])
+                for (x, y, _), level in zip(places, of, strict=True)
+            ]
+            for n in range(6)
+        ]
+    )
+
+
+def under_a_patch(posed: Posed) -> Answer:
+    """Compute displacements by a uniform traction on a square patch, for a challenge.
+
+    The patch is a cell and the points are centres of other cells, so that the displacements are
+    influence coefficients.
+    """
+    side, traction = (posed.scene["patch"][name] for name in ("side", "traction"))
+    body = Body.model_validate(posed.scene["body"])
+    points: dict[Key, Vector] = {}
+    for key, places in posed.places.items():
+        i, j = np.rint(places[:, :2].T / side).astype(int)
+        offsets = int(i.max()) + 1, int(np.abs(j).max()) + 1
+        K = getattr(
+            influence_coefficients(body, Body(material=RIGID), (side, side), offsets), MOVED[key[0]]
+        )
+        odd = np.where(key[0] == "u_x_by_shear_y", np.sign(j), 1)
+        points[key] = traction * odd * K[i, np.abs(j)]
+    return Answer(side, unknowns=1, points=points)
+
+
+def answer_on_cells(posed: Posed, level: int) -> Answer:
+    """Solve a challenge with 32 cells per side, doubled at each level, without edge correction.
+
+    Raises the errors of the semi-analytical solver, except that a history that does not converge is
+    reported in the answer.
+    """
+    return _solve_on_cells(posed, level, "off")
+
+
+def answer_with_edges(posed: Posed, level: int) -> Answer:
+    """Solve a challenge on cells, with the edge correction of the pressure where it is supported.
+
+    The grids are those of `answer_on_cells`.
+    """
+    return _solve_on_cells(posed, level, "last")
+
+
+def _solve_on_cells(posed: Posed, level: int, edge: EdgeCorrection) -> Answer:
+    if "indenter" not in posed.scene:
+        return under_a_patch(posed)
+    cells = CELLS * 2**level
+    on = SurfaceDiscretisation(
+        cells=(cells, cells), window=(posed.window, posed.window), tolerance=TOLERANCE, edge=edge
+    )
+    try:
+        result = solve_discretised(scene_on_level(posed, level), on)
+    except NotConverged as error:
+        return given_up(posed, cells // 3, error)
+    grid = result.grid
+    scalars = {
+        key: value for key in posed.asked if (value := cell_scalar(posed, key, result)) is not None
+    }
+    x, y = grid.coordinates()
+    fields, points = {}, {}
+    for quantity, step in posed.fields:
+        end = result.steps[step - 1]
+        contact = end.pressure > 0
+        area = np.full(int(np.sum(contact)), grid.cell_area)
+        traction = cell_traction(quantity, end, grid)[contact]
+        fields[quantity, step] = Field(x[contact], y[contact], traction, area)
+    for key, places in posed.places.items():
+        points[key] = _values_at_points(places, key, result)
+    return Answer(sqrt(grid.cell_area), scalars, fields, unknowns=cells**2, points=points)
+
+
+def cell_traction(quantity: str, end: Increment, grid: SurfaceGrid) -> Vector:
+    """Return a traction that a challenge requires, at the cell centres at the end of a load step.
+
+    quantity  "pressure", "shear_x", "shear_radial" or "shear_around"
+    """
+    x, y = grid.coordinates()
+    q_x, q_y = shear_of(end)
+    r = np.hypot(x, y)
+    of = {"pressure": end.pressure, "shear_x": q_x, "shear_radial": outward(shear_of(end), grid)}
+    of["shear_around"] = (x * q_y - y * q_x) / np.where(r > 0, r, 1.0)
+    return np.asarray(of[quantity])
+
+
+def _values_at_points(places: Vector, key: Key, result: Result) -> Vector:
+    """Evaluate a traction at the radii of points of a round contact, or a stress component at
+    points.
+
+    places  coordinates of the points [length]
+    key     name of the quantity and number of the load step, from 1
+    """
+    quantity, end, grid = key[0], result.steps[key[1] - 1], result.grid
+    if quantity.startswith("stress"):
+        return stress_at(result, end, places)[COMPONENTS.index(quantity.removeprefix("stress_"))]
+    along = along_radii(cell_traction(quantity, end, grid), grid, np.hypot(*places[:, :2].T))
+    return np.asarray(np.mean(along, axis=1))
+
+
+def cell_scalar(posed: Posed, key: Key, result: Result) -> float | None:
+    """Return a scalar that a challenge requires from a result on cells; None if there is none.
+
+    key  name of the quantity and number of the load step, from 1
+    """
+    quantity, end, grid = key[0], result.steps[key[1] - 1], result.grid
+    if quantity.startswith("semi_axis"):
+        x, y = grid.coordinates()
+        axes = [float(np.sum(end.pressure * s**2) / np.sum(end.pressure)) for s in (x, y)]
+        return sqrt(5 * axes["xy".index(quantity[-1])])  # of a half-ellipsoid: <x²> = a²/5
+    if quantity == "central_pressure":
+        i, j = (n // 2 for n in grid.cells)
+        return float(np.mean(end.pressure[i - 1 : i + 1, j - 1 : j + 1]))
+    return scalar_result(posed, key, result.steps)
