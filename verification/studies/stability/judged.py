@@ -159,7 +159,7 @@ def judged(cell: StabilityCell) -> CellRecord:
         rounds=rounds,
         way=way,
         iterations=sum(increment.iterations for increment in increments),
-        convolutions=sum(getattr(increment, "convolutions", 0) for increment in increments),
+        convolutions=sum(increment.convolutions or 0 for increment in increments),
     )
 
 
