@@ -1,7 +1,6 @@
 """Default number of cells and default window of a scene."""
 
 from dataclasses import replace
-from functools import partial
 from math import sqrt
 
 import numpy as np
@@ -176,44 +175,18 @@ def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, floa
 def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
     """Select the normal loads of a history whose contact may extend farthest from the origin.
 
-    These are the largest force and approach, and those of largest tilt or eccentricity.
+    These are the largest force and the largest approach; all loads if the indenter tilts.
 
     tilts  True if the indenter tilts
     """
     pressing = (ramp for ramp in scene.load_path() if ramp.normal.end)
-    ends = [normal_target(ramp, None, 1.0, tilts) for ramp in pressing]
-    measures = (_size, *((partial(_lean, 0), partial(_lean, 1)) if tilts else ()))
-    controls = sorted({_control(end) for end in ends}, reverse=True)
-    kinds = [[end for end in ends if _control(end) == control] for control in controls]
-    return list(dict.fromkeys(max(kind, key=measure) for kind in kinds for measure in measures))
-
-
-def _control(load: NormalTarget) -> tuple[bool, bool]:
-    """Return the kind of control of a normal load, to compare only loads of one kind.
-
-    The result is (True if the force is prescribed, True if the moment is prescribed).
-    """
-    return load.force is not None, load.moment is not None
-
-
-def _size(load: NormalTarget) -> float:
-    """Return the prescribed normal force or approach, used to find the largest of several normal
-    loads."""
-    return load.force or load.approach or 0.0
-
-
-def _lean(axis: int, load: NormalTarget) -> float:
-    """Return the size of the tilt or moment of a normal load, to find the load of largest
-    eccentricity.
-
-    A moment is divided by the force, if the force is prescribed.
-
-    axis  0 for the component along y, 1 for that along x
-    """
-    if load.moment is not None:
-        return abs(load.moment[axis]) / (load.force or 1.0)
-    assert load.tilt is not None
-    return abs(load.tilt[axis])
+    ends = dict.fromkeys(normal_target(ramp, None, 1.0, tilts) for ramp in pressing)
+    if tilts:
+        return list(ends)
+    kinds = [load for load in ends if load.force], [load for load in ends if load.approach]
+    return [
+        max(kind, key=lambda load: load.force or load.approach or 0.0) for kind in kinds if kind
+    ]
 
 
 def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:

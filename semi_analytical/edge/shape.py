@@ -196,7 +196,6 @@ def edge_shape(
     *,
     rings: int = 1,
     exponent: Exponent = 0.5,
-    trusted: Mask | None = None,
     rounds: int = 3,
     depth: Field | None = None,
     domain: ReducedDomain = WINDOW,
@@ -214,7 +213,6 @@ def edge_shape(
               2 for means of a solver without edge correction; with 0 all cells are data, cut cells
               with CUT_WEIGHT
     exponent  α in p ~ s^α, s the distance from the edge; a number or a smooth field (nx, ny)
-    trusted   (nx, ny) cells of the region that may be data; None for all
     rounds    number of computations of φ: the first is means^(1/α) without cut cells; the others
               use `centre_value` with the slopes of the preceding fits
     depth     depth of the region if known, see `depth_of`
@@ -225,9 +223,8 @@ def edge_shape(
     """
     means = np.where(region, means, 0.0)
     depth = depth_of(region, domain) if depth is None else depth
-    usable = region if trusted is None else region & trusted
-    data = usable & (depth >= rings + 0.5)
-    inner = usable & (depth >= max(rings, 1) + 0.5)
+    data = region & (depth >= rings + 0.5)
+    inner = region & (depth >= max(rings, 1) + 0.5)
     if not np.any(inner):
         raise ValueError(
             f"the region is {np.max(depth):.3g} cells deep, of which {rings} rings are not data: "

@@ -76,17 +76,12 @@ def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
     if stack.is_rigid:
         return SurfaceScalars(*(np.zeros_like(alpha) for _ in range(4)))
     flat = alpha.reshape(-1)
-    below, shear = _underside(stack, flat)
-    if stack.layers:
-        film = stack.layers[0]
-        x = np.minimum(flat * film.thickness, OPAQUE)
-        below = compound_rows(below, film.poisson_ratio, decaying_waves(x))
-        tanh = np.tanh(x)
-        shear = (shear + tanh) / (1 + shear * tanh)
-    _, c11, c12, c22, divisor = below
+    below = _underside(stack, flat)
+    for film in stack.layers[:1]:
+        below = compliance_above(below, film.poisson_ratio, flat * film.thickness)
+    (_, c11, c12, c22, _), shear = below
     unit = 1 / (stack.outer.shear_modulus * flat)
-    half = unit / (2 * divisor)
-    four = (c11 * half, c12 * half, c22 * half, shear * unit)
+    four = (c11 * unit / 2, c12 * unit / 2, c22 * unit / 2, shear * unit)
     return SurfaceScalars(*(value.reshape(alpha.shape) for value in four))
 
 

@@ -190,25 +190,15 @@ def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]
         gap = target.gap(model)
         load = target.on(model, Box.whole(gap.shape))
         return bearing_pressure(gap, load, model.bearing_modulus, model.grid.cell_area), 0
-    pressure, iterations = _rough(coarse, target)
-    return np.where(np.isfinite(model.gap), _on_half_cells(pressure), 0.0), iterations
+    pressure, iterations = rough_start(coarse, target)
+    return np.where(np.isfinite(model.gap), doubled(pressure), 0.0), iterations
 
 
 def rough_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """Return an initial guess of the pressure (nx, ny) for the coupled problem, and the iterations
-    spent.
-
-    The guess is the frictionless pressure, solved on successively finer grids. Without a coarser
-    grid the guess is the solution on the model's own grid at the loose COARSE_TOLERANCE.
-    """
-    return _rough(model, target) if model.coarse is None else nested_start(model, target)
-
-
-def _rough(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
     """Solve the frictionless normal problem on the model's own grid at the loose COARSE_TOLERANCE.
 
-    Return the pressure (nx, ny) and the number of iterations. The pressure is an initial guess for
-    a finer grid or for the coupled problem.
+    Return the pressure (nx, ny) and the number of iterations. The pressure is the initial guess on
+    the next finer grid, and that of the coupled problem.
     """
     start, iterations = nested_start(model, target)
     gap = target.gap(model)
@@ -222,29 +212,6 @@ def _rough(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
         COARSE_TOLERANCE,
     )
     return solution.pressure, iterations + solution.iterations
-
-
-def _on_half_cells(pressure: Field) -> Field:
-    """Interpolate a pressure (nx, ny) from a coarse grid to the next finer grid (2 nx, 2 ny).
-
-    Parabolas interpolate the square of the pressure, which has a finite slope at the contact edge.
-    The contact area does not change.
-    """
-    squared = _halves(_halves(pressure**2).T).T
-    return np.where(doubled(pressure) > 0, np.sqrt(np.maximum(squared, 0.0)), 0.0)
-
-
-def _halves(values: Field) -> Field:
-    """Interpolate cell values to cells of half the width along the first axis, by parabolas.
-
-    values  cell values (n, …); the result has the shape (2 n, …)
-    """
-    continued = np.concatenate([values[:1], values, values[-1:]])
-    before, after = continued[:-2], continued[2:]
-    bend, slope = (before + after - 2 * values) / 32, (after - before) / 8
-    middles = np.empty((2 * len(values), *values.shape[1:]))
-    middles[::2], middles[1::2] = values + bend - slope, values + bend + slope
-    return middles
 
 
 def _touches(model: ContactModel, target: NormalTarget) -> bool:

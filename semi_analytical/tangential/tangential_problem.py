@@ -38,9 +38,6 @@ ROUGHLY = 0.05
 FINE = 0.3
 # Changes of the energy below this fraction of the work of the shear may be round-off.
 LEVEL = 1e-12
-# Largest growth of the natural residual where changes of the energy are round-off: in a Newton
-# step, and in the adjustment of an accepted point to its zones before the next linear solve.
-REDUCTION, SAME_POINT = 0.5, 2.0
 
 
 @dataclass(frozen=True)
@@ -134,9 +131,8 @@ def solve_tangential(
         linearised = LinearisedShear(displace, inverse, zones, load, carriers if settled else None)
         carriers = linearised.carriers
         q = linearised.admissible(guess.shear, bound)
-        growth = SAME_POINT if shortened else REDUCTION
         trial = Point(q, displace(q))
-        point, natural = _line_search(problem, accepted, trial, natural.motion, growth)
+        point, natural = _line_search(problem, accepted, trial, natural.motion)
         shortened = point.shear is not q
         accepted = point, natural.error
         in_slip = (bound > 0) & (magnitude(natural.z) > bound)
@@ -166,19 +162,17 @@ def _line_search(
     accepted: tuple[Point, float] | None,
     newton: Point,
     motion: Vector,
-    growth: float,
 ) -> tuple[Point, NaturalShear]:
     """Accept the Newton point, a shortened step, or a step along the projected gradient (line
     search).
 
     Close to the solution changes of the energy are below round-off. Only there a point is also
-    accepted by its natural residual; elsewhere this criterion may increase the energy and lead to
-    cycles.
+    accepted if its natural residual is smaller than that of the accepted point. Elsewhere this
+    criterion may increase the energy and lead to cycles.
 
     accepted  last accepted point and its natural residual; None in the first step
     newton    point after the Newton step
     motion    rigid motion, initial guess of the projection
-    growth    largest ratio of the natural residual of the point to the accepted one
     """
     natural = problem.natural(newton, motion)
     if accepted is None:
@@ -189,7 +183,7 @@ def _line_search(
     slope, curvature = np.sum(d * gradient), np.sum(d * d_u)
     change = slope + 0.5 * curvature
     level = change <= LEVEL * np.sum(np.abs(q * u))
-    if change <= 0.1 * slope or (level and natural.error < growth * error):
+    if change <= 0.1 * slope or (level and natural.error < error):
         return newton, natural
     # Without curvature the points differ by round-off.
     step = min(1.0, -slope / curvature) if curvature > 0 else 0.0
