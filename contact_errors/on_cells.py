@@ -21,7 +21,7 @@ from contact_errors.coarse_solves import (
 )
 from contact_errors.cost_estimate import Work, work_on_cells
 from contact_errors.error_formula import PEAK, Features, has_cusp, is_singular
-from contact_results.result_warnings import left_out
+from contact_results.result_warnings import unresolved_pressure
 from contact_scene import SurfaceDiscretisation
 from contact_scene.quantities.stated_error import (
     Part,
@@ -156,7 +156,7 @@ class CellSolver(DiscretisedSolver):
         return {"cells": space.cells}
 
     def neglected(self, result: Result) -> Mapping[str, float]:
-        return {PEAK: HIGHEST * left_out(result)}
+        return {PEAK: HIGHEST * unresolved_pressure(result)}
 
     def features(self, result: Result) -> Sequence[Features]:
         indenter, coupled = self.scene.indenter, result.plan.coupling is not Coupling.NONE

@@ -220,7 +220,7 @@ def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mappin
     """
     shallow, found = field.points.depth < near, {}
     for at_edge, chosen in ((True, shallow), (False, ~shallow)):
-        points, edge = field.points.chosen(chosen), field.edge if at_edge else None
+        points, edge = field.points.select(chosen), field.edge if at_edge else None
         if edge is not None and not points.x.size:
             points, edge = edge.points, None
         each = extremes(replace(field, points=points, edge=edge), body)
@@ -341,7 +341,7 @@ def _on_disc(
     from contact_results.stress.radial_body import RadialBody, is_sheared
 
     sheared = is_sheared(state)
-    body = RadialBody.of(state, indenter, int(COARSE))
+    body = RadialBody.from_state(state, indenter, int(COARSE))
     errors: dict[tuple[str, float, float, float, float], StatedError] = {}
     for e in reversed(found):  # the largest of the body is the largest of a layer
         if e.region in body.parts.named:

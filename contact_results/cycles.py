@@ -156,21 +156,23 @@ def _fretting_cycle(
     tension  σ_T of Ruiz [force/length^2], see `FrettingCycle`
     """
     start, end = path[0], path[-1]
-    shears = (reduce(np.hypot, shear) for shear in _along(surface, path, "shear"))
-    dissipated = _gain(start.dissipated_energy, end.dissipated_energy)
+    shears = (reduce(np.hypot, shear) for shear in _vectors_along_path(surface, path, "shear"))
+    dissipated = _change_over_cycle(start.dissipated_energy, end.dissipated_energy)
     assert dissipated is not None
     return FrettingCycle(
         cycle=cycle,
-        input_work=_gain(start.input_work, end.input_work),
+        input_work=_change_over_cycle(start.input_work, end.input_work),
         energy_per_cycle=dissipated,
-        dissipation=_gain(getattr(start, "dissipation", None), getattr(end, "dissipation", None)),
-        slip_amplitude=_slip_amplitude(lambda: _along(surface, path, "slip")),
+        dissipation=_change_over_cycle(
+            getattr(start, "dissipation", None), getattr(end, "dissipation", None)
+        ),
+        slip_amplitude=_slip_amplitude(lambda: _vectors_along_path(surface, path, "slip")),
         largest_shear=reduce(np.maximum, shears),
         surface_tension=tension,
     )
 
 
-def _gain(start: Value | None, end: Value | None) -> Value | None:
+def _change_over_cycle(start: Value | None, end: Value | None) -> Value | None:
     """Return the change of a cumulative quantity over a load cycle, end minus start.
 
     Returns None if either value is None.
@@ -178,7 +180,7 @@ def _gain(start: Value | None, end: Value | None) -> Value | None:
     return None if start is None or end is None else end - start
 
 
-def _along(surface: Surface, path: Sequence[Increment], name: str) -> Iterator[Field]:
+def _vectors_along_path(surface: Surface, path: Sequence[Increment], name: str) -> Iterator[Field]:
     """Yield the vector components (n, …) of the shear or the slip at the end of each increment.
 
     Increments without this vector are skipped.

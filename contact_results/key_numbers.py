@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
-from contact_results.number_text import Uncertainty, measured_like, number_text, uncertainty
+from contact_results.number_text import Uncertainty, number_text, uncertainty, unit_group
 from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.increment import (
     SCALARS,
@@ -79,19 +79,19 @@ def outcome_columns(
             converged
     """
     stated: Sequence[Errors] = errors if errors is not None else [{}] * len(ends)
-    numbered, gap = _shown(list(enumerate(zip(ends, stated, strict=True), 1)))
+    numbered, gap = _select_rows(list(enumerate(zip(ends, stated, strict=True), 1)))
     first = {"step": [str(number) for number, _ in numbered]}
-    return _table(first, _columns([end for _, end in numbered], ends), gap)
+    return _column_texts(first, _quantity_columns([end for _, end in numbered], ends), gap)
 
 
-def _table(
+def _column_texts(
     first: dict[str, list[str]], columns: Iterable[_Column], gap: int | None
 ) -> dict[str, list[str]]:
     """Return the texts of a table: given first columns, and columns of numbers by heading and unit.
 
     gap  index of the row of dots for omitted rows; None without omitted rows
     """
-    texts = first | {f"{heading}\n{unit}": texts for heading, unit, texts in _texts(columns)}
+    texts = first | {f"{heading}\n{unit}": texts for heading, unit, texts in _number_texts(columns)}
     if gap is not None:
         for column in texts.values():
             column.insert(gap, "…")
@@ -106,11 +106,13 @@ def key_numbers(history: Sequence[State], errors: Errors | None) -> Iterator[tup
     history  states at the ends of the load steps
     errors   stated errors of the last load step, by name; None if they were not computed
     """
-    for heading, unit, (text,) in _texts(_columns([(history[-1], errors or {})], history)):
+    for heading, unit, (text,) in _number_texts(
+        _quantity_columns([(history[-1], errors or {})], history)
+    ):
         yield heading.replace("\n", " ").strip(), f"{text} {unit}"
 
 
-def _texts(columns: Iterable[_Column]) -> Iterator[tuple[str, str, list[str]]]:
+def _number_texts(columns: Iterable[_Column]) -> Iterator[tuple[str, str, list[str]]]:
     """Yield heading, unit and number texts of each column of a table."""
     shown = list(columns)
     for column in shown:
@@ -122,7 +124,7 @@ def _texts(columns: Iterable[_Column]) -> Iterator[tuple[str, str, list[str]]]:
         yield column.heading, scale.name, texts
 
 
-def _shown(steps: Sequence[Shown]) -> tuple[list[Shown], int | None]:
+def _select_rows(steps: Sequence[Shown]) -> tuple[list[Shown], int | None]:
     """Select the table rows of a long history: the first FIRST and the last LAST.
 
     steps  all rows, of load steps or load cycles
@@ -135,7 +137,9 @@ def _shown(steps: Sequence[Shown]) -> tuple[list[Shown], int | None]:
     return [*steps[:FIRST], *steps[-LAST:]], FIRST
 
 
-def _columns(steps: Sequence[tuple[State, Errors]], history: Sequence[State]) -> Iterator[_Column]:
+def _quantity_columns(
+    steps: Sequence[tuple[State, Errors]], history: Sequence[State]
+) -> Iterator[_Column]:
     """Yield the table column of each key quantity that has a value, with round-off replaced by 0.
 
     The y component of a vector has a column only if a shown load step has a non-zero value.
@@ -155,15 +159,15 @@ def _columns(steps: Sequence[tuple[State, Errors]], history: Sequence[State]) ->
             vector = mark.kind is Kind.VECTOR
             least = ROUND_OFF * max(known) if vector else 0.0
             least = max(least, ROUND_OFF * natural_size(history, mark.unit))
-            cut = [_cut(value, least) for value in values]
+            cut = [_without_round_off(value, least) for value in values]
             if axis == "x" or any(cut):
                 heading = f"{first}\n{rest}{f' {axis}' if vector else ''}"
                 errors = [uncertainty(of_step.get(name), axis) for _, of_step in steps]
-                like = measured_like(f"{name} {axis}" if vector else name)
+                like = unit_group(f"{name} {axis}" if vector else name)
                 yield _Column(heading, like, mark.unit, list(zip(cut, errors, strict=True)))
 
 
-def _cut(value: float | None, negligible: float) -> float | None:
+def _without_round_off(value: float | None, negligible: float) -> float | None:
     """Replace a value by 0 if its magnitude does not exceed a negligible amount; keep None."""
     return 0.0 if value is not None and abs(value) <= negligible else value
 
@@ -188,7 +192,7 @@ def cycle_columns(
 
     errors  stated errors of the scalars of every load step, by name; None if they were not computed
     """
-    shown, gap = _shown(cycles)
+    shown, gap = _select_rows(cycles)
     rows = [cycle.numbers for cycle in shown]
     stated = [errors[cycle.cycle.end - 1] if errors is not None else {} for cycle in shown]
     first = {
@@ -209,4 +213,4 @@ def cycle_columns(
             bars = [uncertainty(of_step.get(name), axis) for of_step in stated]
             heading = f"{symbol} {axis}".strip()
             columns.append(_Column(heading, heading, mark.unit, [*zip(values, bars, strict=True)]))
-    return _table(first, columns, gap)
+    return _column_texts(first, columns, gap)

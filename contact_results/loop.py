@@ -58,10 +58,10 @@ def loop_numbers(
     if size <= ROUND_OFF * end.normal_force:
         return numbers
     along = furthest / size
-    forces, shifts = force @ along, _along(path, "tangential_shift", along)
+    forces, shifts = force @ along, _components_along(path, "tangential_shift", along)
     assert shifts is not None
-    actuated = _along(path, "actuator_shift", along)
-    Q, shift, opening = _half_range(forces), _half_range(shifts), _opening(forces, shifts)
+    actuated = _components_along(path, "actuator_shift", along)
+    Q, shift, opening = _half_range(forces), _half_range(shifts), _half_opening(forces, shifts)
     moved = shift if actuated is None else _half_range(actuated)
     limit = friction.carried(end.normal_force) if friction else None
     if dissipated <= NO_SLIP * Q * shift:
@@ -78,7 +78,7 @@ def loop_numbers(
     }
 
 
-def _along(path: Sequence[Increment], name: str, direction: Vector) -> Vector | None:
+def _components_along(path: Sequence[Increment], name: str, direction: Vector) -> Vector | None:
     """Return the component of a vector quantity along a direction, for each increment (n,).
 
     path       increments of a load cycle
@@ -101,7 +101,7 @@ def _half_range(values: Vector) -> float:
     return float(np.ptp(values)) / 2
 
 
-def _opening(forces: Vector, shifts: Vector) -> float:
+def _half_opening(forces: Vector, shifts: Vector) -> float:
     """Compute half the opening of a fretting loop at the middle of its force range [length].
 
     The tangential shift is interpolated at each point where the loop passes the mean of the extreme
@@ -135,7 +135,9 @@ def _stick_centre(end: Increment, surface: Surface) -> tuple[float, float] | Non
     weights = surface.weights * stick
     x, y = (float(np.sum(weights * place) / np.sum(weights)) for place in surface.positions)
     x, y = (0.0 if abs(place) <= ROUND_OFF * end.contact_radius else place for place in (x, y))
-    if isinstance(surface, Rings) and not surface.whole:  # the other half is the mirror image
+    if (
+        isinstance(surface, Rings) and not surface.covers_circle
+    ):  # the other half is the mirror image
         c, s = surface.direction
         ahead = 0.0 if surface.angles is None else c * x + s * y
         x, y = c * ahead, s * ahead

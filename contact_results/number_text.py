@@ -70,7 +70,7 @@ def number_text(value: float | None, error: Uncertainty | None, unit: float) -> 
     return f"{number:.{decimals}f} ± {size:.{decimals}f}{doubt}"
 
 
-def measured_like(name: str) -> str:
+def unit_group(name: str) -> str:
     """Return the name of the group of quantities that share a unit in a table.
 
     All names that end in `_radius` form the group "radius". Other names form a group each.

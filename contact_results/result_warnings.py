@@ -44,16 +44,16 @@ def warnings_of(result: Result) -> tuple[str, ...]:
     found = (
         *unlikely(result.scene),
         *beyond_linear_theory(result.scene, result.steps),
-        *_near_gross_slip(result),
-        *_first_cycle(result),
+        *_warn_of_gross_slip(result),
+        *_warn_of_first_cycle(result),
     )
     if not hasattr(result, "grid"):
         return found
     on_cells = cast("semi_analytical.Result", result)
-    return (*found, *_left_out(on_cells), *_edges_left(on_cells))
+    return (*found, *_warn_of_roughness(on_cells), *_warn_of_edges(on_cells))
 
 
-def _near_gross_slip(result: Result) -> Iterator[str]:
+def _warn_of_gross_slip(result: Result) -> Iterator[str]:
     """Yield a warning if a tangential force is prescribed close to the friction limit.
 
     Close to gross slip, the tangential shift and the dissipated energy depend on the increments.
@@ -67,7 +67,7 @@ def _near_gross_slip(result: Result) -> Iterator[str]:
         )
 
 
-def _first_cycle(result: Result) -> Iterator[str]:
+def _warn_of_first_cycle(result: Result) -> Iterator[str]:
     """Yield a warning about the first load cycle, which starts from virgin surfaces.
 
     This cycle may dissipate several times the energy of later cycles. There is no warning without
@@ -85,12 +85,12 @@ def _first_cycle(result: Result) -> Iterator[str]:
         )
 
 
-def _left_out(result: semi_analytical.Result) -> Iterator[str]:
+def _warn_of_roughness(result: semi_analytical.Result) -> Iterator[str]:
     """Yield a warning if the cells do not resolve the roughness of the height map.
 
     The warning states the pressure that would flatten the unresolved roughness.
     """
-    share, indenter = left_out(result), result.scene.indenter
+    share, indenter = unresolved_pressure(result), result.scene.indenter
     if share > NEGLIGIBLE and isinstance(indenter, HeightMap):
         nx, ny = (int(np.ceil(n)) for n in np.divide(result.grid.window, indenter.spacing))
         yield (
@@ -100,7 +100,7 @@ def _left_out(result: semi_analytical.Result) -> Iterator[str]:
         )
 
 
-def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
+def _warn_of_edges(result: semi_analytical.Result) -> Iterator[str]:
     """Yield a warning for each cause that prevented the edge correction at the end of a load step.
 
     Load steps with equal cause share a warning. The edge correction resolves the border of the
@@ -119,7 +119,7 @@ def _edges_left(result: semi_analytical.Result) -> Iterator[str]:
         yield f"at the end of step {', '.join(steps)} {text}"
 
 
-def left_out(result: semi_analytical.Result) -> float:
+def unresolved_pressure(result: semi_analytical.Result) -> float:
     """Estimate the pressure that flattens the roughness between the centres of the cells.
 
     The estimate is relative to the peak pressure. The roughness is the height map minus its
@@ -136,7 +136,7 @@ def left_out(result: semi_analytical.Result) -> float:
     end = max(result.steps, key=lambda step: step.contact_area)
     cells = grid.coordinates()
     x, y = (
-        _points(count, spacing, at[end.in_contact])
+        _map_coordinates(count, spacing, at[end.in_contact])
         for count, spacing, at in zip(indenter.file.shape, indenter.spacing, cells, strict=True)
     )
     if min(len(x), len(y)) < 2:
@@ -149,7 +149,7 @@ def left_out(result: semi_analytical.Result) -> float:
     return contact_modulus(result.scene) * steepness / 2 / end.peak_pressure
 
 
-def _points(count: int, spacing: float, within: Field) -> Field:
+def _map_coordinates(count: int, spacing: float, within: Field) -> Field:
     """Return the coordinates of the height-map points along one axis within the contact [length].
 
     count    number of map points along the axis

@@ -36,8 +36,8 @@ SURFACE_FIELDS = (
 )
 
 
-class Line(NamedTuple):
-    """Line through the z axis on the surface, on which profiles of the fields are drawn.
+class ProfileLine(NamedTuple):
+    """ProfileLine through the z axis on the surface, on which profiles of the fields are drawn.
 
     places      coordinates of the points along the line (n,) [length]
     label       text for the axis of a figure that shows these coordinates
@@ -83,9 +83,9 @@ class Cells:
         return np.full((len(self.x), len(self.y)), self.cell_area)
 
     @property
-    def line(self) -> Line:
-        """Line on which profiles of the fields are drawn: all cell centres x, at y = 0."""
-        return Line(self.x, "x at y = 0", ("x", "y"))
+    def profile_line(self) -> ProfileLine:
+        """ProfileLine on which profiles of the fields are drawn: all cell centres x, at y = 0."""
+        return ProfileLine(self.x, "x at y = 0", ("x", "y"))
 
     @property
     def direction(self) -> tuple[float, float]:
@@ -140,7 +140,7 @@ class Rings:
     polar: bool
 
     @property
-    def whole(self) -> bool:
+    def covers_circle(self) -> bool:
         """True if the angles of the points cover the full circle.
 
         False if they cover a half circle, or if there are none.
@@ -156,9 +156,9 @@ class Rings:
     def positions(self) -> Field:
         """Coordinates x and y of the points, shape (2, rings) or (2, rings, angles) [length]."""
         if self.angles is None:
-            return self._turned(np.stack([self.radii, np.zeros_like(self.radii)]))
+            return self._rotate_from_load_axes(np.stack([self.radii, np.zeros_like(self.radii)]))
         around = np.stack([np.cos(self.angles), np.sin(self.angles)])
-        return self._turned(self.radii[:, None] * around[:, None])
+        return self._rotate_from_load_axes(self.radii[:, None] * around[:, None])
 
     @property
     def weights(self) -> Field:
@@ -175,14 +175,14 @@ class Rings:
         area[1:] += (outer - inner) * (inner + 2 * outer) / 6
         if self.angles is None:
             return 2 * np.pi * area
-        if self.whole:
+        if self.covers_circle:
             return np.outer(area, np.full(len(self.angles), 2 * np.pi / len(self.angles)))
         ends = [0.0, *(self.angles[1:] + self.angles[:-1]) / 2, np.pi]
         return 2 * np.diff(ends) * area[:, None]
 
     @property
-    def line(self) -> Line:
-        """Line on which profiles of the fields are drawn.
+    def profile_line(self) -> ProfileLine:
+        """ProfileLine on which profiles of the fields are drawn.
 
         The line is a radius if the fields depend on the radius alone, else the diameter along the
         load.
@@ -190,10 +190,10 @@ class Rings:
         along_x = self.direction == (1.0, 0.0)
         load = ("x", "y") if along_x else (r"\parallel", r"\perp")
         if self.angles is None:
-            return Line(self.radii, "radius r", ("r", "θ") if self.polar else load)
+            return ProfileLine(self.radii, "radius r", ("r", "θ") if self.polar else load)
         places = np.concatenate([-self.radii[::-1], self.radii])
         label = "x at y = 0" if along_x else "distance from the axis along the load"
-        return Line(places, label, load)
+        return ProfileLine(places, label, load)
 
     def scalar(self, increment: Increment, name: str) -> NDArray[Any] | None:
         """Return a scalar field of an increment on the rings.
@@ -204,7 +204,7 @@ class Rings:
 
         Returns None if the increment has no such field.
         """
-        return self._everywhere(getattr(increment, name, None))
+        return self._repeat_at_angles(getattr(increment, name, None))
 
     def components(self, increment: Increment, name: str) -> Field | None:
         """Return three components (3, …) of shear or slip: radial, circumferential, along the load.
@@ -214,7 +214,9 @@ class Rings:
 
         name  "shear" or "slip"
         """
-        parts = [self._everywhere(getattr(increment, f"{name}_{component}")) for component in POLAR]
+        parts = [
+            self._repeat_at_angles(getattr(increment, f"{name}_{component}")) for component in POLAR
+        ]
         given = [part for part in parts if part is not None]
         if not given:
             return None
@@ -234,7 +236,7 @@ class Rings:
         outward, around, ahead = components
         angles = np.zeros_like(self.radii) if self.angles is None else self.angles
         cos, sin = np.cos(angles), np.where(angles == np.pi, 0.0, np.sin(angles))
-        return self._turned(
+        return self._rotate_from_load_axes(
             np.stack([outward * cos - around * sin + ahead, outward * sin + around * cos])
         )
 
@@ -254,7 +256,7 @@ class Rings:
         """
         if self.angles is None:
             return field
-        behind = len(self.angles) // 2 if self.whole else -1
+        behind = len(self.angles) // 2 if self.covers_circle else -1
         return np.concatenate([field[..., ::-1, behind], field[..., :, 0]], axis=-1)
 
     def vector_along(self, vector: Field) -> Field:
@@ -264,9 +266,9 @@ class Rings:
 
         Returns the components along and across the tangential load.
         """
-        return self.along(self._turned(vector, -1))
+        return self.along(self._rotate_from_load_axes(vector, -1))
 
-    def _everywhere(self, field: NDArray[Any] | None) -> NDArray[Any] | None:
+    def _repeat_at_angles(self, field: NDArray[Any] | None) -> NDArray[Any] | None:
         """Repeat a field that depends on the radius alone at every angle of the surface grid.
 
         field  values (rings,), which become (rings, angles); fields with angles, and None, are
@@ -276,7 +278,7 @@ class Rings:
             return field
         return np.broadcast_to(field[:, None], (len(self.radii), len(self.angles)))
 
-    def _turned(self, vector: Field, sense: int = 1) -> Field:
+    def _rotate_from_load_axes(self, vector: Field, sense: int = 1) -> Field:
         """Rotate a vector field (2, …) from load axes to scene axes, or back.
 
         vector  components along and across the tangential load; x and y components for the rotation

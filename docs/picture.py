@@ -60,7 +60,7 @@ def surface(ax, x, end, friction) -> None:
             ax.axvspan(centre - side, centre + side, color=colour, alpha=0.3, lw=0)
     lines = [
         *ax.plot(x, pressure, color="black", label="pressure p"),
-        *ax.plot(x, shear / friction, label=f"shear q/µ, µ = {friction}", **style.line(1)),
+        *ax.plot(x, shear / friction, label=f"shear q/µ, µ = {friction}", **style.line_style(1)),
     ]
     patches = [Patch(color=colour, alpha=0.3, label=name) for name, _, colour in zones]
     ax.legend(handles=[*lines, *patches], loc="upper right")

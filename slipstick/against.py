@@ -233,7 +233,7 @@ def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterat
             shares += [_share(end, load) for load in (SHIFT, LOAD)]
         if field is None:
             raise NothingToCompare("the run has no shear; leave the column out or add friction")
-        ours = np.interp(table[PLACE], surface.line.places, surface.along(field), 0.0, 0.0)
+        ours = np.interp(table[PLACE], surface.profile_line.places, surface.along(field), 0.0, 0.0)
         largest = [float(np.max(np.abs(each))) for each in (table[name], ours)]
         known = [share for share in shares if share is not None]
         error = sum(known) * largest[1] if len(known) == len(shares) else None

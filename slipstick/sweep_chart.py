@@ -97,7 +97,7 @@ def _draw_curve(ax: Any, quantity: SweptQuantity, key: Variation) -> None:
     """
     (lower, middle, upper), (_, low, _), (_, high, _) = quantity.percentiles
     bars = np.nan_to_num([middle - low, high - middle])
-    ax.errorbar(key.values, middle, bars, marker=".", capsize=3, **style.line(0))
+    ax.errorbar(key.values, middle, bars, marker=".", capsize=3, **style.line_style(0))
     if quantity.values.shape[-1] > 1:
         label = f"{PERCENTILES[0]:g} to {PERCENTILES[-1]:g} % of the sample"
         ax.fill_between(key.values, lower, upper, color=style.STICK_COLOUR, alpha=0.2, label=label)

@@ -19,9 +19,14 @@ import radial
 import semi_analytical
 from contact_results.directory.checkpoint import (
     CheckpointDirectory,
-    checkpointed,
+    provide_checkpoints,
 )
-from contact_results.directory.checkpoint_file import FORMAT, Unusable, pack, unpacked
+from contact_results.directory.checkpoint_file import (
+    FORMAT,
+    Unusable,
+    read_checkpoint_file,
+    write_checkpoint_file,
+)
 from contact_results.result_files import write_result
 from contact_scene import (
     Body,
@@ -201,8 +206,8 @@ def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: P
     assert len(every.kept) == len(whole.increments)
     path = tmp_path / "standing"
     for standing, following in pairwise(every.kept):
-        pack(standing, "this solve", path)
-        resumed = All(unpacked(path, "this solve"))
+        write_checkpoint_file(standing, "this solve", path)
+        resumed = All(read_checkpoint_file(path, "this solve"))
         with pytest.raises(Killed):
             solve(Ending(resumed, 1))
         assert [*differences([following], resumed.kept)] == []
@@ -214,8 +219,8 @@ def test_going_on_after_any_increment_gives_the_same_bits(name: str, tmp_path: P
 @pytest.mark.parametrize("motion", [PRESSING, TORSION, SHEARING])
 def test_motions_of_the_elements_return_from_a_file(motion: Any, tmp_path: Path) -> None:
     """With the function of their far field, which is the only kind of code that a file may name."""
-    pack(motion, "this solve", tmp_path / "motion")
-    assert unpacked(tmp_path / "motion", "this solve") == motion
+    write_checkpoint_file(motion, "this solve", tmp_path / "motion")
+    assert read_checkpoint_file(tmp_path / "motion", "this solve") == motion
 
 
 def changed(content: bytes) -> bytes:
@@ -224,7 +229,7 @@ def changed(content: bytes) -> bytes:
 
 def packed(value: Any) -> bytes:
     with TemporaryDirectory() as folder:
-        pack(value, "this solve", Path(folder) / "part")
+        write_checkpoint_file(value, "this solve", Path(folder) / "part")
         return (Path(folder) / "part").read_bytes()
 
 
@@ -277,7 +282,7 @@ class Trap:
 def test_file_of_a_stranger_runs_nothing(protocol: int, tmp_path: Path) -> None:
     content = pickle.dumps(Trap(str(tmp_path / "made")), protocol)
     with pytest.raises(Unusable, match="may not contain"):
-        unpacked(forged(content, tmp_path), "this solve")
+        read_checkpoint_file(forged(content, tmp_path), "this solve")
     assert not (tmp_path / "made").exists()
 
 
@@ -288,7 +293,7 @@ def test_checkpoint_stays_only_where_it_is_of_use(
     error: Exception | None, stays: bool, tmp_path: Path
 ) -> None:
     outcome = nullcontext() if error is None else pytest.raises(type(error))
-    with outcome, checkpointed(tmp_path / "out", "this solve", print) as store:
+    with outcome, provide_checkpoints(tmp_path / "out", "this solve", print) as store:
         SOLVES["similar"](store)
         assert (tmp_path / ".out.checkpoint").is_dir()
         if error is not None:

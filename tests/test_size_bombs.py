@@ -19,7 +19,7 @@ import pytest
 from command import outcome
 from synthetic_result import synthetic_result
 
-from contact_results.directory.checkpoint_file import FORMAT, Unusable, unpacked
+from contact_results.directory.checkpoint_file import FORMAT, Unusable, read_checkpoint_file
 from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_run import load
 from contact_results.result_files import write_result
@@ -261,4 +261,4 @@ def test_fields_that_were_changed_or_lie_elsewhere_are_refused(
 def test_checkpoint_of_zeros_is_refused_unread(tmp_path: Path, head: bytes) -> None:
     sparse(tmp_path / "part", head)
     with frugal(), pytest.raises(Unusable, match=r"not a checkpoint of this version|larger than"):
-        unpacked(tmp_path / "part", "this solve")
+        read_checkpoint_file(tmp_path / "part", "this solve")

@@ -79,7 +79,7 @@ def test_line_has_the_same_values(points: int | None) -> None:
         other = on_rings(ring, *PARTS, at_angles=at_angles)
         line = grid.along(hump(np.hypot(*grid.positions)))
         shown = ring.along(ring.scalar(other, "pressure"))
-        at = np.interp(ring.line.places, grid.x, np.arange(len(grid.x))).round().astype(int)
+        at = np.interp(ring.profile_line.places, grid.x, np.arange(len(grid.x))).round().astype(int)
         np.testing.assert_allclose(shown, line[at], atol=ROUND_OFF)
         for part in PARTS:
             vectors = grid.vector_along(grid.vector(on_cells(grid, part), "shear"))
@@ -101,7 +101,9 @@ def test_vectors_are_in_x_and_y_wherever_the_load_points(
         np.testing.assert_allclose(found, expected, atol=ROUND_OFF)
         if part == "along_load":
             ahead, across = ring.vector_along(found)
-            np.testing.assert_allclose(ahead, sizes(np.abs(ring.line.places))[part], atol=1e-14)
+            np.testing.assert_allclose(
+                ahead, sizes(np.abs(ring.profile_line.places))[part], atol=1e-14
+            )
             np.testing.assert_allclose(across, 0.0, atol=ROUND_OFF)
 
 
@@ -192,10 +194,10 @@ def test_cells_and_rings_draw_the_same_picture(
     scale = np.abs(on_section.section.stress).max()
     for material in (0, 1):
         one, other = (
-            axis.chosen(axis.material == material)
+            axis.select(axis.material == material)
             for axis in (stress_by_cells.axis, on_section.axis)
         )
-        inside = one.chosen(one.depth > 0.1)
+        inside = one.select(one.depth > 0.1)
         assert len(inside.depth) > 3
         for name, values in inside.components.items():
             expected = np.interp(inside.depth, other.depth, other.components[name])

@@ -16,7 +16,11 @@ from pathlib import Path
 from typing import Any
 
 from contact_results.directory.atomic_file import OutputRefused, atomic_file
-from contact_results.directory.checkpoint_file import Unusable, pack, unpacked
+from contact_results.directory.checkpoint_file import (
+    Unusable,
+    read_checkpoint_file,
+    write_checkpoint_file,
+)
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from contact_scene.quantities.stored_fields import FieldStore
 from contact_scene.solver_errors import SolverError
@@ -82,8 +86,8 @@ class CheckpointDirectory:
                 self._drop_from(0)
                 self._kept = 0
             new = replace(standing, increments=standing.increments[self._kept :])
-            with atomic_file(self._path(self._parts)) as temporary:
-                pack((self._kept, new), self._identity, temporary)
+            with atomic_file(self._part_path(self._parts)) as temporary:
+                write_checkpoint_file((self._kept, new), self._identity, temporary)
         except (OSError, OutputRefused) as error:
             self._say(f"cannot write a checkpoint into {self._directory}: {error}")
             self._open = False
@@ -116,9 +120,9 @@ class CheckpointDirectory:
         standing: Checkpoint | None = None
         increments: list[Any] = []
         fields = FieldStore()
-        while (path := self._path(self._parts)).exists():
+        while (path := self._part_path(self._parts)).exists():
             try:
-                match unpacked(path, self._identity):
+                match read_checkpoint_file(path, self._identity):
                     case (int(before), Checkpoint() as part) if before == len(increments):
                         increments.extend(map(fields.stored, part.increments))
                     case _:
@@ -139,19 +143,19 @@ class CheckpointDirectory:
 
         Other files in the directory are removed as well.
         """
-        kept = {self._path(number).name for number in range(first)}
+        kept = {self._part_path(number).name for number in range(first)}
         for name in os.listdir(self._directory) if self._directory.is_dir() else ():
             if name not in kept:
                 (self._directory / name).unlink(missing_ok=True)
         self._parts = first
 
-    def _path(self, number: int) -> Path:
+    def _part_path(self, number: int) -> Path:
         """Return the path of the checkpoint file with this number, from 0."""
         return self._directory / f"part-{number:06d}"
 
 
 @contextmanager
-def checkpointed(
+def provide_checkpoints(
     target: Path, identity: str, say: Callable[[str], None], name: str = "checkpoint"
 ) -> Iterator[CheckpointDirectory]:
     """Provide the checkpoint directory of a solve, and remove it after the `with` block.

@@ -38,7 +38,7 @@ class Unusable(Exception):
     """A checkpoint file cannot be used; the message has its name and the reason."""
 
 
-def pack(value: Any, identity: str, path: Path) -> None:
+def write_checkpoint_file(value: Any, identity: str, path: Path) -> None:
     """Write a value to a checkpoint file, with one array in memory at a time.
 
     value     contents, made of frozen classes of the solvers
@@ -48,14 +48,14 @@ def pack(value: Any, identity: str, path: Path) -> None:
     """
     with open(path, "wb") as file:
         file.write(FORMAT + b"\n" + identity.encode() + b"\n")
-        before, content = file.tell(), _Digested(file)
+        before, content = file.tell(), _DigestWriter(file)
         file.write(bytes(2 * content.digest.digest_size) + b"\n")
         _Writer(content, PROTOCOL).dump(value)
         file.seek(before)
         file.write(content.digest.hexdigest().encode())
 
 
-class _Digested:
+class _DigestWriter:
     """Writer to a binary file that computes the SHA-256 of the bytes it writes."""
 
     def __init__(self, file: BinaryIO) -> None:
@@ -67,7 +67,7 @@ class _Digested:
         return self.file.write(content)
 
 
-def unpacked(path: Path, identity: str) -> Any:
+def read_checkpoint_file(path: Path, identity: str) -> Any:
     """Read the value of a checkpoint file.
 
     identity  digest of the input and the code of the solve that the file must have
@@ -150,12 +150,12 @@ class _Reader(pickle.Unpickler):
             return float
         if any(module == package or module.startswith(f"{package}.") for package in PACKAGES):
             found = getattr(importlib.import_module(module), name, None)
-            if getattr(found, "__module__", None) == module and _is_value(found):
+            if getattr(found, "__module__", None) == module and _is_storable(found):
                 return found
         raise pickle.UnpicklingError(f"a checkpoint may not contain {module}.{name}")
 
 
-def _is_value(found: Any) -> bool:
+def _is_storable(found: Any) -> bool:
     """Return True if a checkpoint file may contain this class or function.
 
     Allowed are frozen dataclasses that are not files, enumerations, the finite element settings,

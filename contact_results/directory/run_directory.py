@@ -59,17 +59,17 @@ def files_at_once(target: Path, summary: str, earlier: Sequence[str]) -> Iterato
         with (
             cleaned_up_when_stopped(remove_created),
             in_sole_use(target),
-            _staging(target) as staging,
+            _staging_directory(target) as staging,
         ):
             yield staging
             with stop_signals_held():
-                _publish(staging, target, summary, earlier)
+                _publish_files(staging, target, summary, earlier)
     finally:
         remove_created()
 
 
 @contextmanager
-def _staging(target: Path) -> Iterator[Path]:
+def _staging_directory(target: Path) -> Iterator[Path]:
     """Provide a hidden directory for new files, and remove it after the `with` block.
 
     The hidden directory is inside `target` if `target` exists and is not empty, or if its parent is
@@ -95,13 +95,13 @@ def _staging(target: Path) -> Iterator[Path]:
         with cleaned_up_when_stopped(clean):
             yield staging
     except OSError as error:
-        _name_file(error, staging, target)
+        _add_file_name(error, staging, target)
         raise
     finally:
         clean()
 
 
-def _name_file(error: OSError, staging: Path, target: Path) -> None:
+def _add_file_name(error: OSError, staging: Path, target: Path) -> None:
     """Add the name of the file to a write error, with the path in `target`.
 
     The system omits the name if the disk is full. The file that was changed last is then named.
@@ -158,7 +158,7 @@ def _is_earlier_run(directory: Path) -> bool:
     return isinstance(record, dict) and record.get("program") == "slipstick"
 
 
-def _publish(staging: Path, target: Path, summary: str, earlier: Sequence[str]) -> None:
+def _publish_files(staging: Path, target: Path, summary: str, earlier: Sequence[str]) -> None:
     """Move the new files into `target`: by one rename if possible, else file by file.
 
     staging  hidden directory with the new files
@@ -166,12 +166,12 @@ def _publish(staging: Path, target: Path, summary: str, earlier: Sequence[str]) 
     earlier  names of further files of an earlier run to remove
     """
     for path in staging.iterdir():
-        _flush(path)
-    _flush(staging)
+        _flush_to_disk(path)
+    _flush_to_disk(staging)
     if staging.parent != target:
         try:
             os.rename(staging, target)
-            _flush(target.parent)
+            _flush_to_disk(target.parent)
             return
         except OSError:
             # Another program created the target, or the target is a mount point.
@@ -197,10 +197,10 @@ def _replace_files(staging: Path, target: Path, summary: str, earlier: Sequence[
         (target / name).unlink(missing_ok=True)
     for name in sorted(new, key=lambda name: (name == summary, name != TIMING, name)):
         os.replace(staging / name, target / name)
-    _flush(target)
+    _flush_to_disk(target)
 
 
-def _flush(path: Path) -> None:
+def _flush_to_disk(path: Path) -> None:
     """Write a file or the entries of a directory to the disk.
 
     They then survive a power failure.

@@ -33,21 +33,21 @@ def in_sole_use(target: Path) -> Iterator[None]:
     home, other = reversed(places) if target.is_dir() else places
     name = f".{target.name}.in-use"
     with ExitStack() as locks:
-        locks.enter_context(_locked(home / name, target))
+        locks.enter_context(_hold_lock_file(home / name, target))
         # The order matters: of two processes that start at once, at least one finds the other.
         if os.path.lexists(other / name):
-            locks.enter_context(_locked(other / name, target))
+            locks.enter_context(_hold_lock_file(other / name, target))
         yield
 
 
 @contextmanager
-def _locked(path: Path, target: Path) -> Iterator[None]:
+def _hold_lock_file(path: Path, target: Path) -> Iterator[None]:
     """Lock a lock file for the duration of the `with` block, and remove it at the end.
 
     path    path of the lock file
     target  directory of the results, for messages
     """
-    descriptor = _lock(path, target)
+    descriptor = _create_lock_file(path, target)
 
     def remove() -> None:
         if descriptor is not None:  # before the release: afterwards another process may own it
@@ -63,7 +63,7 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
             os.close(descriptor)
 
 
-def _lock(path: Path, target: Path) -> int | None:
+def _create_lock_file(path: Path, target: Path) -> int | None:
     """Create and lock a lock file, and return its descriptor; None if the file system has no locks.
 
     path    path of the lock file
@@ -72,7 +72,7 @@ def _lock(path: Path, target: Path) -> int | None:
     Raises OutputRefused if another process has the lock.
     """
     while True:
-        descriptor = _opened(path)
+        descriptor = _open_lock_file(path)
         if descriptor is None:
             return None
         try:
@@ -89,7 +89,7 @@ def _lock(path: Path, target: Path) -> int | None:
             with suppress(OSError):
                 path.unlink()
             return None
-        if _is_at(descriptor, path):
+        if _is_same_file(descriptor, path):
             with suppress(OSError):
                 os.ftruncate(descriptor, 0)
                 os.pwrite(descriptor, _this_process().encode(), 0)
@@ -97,7 +97,7 @@ def _lock(path: Path, target: Path) -> int | None:
         os.close(descriptor)  # another process has just removed the file
 
 
-def _opened(path: Path) -> int | None:
+def _open_lock_file(path: Path) -> int | None:
     """Open or create a lock file and return its descriptor; None if that fails.
 
     A file of another user is opened for reading only.
@@ -113,7 +113,7 @@ def _this_process() -> str:
     return f"process {os.getpid()} on {socket.gethostname()}"
 
 
-def _is_at(descriptor: int, path: Path) -> bool:
+def _is_same_file(descriptor: int, path: Path) -> bool:
     """Return True if `path` still refers to the open file with this descriptor.
 
     The result is False if another process has removed or replaced the file.

@@ -15,7 +15,7 @@ STDERR = 2
 NOTHING_KEPT = "nothing is stored yet: the same command starts from the beginning"
 SHOW_CURSOR = b"\x1b[?25h"  # a progress bar hides it
 
-_begun: list[tuple[Callable[[], None], Callable[[], str]]] = []  # blocks, outermost first
+_open_blocks: list[tuple[Callable[[], None], Callable[[], str]]] = []  # blocks, outermost first
 
 
 @contextmanager
@@ -32,22 +32,22 @@ def cleaned_up_when_stopped(
     kept   function that returns one line on the stored work and how to resume, or an empty text
     """
     block = (clean, kept)
-    _begun.append(block)
+    _open_blocks.append(block)
     try:
-        with _handled_by(_leave):
+        with _handle_stop_signals(_clean_up_and_exit):
             yield
     finally:
-        _begun.remove(block)
+        _open_blocks.remove(block)
 
 
-def _leave(number: int, frame: FrameType | None) -> None:
+def _clean_up_and_exit(number: int, frame: FrameType | None) -> None:
     """Handle a stop signal: clean up all blocks, print how to resume, and exit the process.
 
     number  number of the signal
     frame   stack frame of the interrupted code; not used
     """
     hint = ""
-    for clean, kept in reversed(_begun):
+    for clean, kept in reversed(_open_blocks):
         with suppress(Exception):  # the process ends in any case
             clean()
         with suppress(Exception):
@@ -67,7 +67,7 @@ def stop_signals_held() -> Iterator[None]:
     """
     received: list[int] = []
     try:
-        with _handled_by(lambda number, frame: received.append(number)):
+        with _handle_stop_signals(lambda number, frame: received.append(number)):
             yield
     finally:
         if received:
@@ -75,7 +75,7 @@ def stop_signals_held() -> Iterator[None]:
 
 
 @contextmanager
-def _handled_by(handler: Handler) -> Iterator[None]:
+def _handle_stop_signals(handler: Handler) -> Iterator[None]:
     """Handle stop signals in the `with` block by the given function, then restore the old handlers.
 
     Ignored signals stay ignored (nohup, `&`). Outside the main thread nothing is changed.

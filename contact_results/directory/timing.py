@@ -49,14 +49,14 @@ def write_timing(
         "wall_seconds": stopwatch.wall_seconds,
         "cpu_seconds": stopwatch.cpu_seconds,
         "peak_memory_bytes": 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
-        "counters": _counters(increments),
+        "counters": _counters_by_step(increments),
         "machine": machine(),
         "libraries": library_versions(),
     }
     (directory / TIMING).write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
 
 
-def _counters(increments: Iterable[ReportedIncrement]) -> list[dict[str, int | None]]:
+def _counters_by_step(increments: Iterable[ReportedIncrement]) -> list[dict[str, int | None]]:
     """Sum the counters of the solver, such as iterations, over the increments of each load step.
 
     Returns one record per load step. A counter is None if the solver does not have it.

@@ -49,7 +49,7 @@ def write_figures(
     everything  write all figures, not only the overview
     """
     with figure_style():
-        for name, figure in _figures_called_for(result, cycles, errors):
+        for name, figure in _draw_figures(result, cycles, errors):
             dots = DOTS_PER_INCH if name != file_names.OVERVIEW_FIGURE else OF_OVERVIEW
             save(figure, directory / name, dots)
             if not everything:
@@ -58,7 +58,7 @@ def write_figures(
             figure.clear()
 
 
-def _figures_called_for(
+def _draw_figures(
     result: Result, cycles: Sequence[FrettingCycle], errors: Mapping[str, StatedError] | None
 ) -> Iterator[tuple[str, Figure]]:
     """Yield file name and figure of each figure of a result, with the overview first.

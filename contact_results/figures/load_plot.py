@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.figures import style
-from contact_results.figures.shown_steps import on_axis
+from contact_results.figures.shown_steps import scale_for_axis
 from contact_scene.reading.engineering_units import quantity
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def load_loop(increments: Sequence[Increment]) -> Loop | None:
         path = [i for i in increments if all(getattr(i, name) is not None for name in names)]
         forces, motions = (np.array([getattr(i, name) for i in path]) for name in names)
         if np.any(forces):
-            along = _direction(forces) if forces.ndim > 1 else None
+            along = _force_direction(forces) if forces.ndim > 1 else None
             if along is not None:
                 forces, motions = forces @ along, motions @ along
             found.append(Loop(path, force, forces, motion, motions, along))
@@ -71,8 +71,8 @@ def draw_loop(ax: Any, loop: Loop) -> None:
     ax  axes of matplotlib
     """
     words = "" if loop.along is None else _direction_name(loop.along)
-    x, across = on_axis(loop.motion, loop.motions, words)
-    y, upward = on_axis(loop.force, loop.forces, words)
+    x, across = scale_for_axis(loop.motion, loop.motions, words)
+    y, upward = scale_for_axis(loop.force, loop.forces, words)
     ax.axhline(0.0, color=style.GREY, linewidth=0.5)
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)
     ax.plot(x, y, color=style.LINE_COLOURS[0], marker=".", markersize=3.5, linewidth=1.2)
@@ -92,7 +92,7 @@ def draw_loop(ax: Any, loop: Loop) -> None:
     style.legend_above(ax)
 
 
-def _direction(force: Values) -> Values:
+def _force_direction(force: Values) -> Values:
     """Return the unit vector along the largest force, with a positive largest component.
 
     force  tangential force of each increment (n, 2)
@@ -119,8 +119,8 @@ def draw_loading(ax: Any, result: Result) -> None:
     """
     path = [(0.0, 0.0), *((i.approach, i.normal_force) for i in result.increments)]
     approach, force = np.array(path).T
-    x, along = on_axis("approach", approach)
-    y, upward = on_axis("normal_force", force, "W")
+    x, along = scale_for_axis("approach", approach)
+    y, upward = scale_for_axis("normal_force", force, "W")
     # With one or two increments, a line between the points would not show the load history.
     line = "-" if len(path) > 3 else ""
     ax.plot(x, y, color=style.LINE_COLOURS[0], linestyle=line, marker="o", markersize=3.5)

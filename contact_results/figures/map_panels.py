@@ -54,7 +54,7 @@ class RingsAbove:
 
         rings  surface grid of the result
         """
-        touched = [_any_angle(rings.scalar(step, "in_contact")) for step in result.steps]
+        touched = [_rings_with_contact(rings.scalar(step, "in_contact")) for step in result.steps]
         reach = RINGS_MARGIN * float(rings.radii[np.any(touched, axis=0)].max())
         centres = np.linspace(-reach, reach, RINGS_ACROSS)
         return cls(rings, centres, centres)
@@ -69,7 +69,7 @@ class RingsAbove:
         field = self.rings.scalar(step, name)
         if field is None:
             return None
-        sampled = self._sampled(field.astype(float))
+        sampled = self._interpolate_rings(field.astype(float))
         return sampled > 0.5 if field.dtype == bool else sampled
 
     def vector(self, step: Increment, name: str) -> Field | None:
@@ -82,16 +82,16 @@ class RingsAbove:
         components = self.rings.components(step, name)
         if components is None:
             return None
-        outward, around, ahead = map(self._sampled, components)
-        _, angle = self._polar()
-        if self.rings.angles is not None and not self.rings.whole:
+        outward, around, ahead = map(self._interpolate_rings, components)
+        _, angle = self._polar_coordinates()
+        if self.rings.angles is not None and not self.rings.covers_circle:
             around = np.sign(angle) * around
         cos, sin = np.cos(angle), np.sin(angle)
         along, across = outward * cos - around * sin + ahead, outward * sin + around * cos
         x, y = self.rings.direction
         return np.stack([x * along - y * across, y * along + x * across])
 
-    def _polar(self) -> tuple[Field, Field]:
+    def _polar_coordinates(self) -> tuple[Field, Field]:
         """Return the polar coordinates of every cell centre, each of shape (nx, ny).
 
         These are the radius [length] and the angle from the load, in (-π, π].
@@ -100,19 +100,19 @@ class RingsAbove:
         cos, sin = self.rings.direction
         return np.hypot(x, y), np.arctan2(cos * y - sin * x, cos * x + sin * y)
 
-    def _sampled(self, field: Field) -> Field:
+    def _interpolate_rings(self, field: Field) -> Field:
         """Interpolate a field of the rings at the cell centres (nx, ny).
 
         field  values (rings,) or (rings, angles)
         """
         from scipy.ndimage import map_coordinates
 
-        radius, angle = self._polar()
+        radius, angle = self._polar_coordinates()
         at = [np.interp(radius, self.rings.radii, np.arange(len(self.rings.radii)))]
         if field.ndim > 1:
             angles = self.rings.angles
             assert angles is not None
-            if self.rings.whole:
+            if self.rings.covers_circle:
                 # Repeat the first ray at angle 2π.
                 field = np.concatenate([field, field[:, :1]], axis=1)
                 angle, angles = angle % (2 * np.pi), np.append(angles, 2 * np.pi)
@@ -120,7 +120,7 @@ class RingsAbove:
         return np.asarray(map_coordinates(field, at, order=1))
 
 
-def _any_angle(field: NDArray[Any] | None) -> NDArray[np.bool_]:
+def _rings_with_contact(field: NDArray[Any] | None) -> NDArray[np.bool_]:
     """Return a mask of the rings at which a field is true at any angle (rings,).
 
     field  mask (rings,) or (rings, angles)
@@ -169,7 +169,9 @@ class MapFrame:
     @property
     def extent(self) -> tuple[float, float, float, float]:
         """Outer boundaries of the cells (left, right, bottom, top), in the unit of the axes."""
-        x, y = (_edge(centres) / self.unit.size for centres in (self.cells.x, self.cells.y))
+        x, y = (
+            _window_boundary(centres) / self.unit.size for centres in (self.cells.x, self.cells.y)
+        )
         return -x, x, -y, y
 
     def figure_size(self, panels: int) -> tuple[float, float]:
@@ -183,7 +185,7 @@ class MapFrame:
         return columns * (width + 0.2) + 1.3, rows * (height + 0.55) + 0.2
 
 
-def _edge(centres: Field) -> float:
+def _window_boundary(centres: Field) -> float:
     """Return the coordinate of the window boundary, half a cell beyond the last centre [length].
 
     centres  coordinates of the cell centres along one axis (n,) [length]
@@ -197,7 +199,7 @@ def _half_extent(centres: Field, touched: NDArray[np.bool_]) -> float:
     centres  coordinates of the cell centres along the axis (n,) [length]
     touched  mask of the centres that have a cell in contact (n,)
     """
-    edge = _edge(centres)
+    edge = _window_boundary(centres)
     reach = np.max(np.abs(centres[touched]), initial=0.0) + edge - centres[-1]
     return float(min(MARGIN * reach, edge))
 

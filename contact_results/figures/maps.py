@@ -21,7 +21,7 @@ from contact_results.figures.map_panels import (
     map_axes,
     outline,
 )
-from contact_results.figures.shown_steps import selected, step_title
+from contact_results.figures.shown_steps import select_steps, step_title
 from contact_scene.array_types import Field
 from contact_scene.reading.engineering_units import (
     EngineeringUnit,
@@ -74,7 +74,9 @@ def field_map(result: Result, cells: Above, name: str) -> Figure | None:
     label, symbol, is_vector = FIELDS[name]
     read = cells.vector if is_vector else cells.scalar
     given = [(step, read(step, name)) for step in result.steps]
-    shown = selected([(step, field) for step, field in given if field is not None and field.any()])
+    shown = select_steps(
+        [(step, field) for step, field in given if field is not None and field.any()]
+    )
     if not shown:
         return None
     sizes = [np.hypot(*field) if is_vector else field for _, field in shown]
@@ -103,7 +105,7 @@ def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
     Each map has a separate colour scale.
     """
     frame = MapFrame.around_contact(result, cells)
-    fields = list(_fields_of(cycle))
+    fields = list(_cycle_fields(cycle))
     width, height = frame.figure_size(len(fields))
     columns = 2 if len(fields) == 4 else 3
     figure = style.new_figure(width + 1.1 * (columns - 1), height + 0.8)
@@ -121,7 +123,7 @@ def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
     return figure
 
 
-def _fields_of(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, Field]]:
+def _cycle_fields(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, Field]]:
     """Yield title, unit and surface field of each map of a load cycle: slip, energy, F1, F2."""
     for title, symbol, values in (
         ("slip amplitude δ", "m", cycle.slip_amplitude),
@@ -146,7 +148,7 @@ def stick_slip_map(result: Result, cells: Above) -> Figure:
     cells  surface grid of the maps
     """
     frame = MapFrame.around_contact(result, cells)
-    steps = selected([step for step in result.steps if step.in_stick is not None])
+    steps = select_steps([step for step in result.steps if step.in_stick is not None])
     width, height = frame.figure_size(len(steps))
     figure = style.new_figure(width - 0.6, height + 0.3)  # a legend instead of a colour bar
     for ax, step in zip(map_axes(figure, frame, len(steps)), steps, strict=True):

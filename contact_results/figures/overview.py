@@ -77,7 +77,7 @@ def overview(
         for column in range(columns)
     )
     draw_end(profile, result, surface_of(result))
-    _draw_seen(figure, zones, result, above)
+    _draw_surface_map(figure, zones, result, above)
     loop = load_loop(result.increments)
     if loop is not None and np.count_nonzero(loop.forces) >= LEAST_MOVES:
         draw_loop(history, loop)
@@ -150,7 +150,7 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
     return state
 
 
-def _draw_seen(figure: Figure, ax: Any, result: Result, above: Above) -> None:
+def _draw_surface_map(figure: Figure, ax: Any, result: Result, above: Above) -> None:
     """Draw the map of the overview: stick and slip zones, or the pressure without friction.
 
     ax     axes of matplotlib

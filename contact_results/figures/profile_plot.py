@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from contact_results.figures import style
-from contact_results.figures.shown_steps import SAME, selected
+from contact_results.figures.shown_steps import SAME, select_steps
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.reading.engineering_units import (
     EngineeringUnit,
@@ -44,7 +44,7 @@ class Component:
         x   coordinates along the line in the unit of the figure (n,)
         """
         for number, (step, values) in enumerate(self.lines.items()):
-            ax.plot(x, values / self.unit.size, label=f"step {step}", **style.line(number))
+            ax.plot(x, values / self.unit.size, label=f"step {step}", **style.line_style(number))
         ax.axhline(0.0, color="black", linewidth=0.5)
         ax.set_ylabel(self.unit.labelled(self.name))
         style.legend_beside(ax)
@@ -56,15 +56,15 @@ def profile_plot(result: Result, surface: Surface) -> Figure:
     The panels of shear show the friction limit ± µp at the end of the history. Components that are
     zero have no panel.
     """
-    steps: list[Increment] = selected([*result.steps])
-    shears = _shears(surface, steps)
+    steps: list[Increment] = select_steps([*result.steps])
+    shears = _shear_curves(surface, steps)
     figure = style.new_figure(6.0, 3.2 + 2.4 * len(shears))
     axes = figure.subplots(1 + len(shears), 1, sharex=True, squeeze=False)[:, 0]
     length = _line_axis(axes[-1], result, surface)
-    x = surface.line.places / length.size
-    _pressures(surface, steps).draw(axes[0], x)
+    x = surface.profile_line.places / length.size
+    _pressure_curves(surface, steps).draw(axes[0], x)
     axes[0].set_ylim(bottom=0.0)
-    limit = (result.scene.friction or FRICTIONLESS).limit(_pressure(steps[-1], surface))
+    limit = (result.scene.friction or FRICTIONLESS).limit(_pressure_field(steps[-1], surface))
     for ax, shear in zip(axes[1:], shears, strict=True):
         bound = surface.along(limit) / shear.unit.size
         ax.fill_between(x, -bound, bound, color=style.GREY, alpha=0.2, linewidth=0, label="± µp")
@@ -81,29 +81,29 @@ def draw_end(ax: Any, result: Result, surface: Surface) -> None:
     ax  axes of matplotlib
     """
     length, end = _line_axis(ax, result, surface), result.steps[-1]
-    x, pressure = surface.line.places / length.size, _pressures(surface, [end])
+    x, pressure = surface.profile_line.places / length.size, _pressure_curves(surface, [end])
     unit = pressure.unit
-    ax.plot(x, pressure.lines[end.step] / unit.size, label=pressure.name, **style.line(0))
+    ax.plot(x, pressure.lines[end.step] / unit.size, label=pressure.name, **style.line_style(0))
     friction = result.scene.friction
     coefficient = friction.uniform if friction is not None else None
     if coefficient:
-        for number, shear in enumerate(_shears(surface, [end]), 1):
+        for number, shear in enumerate(_shear_curves(surface, [end]), 1):
             scaled = shear.lines[end.step] / (coefficient * unit.size)
             name = f"{shear.name.removeprefix('shear ')}/µ"
-            ax.plot(x, scaled, label=name, **style.line(number))
+            ax.plot(x, scaled, label=name, **style.line_style(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
     ax.set_ylabel(unit.labelled("traction"))
     style.legend_above(ax)
 
 
-def _pressures(surface: Surface, steps: Sequence[Increment]) -> Component:
+def _pressure_curves(surface: Surface, steps: Sequence[Increment]) -> Component:
     """Return the profiles of the pressure along the line, at the ends of the given load steps."""
-    lines = {step.step: surface.along(_pressure(step, surface)) for step in steps}
+    lines = {step.step: surface.along(_pressure_field(step, surface)) for step in steps}
     unit = engineering_unit(max(step.peak_pressure for step in steps), "Pa")
     return Component("pressure p", lines, unit)
 
 
-def _shears(surface: Surface, steps: Sequence[Increment]) -> list[Component]:
+def _shear_curves(surface: Surface, steps: Sequence[Increment]) -> list[Component]:
     """Return the profiles of the shear components along and across the line.
 
     Components that are round-off at the ends of all given load steps are omitted.
@@ -114,7 +114,7 @@ def _shears(surface: Surface, steps: Sequence[Increment]) -> list[Component]:
     largest = np.max([(0.0, 0.0), *sizes], axis=0).tolist()
     return [
         Component(
-            f"shear $q_{{{surface.line.components[k]}}}$",
+            f"shear $q_{{{surface.profile_line.components[k]}}}$",
             {step: vector[k] for step, vector in lines.items()},
             engineering_unit(largest[k], "Pa"),
         )
@@ -130,18 +130,18 @@ def _line_axis(ax: Any, result: Result, surface: Surface) -> EngineeringUnit:
 
     Returns the unit of length of this axis.
     """
-    places = surface.line.places
-    touched = [surface.along(_pressure(step, surface)) > 0 for step in result.steps]
+    places = surface.profile_line.places
+    touched = [surface.along(_pressure_field(step, surface)) > 0 for step in result.steps]
     inside = np.flatnonzero(np.any(touched, axis=0))
     ends = [max(inside[0] - 1, 0), min(inside[-1] + 1, len(places) - 1)]
     reach = float(min(MARGIN * np.max(np.abs(places[ends])), np.max(places)))
     length = engineering_unit(reach, "m")
-    ax.set_xlabel(length.labelled(surface.line.label))
+    ax.set_xlabel(length.labelled(surface.profile_line.label))
     ax.set_xlim(-reach / length.size if places[0] < 0 else 0.0, reach / length.size)
     return length
 
 
-def _pressure(step: Increment, surface: Surface) -> Field:
+def _pressure_field(step: Increment, surface: Surface) -> Field:
     """Return the pressure at the end of a load step, at all points of the surface grid."""
     pressure = surface.scalar(step, "pressure")
     assert pressure is not None

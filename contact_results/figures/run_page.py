@@ -76,20 +76,20 @@ def write_page(
     """
     parts = [
         f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
-        _row("status", result.steps[-1].status.value),
-        *(_row(name, text) for name, text in key_numbers(result.steps, errors)),
+        _row_html("status", result.steps[-1].status.value),
+        *(_row_html(name, text) for name, text in key_numbers(result.steps, errors)),
         "</table>" + ("" if errors is not None else "<p>Errors were left out.</p>"),
-        *(_cycles(cycles) if cycles else ()),
+        *(_cycle_section(cycles) if cycles else ()),
         f'<p class="soft">{READ_ON}</p>',
         *(f"<p><strong>Warning:</strong> {escape(text)}.</p>" for text in warnings_of(result)),
-        *_figures(directory / name for name in file_names.RUN_FILES if name.endswith(".png")),
+        *_figures_html(directory / name for name in file_names.RUN_FILES if name.endswith(".png")),
         "<h2>Settings</h2><table>",
-        *(_row(name, text) for name, text in _settings(result)),
+        *(_row_html(name, text) for name, text in _setting_rows(result)),
         "</table><details><summary>The scene</summary><pre>",
         escape(result.scene.model_dump_json(indent=2, exclude_none=True)),
         "</pre></details>",
     ]
-    _write(directory / file_names.PAGE, result.scene.title or "Contact", parts)
+    _write_html(directory / file_names.PAGE, result.scene.title or "Contact", parts)
 
 
 def write_stress_page(
@@ -103,13 +103,13 @@ def write_stress_page(
     directory  output directory
     """
     parts = [
-        *("<h2>Largest stresses</h2>", *_table(columns), f'<p class="soft">{OF_STRESS}</p>'),
-        *_figures(directory / name for name in figures),
+        *("<h2>Largest stresses</h2>", *_table_html(columns), f'<p class="soft">{OF_STRESS}</p>'),
+        *_figures_html(directory / name for name in figures),
     ]
-    _write(directory / file_names.STRESS_PAGE, title, parts)
+    _write_html(directory / file_names.STRESS_PAGE, title, parts)
 
 
-def _write(path: Path, title: str, parts: Iterable[str]) -> None:
+def _write_html(path: Path, title: str, parts: Iterable[str]) -> None:
     """Write an HTML page.
 
     parts  pieces of HTML below the title
@@ -127,7 +127,7 @@ def _write(path: Path, title: str, parts: Iterable[str]) -> None:
     path.write_text("\n".join(page), encoding="utf-8")
 
 
-def _settings(result: Result) -> Iterator[tuple[str, str]]:
+def _setting_rows(result: Result) -> Iterator[tuple[str, str]]:
     """Yield name and text of each setting of a run, such as solver, tolerance and cells."""
     yield "solver", result.solver
     yield "tolerance of every residual", f"{result.tolerance:.3g}"
@@ -140,50 +140,50 @@ def _settings(result: Result) -> Iterator[tuple[str, str]]:
         yield effect.name, f"{'on' if effect.on else 'off'}: {effect.why}"
 
 
-def _cycles(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
+def _cycle_section(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
     """Yield the HTML of the section on load cycles, with table and legend.
 
     columns  table of the load cycles, as columns by heading
     """
     yield "<h2>Load cycles</h2>"
-    yield from _table(columns)
-    yield f'<p class="soft">{_words(LOOPS)}</p>'
+    yield from _table_html(columns)
+    yield f'<p class="soft">{_text_html(LOOPS)}</p>'
 
 
-def _table(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
+def _table_html(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
     """Yield the HTML of a table.
 
     columns  texts of the cells by heading of their column
     """
     yield '<div class="wide"><table><tr>'
-    yield from (f'<th scope="col">{_words(heading)}</th>' for heading in columns)
+    yield from (f'<th scope="col">{_text_html(heading)}</th>' for heading in columns)
     for texts in zip(*columns.values(), strict=True):
-        yield "</tr><tr>" + "".join(f"<td>{_words(text)}</td>" for text in texts)
+        yield "</tr><tr>" + "".join(f"<td>{_text_html(text)}</td>" for text in texts)
     yield "</tr></table></div>"
 
 
-def _row(name: str, text: str) -> str:
+def _row_html(name: str, text: str) -> str:
     """Return the HTML of a table row with a name and a text."""
-    return f'<tr><th scope="row">{_words(name)}</th><td>{_words(text)}</td></tr>'
+    return f'<tr><th scope="row">{_text_html(name)}</th><td>{_text_html(text)}</td></tr>'
 
 
-def _words(text: str) -> str:
+def _text_html(text: str) -> str:
     """Return the HTML of a text: subscripts of symbols such as E_d, and spaces in names."""
     symbols = re.sub(r"_(\w)\b", r"<sub>\1</sub>", escape(text))
     return symbols.replace("_", " ").replace("\n", "<br>")
 
 
-def _figures(paths: Iterable[Path]) -> Iterator[str]:
+def _figures_html(paths: Iterable[Path]) -> Iterator[str]:
     """Yield the HTML of the figures whose files exist.
 
     paths  paths of image files
     """
     yield '<div class="figures">'
-    yield from (_figure(path) for path in paths if path.is_file())
+    yield from (_figure_html(path) for path in paths if path.is_file())
     yield "</div>"
 
 
-def _figure(path: Path) -> str:
+def _figure_html(path: Path) -> str:
     """Return the HTML of one figure, with the image data included and a link that enlarges it."""
     name = HEADINGS.get(path.stem, path.stem.replace("_", " ").capitalize())
     data = b64encode(path.read_bytes()).decode("ascii")

@@ -57,7 +57,7 @@ def draw_section(
     """
     points, (reach, depth) = field.section, field.shown
     length = engineering_unit(reach, "m")
-    triangles, drawn = _triangles(points, values, length, reach, depth)
+    triangles, drawn = _divide_into_triangles(points, values, length, reach, depth)
     in_view = drawn[triangles.triangles]
     unit = engineering_unit(float(np.abs(in_view).max()), "Pa")
     low, high = float(in_view.min()) / unit.size, float(in_view.max()) / unit.size
@@ -135,7 +135,7 @@ def even_levels(low: float, high: float) -> Values:
     return np.asarray(rounded.tick_values(low, high), dtype=float)
 
 
-def _triangles(
+def _divide_into_triangles(
     points: StressPoints, values: Values, length: EngineeringUnit, reach: float, depth: float
 ) -> tuple[Triangulation, Values]:
     """Divide each visible quadrilateral of the section into four triangles around its centre.
@@ -146,7 +146,7 @@ def _triangles(
 
     Returns the triangles, and the stress at their nodes; a centre has the mean of its corners.
     """
-    quads = _quadrilaterals(points, reach, depth)
+    quads = _visible_quadrilaterals(points, reach, depth)
     x, z, drawn = (
         np.concatenate([part.ravel(), part.ravel()[quads].mean(axis=1)])
         for part in (points.x, points.depth, values)
@@ -157,7 +157,7 @@ def _triangles(
     return Triangulation(x / length.size, z / length.size, corners), drawn
 
 
-def _quadrilaterals(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:
+def _visible_quadrilaterals(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:
     """Return the corners (n, 4) of the quadrilaterals of all cells that are partly visible.
 
     reach, depth  extent of the figure to the sides and in depth [length]

@@ -23,7 +23,7 @@ SAME = 1e-6  # invisible difference, relative to the largest value
 Step = TypeVar("Step")
 
 
-def selected(steps: Sequence[Step]) -> list[Step]:
+def select_steps(steps: Sequence[Step]) -> list[Step]:
     """Select at most AT_MOST evenly spaced load steps, including the first and the last.
 
     steps  items of any type, one per load step
@@ -34,7 +34,7 @@ def selected(steps: Sequence[Step]) -> list[Step]:
     return [steps[position] for position in positions]
 
 
-def on_axis(name: str, values: Field, which: str = "") -> tuple[Field, str]:
+def scale_for_axis(name: str, values: Field, which: str = "") -> tuple[Field, str]:
     """Return the values of a scalar for the axis of a figure, and the label of this axis.
 
     The values are in a suitable unit, which the label names.

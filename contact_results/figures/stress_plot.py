@@ -47,13 +47,13 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
     points = field.section
     panels = {
         "von Mises": points.von_mises,
-        _named("xx"): points.components["xx"],
-        _named("xz"): points.components["xz"],
+        _component_label("xx"): points.components["xx"],
+        _component_label("xz"): points.components["xz"],
         "tensile stress (largest principal)": np.maximum(points.principal[0], 0.0),
     }
     half = float(points.x.min()) >= 0
     width = 6.4 if half else 9.0
-    figure = _titled(width, 6.4, title)
+    figure = _titled_figure(width, 6.4, title)
     place = {"bottom": 0.08, "top": 0.92, "wspace": 0.2, "hspace": 0.1}
     place |= {"left": 0.7 / width, "right": 1 - 0.75 / width}  # labels of either side [inch]
     axes = figure.subplots(2, 2, sharex=True, sharey=True, gridspec_kw=place)
@@ -71,7 +71,7 @@ def line_plot(field: StressField, body: Body, title: str) -> Figure:
 
     The trailing edge is the edge with the larger σ_xx at the surface. Call within `figure_style`.
     """
-    figure = _titled(11.0, 4.4, title)
+    figure = _titled_figure(11.0, 4.4, title)
     place = {"left": 0.06, "right": 0.97, "bottom": 0.12, "top": 0.84, "wspace": 0.25}
     axis, below, surface = figure.subplots(1, 3, gridspec_kw=place)
     draw_depth(axis, field, body, field.axis, "on the axis")
@@ -89,19 +89,19 @@ def draw_surface(ax: Any, field: StressField) -> None:
     """
     reach = field.shown[0]
     length = engineering_unit(reach, "m")
-    surface, ends = _at_surface(field), _ends(field)
-    parts = [surface.chosen(np.abs(surface.x) <= reach), *([ends] if ends else [])]
+    surface, ends = _surface_points(field), _edge_crossings(field)
+    parts = [surface.select(np.abs(surface.x) <= reach), *([ends] if ends else [])]
     x = np.concatenate([part.x for part in parts])
     order = np.argsort(x, kind="stable")
     lines = {
-        _named(name): np.concatenate([part.components[name] for part in parts])[order]
+        _component_label(name): np.concatenate([part.components[name] for part in parts])[order]
         for name in ("xx", "yy")
     }
     unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
     for number, (name, values) in enumerate(lines.items()):
-        ax.plot(x[order] / length.size, values / unit.size, label=name, **style.line(number))
+        ax.plot(x[order] / length.size, values / unit.size, label=name, **style.line_style(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
-    for edge in _places_of_ends(field):
+    for edge in _edge_positions(field):
         if edge >= surface.x.min():
             ax.axvline(edge / length.size, color=style.GREY, linewidth=0.7, linestyle=":")
     dotted = "edge of the contact" if ends else "contact radius"
@@ -110,7 +110,7 @@ def draw_surface(ax: Any, field: StressField) -> None:
     style.legend_above(ax)
 
 
-def _ends(field: StressField) -> StressPoints | None:
+def _edge_crossings(field: StressField) -> StressPoints | None:
     """Select the points at which the fitted contact edge crosses y = 0, sorted along x.
 
     Each crossing is represented by the fitted point nearest to y = 0. Returns None if no edge was
@@ -119,35 +119,35 @@ def _ends(field: StressField) -> StressPoints | None:
     if field.edge is None or not field.edge.determined:
         return None
     points = field.edge.points
-    spacing = np.diff(np.unique(_at_surface(field).x)).max()
-    crossing = points.chosen(np.abs(points.y) < spacing)
+    spacing = np.diff(np.unique(_surface_points(field).x)).max()
+    crossing = points.select(np.abs(points.y) < spacing)
     order = np.argsort(crossing.x, kind="stable")
     groups = np.split(order, np.flatnonzero(np.diff(crossing.x[order]) > spacing) + 1)
     nearest = [group[np.argmin(np.abs(crossing.y[group]))] for group in groups if len(group)]
-    return crossing.chosen(np.array(nearest)) if nearest else None
+    return crossing.select(np.array(nearest)) if nearest else None
 
 
-def _places_of_ends(field: StressField) -> Sequence[float]:
+def _edge_positions(field: StressField) -> Sequence[float]:
     """Return the coordinates x of the contact edge at y = 0 [length].
 
     Without a fitted edge, these are ± the contact radius.
     """
-    ends = _ends(field)
+    ends = _edge_crossings(field)
     if ends is None:
-        return (-_radius(field), _radius(field))
+        return (-_contact_radius(field), _contact_radius(field))
     return tuple(float(x) for x in ends.x)
 
 
-def _radius(field: StressField) -> float:
+def _contact_radius(field: StressField) -> float:
     """Return the contact radius; for finite elements that of the last loaded ring [length]."""
     return float(str(field.how.get("contact_radius", field.how.get("loaded_radius"))))
 
 
-def _at_surface(field: StressField) -> StressPoints:
+def _surface_points(field: StressField) -> StressPoints:
     """Select the points of the stress section at its smallest depth, sorted along x."""
     points = field.section
     at = np.flatnonzero(points.depth == points.depth.min())
-    return points.chosen(at[np.argsort(points.x.flat[at], kind="stable")])
+    return points.select(at[np.argsort(points.x.flat[at], kind="stable")])
 
 
 def _below_edge(field: StressField) -> tuple[StressPoints, str]:
@@ -157,12 +157,12 @@ def _below_edge(field: StressField) -> tuple[StressPoints, str]:
 
     Returns the points, and their place in words.
     """
-    surface, points = _at_surface(field), field.section
-    ends = [int(np.argmin(np.abs(surface.x - x))) for x in _places_of_ends(field)]
+    surface, points = _surface_points(field), field.section
+    ends = [int(np.argmin(np.abs(surface.x - x))) for x in _edge_positions(field)]
     edge = float(surface.x[max(ends, key=lambda k: surface.components["xx"][k])])
-    below = np.flatnonzero(np.abs(points.x - edge) <= 1e-9 * _radius(field))
+    below = np.flatnonzero(np.abs(points.x - edge) <= 1e-9 * _contact_radius(field))
     order = np.lexsort([points.material.flat[below], points.depth.flat[below]])
-    return points.chosen(below[order]), f"below the edge x = {quantity(edge, 'm', 3)}"
+    return points.select(below[order]), f"below the edge x = {quantity(edge, 'm', 3)}"
 
 
 def draw_depth(ax: Any, field: StressField, body: Body, points: StressPoints, where: str) -> None:
@@ -178,8 +178,8 @@ def draw_depth(ax: Any, field: StressField, body: Body, points: StressPoints, wh
     """
     deepest = field.shown[1]
     length = engineering_unit(deepest, "m")
-    line = points.chosen(points.depth <= deepest)
-    lines = {_named(name): line.components[name] for name in ("xx", "yy", "zz", "xz")}
+    line = points.select(points.depth <= deepest)
+    lines = {_component_label(name): line.components[name] for name in ("xx", "yy", "zz", "xz")}
     lines["von Mises"] = line.von_mises
     unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
     for number, (name, values) in enumerate(lines.items()):
@@ -189,7 +189,7 @@ def draw_depth(ax: Any, field: StressField, body: Body, points: StressPoints, wh
                 values[inside] / unit.size,
                 line.depth[inside] / length.size,
                 label=name if material == line.material[0] else None,
-                **style.line(number),
+                **style.line_style(number),
             )
     ax.axvline(0.0, color="black", linewidth=0.5)
     ax.set_xlabel(unit.labelled("stress"))
@@ -198,12 +198,12 @@ def draw_depth(ax: Any, field: StressField, body: Body, points: StressPoints, wh
     style.legend_above(ax)
 
 
-def _named(component: str) -> str:
+def _component_label(component: str) -> str:
     """Return the label of a stress component, such as σ_xx, in the notation of matplotlib."""
     return f"$σ_{{{component}}}$"
 
 
-def _titled(width: float, height: float, title: str) -> Figure:
+def _titled_figure(width: float, height: float, title: str) -> Figure:
     """Create a figure with a title that is wrapped to its width.
 
     width, height  size of the figure [inch]
@@ -242,7 +242,7 @@ def _draw_point(ax: Any, history: Sequence[StressIncrement], n: int, layers: int
     layers  number of layers of the body
     """
     values = {
-        _named(name): [each.points.components[name][n] for each in history]
+        _component_label(name): [each.points.components[name][n] for each in history]
         for name in ("xx", "zz", "xz")
     }
     values["$σ_1$"] = [each.points.principal[0][n] for each in history]
@@ -251,7 +251,7 @@ def _draw_point(ax: Any, history: Sequence[StressIncrement], n: int, layers: int
     numbers = np.arange(1, len(history) + 1)
     for number, (label, stress) in enumerate(values.items()):
         bars, y = errors / unit.size, np.array(stress) / unit.size
-        ax.errorbar(numbers, y, bars, label=label, linewidth=1.2, **style.line(number))
+        ax.errorbar(numbers, y, bars, label=label, linewidth=1.2, **style.line_style(number))
     for k in np.flatnonzero(np.diff([each.step for each in history])):
         ax.axvline(k + 1, color=style.GREY, linewidth=0.7, linestyle=":")
     point = history[0].points

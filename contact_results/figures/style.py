@@ -61,7 +61,7 @@ def new_figure(width: float, height: float, *, arranged: bool = True) -> Figure:
     return figure
 
 
-def line(number: int) -> dict[str, Any]:
+def line_style(number: int) -> dict[str, Any]:
     """Return colour and dash pattern of a curve, distinct in colour and in grey print.
 
     number  number of the curve in its figure, from 0

@@ -39,7 +39,7 @@ WITH_UNIT = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")  # inverse of `Co
 STEP = Column("step", None, "Loading step, from 1.")
 
 
-def marked(name: str, mark: Reported, prefix: str = "") -> Column:
+def reported_column(name: str, mark: Reported, prefix: str = "") -> Column:
     """Create the table column of a value whose unit and meaning are declared in the code.
 
     name    name of the column

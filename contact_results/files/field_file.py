@@ -71,17 +71,17 @@ def write_fields(
         file.attrs["convention"] = CONVENTION
         file.attrs["solver"] = result.solver
         file.attrs["tolerance"] = result.tolerance
-        _write(file, "scene", result.scene.model_dump_json(), Reported("", "scene (JSON)"))
+        _write_dataset(file, "scene", result.scene.model_dump_json(), Reported("", "scene (JSON)"))
         for key, stored in result.scene.array_files.items():
             mark = Reported("", f"values of the file that the key {key} of the scene names")
-            _write(file.require_group(MAPS), key, stored.values, mark, **COMPRESSION)
+            _write_dataset(file.require_group(MAPS), key, stored.values, mark, **COMPRESSION)
         if isinstance(surface, Rings):
             file.attrs["direction"] = surface.direction
         if hasattr(result, "discretisation"):
             fineness = result.discretisation.model_dump_json()
-            _write(file, "discretisation", fineness, Reported("", "discretisation (JSON)"))
+            _write_dataset(file, "discretisation", fineness, Reported("", "discretisation (JSON)"))
         for name, values in surface.axes.items():
-            _write(file, name, values, Reported(*AXES[name]), (name,))
+            _write_dataset(file, name, values, Reported(*AXES[name]), (name,))
         group = file.create_group("increments", track_order=False)
         shown = increments if all_fields else result.steps
         counted = PER_INCREMENT if all_fields else PER_STEP
@@ -132,7 +132,7 @@ def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
     for name, meaning in PLACES.items():
         attribute = "index" if name == "increment" else name
         values = [getattr(i, attribute) for i in increments]
-        _write(group, name, values, Reported("", meaning), PER_INCREMENT)
+        _write_dataset(group, name, values, Reported("", meaning), PER_INCREMENT)
     for name, mark in SCALARS.items():
         nothing = np.full(len(components(name)), np.nan)
         given = (getattr(i, name) for i in increments)
@@ -140,7 +140,7 @@ def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
         if np.all(np.isnan(found)):
             continue
         found = found if mark.kind is Kind.VECTOR else found[:, 0]
-        _write(group, name, found, mark, (*PER_INCREMENT, *COMPONENT)[: found.ndim])
+        _write_dataset(group, name, found, mark, (*PER_INCREMENT, *COMPONENT)[: found.ndim])
 
 
 def _write_field(
@@ -176,7 +176,7 @@ def _write_field(
             )
             places = tuple(surface.axes)
             of_vector = COMPONENT * (field.ndim - len(places))
-            _describe(dataset, mark, (*counted, *of_vector, *places))
+            _describe_dataset(dataset, mark, (*counted, *of_vector, *places))
         dataset[index] = field
 
 
@@ -189,10 +189,10 @@ def _write_cycle(group: h5py.Group, cycle: FrettingCycle, places: tuple[str, ...
     for name, mark in reported(type(cycle)).items():
         values = getattr(cycle, name)
         if mark.kind is Kind.FIELD and values is not None:
-            _write(group, name, values, mark, places, **COMPRESSION)
+            _write_dataset(group, name, values, mark, places, **COMPRESSION)
 
 
-def _write(
+def _write_dataset(
     group: h5py.Group,
     name: str,
     values: Any,
@@ -206,10 +206,12 @@ def _write(
     indices  label of each array index
     how      further arguments of h5py, such as the compression
     """
-    _describe(group.create_dataset(name, data=values, track_times=False, **how), mark, indices)
+    _describe_dataset(
+        group.create_dataset(name, data=values, track_times=False, **how), mark, indices
+    )
 
 
-def _describe(dataset: h5py.Dataset, mark: Reported, indices: tuple[str, ...]) -> None:
+def _describe_dataset(dataset: h5py.Dataset, mark: Reported, indices: tuple[str, ...]) -> None:
     """Add unit, meaning and the labels of the array indices to an HDF5 dataset."""
     dataset.attrs["unit"] = mark.unit
     dataset.attrs["description"] = mark.meaning

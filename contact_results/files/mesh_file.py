@@ -63,8 +63,8 @@ def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
     whole = meshio.Mesh(
         mesh.points,
         [mesh.cells],
-        point_data={name: _finite(values) for name, values in mesh.at_points.items()},
-        cell_data={name: [_finite(values)] for name, values in mesh.on_cells.items()},
+        point_data={name: _finite_values(values) for name, values in mesh.at_points.items()},
+        cell_data={name: [_finite_values(values)] for name, values in mesh.on_cells.items()},
     )
     with atomic_file(path) as temporary:
         whole.write(temporary, file_format="vtu", binary=True, compression="zlib")
@@ -72,7 +72,7 @@ def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
         temporary.write_bytes(temporary.read_bytes().replace(HEAD, comment, 1))
 
 
-def _finite(values: Values) -> Values:
+def _finite_values(values: Values) -> Values:
     """Convert the values of a field for a VTU file: infinity to NaN, True and False to 1 and 0."""
     if values.dtype == bool:
         return values.astype(np.int8)

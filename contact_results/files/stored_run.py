@@ -23,10 +23,10 @@ from contact_results.files.stored_values import (
     MISREAD,
     ends_of_steps,
     fields_digest,
-    opened,
+    open_hdf5,
+    read_dataset,
+    read_text,
     row_of,
-    text,
-    values,
 )
 from contact_results.surface import SURFACE_FIELDS, Surface, surface_on
 from contact_scene import FiniteElementDiscretisation, Scene
@@ -64,7 +64,7 @@ class StoredGroup(Mapping[str, StoredValues]):
 
     def __init__(self, path: Path, group: str) -> None:
         self._path, self._group = path, group
-        with opened(path) as file:
+        with open_hdf5(path) as file:
             found = file.get(group, {}).items()
             self._names = tuple(
                 name for name, item in found if isinstance(item, h5py.Dataset) and item.shape
@@ -73,7 +73,7 @@ class StoredGroup(Mapping[str, StoredValues]):
     def __getitem__(self, name: str) -> StoredValues:
         if name not in self._names:
             raise KeyError(f"{self._path} has no {name!r} in {self._group}: {self._names}")
-        with opened(self._path) as file:
+        with open_hdf5(self._path) as file:
             dataset = file[self._group][name]
             unit, meaning = (dataset.attrs.get(mark) for mark in ("unit", "description"))
             if not (isinstance(unit, str) and isinstance(meaning, str)):
@@ -82,18 +82,22 @@ class StoredGroup(Mapping[str, StoredValues]):
                     f"expected two texts as in the {FIELDS} of a run"
                 )
             indices = tuple(dim.label for dim in dataset.dims)
-            return StoredValues(values(dataset), unit, meaning, indices if all(indices) else ())
+            return StoredValues(
+                read_dataset(dataset), unit, meaning, indices if all(indices) else ()
+            )
 
-    def at(self, increment: int) -> dict[str, NDArray[Any]]:
+    def arrays_at(self, increment: int) -> dict[str, NDArray[Any]]:
         """Read the values of all arrays of the group at one increment, by name.
 
         increment  index of the increment in the whole history, from 0
 
         Raises FieldsAtEndsOnly if the fields at this increment were not stored.
         """
-        with opened(self._path) as file:
+        with open_hdf5(self._path) as file:
             group = file[self._group]
-            return {name: values(group[name], row_of(group[name], increment)) for name in self}
+            return {
+                name: read_dataset(group[name], row_of(group[name], increment)) for name in self
+            }
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._names)
@@ -156,7 +160,7 @@ class StoredRun:
         """
         found: dict[str, Any] = dict.fromkeys((*SCALARS, *SURFACE_FIELDS))
         shape = self.surface.weights.shape
-        for name, value in self.increments.at(number).items():
+        for name, value in self.increments.arrays_at(number).items():
             if name in SURFACE_FIELDS and value.shape not in (shape, (2, *shape)):
                 raise ValueError(f"{name} has shape {value.shape}, expected {shape}")
             known = name in SURFACE_FIELDS or not np.any(np.isnan(value))
@@ -189,12 +193,12 @@ def load(directory: str | PathLike[str]) -> StoredRun:
     except ValueError as error:
         raise ValueError(f"{summary} is not the {SUMMARY} of a run: {error}") from None
     try:
-        with opened(fields) as file:
-            arrays = {key: values(array) for key, array in file.get(MAPS, {}).items()}
-            scene = Scene.model_validate_json(text(file["scene"]), context={"arrays": arrays})
+        with open_hdf5(fields) as file:
+            arrays = {key: read_dataset(array) for key, array in file.get(MAPS, {}).items()}
+            scene = Scene.model_validate_json(read_text(file["scene"]), context={"arrays": arrays})
             fineness = None
             if "discretisation" in file:
-                asked = text(file["discretisation"])
+                asked = read_text(file["discretisation"])
                 fineness = FiniteElementDiscretisation.model_validate_json(asked)
             if "increments" not in file:
                 raise ValueError("it has no increments")

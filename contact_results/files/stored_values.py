@@ -43,7 +43,7 @@ class FieldsAtEndsOnly(KeyError):
 
 
 @contextmanager
-def opened(path: Path) -> Iterator[h5py.File]:
+def open_hdf5(path: Path) -> Iterator[h5py.File]:
     """Open an HDF5 file for reading in the `with` block.
 
     Raises ValueError if h5py cannot read the file, if another process uses it, or if it contains
@@ -105,7 +105,7 @@ def row_of(dataset: h5py.Dataset, increment: int) -> int:
     """
     if dataset.dims[0].label != STEP:
         return increment
-    found = np.flatnonzero(ends_of_steps(values(dataset.parent["step"])) == increment)
+    found = np.flatnonzero(ends_of_steps(read_dataset(dataset.parent["step"])) == increment)
     if not len(found):
         raise FieldsAtEndsOnly(
             f"{dataset.file.filename} has {dataset.name} at the ends of load steps only, and "
@@ -114,7 +114,7 @@ def row_of(dataset: h5py.Dataset, increment: int) -> int:
     return int(found[0])
 
 
-def values(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
+def read_dataset(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
     """Read all values of a dataset, or those at one index along its first axis.
 
     Nothing is read if an error is raised.
@@ -152,7 +152,7 @@ def values(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
     return read
 
 
-def text(dataset: h5py.Dataset) -> str:
+def read_text(dataset: h5py.Dataset) -> str:
     """Read a dataset that contains a text, such as the scene; raise the errors of `values`."""
-    content: Any = values(dataset)
+    content: Any = read_dataset(dataset)
     return content.decode() if isinstance(content, bytes) else str(content)

@@ -106,7 +106,7 @@ def _step_summary(
     }
     return StepSummary(
         **{
-            name: _aggregate(mark.kind, [getattr(increment, name) for increment in within])
+            name: _step_value(mark.kind, [getattr(increment, name) for increment in within])
             for name, mark in SCALARS.items()
         },
         **(cycle.numbers if cycle else {}),
@@ -116,7 +116,7 @@ def _step_summary(
     )
 
 
-def _aggregate(kind: Kind, values: Sequence[Any]) -> Any:
+def _step_value(kind: Kind, values: Sequence[Any]) -> Any:
     """Return the value of a scalar for a load step from its values at the increments.
 
     kind    determines the result: the largest value for Kind.LARGEST, else the last value

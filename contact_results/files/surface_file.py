@@ -38,7 +38,7 @@ def write_surface(surface: Surface, increment: Any, path: Path, convention: str)
     convention  text about units, axes and signs
     """
     if isinstance(surface, Rings):
-        surface, increment = _all_around(surface, increment)
+        surface, increment = _extend_to_full_circle(surface, increment)
     arrays: dict[str, NDArray[Any]] = {}
     for name, heading in VECTORS.items():
         vector = surface.vector(increment, name)
@@ -50,32 +50,32 @@ def write_surface(surface: Surface, increment: Any, path: Path, convention: str)
         if field is not None:
             arrays[heading] = field.ravel()
     if isinstance(surface, Rings):
-        mesh = Mesh(*_disc(surface), at_points=arrays)
+        mesh = Mesh(*_disc_mesh(surface), at_points=arrays)
     else:
-        mesh = Mesh(*_rectangles(surface), on_cells=arrays)
+        mesh = Mesh(*_cell_mesh(surface), on_cells=arrays)
     write_mesh(mesh, path, convention)
 
 
-def _rectangles(cells: Surface) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
+def _cell_mesh(cells: Surface) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
     """Create the mesh of the cells of a surface grid.
 
     Returns the corners of the cells (n, 3) [length], the cell type, and the corner numbers of each
     cell (m, 4).
     """
-    x, y = (_between(centres) for centres in cells.axes.values())
+    x, y = (_cell_boundaries(centres) for centres in cells.axes.values())
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
     index = np.arange(len(places)).reshape(len(x), len(y))
     around = (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])
-    return _flat(places), ("quad", np.stack(around, axis=-1).reshape(-1, 4))
+    return _add_zero_depth(places), ("quad", np.stack(around, axis=-1).reshape(-1, 4))
 
 
-def _between(centres: Places) -> Places:
+def _cell_boundaries(centres: Places) -> Places:
     """Return the boundaries of cells along one axis (n + 1,) from the centres (n,) [length]."""
     half = (centres[-1] - centres[0]) / (len(centres) - 1) / 2
     return np.append(centres - half, centres[-1] + half)
 
 
-def _disc(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
+def _disc_mesh(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
     """Create the mesh of quadrilaterals between adjacent rings, closed around the axis.
 
     rings  rings with angles over the full circle
@@ -87,26 +87,26 @@ def _disc(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
     index = np.arange(places[..., 0].size).reshape(places.shape[:2])
     ahead = np.roll(index, -1, axis=1)
     quads = np.stack([index[:-1], index[1:], ahead[1:], ahead[:-1]], axis=-1)
-    return _flat(places.reshape(-1, 2)), ("quad", quads.reshape(-1, 4))
+    return _add_zero_depth(places.reshape(-1, 2)), ("quad", quads.reshape(-1, 4))
 
 
-def _all_around(rings: Rings, increment: Any) -> tuple[Rings, Any]:
+def _extend_to_full_circle(rings: Rings, increment: Any) -> tuple[Rings, Any]:
     """Extend rings and the fields of an increment to angles over the full circle.
 
     A half circle is reflected about the direction of the load. Rings without angles get AROUND
     angles, and their fields stay functions of the radius.
     """
-    if rings.whole:
+    if rings.covers_circle:
         return rings, increment
     if rings.angles is None:
         angles = np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)
         return replace(rings, angles=angles), increment
     angles = np.append(rings.angles, 2 * np.pi - rings.angles[-2:0:-1])
-    fields = {name: _mirrored(name, getattr(increment, name)) for name in SURFACE_FIELDS}
+    fields = {name: _reflect_field(name, getattr(increment, name)) for name in SURFACE_FIELDS}
     return replace(rings, angles=angles), SimpleNamespace(**fields)
 
 
-def _mirrored(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
+def _reflect_field(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
     """Extend a field on rings from the half circle to the full circle by reflection.
 
     name   name of the field; circumferential components are odd in the angle, all others even
@@ -120,7 +120,7 @@ def _mirrored(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
     return np.concatenate([field, -image if name.endswith("circumferential") else image], axis=1)
 
 
-def _flat(places: Places) -> Places:
+def _add_zero_depth(places: Places) -> Places:
     """Append the depth coordinate z = 0 to points on the surface.
 
     places  coordinates x and y (n, 2) [length]

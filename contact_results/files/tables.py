@@ -10,7 +10,13 @@ import numpy as np
 
 from contact_results.cycles import FrettingCycle
 from contact_results.directory.file_names import COLUMNS, CYCLES, INCREMENTS, PROFILES
-from contact_results.files.csv_file import STEP, Column, marked, write_meanings, write_table
+from contact_results.files.csv_file import (
+    STEP,
+    Column,
+    reported_column,
+    write_meanings,
+    write_table,
+)
 from contact_results.surface import Rings, surface_of
 from contact_scene.array_types import Field
 from contact_scene.quantities.field_metadata import Kind, reported
@@ -73,7 +79,7 @@ def _profile_rows(surface: Surface, step: Increment) -> Iterator[tuple[object, .
 
     step  increment at the end of the load step
     """
-    places = surface.line.places
+    places = surface.profile_line.places
     parts: list[Any] = [places * along for along in surface.direction]
     for name in PROFILE_VECTORS:
         vector = surface.vector(step, name)
@@ -81,7 +87,7 @@ def _profile_rows(surface: Surface, step: Increment) -> Iterator[tuple[object, .
     for name in PROFILE_SCALARS:
         field = surface.scalar(step, name)
         parts.append(None if field is None else surface.along(field.astype(np.float64)))
-    columns = [_shown(part, len(places)) for part in parts]
+    columns = [_column_cells(part, len(places)) for part in parts]
     # Both rays of a line of rings contain the axis.
     twice = places.size // 2 - 1 if np.count_nonzero(places == 0) == 2 else None
     for number, row in enumerate(zip(*columns, strict=True)):
@@ -89,7 +95,7 @@ def _profile_rows(surface: Surface, step: Increment) -> Iterator[tuple[object, .
             yield (step.step, *row)
 
 
-def _shown(values: Any, size: int) -> list[float | None]:
+def _column_cells(values: Any, size: int) -> list[float | None]:
     """Convert the values of a table column to floats, without negative zeros.
 
     values  array (size,); None gives `size` empty cells
@@ -105,7 +111,7 @@ def _shown(values: Any, size: int) -> list[float | None]:
 INCREMENT_COLUMNS = (
     STEP,
     Column("increment", None, "Increment within the step, from 1."),
-    *(marked(part, mark) for name, mark in SCALARS.items() for part in components(name)),
+    *(reported_column(part, mark) for name, mark in SCALARS.items() for part in components(name)),
 )
 
 
@@ -133,14 +139,14 @@ def _cycle_cells(
     yield Column("start_step", None, "Step at whose end the cycle begins."), cycle.cycle.start
     yield Column("end_step", None, "Step at whose end the cycle closes."), cycle.cycle.end
     yield Column("regime", None, words["regime"].meaning), values["regime"].value
-    yield marked("from_virgin", words["from_virgin"]), int(values["from_virgin"])
-    yield marked("input_work", fields["input_work"]), cycle.input_work
+    yield reported_column("from_virgin", words["from_virgin"]), int(values["from_virgin"])
+    yield reported_column("input_work", fields["input_work"]), cycle.input_work
     for name, field in (
         ("largest_dissipation", "dissipation"),
         ("surface_tension", "surface_tension"),
     ):
-        largest, *_ = _largest(getattr(cycle, field), surface)
-        yield marked(name, fields[field], "Largest value on the surface: "), largest
+        largest, *_ = _largest_with_place(getattr(cycle, field), surface)
+        yield reported_column(name, fields[field], "Largest value on the surface: "), largest
     for name, mark in OF_CYCLES.items():
         vector = mark.kind is Kind.VECTOR
         stated = errors.get(name)
@@ -148,15 +154,15 @@ def _cycle_cells(
         for number, part in enumerate((f"{name}_x", f"{name}_y") if vector else (name,)):
             both = (values.get(name), None if stated is None else stated.error)
             value, error = (v[number] if isinstance(v, tuple) else v for v in both)
-            yield marked(part, mark), value
+            yield reported_column(part, mark), value
             yield Column(f"{part}_error", mark.unit, means), error
     for name in ("ruiz_f1", "ruiz_f2"):
-        _, *place = _largest(getattr(cycle, name), surface)
+        _, *place = _largest_with_place(getattr(cycle, name), surface)
         for axis, at in zip("xy", place, strict=True):
             yield Column(f"{name}_{axis}", "m", f"Where {name} is largest."), at
 
 
-def _largest(field: Field | None, surface: Surface) -> tuple[float | None, ...]:
+def _largest_with_place(field: Field | None, surface: Surface) -> tuple[float | None, ...]:
     """Return the largest value of a field on the surface, and x and y of its point [length].
 
     The coordinates are None if the field is zero. All three are None without a field.

@@ -46,7 +46,9 @@ class BodyRegions:
     down: int
 
     @classmethod
-    def of(cls, body: Body, radius: float, down: int, *, infinite: bool = False) -> BodyRegions:
+    def from_body(
+        cls, body: Body, radius: float, down: int, *, infinite: bool = False
+    ) -> BodyRegions:
         """Determine the regions of a body and the depths at which the stress is computed.
 
         body      layers and base
@@ -111,7 +113,7 @@ class BodyRegions:
                 yield Level(depth, material)
 
 
-def spacing(places: Field, at: float) -> float:
+def adjacent_spacing(places: Field, at: float) -> float:
     """Return the larger of the two grid intervals that are adjacent to a coordinate [length].
 
     places  ascending grid coordinates (n,) [length]

@@ -103,15 +103,15 @@ def write_files(
         for e, size in zip(found, sizes, strict=True)
     )
     write_table(directory / MAXIMA, LARGEST_COLUMNS, maxima)
-    axis = _rows(field.axis.turned(field.direction), body)
+    axis = _point_rows(field.axis.rotate_to_scene(field.direction), body)
     write_table(directory / AXIS, POINT_COLUMNS, axis)
     interfaces = (
         (number, name, *row)
-        for number, name, points in sides(field, body)
-        for row in _rows(points.turned(field.direction), body)
+        for number, name, points in interface_points(field, body)
+        for row in _point_rows(points.rotate_to_scene(field.direction), body)
     )
     write_table(directory / INTERFACES, SIDE_COLUMNS, interfaces)
-    write_points(field.section.turned(field.direction), directory / SECTION, convention)
+    write_points(field.section.rotate_to_scene(field.direction), directory / SECTION, convention)
     files = {
         MAXIMA: LARGEST_COLUMNS,
         AXIS: POINT_COLUMNS,
@@ -119,7 +119,7 @@ def write_files(
         SECTION: POINT_ARRAYS,
     }
     if field.volume is not None:
-        write_points(field.volume.turned(field.direction), directory / VOLUME, convention)
+        write_points(field.volume.rotate_to_scene(field.direction), directory / VOLUME, convention)
         files[VOLUME] = POINT_ARRAYS
     write_meanings(directory / MEANINGS, files, convention)
     write_stress_summary(state, which, field, found, errors, accuracy, convention, directory)
@@ -147,7 +147,7 @@ def write_points(points: StressPoints, path: Path, convention: str) -> None:
     write_mesh(Mesh(places, points.cells, arrays), path, convention)
 
 
-def sides(field: StressField, body: Body) -> Iterator[tuple[int, str, StressPoints]]:
+def interface_points(field: StressField, body: Body) -> Iterator[tuple[int, str, StressPoints]]:
     """Yield number, side and points of every interface, in the section along x.
 
     Interfaces count from 1 for the outermost. The side is "above", nearer to the contact surface,
@@ -155,8 +155,8 @@ def sides(field: StressField, body: Body) -> Iterator[tuple[int, str, StressPoin
     """
     for number, name, depth, material in interface_sides(body):
         points = field.section
-        on_it = np.flatnonzero(points.on_side(depth, material))
-        yield number, name, points.chosen(on_it[np.argsort(points.x.flat[on_it], kind="stable")])
+        on_it = np.flatnonzero(points.is_on_side(depth, material))
+        yield number, name, points.select(on_it[np.argsort(points.x.flat[on_it], kind="stable")])
 
 
 def write_stress_summary(
@@ -198,7 +198,7 @@ def write_stress_summary(
         path.write_text(text, encoding="utf-8")
 
 
-def _rows(points: StressPoints, body: Body) -> Iterator[tuple[object, ...]]:
+def _point_rows(points: StressPoints, body: Body) -> Iterator[tuple[object, ...]]:
     """Yield the table rows of stress points: place, material, displacement, stress, invariants."""
     numbers = np.vstack([points.displacement, points.stress, points.von_mises, points.principal])
     materials = [layer_name(material, len(body.layers)) for material in points.material.tolist()]

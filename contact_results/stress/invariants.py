@@ -34,11 +34,11 @@ def principal_stresses(stress: Field) -> Field:
     found = np.empty((3, flat.shape[1]))
     for first in range(0, flat.shape[1], BLOCK):
         some = slice(first, first + BLOCK)
-        found[:, some] = _roots(flat[:, some])
+        found[:, some] = _principal_roots(flat[:, some])
     return found.reshape(3, *stress.shape[1:])
 
 
-def _roots(stress: Field) -> Field:
+def _principal_roots(stress: Field) -> Field:
     """Compute the principal stresses of a block of points, most tensile first (3, n).
 
     stress  components xx, yy, zz, yz, xz, xy (6, n) [force/length^2]

@@ -101,7 +101,7 @@ class LoadedBodies:
             return np.zeros(6)
         return stress_by(self.strain, self.body, layer)
 
-    def strained(self, points: StressPoints, indenter: bool) -> StressPoints:
+    def add_bulk_stress(self, points: StressPoints, indenter: bool) -> StressPoints:
         """Add the stress from the bulk strain to the stress at points of one body.
 
         indenter  True if the points are in the indenter, which has no bulk strain
@@ -129,9 +129,11 @@ def state_of_result(
     Raises NoSuchState if there is no such load step, or if the bodies are separated.
     """
     ends = result.steps
-    number = _existing(step, len(ends))
+    number = _step_index(step, len(ends))
     stated = None if errors is None else errors.steps[number]
-    return _in_contact(_state(result.scene, surface_of(result), result, ends[number], stated))
+    return _require_contact(
+        _loaded_bodies(result.scene, surface_of(result), result, ends[number], stated)
+    )
 
 
 def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
@@ -142,7 +144,7 @@ def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | 
     """
     surface = surface_of(result)
     for increment in result.increments:
-        state = _state(result.scene, surface, result, increment, None)
+        state = _loaded_bodies(result.scene, surface, result, increment, None)
         yield increment.step, increment.index, state
 
 
@@ -155,10 +157,12 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
     Raises NoSuchState if there is no readable run, no such load step, or no contact, and
     ResourceRefused if the fields do not fit into memory.
     """
-    with _reading(directory) as run:
-        number = _existing(step, len(run.summary.steps))
+    with _open_run(directory) as run:
+        number = _step_index(step, len(run.summary.steps))
         errors = run.summary.steps[number].errors
-        return _in_contact(_state(run.scene, run.surface, run, run.end_of_step(number), errors))
+        return _require_contact(
+            _loaded_bodies(run.scene, run.surface, run, run.end_of_step(number), errors)
+        )
 
 
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
@@ -171,14 +175,18 @@ def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | No
     Raises NoSuchState if there is no readable run, or if the run has no fields of all increments,
     and ResourceRefused if the fields do not fit into memory.
     """
-    with _reading(directory) as run:
+    with _open_run(directory) as run:
         for number in range(len(run.increments["step"].array)):
             end = run.increment(number)
-            yield int(end.step), int(end.index), _state(run.scene, run.surface, run, end, None)
+            yield (
+                int(end.step),
+                int(end.index),
+                _loaded_bodies(run.scene, run.surface, run, end, None),
+            )
 
 
 @contextmanager
-def _reading(directory: Path) -> Iterator[StoredRun]:
+def _open_run(directory: Path) -> Iterator[StoredRun]:
     """Provide a stored run, and convert errors of reading it in the `with` block to NoSuchState.
 
     directory  directory of the run
@@ -198,7 +206,7 @@ def _reading(directory: Path) -> Iterator[StoredRun]:
         raise NoSuchState(f"{directory / FIELDS} is not the {FIELDS} of a run: {error}") from None
 
 
-def _state(
+def _loaded_bodies(
     scene: Scene,
     surface: Surface,
     source: Result | StoredRun,
@@ -224,9 +232,9 @@ def _state(
         axes=surface.axes,
         tractions={name: field for name, field in fields.items() if field is not None},
         discretisation=getattr(source, "discretisation", None),
-        no_root=_no_root(scene.indenter, scene.friction),
+        no_root=_reason_without_root(scene.indenter, scene.friction),
         edges=end.edge_change is not None,
-        by_increments=None if errors is None else _by_increments(end, errors),
+        by_increments=None if errors is None else _relative_increment_error(end, errors),
         direction=surface.direction,
         pressed=pressed if source.solver == RADIAL else None,
         contact_radius=end.contact_radius,
@@ -235,7 +243,7 @@ def _state(
     )
 
 
-def _by_increments(end: State, errors: Mapping[str, StatedError]) -> float | None:
+def _relative_increment_error(end: State, errors: Mapping[str, StatedError]) -> float | None:
     """Estimate the relative error of the tractions that is due to finite increments.
 
     The estimate is the largest relative increment error of peak pressure, approach and tangential
@@ -261,7 +269,7 @@ def _by_increments(end: State, errors: Mapping[str, StatedError]) -> float | Non
     return max(parts, default=0.0)
 
 
-def _no_root(indenter: ShapedBody, friction: CoulombFriction | None) -> str | None:
+def _reason_without_root(indenter: ShapedBody, friction: CoulombFriction | None) -> str | None:
     """Return the reason why the tractions may not fall like a root at the contact edge.
 
     For a smooth indenter without rim and with uniform friction, the tractions fall like the square
@@ -276,7 +284,7 @@ def _no_root(indenter: ShapedBody, friction: CoulombFriction | None) -> str | No
     return None
 
 
-def _in_contact(state: LoadedBodies | None) -> LoadedBodies:
+def _require_contact(state: LoadedBodies | None) -> LoadedBodies:
     """Return the bodies of a load step that ends in contact; raise NoSuchState for None."""
     if state is None:
         raise NoSuchState(
@@ -286,7 +294,7 @@ def _in_contact(state: LoadedBodies | None) -> LoadedBodies:
     return state
 
 
-def _existing(step: int | None, count: int) -> int:
+def _step_index(step: int | None, count: int) -> int:
     """Return the index of a load step in the history: the requested one, or the last for None.
 
     step   requested load step, from 1

@@ -80,7 +80,7 @@ def stress_at_cells(
             f"a point is {far:.3g} m from the origin, expected at most {MAX_REACH:g} half windows "
             f"of {half:.3g} m; check the units of the points, or use a larger window"
         )
-    grid, pressure, shear = _with_margin(state, 0.0, reach)
+    grid, pressure, shear = _extend_window(state, 0.0, reach)
     if indenter and shear is not None:
         shear = -shear
     tractions = _far_field_tractions(state, pressure, shear)
@@ -89,7 +89,7 @@ def stress_at_cells(
     displacement, stress = (np.concatenate(parts).T for parts in zip(*found, strict=True))
     depth, layer = (np.array([getattr(level, name) for level in levels]) for name in LEVEL)
     points = StressPoints(x, y, depth, layer, displacement, stress, at_edge=x != x)
-    return state.strained(points, indenter)
+    return state.add_bulk_stress(points, indenter)
 
 
 @one_thread()
@@ -120,7 +120,7 @@ def stress_on_cells(
 
     Raises ValueError for a depth outside the body, and ResourceRefused for too little memory.
     """
-    below = partial(_below, state, indenter)
+    below = partial(_stress_in_window, state, indenter)
     field = below(depths, MARGIN, volume=volume, see_edge=see_edge, section_only=section_only)
     if section_only or not np.any(state.tractions.get("shear", 0.0)):
         return field
@@ -131,12 +131,12 @@ def stress_on_cells(
     with suppress(ResourceRefused):  # then the largest values keep the mark `at_window_edge`
         beyond = below(far, WIDE_MARGIN, see_edge=False)
         wide = below(depths, WIDE_MARGIN, see_edge=see_edge, section_only=True)
-        points = StressPoints.joined([beyond.points, field.points])
+        points = StressPoints.concatenate([beyond.points, field.points])
         return replace(wide, points=points, edge=field.edge, volume=field.volume)
     return field
 
 
-def _below(
+def _stress_in_window(
     state: LoadedBodies,
     indenter: bool,
     depths: Sequence[float] | None,
@@ -159,46 +159,46 @@ def _below(
     from semi_analytical.stress import SubsurfaceField, refuse_beyond_memory
 
     body = state.indenter if indenter else state.body
-    grid, pressure, shear = _with_margin(state, margin)
+    grid, pressure, shear = _extend_window(state, margin)
     radius = state.contact_radius
     if radius is None:
         radius = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
-    levels = _levels(body, depths, radius)
+    levels = _stress_levels(body, depths, radius)
     if volume:
         refuse_beyond_memory(grid.cells, len(levels), COMPUTED + WRITTEN)
     if indenter and shear is not None:
         shear = -shear
     edge, why = None, "not looked for"
     if see_edge:
-        edge, why = _edge(state, body, grid, levels, pressure, shear)
-    how = _how(edge, why)
-    rows = None if volume else _rows(grid, pressure, shear, section_only)
+        edge, why = _fit_edge(state, body, grid, levels, pressure, shear)
+    how = _edge_record(edge, why)
+    rows = None if volume else _computed_rows(grid, pressure, shear, section_only)
     if edge is not None and rows is not None and not section_only:
         upper = edge.phi.y >= rows[0]
         if np.any(upper):  # an edge that is fitted in part may have points on one side only
             edge = replace(edge, phi=edge.phi.chosen(upper))
     sections, largest, planes = [], [], []
-    for field in _each_level(
+    for field in _stress_by_level(
         state, body, grid, levels, pressure, shear, None if why else edge, rows
     ):
         if state.strain is not None:
             bulk = state.bulk_stress(field.levels[0].layer, indenter)
             field = replace(field, stress=field.stress + bulk[:, None, None])
         sections.append(field.along_x())
-        points = _points(field, grid)
-        largest.append(points.with_largest())
+        points = _stress_points(field, grid)
+        largest.append(points.select_largest())
         planes += [field] if volume else []
     plane = SubsurfaceField.joined(sections)
     fitted = None
     if edge is not None:
-        on_edge = _on_edge(edge, edge.stress() + state.bulk_stress(0, indenter)[:, None])
+        on_edge = _edge_points(edge, edge.stress() + state.bulk_stress(0, indenter)[:, None])
         fitted = FittedEdge(on_edge, edge.apart * edge.size, not why)
     return StressField(
-        StressPoints.joined(largest),
+        StressPoints.concatenate(largest),
         fitted,
-        _points(plane, grid).with_cells(),
-        _axis(plane),
-        _points(SubsurfaceField.joined(planes), grid).with_cells() if volume else None,
+        _stress_points(plane, grid).add_cells(),
+        _axis_points(plane),
+        _stress_points(SubsurfaceField.joined(planes), grid).add_cells() if volume else None,
         "x at y = 0",
         (float(plane.x[-1]), float(plane.depths[-1])),
         {
@@ -211,7 +211,7 @@ def _below(
     )
 
 
-def _rows(
+def _computed_rows(
     grid: SurfaceGrid, pressure: Field, shear: Field | None, section_only: bool
 ) -> Indices | None:
     """Return the indices of the rows of cells along y on which the stress is computed.
@@ -233,7 +233,7 @@ def _rows(
     return np.arange(at_section[0], grid.cells[1]) if mirror_planes(tractions)[1] else None
 
 
-def _edge(
+def _fit_edge(
     state: LoadedBodies,
     body: Body,
     grid: SurfaceGrid,
@@ -264,7 +264,7 @@ def _edge(
         return cause.candidate, str(cause)
 
 
-def _each_level(
+def _stress_by_level(
     state: LoadedBodies,
     body: Body,
     grid: SurfaceGrid,
@@ -308,7 +308,7 @@ def _far_field_tractions(
     """Return constant tractions on cells that cause the true stress far from the cells.
 
     Tractions of a solver with constant tractions on cells are returned unchanged. Cell means of
-    tractions that vary within the cells are sharpened, see `_sharpened`.
+    tractions that vary within the cells are sharpened, see `_sharpen_cell_means`.
 
     pressure  pressure of the cells (nx, ny) [force/length^2]
     shear     shear of the cells (2, nx, ny) [force/length^2]; None without shear
@@ -316,10 +316,12 @@ def _far_field_tractions(
     if not state.edges:
         return pressure, shear
     loaded = pressure > 0
-    return _sharpened(pressure, loaded), None if shear is None else _sharpened(shear, loaded)
+    return _sharpen_cell_means(pressure, loaded), None if shear is None else _sharpen_cell_means(
+        shear, loaded
+    )
 
 
-def _sharpened(means: Field, loaded: NDArray[np.bool_]) -> Field:
+def _sharpen_cell_means(means: Field, loaded: NDArray[np.bool_]) -> Field:
     """Subtract 1/12 of the second differences from cell means, within the loaded cells.
 
     Cell means, applied as constant tractions, act like the true tractions times sinc²(kh/2) = 1 -
@@ -338,7 +340,7 @@ def _sharpened(means: Field, loaded: NDArray[np.bool_]) -> Field:
     return found
 
 
-def _how(edge: NearEdge | None, why: str) -> dict[str, object]:
+def _edge_record(edge: NearEdge | None, why: str) -> dict[str, object]:
     """Return a record that states if the contact edge was fitted, or why not, for `stress.json`.
 
     edge  fitted contact edge; None if there is none
@@ -349,7 +351,7 @@ def _how(edge: NearEdge | None, why: str) -> dict[str, object]:
     return {"fitted": True, "points": len(edge.x), "fits_apart": edge.apart}
 
 
-def _on_edge(edge: NearEdge, stress: Field) -> StressPoints:
+def _edge_points(edge: NearEdge, stress: Field) -> StressPoints:
     """Return the points on the fitted contact edge at the surface (n,); displacements are NaN.
 
     stress  stress at these points (6, n) [force/length^2]
@@ -366,7 +368,7 @@ def _on_edge(edge: NearEdge, stress: Field) -> StressPoints:
     )
 
 
-def _with_margin(
+def _extend_window(
     state: LoadedBodies, margin: float, reach: Sequence[float] = (0.0, 0.0)
 ) -> tuple[SurfaceGrid, Field, Field | None]:
     """Return grid, pressure and shear on a window that contains the window of the contact solve.
@@ -382,14 +384,16 @@ def _with_margin(
     pressure, shear = state.tractions["pressure"], state.tractions.get("shear")
     sides = [float(c[-1] - c[0]) / (len(c) - 1) for c in (x, y)]
     halves = [ceil(r / side) - len(c) // 2 for r, side, c in zip(reach, sides, (x, y), strict=True)]
-    widths = [max(_margin(pressure, axis, margin), halves[axis] + NEIGHBOURS) for axis in (0, 1)]
+    widths = [
+        max(_margin_cells(pressure, axis, margin), halves[axis] + NEIGHBOURS) for axis in (0, 1)
+    ]
     pad = [(width, width) for width in widths]
     cells = (len(x) + 2 * widths[0], len(y) + 2 * widths[1])
     grid = SurfaceGrid(cells, (cells[0] * sides[0], cells[1] * sides[1]))
     return grid, np.pad(pressure, pad), None if shear is None else np.pad(shear, [(0, 0), *pad])
 
 
-def _margin(pressure: Field, axis: int, margin: float) -> int:
+def _margin_cells(pressure: Field, axis: int, margin: float) -> int:
     """Return the number of cells to add on each side of the window along one axis.
 
     pressure  pressure of the cells (nx, ny)
@@ -402,7 +406,7 @@ def _margin(pressure: Field, axis: int, margin: float) -> int:
     return max(0, int(np.ceil(margin * reach - cells / 2)))
 
 
-def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[Level, ...]:
+def _stress_levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[Level, ...]:
     """Return the depths at which the stress is computed, each with its material, downward.
 
     The result contains the given depths and both sides of every interface.
@@ -421,7 +425,7 @@ def _levels(body: Body, depths: Sequence[float] | None, radius: float) -> tuple[
     return tuple(sorted({*asked, *sides}, key=lambda level: (level.depth, level.layer)))
 
 
-def _points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
+def _stress_points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
     """Convert displacement and stress below the cells to stress points (levels, nx, ny).
 
     `at_edge` marks the points below the edge of the window.
@@ -443,7 +447,7 @@ def _points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
     )
 
 
-def _axis(section: SubsurfaceField) -> StressPoints:
+def _axis_points(section: SubsurfaceField) -> StressPoints:
     """Interpolate displacement and stress of the section on the z axis, one point per depth."""
     displacement, stress = section.below()
     nothing = np.zeros(len(section.levels))

@@ -34,19 +34,20 @@ def stress_on_disc(
     depths    depths [length], without both sides of every interface, which are always included;
               None chooses them from contact and layers, and refines the maxima
 
-    Raises ValueError for a depth outside the body, and UnsupportedScene as `RadialBody.of` does.
+    Raises ValueError for a depth outside the body, and UnsupportedScene as `RadialBody.from_state`
+    does.
     """
-    body = RadialBody.of(state, indenter)
+    body = RadialBody.from_state(state, indenter)
     levels, x, radius = tuple(body.parts.levels(depths)), body.section, body.parts.radius
-    grid = body.points(levels, x, np.zeros_like(x))
+    grid = body.stress_points(levels, x, np.zeros_like(x))
     whole = _both_sides(grid) if body.is_round else grid
-    section = whole.with_cells()
-    found = [grid.in_a_row, *([] if body.is_round else [body.beside(levels).in_a_row])]
+    section = whole.add_cells()
+    found = [grid.flattened, *([] if body.is_round else [body.beside(levels).flattened])]
     field = StressField(
-        StressPoints.joined(found),
+        StressPoints.concatenate(found),
         None,
         section,
-        section.chosen(section.x == 0),
+        section.select(section.x == 0),
         None,
         "x at y = 0" if body.is_round else "x along the load",
         (SHOWN * radius, min(SHOWN * radius, float(np.max(section.depth)))),
@@ -62,7 +63,7 @@ def stress_on_disc(
         return field
     extreme = extremes(field, state.indenter if indenter else state.body)
     nearer = [body.largest(one) for one in extreme if one.region in body.parts.named]
-    return replace(field, points=StressPoints.joined([field.points, *nearer]))
+    return replace(field, points=StressPoints.concatenate([field.points, *nearer]))
 
 
 @one_thread()
@@ -83,20 +84,20 @@ def stress_at_radii(
     indenter  True for the stress in the indenter, False for the lower body
     fineness  multiple of the numbers of polynomials and quadrature points
 
-    Raises UnsupportedScene as `RadialBody.of` does.
+    Raises UnsupportedScene as `RadialBody.from_state` does.
     """
-    body = RadialBody.of(state, indenter, fineness)
+    body = RadialBody.from_state(state, indenter, fineness)
     c, s = body.direction
     along, across = c * x + s * y, c * y - s * x
     found = []
     for px, py, level in zip(along, across, levels, strict=True):
         if body.is_round:
             r = np.hypot(px, py)
-            point = body.points([level], np.array([r]), np.zeros(1)).in_a_row
-            found.append(point.turned((px / r, py / r) if r else (1.0, 0.0)))
+            point = body.stress_points([level], np.array([r]), np.zeros(1)).flattened
+            found.append(point.rotate_to_scene((px / r, py / r) if r else (1.0, 0.0)))
         else:
-            found.append(body.points([level], np.array([px]), np.array([py])).in_a_row)
-    return StressPoints.joined(found).turned(body.direction)
+            found.append(body.stress_points([level], np.array([px]), np.array([py])).flattened)
+    return StressPoints.concatenate(found).rotate_to_scene(body.direction)
 
 
 def _both_sides(right: StressPoints) -> StressPoints:
@@ -112,4 +113,4 @@ def _both_sides(right: StressPoints) -> StressPoints:
         displacement=right.displacement * np.array([-1.0, -1, 1])[:, None, None],
         stress=right.stress * np.array([1.0, 1, 1, -1, -1, 1])[:, None, None],
     )
-    return StressPoints.joined([behind.columns(slice(None, 0, -1)), right])
+    return StressPoints.concatenate([behind.select_columns(slice(None, 0, -1)), right])

@@ -50,7 +50,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
     body = state.indenter if indenter else state.body
     field = subsurface(body, tractions, asked, upper=indenter)
     radius = tractions.loaded_radius
-    section = state.strained(_section(field), indenter)
+    section = state.add_bulk_stress(_section_points(field), indenter)
     reach = NEAR * radius
     near = section.near(reach)
     assert section.cells is not None
@@ -59,7 +59,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
         section,
         None,
         near,
-        _axis(near, reach),
+        _axis_points(near, reach),
         None,
         "x along the load",
         (SHOWN[0] * radius, min(SHOWN[1] * radius, float(section.depth.max()))),
@@ -76,7 +76,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
     )
 
 
-def _section(field: SectionField) -> StressPoints:
+def _section_points(field: SectionField) -> StressPoints:
     """Return the stress points of both halves of a finite element section through the z axis.
 
     One half is on the ray along the load, the other on the opposite ray. The components of
@@ -105,7 +105,7 @@ def _section(field: SectionField) -> StressPoints:
     )
 
 
-def _axis(section: StressPoints, reach: float) -> StressPoints:
+def _axis_points(section: StressPoints, reach: float) -> StressPoints:
     """Return the points on the z axis, downward, without the duplicates of the second half.
 
     section  points of both halves of the section
@@ -113,4 +113,4 @@ def _axis(section: StressPoints, reach: float) -> StressPoints:
     """
     on_it = np.flatnonzero((section.x == 0.0) & (section.depth <= reach))
     places = np.stack([section.depth[on_it], section.material[on_it]])
-    return section.chosen(on_it[np.unique(places, axis=1, return_index=True)[1]])
+    return section.select(on_it[np.unique(places, axis=1, return_index=True)[1]])

@@ -99,7 +99,7 @@ class StressPoints:
         """
         return layer_name(int(self.material[n]), layers) if layers else "body"
 
-    def turned(self, direction: tuple[float, float]) -> StressPoints:
+    def rotate_to_scene(self, direction: tuple[float, float]) -> StressPoints:
         """Transform places, displacement and stress to the axes of the scene.
 
         direction  unit vector of the present x axis in the axes of the scene
@@ -120,7 +120,7 @@ class StressPoints:
         )
 
     @staticmethod
-    def joined(parts: Sequence[StressPoints]) -> StressPoints:
+    def concatenate(parts: Sequence[StressPoints]) -> StressPoints:
         """Concatenate several arrays of stress points along their last index.
 
         Cells between the points are omitted.
@@ -131,14 +131,14 @@ class StressPoints:
 
         return StressPoints(**{name: concatenated(name) for name in FIELDS})
 
-    def columns(self, which: slice) -> StressPoints:
+    def select_columns(self, which: slice) -> StressPoints:
         """Select stress points along their last index; cells between the points are omitted.
 
         which  slice of the last index
         """
         return StressPoints(**{name: getattr(self, name)[..., which] for name in FIELDS})
 
-    def with_cells(self) -> StressPoints:
+    def add_cells(self) -> StressPoints:
         """Add the cells between points at adjacent depths of the same material.
 
         The first index of the points is the depth. The cells are quadrilaterals for the points of a
@@ -158,12 +158,12 @@ class StressPoints:
         corners += [index[above + 1][:, *at] for at in below]
         return replace(self, cells=(kind, np.stack(corners, axis=-1).reshape(-1, len(corners))))
 
-    def with_largest(self) -> StressPoints:
+    def select_largest(self) -> StressPoints:
         """Select the point at which each stress measure is largest.
 
         Returns one point per measure, as a flat array (measures,) without cells.
         """
-        return self.chosen(np.array([np.argmax(values) for values in self.measures.values()]))
+        return self.select(np.array([np.argmax(values) for values in self.measures.values()]))
 
     def near(self, reach: float) -> StressPoints:
         """Select the cells that have a corner near the contact, with the points of these cells.
@@ -174,9 +174,9 @@ class StressPoints:
         kind, cells = self.cells
         inside = np.maximum(np.abs(self.x), self.depth) <= reach
         kept, corners = np.unique(cells[inside[cells].any(axis=1)], return_inverse=True)
-        return replace(self.chosen(kept), cells=(kind, corners.reshape(-1, cells.shape[1])))
+        return replace(self.select(kept), cells=(kind, corners.reshape(-1, cells.shape[1])))
 
-    def chosen(self, points: NDArray[np.bool_] | Indices) -> StressPoints:
+    def select(self, points: NDArray[np.bool_] | Indices) -> StressPoints:
         """Select stress points by flat index or by mask.
 
         Returns a flat array of points (n,) without cells.
@@ -193,11 +193,11 @@ class StressPoints:
         )
 
     @property
-    def in_a_row(self) -> StressPoints:
+    def flattened(self) -> StressPoints:
         """The same stress points as a flat array (n,); cells between the points are omitted."""
-        return self.chosen(np.arange(self.x.size))
+        return self.select(np.arange(self.x.size))
 
-    def on_side(self, depth: float, material: int) -> NDArray[np.bool_]:
+    def is_on_side(self, depth: float, material: int) -> NDArray[np.bool_]:
         """Return a mask (…) of the points on one side of an interface.
 
         depth     depth of the interface [length]

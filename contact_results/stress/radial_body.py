@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from contact_results.stress.body_regions import IN_LAYER, REACH, BodyRegions, spacing
+from contact_results.stress.body_regions import IN_LAYER, REACH, BodyRegions, adjacent_spacing
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import StressPoints
 from contact_results.stress.stress_maxima import Extreme
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 Fields = Callable[[Sequence["Level"], Field, Field], Field]
 
 
-class Sampling(NamedTuple):
+class PointNumbers(NamedTuple):
     """Numbers of the points at which the stress below a circular contact is computed.
 
     inside  points of the section within the contact radius
@@ -43,7 +43,7 @@ class Sampling(NamedTuple):
     rounds: int
 
 
-PRESSED, SHEARED = Sampling(32, 32, 48, 3, 6), Sampling(20, 16, 28, 2, 5)
+PRESSED, SHEARED = PointNumbers(32, 32, 48, 3, 6), PointNumbers(20, 16, 28, 2, 5)
 # Points outside the plane of the section, where the tensile stress at the bottom of a layer may be
 # largest: distances in contact radii, number of angles, and every n-th depth.
 RADII, ANGLES, EVERY = np.array([0.3, 0.6, 0.8, 0.95, 1.0, 1.15, 1.5]), 7, 2
@@ -65,14 +65,14 @@ class RadialBody:
 
     fields: Fields
     parts: BodyRegions
-    sampling: Sampling
+    sampling: PointNumbers
     strained: Callable[[StressPoints], StressPoints]
     direction: tuple[float, float]
     centre: float = 0.0
     is_round: bool = True
 
     @classmethod
-    def of(cls, state: LoadedBodies, indenter: bool, fineness: int = 1) -> RadialBody:
+    def from_state(cls, state: LoadedBodies, indenter: bool, fineness: int = 1) -> RadialBody:
         """Prepare the computation of the stress in the lower body or in the indenter.
 
         state     bodies and tractions that cause the stress
@@ -113,7 +113,7 @@ class RadialBody:
         asked = None if shape.rim is None else approach
         contact = disc(Bodies.of(scene), shape, a, asked, fineness)
         infinite = contact.profile.apex or contact.edge != 0
-        parts = BodyRegions.of(body, a, PRESSED.down, infinite=infinite)
+        parts = BodyRegions.from_body(body, a, PRESSED.down, infinite=infinite)
         below = SubsurfaceDisc(contact, stack, REACH, fineness)
 
         def fields(levels: Sequence[Level], x: Field, y: Field) -> Field:
@@ -121,7 +121,7 @@ class RadialBody:
             none = np.zeros_like(rr)
             return np.stack([u_r, none, u_z, rr, tt, zz, none, rz, none], axis=1)
 
-        strained = partial(state.strained, indenter=indenter)
+        strained = partial(state.add_bulk_stress, indenter=indenter)
         return cls(fields, parts, PRESSED, strained, state.direction)
 
     @classmethod
@@ -149,7 +149,7 @@ class RadialBody:
         refuse_infinite(*state.pressed[:2])
         surface, p = state.surface, state.tractions["pressure"]
         assert isinstance(surface, Rings)
-        if surface.whole:
+        if surface.covers_circle:
             refuse_turned()
         names = ("shear_radial", "shear_circumferential")
         outward, around = (state.tractions.get(name, np.zeros_like(p)) for name in names)
@@ -161,9 +161,9 @@ class RadialBody:
             highest = len(surface.angles)
         if indenter:
             circle = circle.reversed()
-        parts = BodyRegions.of(body, circle.radius, SHEARED.down)
+        parts = BodyRegions.from_body(body, circle.radius, SHEARED.down)
         below = SubsurfaceCircle(circle, stack, REACH, highest, fineness)
-        strained = partial(state.strained, indenter=indenter)
+        strained = partial(state.add_bulk_stress, indenter=indenter)
         return cls(
             below.at, parts, SHEARED, strained, state.direction, circle.centre, circle.is_round
         )
@@ -188,7 +188,7 @@ class RadialBody:
             return self.radii
         return np.unique(np.concatenate([self.centre - self.radii, [0], self.centre + self.radii]))
 
-    def points(self, levels: Sequence[Level], x: Field, y: Field) -> StressPoints:
+    def stress_points(self, levels: Sequence[Level], x: Field, y: Field) -> StressPoints:
         """Compute displacement and stress at positions x, y and at several depths.
 
         levels  the depths, each with its material
@@ -230,7 +230,7 @@ class RadialBody:
             if n % EVERY == 0 or n in (0, last)
             or level.depth in (levels[n - 1].depth, levels[min(n + 1, last)].depth)
         ]  # fmt: skip
-        return self.points([levels[n] for n in sides], x.ravel(), y.ravel())
+        return self.stress_points([levels[n] for n in sides], x.ravel(), y.ravel())
 
     def largest(self, extreme: Extreme) -> StressPoints:
         """Refine the maximum of a stress measure in a region, by search around a computed maximum.
@@ -246,7 +246,7 @@ class RadialBody:
         x, y, z = c * extreme.x + s * extreme.y, c * extreme.y - s * extreme.x, extreme.depth
         radius, about = self.parts.radius, self.sampling.about
         r, theta = np.hypot(x - self.centre, y), np.arctan2(y, x - self.centre)
-        across, down = spacing(self.radii, r), spacing(self.parts.depths, z)
+        across, down = adjacent_spacing(self.radii, r), adjacent_spacing(self.parts.depths, z)
         down = min(down, (bottom - top) / IN_LAYER)
         # A maximum in the plane of the section stays in it, by symmetry.
         around = np.pi / (ANGLES + 1) if abs(y) > 1e-9 * radius else 0.0
@@ -259,12 +259,12 @@ class RadialBody:
             angles = np.unique(np.clip(theta + around * steps, -np.pi, np.pi))
             at, to = (part.ravel() for part in np.meshgrid(np.unique(radii), angles))
             levels = [Level(float(depth), material) for depth in depths]
-            found = self.points(levels, self.centre + at * np.cos(to), at * np.sin(to))
+            found = self.stress_points(levels, self.centre + at * np.cos(to), at * np.sin(to))
             k = int(np.argmax(found.measures[extreme.measure]))
             r, theta = float(at[k % len(at)]), float(to[k % len(at)])
             z = float(found.depth.flat[k])
             across, down, around = across / about, down / about, around / about
-        return found.in_a_row
+        return found.flattened
 
 
 def is_sheared(state: LoadedBodies) -> bool:

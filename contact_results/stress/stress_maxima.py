@@ -49,16 +49,18 @@ def extremes(field: StressField, body: Body) -> tuple[Extreme, ...]:
     field  computed stress
     body   lower body or indenter, in which the stress was computed
     """
-    found = {(e.region, e.measure): e for e in _extremes(field.points, field.direction, body)}
+    found = {
+        (e.region, e.measure): e for e in _largest_in_regions(field.points, field.direction, body)
+    }
     if field.edge is not None:
-        for extreme in _extremes(field.edge.points, field.direction, body):
+        for extreme in _largest_in_regions(field.edge.points, field.direction, body):
             key = extreme.region, extreme.measure
             if extreme.value > found[key].value:
                 found[key] = replace(extreme, on_edge=True)
     return tuple(found.values())
 
 
-def _extremes(
+def _largest_in_regions(
     points: StressPoints, direction: tuple[float, float], body: Body
 ) -> Iterator[Extreme]:
     """Yield the largest value of every stress measure in every region at the given points.
@@ -69,7 +71,7 @@ def _extremes(
     direction  unit vector in the axes of the scene, to which the places are transformed
     """
     along, across = direction
-    for region, inside in _regions(points, body):
+    for region, inside in _region_masks(points, body):
         if not np.any(inside):
             continue
         for measure, values in points.measures.items():
@@ -99,7 +101,7 @@ def interface_sides(body: Body) -> list[tuple[int, str, float, int]]:
     return sides
 
 
-def _regions(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+def _region_masks(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArray[np.bool_]]]:
     """Yield each region of a body by name, with the mask of the given points that lie in it.
 
     The regions are the whole body, the surface, each material, and both sides of every interface. A
@@ -112,7 +114,7 @@ def _regions(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArray[np
     for material in np.unique(points.material).tolist():
         yield layer_name(material, len(body.layers)), points.material == material
     for number, side, depth, material in interface_sides(body):
-        yield f"interface {number} {side}", points.on_side(depth, material)
+        yield f"interface {number} {side}", points.is_on_side(depth, material)
 
 
 def maxima_columns(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
-from contact_results.directory.checkpoint import CheckpointDirectory, checkpointed
+from contact_results.directory.checkpoint import CheckpointDirectory, provide_checkpoints
 from contact_results.directory.code_digest import solve_identity
 from contact_scene import SceneFile
 from contact_scene.accuracy import AccuracyRequest
@@ -94,7 +94,7 @@ def forget_levels(output: Path) -> None:
     of_levels = f".{target.name}.{OF_LEVEL}*"
     left = [path for place in (target, target.parent) for path in place.glob(of_levels)]
     for path in left:
-        with checkpointed(output, "", tell, path.name.removeprefix(f".{target.name}.")):
+        with provide_checkpoints(output, "", tell, path.name.removeprefix(f".{target.name}.")):
             pass
 
 
@@ -133,7 +133,9 @@ def refined_to(
         tried += 1
         of_level.close()
         identity = solve_identity(contents.scene, fineness, vars(solver))
-        yield of_level.enter_context(checkpointed(output, identity, tell, f"{OF_LEVEL}{tried}"))
+        yield of_level.enter_context(
+            provide_checkpoints(output, identity, tell, f"{OF_LEVEL}{tried}")
+        )
 
     @contextmanager
     def watching(fineness: Any) -> Iterator[Progress]:

@@ -156,7 +156,7 @@ class Contact:
         x = np.linspace(-reach if self.harmonics else 0.0, reach, POINTS)
         p = surface.along(pressure)
         q = 0 * p if shear is None else surface.vector_along(shear)[0]
-        places = surface.line.places
+        places = surface.profile_line.places
         # Tractions on rings are linear in between; those on cells are means of smooth ones.
         if hasattr(result, "grid"):
             return x, CubicSpline(places, p)(x), CubicSpline(places, q)(x)

@@ -384,7 +384,7 @@ CARRIED = 0.4  # in contact radii: the depth of the plane that carries the torqu
 
 
 def _below(result: Any) -> RadialBody:
-    return RadialBody.of(state_of_result(result, None), indenter=False)
+    return RadialBody.from_state(state_of_result(result, None), indenter=False)
 
 
 def _points(body: RadialBody, depth: float, x: Field, y: Field) -> StressPoints:
@@ -393,7 +393,7 @@ def _points(body: RadialBody, depth: float, x: Field, y: Field) -> StressPoints:
     depth  depth in contact radii
     x, y   positions in contact radii
     """
-    return body.points((Depth(depth * A, 0),), A * x, A * y)
+    return body.stress_points((Depth(depth * A, 0),), A * x, A * y)
 
 
 def _pushed_error(depth: float, result: Any, *_: Any) -> float:

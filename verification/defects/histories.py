@@ -155,7 +155,7 @@ def _shift_of_actuator(whole: Any, increment: Any, given: Any) -> Any:
     return replace(whole(increment, given), tangential_shift=increment.tangential_shift)
 
 
-@replaces(loop, "_along")
+@replaces(loop, "_components_along")
 def _contact_for_actuator(whole: Any, path: Any, name: str, direction: Any) -> Any:
     return whole(path, name.replace("actuator", "tangential"), direction)
 

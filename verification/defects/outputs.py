@@ -58,7 +58,7 @@ def _torque_for_twist(whole: Any, increment: Any) -> Any:
     return values | {"torque": values["twist"], "twist": values["torque"]}
 
 
-@replaces(tables, "_largest")
+@replaces(tables, "_largest_with_place")
 def _place_turned(whole: Any, *given: Any) -> Any:
     value, x, y = whole(*given)
     return value, y, x

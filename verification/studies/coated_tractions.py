@@ -142,7 +142,7 @@ def _profile(result: Any, end: Any, force: float) -> list[Row]:
     force  tangential force over µW, stored with each row
     """
     surface, scale = surface_of(result), HERTZ.peak_pressure
-    x = surface.line.places / HERTZ.contact_radius
+    x = surface.profile_line.places / HERTZ.contact_radius
     pressure, shear = surface.scalar(end, "pressure"), surface.vector(end, "shear")
     assert pressure is not None
     assert shear is not None

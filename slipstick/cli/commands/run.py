@@ -82,7 +82,7 @@ def run(
     With --accuracy, or a table [accuracy] in the scene, the scene is first solved on a coarse grid
     or mesh. Cells and increments are then refined until the stated errors meet the request.
     """
-    from contact_results.directory.checkpoint import checkpointed
+    from contact_results.directory.checkpoint import provide_checkpoints
     from contact_results.directory.code_digest import solve_identity
     from contact_results.directory.run_directory import run_directory
     from contact_results.directory.stop_signals import NOTHING_KEPT, cleaned_up_when_stopped
@@ -102,7 +102,7 @@ def run(
     identity = solve_identity(contents.scene, fineness, solver)
     with (
         cleaned_up_when_stopped(kept=lambda: NOTHING_KEPT),
-        checkpointed(output, identity, tell) as store,
+        provide_checkpoints(output, identity, tell) as store,
         ExitStack() as until_written,
         run_directory(output, overwrite=overwrite) as staging,
     ):
