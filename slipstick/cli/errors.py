@@ -79,11 +79,10 @@ def explain(error: Exception) -> ExitCode:
 
     If the environment variable SLIPSTICK_DEBUG is set, the traceback is printed as well.
     """
-    from rich.console import Console
-    from rich.text import Text
+    import typer
 
     if os.environ.get("SLIPSTICK_DEBUG"):
         traceback.print_exception(error)
-    console = Console(stderr=True, soft_wrap=True, highlight=False)
-    console.print(Text.assemble(("error: ", "bold red"), message(error)))
+    typer.secho("error: ", fg="red", bold=True, nl=False, err=True)
+    typer.echo(message(error), err=True)
     return exit_code(error)

@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
+import typer
 
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from contact_scene.quantities.increment import ReportedIncrement
 from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
-from slipstick.solvers.solver import Progress as Observer
+from slipstick.cli.terminal import tell
+from slipstick.solvers.solver import Progress
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
@@ -29,72 +23,63 @@ if TYPE_CHECKING:
     from verification.running.study import StudyCase
 
 SECONDS_BETWEEN_LINES = 10.0
+CLEAR = "\r\x1b[K"  # control characters that clear the line of the cursor
 
 
 @contextmanager
-def solve_progress(increments: Sequence[int]) -> Iterator[Observer]:
-    """Show the progress of a solve on stderr: a bar on a terminal, lines in a log file.
+def solve_progress(increments: Sequence[int]) -> Iterator[Progress]:
+    """Show the progress of a solve on stderr.
 
-    Yields the function that the solver calls after every increment.
+    A terminal shows one line that every increment replaces. A log file receives a line at the end
+    of every load step, and after 10 s without a line. Yields the function that the solver calls
+    after every increment.
 
     increments  number of increments of every load step
     """
-    console, steps = _stderr(), len(increments)
-    if not console.is_terminal:
-        yield _log(console, steps)
-        return
-    columns = (
-        TextColumn("{task.description}, increment"),
-        MofNCompleteColumn(),
-        BarColumn(),
-        TextColumn("residual {task.fields[residual]}"),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task(f"step 1/{steps}", total=sum(increments), residual="–")
+    started = last_line = time.monotonic()
+
+    with replaced_line() as show:
 
         def observe(increment: ReportedIncrement) -> None:
-            step = f"step {increment.step}/{steps}"
-            residual = f"{increment.worst_residual:.1e}"
-            bar.update(task, advance=1, description=step, residual=residual)
+            nonlocal last_line
+            now = time.monotonic()
+            text = (
+                f"step {increment.step}/{len(increments)}, "
+                f"increment {increment.index}/{increment.increments_in_step}, "
+                f"residual {increment.worst_residual:.1e}, {now - started:.1f} s"
+            )
+            step_ends = increment.index == increment.increments_in_step
+            if show is not None:
+                show(text)
+            elif step_ends or now - last_line >= SECONDS_BETWEEN_LINES:
+                last_line = now
+                tell(text)
 
         yield observe
 
 
-def _stderr() -> Console:
-    """Return a console that prints to stderr."""
-    return Console(stderr=True, highlight=False, soft_wrap=True)
+@contextmanager
+def replaced_line() -> Iterator[Callable[[str], None] | None]:
+    """Yield a function that replaces one line of a terminal on stderr; None without a terminal.
 
-
-def _log(console: Console, steps: int) -> Observer:
-    """Return a function that prints the progress of a solve to a log.
-
-    The function prints a line at the end of every load step, and after 10 s without a line.
-
-    steps  number of load steps
+    The line is cleared at the end.
     """
-    started = last_line = time.monotonic()
-
-    def observe(increment: ReportedIncrement) -> None:
-        nonlocal last_line
-        now = time.monotonic()
-        step_ends = increment.index == increment.increments_in_step
-        if step_ends or now - last_line >= SECONDS_BETWEEN_LINES:
-            last_line = now
-            console.print(
-                f"step {increment.step}/{steps}, "
-                f"increment {increment.index}/{increment.increments_in_step}, "
-                f"residual {increment.worst_residual:.1e}, {now - started:.1f} s"
-            )
-
-    return observe
+    if not sys.stderr.isatty():
+        yield None
+        return
+    try:
+        yield lambda text: typer.echo(f"{CLEAR}{text}", nl=False, err=True)
+    finally:
+        typer.echo(CLEAR, nl=False, err=True)
 
 
-def coarse_solves_shown() -> AbstractContextManager[object]:
-    """Show a status line in a terminal during the coarse solves of an error estimate."""
-    return _stderr().status("coarse solves for the error estimates")
+@contextmanager
+def coarse_solves_shown() -> Iterator[None]:
+    """Show a line in a terminal during the coarse solves of an error estimate."""
+    with replaced_line() as show:
+        if show is not None:
+            show("coarse solves for the error estimates")
+        yield
 
 
 def print_level(
@@ -115,7 +100,7 @@ def print_level(
     if requested:
         worst = max(requested, key=ratio)
         text = _request_text(requested[worst], reached[worst])
-        _stderr().print(f"round {number}: {worst} {text}")
+        tell(f"round {number}: {worst} {text}")
 
 
 def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
@@ -188,7 +173,7 @@ def run_shown(
     """
     from verification.running.case_pool import run_cases
 
-    console, started = _stderr(), time.monotonic()
+    started = time.monotonic()
     left = dict(work or {case.name: 1 for case in cases})
     computed = 0  # work of this process, without cases of an earlier run
 
@@ -197,13 +182,13 @@ def run_shown(
         done = left.pop(end.case.name)
         computed += 0 if end.stored else done
         for warning in end.warnings:
-            console.print(warning, markup=False)
+            tell(warning)
         rest = ""
         if computed and left:
             seconds = (time.monotonic() - started) * sum(left.values()) / computed
             rest = f", about {seconds:.0f} s left"
         count = f"{len(cases) - len(left)} of {len(cases)}{rest}"
-        console.print(f"{text(end)} ({count})", markup=False)
+        tell(f"{text(end)} ({count})")
 
     def how_to_resume() -> str:
         stored = sum(store.path(case).exists() for case in cases)

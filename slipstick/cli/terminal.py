@@ -3,13 +3,16 @@
 In a pipe, the text has no colours and no line breaks.
 """
 
-from collections.abc import Iterable, Sequence
+import sys
+import textwrap
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import zip_longest
+from shutil import get_terminal_size
 
 import typer
 
-from slipstick.cli.errors import ExitCode
-
 BETWEEN = "  "  # space between two columns
+LEAST_WIDTH = 20  # of the last column, also on a narrow terminal
 WIDE = 200  # width of a table that is not printed to a terminal
 
 
@@ -36,36 +39,44 @@ def print_table(
 ) -> None:
     """Print a table with column headings to stdout.
 
+    The texts of the last column are broken into lines that fit the width of the terminal.
+
     numbers  true to right-align all columns but the first, and to divide a table that is wider than
              the terminal into blocks of columns
     """
-    # Imported here, because `slipstick check` prints no table and should start fast.
-    from rich.box import SIMPLE_HEAD
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
-
-    class Output(Console):
-        def on_broken_pipe(self) -> None:
-            try:
-                super().on_broken_pipe()
-            except SystemExit:  # code 1 would be an accuracy verdict
-                raise SystemExit(ExitCode.NOBODY_READS) from None
-
-    console = Output(highlight=False)
-    if not console.is_terminal:
-        console.width = WIDE
     headings, rows = list(columns), [list(row) for row in rows]
-    every = range(len(headings))
-    for block in _blocks(headings, rows, console.width) if numbers else [every]:
-        table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-        for position in block:
-            table.add_column(
-                headings[position], justify="right" if numbers and position else "left"
+    width = get_terminal_size().columns if sys.stdout.isatty() else WIDE
+    every = list(range(len(headings)))
+    for block in _blocks(headings, rows, width) if numbers else [every]:
+        cells = [[row[position].split("\n") for position in block] for row in (headings, *rows)]
+        typer.echo("\n".join(_table_lines(cells, width, numbers)))
+
+
+def _table_lines(cells: list[list[list[str]]], width: int, numbers: bool) -> Iterator[str]:
+    """Yield the lines of a printed table, with a rule below the headings.
+
+    cells    lines of each cell in each row; the headings are the first row
+    width    width of the terminal in characters
+    numbers  true to right-align all columns but the first
+    """
+    height = max(map(len, cells[0]))
+    cells[0] = [[""] * (height - len(heading)) + heading for heading in cells[0]]
+    widths = [max(len(line) for row in cells for line in row[k]) for k in range(len(cells[0]))]
+    others = sum(widths[:-1]) + len(BETWEEN) * len(widths)
+    widths[-1] = min(widths[-1], max(width - others, LEAST_WIDTH))
+    yield ""
+    for number, row in enumerate(cells):
+        *first, last = row
+        wrapped = [part for line in last for part in textwrap.wrap(line, widths[-1]) or [""]]
+        for line in zip_longest(*first, wrapped, fillvalue=""):
+            texts = (
+                harmless(text).rjust(size) if numbers and k else harmless(text).ljust(size)
+                for k, (text, size) in enumerate(zip(line, widths, strict=True))
             )
-        for row in rows:
-            table.add_row(*(Text(row[position]) for position in block))
-        console.print(table)
+            yield (" " + BETWEEN.join(texts)).rstrip()
+        if number == 0:
+            yield " " + "─" * (sum(widths) + len(BETWEEN) * (len(widths) - 1))
+    yield ""
 
 
 def _blocks(headings: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> list[list[int]]:
