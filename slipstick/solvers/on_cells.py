@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import semi_analytical
-from contact_errors.coarse_solves import Fineness
-from contact_errors.on_cells import CellSolver
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.reading.engineering_units import engineering_unit
 from contact_scene.stepping.checkpoint import CheckpointStore
@@ -21,13 +19,15 @@ from slipstick.solvers.solver import (
     increments_text,
 )
 
+if TYPE_CHECKING:
+    from contact_errors.on_cells import CellSolver
+
 
 class OnCells(Solver):
     """Semi-analytical solver on a grid of surface cells, with the interface `solver.Solver`."""
 
     table = "semi_analytical"
     discretisation = SurfaceDiscretisation
-    refinable = CellSolver
 
     def plan(self, scene: Scene, fineness: SurfaceDiscretisation) -> Plan:
         return semi_analytical.plan(scene, fineness.path_accuracy, fineness.edge)
@@ -42,8 +42,14 @@ class OnCells(Solver):
     ) -> Result:
         return semi_analytical.solve_discretised(scene, fineness, progress, plan, store)
 
+    @property
+    def refinable(self) -> type[CellSolver]:
+        from contact_errors.on_cells import CellSolver
+
+        return CellSolver
+
     def refined(self, scene: Scene, fineness: Any, stress: bool = False) -> CellSolver:
-        return CellSolver(scene, fineness, stress=stress)
+        return self.refinable(scene, fineness, stress=stress)
 
     def work(self, scene: Scene, fineness: SurfaceDiscretisation, plan: Plan) -> Pairs:
         """Yield names and texts of grid, tolerance, increments, time and memory of a planned solve.
@@ -59,7 +65,7 @@ class OnCells(Solver):
         if any(step.path_matters for step in plan.path):
             accuracy = f"{fineness.path_accuracy:.3g}, for load steps without prescribed increments"
             yield "path accuracy", accuracy
-        yield self.time(scene, fineness, Fineness(grid, plan.increments, fineness.tolerance))
+        yield self.time(scene, fineness, grid, plan)
         yield "memory", f"about {estimated_bytes(grid, plan) / 2**20:.0f} MiB"
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:

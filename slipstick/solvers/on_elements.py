@@ -7,11 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import fem_reference
-from contact_errors.coarse_solves import Fineness
-from contact_errors.on_elements import ElementSolver
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.reading.engineering_units import quantity
 from contact_scene.stepping.checkpoint import CheckpointStore
@@ -20,6 +18,9 @@ from fem_reference.expected_radius import meshed_radius, sections_of
 from fem_reference.memory import largest_bytes, run_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
 from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text
+
+if TYPE_CHECKING:
+    from contact_errors.on_elements import ElementSolver
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,6 @@ class OnElements(Solver):
 
     table = "fem_reference"
     discretisation = FiniteElementDiscretisation
-    refinable = ElementSolver
 
     def plan(self, scene: Scene, fineness: FiniteElementDiscretisation) -> Plan:
         return fem_reference.plan(scene)
@@ -48,8 +48,14 @@ class OnElements(Solver):
     ) -> Result:
         return fem_reference.solve(scene, fineness, self.method, progress, store)
 
+    @property
+    def refinable(self) -> type[ElementSolver]:
+        from contact_errors.on_elements import ElementSolver
+
+        return ElementSolver
+
     def refined(self, scene: Scene, fineness: Any, stress: bool = False) -> ElementSolver:
-        return ElementSolver(scene, fineness, method=self.method)
+        return self.refinable(scene, fineness, method=self.method)
 
     def work(self, scene: Scene, fineness: FiniteElementDiscretisation, plan: Plan) -> Pairs:
         """Yield names and texts of mesh, increments, factorisations, time and memory of a solve."""
@@ -64,7 +70,7 @@ class OnElements(Solver):
         motions = _motions(plan, fineness)
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
         yield "factorisations", f"{motions * len(sections)}, {text}"
-        yield self.time(scene, fineness, Fineness(fineness, plan.increments, fineness.tolerance))
+        yield self.time(scene, fineness, fineness, plan)
         needed = run_bytes(
             largest_bytes(max(each.quads.shape[1] for each in sections), motions > 1)
         )

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import radial
-from contact_errors.coarse_solves import Fineness
-from contact_errors.on_radii import RingSolver
 from contact_scene import RadialDiscretisation, Scene
 from contact_scene.stepping.checkpoint import CheckpointStore
 from radial import Plan, Result
 from radial.angular_grid import Circle
 from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text
+
+if TYPE_CHECKING:
+    from contact_errors.on_radii import RingSolver
 
 
 class OnRadii(Solver):
@@ -19,7 +20,6 @@ class OnRadii(Solver):
 
     table = "radial"
     discretisation = RadialDiscretisation
-    refinable = RingSolver
 
     def plan(self, scene: Scene, fineness: RadialDiscretisation) -> Plan:
         return radial.plan(scene)
@@ -34,8 +34,14 @@ class OnRadii(Solver):
     ) -> Result:
         return radial.solve(scene, fineness, progress, plan, store)
 
+    @property
+    def refinable(self) -> type[RingSolver]:
+        from contact_errors.on_radii import RingSolver
+
+        return RingSolver
+
     def refined(self, scene: Scene, fineness: Any, stress: bool = False) -> RingSolver:
-        return RingSolver(scene, fineness)
+        return self.refinable(scene, fineness)
 
     def work(self, scene: Scene, fineness: RadialDiscretisation, plan: Plan) -> Pairs:
         """Yield names and texts of rings, tolerance, increments, time and memory of a solve."""
@@ -44,9 +50,7 @@ class OnRadii(Solver):
         yield "rings", _rings_text(fineness, plan)
         yield "tolerance", f"{fineness.tolerance:.3g}"
         yield "increments", increments_text(plan.increments)
-        yield self.time(
-            scene, fineness, Fineness(plan.fineness, plan.increments, fineness.tolerance)
-        )
+        yield self.time(scene, fineness, plan.fineness, plan)
         yield "memory", f"about {estimated_bytes(scene, plan) / 2**20:.0f} MiB"
 
     def layout(self, result: Result) -> Pairs:

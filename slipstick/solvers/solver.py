@@ -11,7 +11,7 @@ from contact_scene.solver_errors import ContactNotResolved, SolverError
 
 if TYPE_CHECKING:
     from contact_errors.adaptive_refinement import Levels
-    from contact_errors.coarse_solves import DiscretisedSolver, Fineness
+    from contact_errors.coarse_solves import DiscretisedSolver
     from contact_results.surface import Result
     from contact_scene import (
         FiniteElementDiscretisation,
@@ -41,12 +41,15 @@ class Solver(ABC):
 
     table           name of the solver's table in a scene file
     discretisation  class of the settings in this table
-    refinable       class of the same solver with variable discretisation, for error estimates
     """
 
     table: str
     discretisation: type[Discretisation]
-    refinable: type[DiscretisedSolver]
+
+    @property
+    @abstractmethod
+    def refinable(self) -> type[DiscretisedSolver]:
+        """Class of the same solver with variable discretisation, imported on access."""
 
     def fineness(self, contents: SceneFile) -> Any:
         """Return the discretisation settings for this solver in a scene file."""
@@ -103,7 +106,7 @@ class Solver(ABC):
         stress_at = (step or len(scene.loading)) if stress else None
         return Levels(self.refined(scene, fineness, stress), stress_at, *hooks)
 
-    def time(self, scene: Scene, fineness: Any, run: Fineness) -> tuple[str, str]:
+    def time(self, scene: Scene, fineness: Any, space: Any, plan: Any) -> tuple[str, str]:
         """Estimate the CPU time of a run with its error estimate, from the first refinement level.
 
         The level is solved for the first load steps, with few increments. Returns the word "time"
@@ -111,8 +114,10 @@ class Solver(ABC):
         resolves the contact.
 
         fineness  discretisation settings
-        run       discretisation, increments and tolerance of the run
+        space     grid, mesh or ring factor of the run
+        plan      increments of the run
         """
+        from contact_errors.coarse_solves import Fineness
         from contact_errors.cost_estimate import MAX_STEPS
 
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
@@ -124,6 +129,7 @@ class Solver(ABC):
             raise
         except SolverError as error:
             return "time", f"not estimated, since a coarse solve failed: {error}"
+        run = Fineness(space, plan.increments, fineness.tolerance)
         work = self.refined(scene, fineness).work(run)
         seconds = time_text(levels.estimated_seconds(level, work))
         return "time", f"{seconds} of one core, error estimates included"
