@@ -48,7 +48,7 @@ increments = 3
 tangential_force = ["-90 N", 0]
 increments = 2
 """
-HEAVY = ("scipy", "matplotlib", "h5py", "pint", "jinja2", "skfem", "semi_analytical")
+HEAVY = ("scipy", "matplotlib", "h5py", "pint", "jinja2", "rich", "skfem", "semi_analytical")
 
 
 @pytest.fixture

@@ -53,6 +53,7 @@ class Regime(StrEnum):
 STRICT = ConfigDict(
     extra="forbid",
     allow_inf_nan=False,
+    defer_build=True,
     json_schema_serialization_defaults_required=True,
 )
 

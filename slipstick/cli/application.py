@@ -1,5 +1,6 @@
 """Entry point of the command line: table of commands, lazy imports and handling of exceptions."""
 
+import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -211,6 +212,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     arguments  arguments without the name of the program; None for those of this process
     """
     one_thread()
+    # The search for plugins of pydantic reads the metadata of all installed packages.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     command = typer.main.get_command(application)
     try:
         with cleaned_up_when_stopped():
