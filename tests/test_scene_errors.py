@@ -15,8 +15,6 @@ from hypothesis import strategies as st
 from strategies import Document, as_toml, documents
 
 from contact_scene import Problem, SceneError, SceneFile, read_scene_file
-from contact_scene.reading.quantity import Quantity
-from contact_scene.reading.units import LENGTH
 
 SCENE = """\
 title = "x"
@@ -351,7 +349,6 @@ JUNK: st.SearchStrategy[Any] = st.recursive(
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    Quantity(LENGTH, "a length")("1 inch")  # whoever meets the first such unit waits for pint
     return tmp_path_factory.mktemp("fuzz")
 
 

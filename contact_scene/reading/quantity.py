@@ -28,13 +28,12 @@ from contact_scene.reading.units import (
     SHARE,
     STIFFNESS,
     Kind,
-    UnknownUnit,
 )
 
-# "number unit"; the unit is a product of at most five simple factors.
+# "number unit"
 _NUMBER = r"[+-]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][+-]?[0-9]{1,4})?"
-_FACTOR = r"[A-Za-zµμ°%]{1,20}(?:(?:\^|\*\*)-?[1-9])?"
-QUANTITY_PATTERN = rf"^({_NUMBER}) ?({_FACTOR}(?:(?: ?[*/·] ?| ){_FACTOR}){{0,4}})$"
+_UNIT = r"[A-Za-zµμ°%](?:[A-Za-zµμ/^ ]{0,20}[A-Za-zµμ2])?"
+QUANTITY_PATTERN = rf"^({_NUMBER}) ?({_UNIT})$"
 _QUANTITY = re.compile(QUANTITY_PATTERN)
 _NUMBER_ALONE = re.compile(_NUMBER)
 
@@ -129,13 +128,13 @@ class Quantity:
             hint = f"write {text.strip()} without quotes, or add a unit" if lone else ""
             raise refusal(f"got {shown(text)}", self.expected, hint)
         number, unit = match.groups()
-        try:
-            return WithUnit(self.kind.to_si(Decimal(number), unit, _EXACT))
-        except UnknownUnit:
-            near = get_close_matches(unit, self.kind.units, n=1, cutoff=0.5)
-            folded = [known for known in self.kind.units if known.lower() == unit.lower()]
-            hint = f'did you mean "{number} {(folded or near)[0]}"?' if folded or near else ""
-            raise refusal(f"got {shown(text)}", self.expected, hint) from None
+        if (factor := self.kind.units.get(unit)) is not None:
+            return WithUnit(_EXACT.multiply(Decimal(number), factor))
+        near = get_close_matches(unit, self.kind.units, n=1, cutoff=0.5)
+        folded = [known for known in self.kind.units if known.lower() == unit.lower()]
+        hint = f'did you mean "{number} {(folded or near)[0]}"?' if folded or near else ""
+        hint = hint or f"the units are {', '.join(self.kind.units)}"
+        raise refusal(f"got {shown(text)}", self.expected, hint)
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
