@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Mapping
-from decimal import Context, Decimal
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +13,6 @@ from contact_results.files.csv_file import WITH_UNIT
 from contact_scene.reading import units
 from contact_scene.reading.units import (
     Kind,
-    UnknownUnit,
 )
 
 SHIFT, ACTUATOR = "tangential_shift", "actuator_shift"
@@ -51,14 +49,14 @@ def read_measured(path: Path) -> Mapping[str, NDArray[np.float64]]:
         if not known:
             continue
         ((mine, kind),) = known
-        try:
-            factor = kind.to_si(Decimal(1), split["unit"] if split else "", Context())
-            found[mine] = factor * np.array([row[position] for row in rows], dtype=float)
-        except UnknownUnit:
+        factor = kind.units.get(split["unit"] if split else "")
+        if factor is None:
             raise ValueError(
                 f"{path}: got the column {head!r}, expected a unit of {kind.si}; write "
                 f"'{name} [{kind.si}]'"
-            ) from None
+            )
+        try:
+            found[mine] = float(factor) * np.array([row[position] for row in rows], dtype=float)
         except ValueError as error:
             raise ValueError(f"{path}: column {head!r}: {error}; write numbers only") from None
         if not np.all(np.isfinite(found[mine])):

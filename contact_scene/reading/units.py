@@ -65,7 +65,7 @@ PRESSURE = Kind(
     '"210 GPa"',
     unit_factors(
         **{"Pa": "1", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9", "TPa": "1e12"},
-        **{"bar": "1e5", "N/mm^2": "1e6", "psi": "6894.757293168361336722673445"},
+        **{"bar": "1e5", "N/m^2": "1", "N/mm^2": "1e6", "psi": "6894.757293168361336722673445"},
     ),
 )
 _ANGLES = unit_factors(**{"rad": "1", "mrad": "1e-3", "deg": _DEGREE, "°": _DEGREE})

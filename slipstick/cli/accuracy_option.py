@@ -17,7 +17,7 @@ from contact_scene.accuracy import AccuracyRequest
 from contact_scene.quantities.stated_error import AccuracyReached
 from contact_scene.reading.scene_file import read_accuracy
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.options import optional
+from slipstick.cli.options import optional, refuse_if
 from slipstick.cli.progress import print_level, solve_progress
 from slipstick.cli.terminal import tell
 from slipstick.solvers.solver import Progress, Solver
@@ -63,15 +63,19 @@ def requested_accuracy(
     error         false for `--no-error`
     """
     request = contents.accuracy if option is None else read_accuracy(option, "--accuracy")
-    if most_seconds is not None and request is None:
-        raise typer.BadParameter(
-            "--most-seconds needs an accuracy; add --accuracy or omit --most-seconds"
+    refuse_if(
+        (
+            (
+                most_seconds is not None and request is None,
+                "--most-seconds needs an accuracy; add --accuracy or omit --most-seconds",
+            ),
+            (
+                request is not None and not error,
+                "--no-error excludes an accuracy; omit --no-error, or omit --accuracy and the "
+                "table [accuracy]",
+            ),
         )
-    if request is not None and not error:
-        raise typer.BadParameter(
-            "--no-error excludes an accuracy; omit --no-error, or omit --accuracy and the table "
-            "[accuracy]"
-        )
+    )
     return request
 
 

@@ -126,36 +126,34 @@ class LevelName(StrEnum):
     FULL = "full"
 
 
-ALMOST, ALIKE = 0.85, 0.5  # similarity of two names, from 0 to 1
+def refuse_if(refusals: Iterable[tuple[object, str]]) -> None:
+    """Raise BadParameter with the message of the first condition that is true.
+
+    refusals  pairs of a condition and a message
+    """
+    for condition, message in refusals:
+        if condition:
+            raise typer.BadParameter(message)
 
 
-def unknown_names(kind: str, given: Iterable[str], known: Collection[str], listing: str) -> str:
-    """Return a message about names that do not exist, with similar names; empty if all names exist.
+SIMILAR = 0.5  # least similarity of a suggested name, from 0 to 1
+
+
+def refuse_unknown(kind: str, given: Iterable[str], known: Collection[str], listing: str) -> None:
+    """Raise BadParameter if any name does not exist, with the most similar names.
 
     kind          noun for a name, such as "case"
     given, known  names to check, and all existing names
     listing       command that lists all names
     """
-    messages = [_unknown_name(kind, name, known) for name in given if name not in known]
-    return "; ".join([*messages, f"'{listing}' lists all"] if messages else [])
-
-
-def _unknown_name(kind: str, name: str, known: Collection[str]) -> str:
-    """Return the message about one name that does not exist, with similar names."""
-    near = _near(name[:100].lower(), known)
-    meant = f", did you mean {' or '.join(near)}?" if near else ""
-    return f"no {kind} is called '{name}'{meant}"
-
-
-def _near(name: str, known: Collection[str]) -> list[str]:
-    """Return existing names that are similar to a misspelt name, for an error message.
-
-    The most similar name is returned; without a very similar one, up to three names.
-    """
-    spelt = {one.replace("-", "_"): one for one in known}
-    name = name.replace("-", "_")
-    found = get_close_matches(name, spelt, 1, ALMOST) or get_close_matches(name, spelt, 3, ALIKE)
-    return [spelt[one] for one in found]
+    messages = []
+    for name in given:
+        if name not in known:
+            near = get_close_matches(name[:100].lower(), known, 1, SIMILAR)
+            meant = f", did you mean {near[0]}?" if near else ""
+            messages.append(f"no {kind} is called '{name}'{meant}")
+    if messages:
+        raise typer.BadParameter("; ".join([*messages, f"'{listing}' lists all"]))
 
 
 def refuse_with_run(given: dict[str, object]) -> None:
@@ -165,9 +163,5 @@ def refuse_with_run(given: dict[str, object]) -> None:
 
     given  values of the options by name
     """
-    for option, value in given.items():
-        if value:
-            raise typer.BadParameter(
-                f"{option} applies to a scene, got the output of a run: omit it, or give the scene "
-                "file"
-            )
+    text = "applies to a scene, got the output of a run: omit it, or give the scene file"
+    refuse_if((value, f"{option} {text}") for option, value in given.items())

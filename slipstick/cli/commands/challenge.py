@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from slipstick.cli.options import directory, unknown_names
+from slipstick.cli.options import directory, refuse_unknown
 from slipstick.cli.terminal import print_table
 from verification.challenge.cases import challenges
 from verification.challenge.export import export
@@ -49,8 +49,7 @@ def challenge(
         return
     if case is None:
         raise typer.BadParameter(f"name a challenge; there are {', '.join(known)}")
-    if problem := unknown_names("challenge", [case], known, "slipstick challenge list"):
-        raise typer.BadParameter(problem)
+    refuse_unknown("challenge", [case], known, "slipstick challenge list")
     folder = output or Path(f"challenge-{case.replace('/', '-')}")
     export(known[case], folder, blind=blind)
     typer.echo(f"{folder}: read problem.md, fill in answers.csv, then: slipstick judge {folder}")

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from slipstick.cli.options import refuse_unknown
+
 
 def example(
     name: Annotated[
@@ -23,9 +25,6 @@ def example(
         for each, text in scenes.items():
             title = text.splitlines()[0].partition("=")[2].strip(' "')
             typer.echo(f"{each:15} {title}")
-    elif name in scenes:
-        typer.echo(scenes[name], nl=False)
-    else:
-        from slipstick.cli.options import unknown_names
-
-        raise typer.BadParameter(unknown_names("example", [name], scenes, "slipstick example"))
+        return
+    refuse_unknown("example", [name], scenes, "slipstick example")
+    typer.echo(scenes[name], nl=False)

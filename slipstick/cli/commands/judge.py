@@ -11,7 +11,7 @@ import typer
 
 from contact_results.directory.atomic_file import Refused, atomic_file
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.options import optional, unknown_names
+from slipstick.cli.options import optional, refuse_unknown
 from slipstick.cli.terminal import print_table
 from verification.challenge.answer import Solver
 from verification.challenge.answer_reader import read_answers
@@ -123,8 +123,7 @@ def _solved(
         raise typer.BadParameter(
             "a function needs --case; 'slipstick challenge list' lists the challenges"
         )
-    if problem := unknown_names("challenge", [case], challenges(), "slipstick challenge list"):
-        raise typer.BadParameter(problem)
+    refuse_unknown("challenge", [case], challenges(), "slipstick challenge list")
     solve = named_solver(name)
     try:
         return judge_solver(case, solve, levels, grade, Solver(name))

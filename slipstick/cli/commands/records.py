@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.options import optional, unknown_names
+from slipstick.cli.options import optional, refuse_unknown
 from slipstick.cli.terminal import print_table
 from verification.judging.outcome import commit_text
 from verification.running.records import stored_records
@@ -42,8 +42,7 @@ def records(
     """
     found = stored_records(directory)
     names = [record.name for record in found]
-    if problem := unknown_names("record", only or (), names, "slipstick maintain records"):
-        raise typer.BadParameter(problem)
+    refuse_unknown("record", only or (), names, "slipstick maintain records")
     found = [record for record in found if not only or record.name in only]
     stale = [record for record in found if age_text(record.provenance)]
     print_table(

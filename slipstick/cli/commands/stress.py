@@ -28,7 +28,6 @@ from contact_results.stress.radial_body import is_sheared, refuse_infinite, refu
 from contact_results.stress.stress_maxima import extremes, maxima_columns
 from contact_results.stress_result import write_history, write_stress
 from contact_scene import Body, SceneFile, read_scene_file
-from contact_scene.accuracy import AccuracyRequest
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
 from contact_scene.quantities.stated_error import StatedErrors
 from contact_scene.reading.quantity import Length
@@ -48,6 +47,7 @@ from slipstick.cli.options import (
     OutputOption,
     SetOption,
     optional,
+    refuse_if,
     refuse_with_run,
     warn_of_odd_numbers,
 )
@@ -150,10 +150,20 @@ def stress(
         refuse_with_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
     else:
         _refuse_beside_section(chosen, chosen_depths, volume)
-    if history and step is not None:
-        raise typer.BadParameter("--history is of all load steps; leave --step out")
-    if at or history:
-        _refuse_with_points(at, {"--depths": depths, "--volume": volume, "--accuracy": accuracy})
+    without_points = {"--depths": depths, "--volume": volume, "--accuracy": accuracy}
+    refuse_if(
+        (
+            (
+                history and step is not None,
+                "--history is of all load steps; leave --step out",
+            ),
+            (history and not at, "--history needs points; add --at X,Y,Z"),
+            *(
+                (at and value, f"{option} excludes --at; omit one of them")
+                for option, value in without_points.items()
+            ),
+        )
+    )
     if not source.is_dir():
         contents = read_scene_file(source, overrides or ())
     if at or history:
@@ -165,12 +175,24 @@ def stress(
         else:
             warn_of_odd_numbers(contents)
             request = requested_accuracy(contents, accuracy, most_seconds, error=error)
-            _refuse_in_part(request, indenter, chosen_depths)
-            if step is not None and step > len(contents.scene.loading):
-                raise typer.BadParameter(
-                    f"there is no step {step}; the scene has steps 1 to "
-                    f"{len(contents.scene.loading)}"
+            of_stress, steps = request and request.binds_stress, len(contents.scene.loading)
+            refuse_if(
+                (
+                    (
+                        of_stress and indenter,
+                        "an accuracy of max_principal applies to the body; omit --indenter",
+                    ),
+                    (
+                        of_stress and chosen_depths is not None,
+                        "an accuracy of max_principal needs all depths: omit --depths, or request "
+                        "other quantities",
+                    ),
+                    (
+                        step is not None and step > steps,
+                        f"there is no step {step}; the scene has steps 1 to {steps}",
+                    ),
                 )
+            )
             stated: StatedErrors | None
             if request is None:
                 result, stated = _solved(contents, chosen, error)
@@ -213,45 +235,6 @@ def stress(
         typer.echo("  errors without that of increments, which the run does not state")
     typer.echo(f"results in {output}")
     leave_unless_met(reached)
-
-
-def _refuse_in_part(
-    request: AccuracyRequest | None, indenter: bool, depths: list[float] | None
-) -> None:
-    """Refuse a requested accuracy of the largest stress if only a part of the body is computed.
-
-    Raises BadParameter for the indenter and for chosen depths.
-
-    request   requested accuracy, or None
-    indenter  value of the option `--indenter`
-    depths    values of the option `--depths`, or None
-    """
-    if request is None or not request.binds_stress:
-        return
-    if indenter:
-        raise typer.BadParameter(
-            "an accuracy of max_principal applies to the body; omit --indenter"
-        )
-    if depths is not None:
-        raise typer.BadParameter(
-            "an accuracy of max_principal needs all depths: omit --depths, or request other "
-            "quantities"
-        )
-
-
-def _refuse_with_points(at: list[str] | None, given: dict[str, object]) -> None:
-    """Refuse options that cannot be combined with `--at`, the stress at chosen points.
-
-    Raises BadParameter for such an option, and for `--history` without `--at`.
-
-    at     arguments of `--at`, or None
-    given  values of the excluded options by name
-    """
-    if not at:
-        raise typer.BadParameter("--history needs points; add --at X,Y,Z")
-    for option, value in given.items():
-        if value:
-            raise typer.BadParameter(f"{option} excludes --at; omit one of them")
 
 
 def _write_points(
@@ -366,15 +349,20 @@ def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volum
     depths  values of the option `--depths`, or None
     volume  value of the option `--volume`
     """
-    if solver.is_fem and (depths is not None or volume):
-        raise typer.BadParameter(
-            "finite elements compute the stress at their nodes in one plane: omit --depths and "
-            "--volume"
+    refuse_if(
+        (
+            (
+                solver.is_fem and (depths is not None or volume),
+                "finite elements compute the stress at their nodes in one plane: omit --depths "
+                "and --volume",
+            ),
+            (
+                solver is SolverName.RADIAL and volume,
+                "the radial solver computes the stress in one plane through the axis: omit "
+                "--volume",
+            ),
         )
-    if solver is SolverName.RADIAL and volume:
-        raise typer.BadParameter(
-            "the radial solver computes the stress in one plane through the axis: omit --volume"
-        )
+    )
 
 
 def _below(

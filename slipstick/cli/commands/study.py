@@ -17,7 +17,7 @@ from slipstick.cli.options import (
     SetOption,
     directory,
     optional,
-    unknown_names,
+    refuse_unknown,
     workers_at,
 )
 from slipstick.cli.progress import how_it_ended, run_shown
@@ -114,8 +114,7 @@ def study(
     known = [*STUDIES, *SCENE_STUDIES]
     if name is None:
         raise typer.BadParameter(f"name a study; there are {', '.join(known)}")
-    if problem := unknown_names("study", [name], known, "slipstick maintain study --list"):
-        raise typer.BadParameter(problem)
+    refuse_unknown("study", [name], known, "slipstick maintain study --list")
     if (scene is None) == (name in SCENE_STUDIES):
         problem = "needs a scene file" if scene is None else "takes no scene file"
         raise typer.BadParameter(f"study {name} {problem}")

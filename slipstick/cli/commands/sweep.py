@@ -23,7 +23,7 @@ from slipstick.cli.options import (
     SchedulerOption,
     SetOption,
     SolverOption,
-    unknown_names,
+    refuse_unknown,
     workers_at,
 )
 from slipstick.cli.progress import how_it_ended, run_shown
@@ -91,8 +91,7 @@ def sweep(
     valid = next(point for point in made if not point.invalid)
     first = read_scene_file(scene, valid.overrides).scene
     listing = "slipstick maintain schema summary"
-    if problem := unknown_names("quantity", names, quantities(first.body), listing):
-        raise typer.BadParameter(problem)
+    refuse_unknown("quantity", names, quantities(first.body), listing)
     print_pairs([("points", str(len(made))), ("solver", solver.value)])
     if solver is not SolverName.RADIAL and (how := by_radii(first)):
         print_pairs([("radial", f"--solver radial can solve this: {how}")])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from slipstick.cli.options import optional
+from slipstick.cli.options import optional, refuse_unknown
 
 if TYPE_CHECKING:
     from slipstick.tables.table import Table
@@ -39,10 +39,7 @@ def table(
     if name is None:
         _list(TABLES)
         return
-    if name not in TABLES:
-        from slipstick.cli.options import unknown_names
-
-        raise typer.BadParameter(unknown_names("table", [name], TABLES, "slipstick table"))
+    refuse_unknown("table", [name], TABLES, "slipstick table")
     chosen = TABLES[name]
     found = chosen.dataset(_values(chosen, over or ()))
     typer.echo(found.json() if as_json else found.csv(), nl=False)

@@ -15,7 +15,7 @@ from slipstick.cli.options import (
     SchedulerOption,
     directory,
     optional,
-    unknown_names,
+    refuse_unknown,
     workers_at,
 )
 from slipstick.cli.progress import how_it_ended, run_shown
@@ -94,8 +94,7 @@ def verify(
     """
     chosen = Level[level.name]
     listing = f"slipstick verify --list --level {level}"
-    if problem := unknown_names("case", names or (), KNOWN, listing):
-        raise typer.BadParameter(problem)
+    refuse_unknown("case", names or (), KNOWN, listing)
     cases = choose(chosen, names or ())
     if list_cases:
         rows = ((case.name, str(len(case.runs)), case.title) for case in cases)
