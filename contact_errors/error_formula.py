@@ -99,7 +99,10 @@ class Features:
     infinite      true if the exact peak pressure is infinite
     cusp          true if the pressure has a cusp, because shear changes the pressure or the gap is
                   a power between 1 and 2 of the distance
-    ridge         true if the largest pressure is nearer to the contact edge than to the middle
+    peak_by_edge  true if the error of the peak pressure depends on the position of the contact
+                  edge within a cell: the peak is nearer to the edge than to the middle, or is the
+                  value at one ring of nodes (at a node the edge causes 7 times the error that it
+                  causes in the middle of an element)
     slides        true in gross slip, if no stick zone can be hidden within a cell
     left          relative errors of scalars, by name, that remain when the iteration of the edge
                   correction (sub-cell pressure at the contact edge) stops
@@ -115,7 +118,7 @@ class Features:
     sharp: bool = False
     infinite: bool = False
     cusp: bool = False
-    ridge: bool = False
+    peak_by_edge: bool = False
     slides: bool = False
     left: Mapping[str, float] = field(default_factory=dict)
 
@@ -133,7 +136,7 @@ class Features:
             return ROOT
         first = (
             name == LARGEST_TENSION  # at the edge of the contact, or inside
-            or (name == PEAK and self.ridge)
+            or (name == PEAK and self.peak_by_edge)
             or (name in CONTACT_EDGE and not self.fitted)
             or (name in STICK_EDGE and not self.stick_fitted)
         )

@@ -184,7 +184,7 @@ class CellSolver(DiscretisedSolver):
                 sharp=is_singular(indenter),
                 infinite=is_singular(indenter),
                 cusp=coupled or has_cusp(indenter),
-                ridge=ridge or _to_edge(end) < cells.contact / 2,
+                peak_by_edge=ridge or _to_edge(end) < cells.contact / 2,
                 slides=sliding and not hides,
                 left={} if report is None else _left(report),
             )

@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from math import ceil
 from typing import Any, ClassVar, Self
 
-import numpy as np
-
 import fem_reference
 from contact_errors.coarse_solves import (
     SHARES,
@@ -164,7 +162,7 @@ class ElementSolver(DiscretisedSolver):
             sharp=is_singular(indenter),
             infinite=is_singular(indenter),
             cusp=result.plan.path in CUSPED or has_cusp(indenter),
-            ridge=_peak_radius(end) > end.contact_radius / 2,
+            peak_by_edge=True,
             slides=end.status is ContactStatus.GROSS_SLIDING,
         )
 
@@ -218,12 +216,3 @@ class ElementSolver(DiscretisedSolver):
 def _with(mesh: FiniteElementDiscretisation, **update: object) -> FiniteElementDiscretisation:
     """Return a copy of the settings of a finite-element solve with some values replaced."""
     return mesh.model_copy(update=update)
-
-
-def _peak_radius(end: Increment) -> float:
-    """Return the radius of the ring of nodes with the largest pressure [length].
-
-    Used to detect a pressure maximum near the contact edge, which converges with a lower order.
-    """
-    largest = end.pressure.reshape(len(end.radii), -1).max(axis=1)
-    return float(end.radii[np.argmax(largest)])

@@ -436,7 +436,7 @@ KNOWN: dict[str, Callable[[], Known]] = {
     **{f"hertz, {n} cells": lambda n=n: hertzian(n) for n in (16, 23, 48, 64)},
     **{
         f"hertz, {n} elements, {solver}": lambda n=n, solver=solver: elements(n, solver)
-        for n in (8, 11, 23)
+        for n in (8, 14, 23)
         for solver in ("fem", "fem-complementarity")
     },
     "Cattaneo and Mindlin": cattaneo,

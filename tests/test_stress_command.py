@@ -50,9 +50,8 @@ def test_traction_on_the_interface_is_the_largest_of_one_side(place: Path) -> No
     record = json.loads((place / "out" / "stress.json").read_text(encoding="utf-8"))
     measures = ("interface_shear", "interface_tensile_stress")
     found = [e for e in record["maxima"] if e["measure"] in measures]
-    assert [(e["region"], e["measure"]) for e in found] == [
-        ("interface 1 above", m) for m in measures
-    ]
+    # The pressed interface is in compression, which decays to zero outside the computed region.
+    assert [(e["region"], e["measure"]) for e in found] == [("interface 1 above", measures[0])]
     table = rows(place / "out" / "stress_interfaces.csv")
     xz, zz, x = (
         np.array([float(row[name]) for row in table if row["side"] == "above"])
@@ -62,7 +61,7 @@ def test_traction_on_the_interface_is_the_largest_of_one_side(place: Path) -> No
     assert found[0]["value"] == pytest.approx(np.max(np.abs(xz)), rel=0.02)
     radius = np.hypot(found[0]["x"], found[0]["y"])
     assert radius == pytest.approx(abs(x[np.argmax(np.abs(xz))]), abs=x[1] - x[0])
-    assert np.max(zz) <= found[1]["value"] < 1e-3 * found[0]["value"]
+    assert np.max(zz) < 0
     assert found[0]["error"]["error"] < 0.1 * found[0]["value"]
 
 

@@ -44,7 +44,9 @@ class Extreme:
 def extremes(field: StressField, body: Body) -> tuple[Extreme, ...]:
     """Find the largest value of every stress measure in every region of a body.
 
-    Points on the fitted edge of the contact are included.
+    Points on the fitted edge of the contact are included. A measure without a positive value has
+    no largest value if its highest value lies at the edge of the computed region: stresses decay to
+    zero beyond this edge.
 
     field  computed stress
     body   lower body or indenter, in which the stress was computed
@@ -55,7 +57,7 @@ def extremes(field: StressField, body: Body) -> tuple[Extreme, ...]:
     if field.edge is not None:
         for extreme in _largest_in_regions(field.edge.points, field.direction, body):
             key = extreme.region, extreme.measure
-            if extreme.value > found[key].value:
+            if key not in found or extreme.value > found[key].value:
                 found[key] = replace(extreme, on_edge=True)
     return tuple(found.values())
 
@@ -84,7 +86,8 @@ def _largest_in_regions(
             )
             x, y = along * x - across * y + 0.0, across * x + along * y + 0.0
             at_edge = bool(points.at_edge.flat[k])
-            yield Extreme(region, measure, value, x, y, depth, at_edge)
+            if not at_edge or value >= 0:
+                yield Extreme(region, measure, value, x, y, depth, at_edge)
 
 
 def interface_sides(body: Body) -> list[tuple[int, str, float, int]]:
