@@ -71,14 +71,6 @@ DOUBT, FURTHEST = 4.0, 1e4
 ROUND_OFF = 1e-7
 
 
-def _no_context(fineness: object) -> AbstractContextManager[None]:
-    """Return an empty context for a solve without progress display or checkpoint store.
-
-    fineness  discretisation of the solve; without effect
-    """
-    return nullcontext()
-
-
 @dataclass(frozen=True)
 class RefinementLevel:
     """Result of one discretisation (level) of an adaptive refinement, with its error estimates.
@@ -194,8 +186,8 @@ class Levels:
 
     solver: DiscretisedSolver
     stress_at: int | None = None
-    watching: InContext = _no_context
-    keeping: InContext = _no_context
+    watching: InContext = lambda _: nullcontext()
+    keeping: InContext = lambda _: nullcontext()
 
     def first(self, *, few_increments: bool = False) -> RefinementLevel:
         """Solve the first level: the coarsest discretisation whose cells resolve the contact.

@@ -39,7 +39,7 @@ from contact_scene.stepping.increment_error import with_error
 SHARES = ("2/5 of the {}", 2 / 5, 0), ("half the {} plus 2", 1 / 2, 2)
 # A load step with fewer than FEW increments is compared with solves of MANY increments, because
 # half of a few increments is outside the range of regular convergence.
-FEW, MANY = 4, (32, 8)
+FEW, MANY = 8, (32, 8)
 LEAST_TOLERANCE = 1e-13
 
 
@@ -522,8 +522,4 @@ def _pair(count: int) -> tuple[int, int]:
 
     count  number of increments of the load step in the result
     """
-    if count < FEW:
-        return MANY
-    if count < 2 * FEW:
-        return 4 * count, 2 * count
-    return count // 2, max(FEW, count // 4)
+    return MANY if count < FEW else (count // 2, max(FEW // 2, count // 4))

@@ -91,8 +91,9 @@ class CellSolver(DiscretisedSolver):
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve the scene on a grid of surface cells.
 
-        If the window was fitted by the program and the contact reaches its edge, the scene is
-        solved on a larger window with cells of equal size.
+        If the contact reaches the edge of the window, the scene is solved on a larger window with
+        cells of equal size. A window that is prescribed or that is the extent of a height map is
+        not enlarged.
 
         fineness  grid, increments and tolerance
         progress  function that is called after every increment, or None
@@ -100,7 +101,8 @@ class CellSolver(DiscretisedSolver):
         """
         grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
         plan = plan if fineness.edges else replace(plan, edge="off")
-        for _ in range(MAX_ENLARGEMENTS if self._can_grow else 0):
+        fitted = self.discretisation.window is None and self.scene.indenter.extent is None
+        for _ in range(MAX_ENLARGEMENTS if fitted else 0):
             cells, (hx, hy) = scaled(grids[-1].cells, ROOM), grids[-1].spacing
             grids.append(SurfaceGrid(cells, (cells[0] * hx, cells[1] * hy)))
         return solve_within(self.scene, grids, fineness.tolerance, progress, plan, store)
@@ -111,29 +113,13 @@ class CellSolver(DiscretisedSolver):
     def coarser(self, result: Result, share: float, more: int) -> SurfaceGrid:
         """Return a grid with fewer cells on the window of the result, for its error estimate.
 
-        Cells are added around the grid if the window was fitted by the program, and if the contact
-        comes within a coarse cell of its edge.
+        The numbers of cells are rounded up to even numbers.
 
         share  fraction of the cells of the result along a side
         more   number of cells added along each side
         """
-        grid, touched = result.grid, np.any([end.in_contact for end in result.steps], axis=0)
-        counts, sides = list(_part(grid.cells, share, more)), list(grid.window)
-        for axis in (0, 1) if self._can_grow else ():
-            n, (rows, *_) = grid.cells[axis], np.nonzero(touched.any(axis=1 - axis))
-            h = sides[axis] / counts[axis]
-            reach = max(n / 2 - rows[0], rows[-1] + 1 - n / 2) * counts[axis] / n
-            counts[axis] = max(counts[axis], 2 * ceil(reach + 1))
-            sides[axis] = counts[axis] * h
-        return SurfaceGrid((counts[0], counts[1]), (sides[0], sides[1]))
-
-    @property
-    def _can_grow(self) -> bool:
-        """True if the solver may enlarge the window, the rectangle of the surface that has cells.
-
-        The window may be enlarged if it is neither prescribed nor the extent of a height map.
-        """
-        return self.discretisation.window is None and self.scene.indenter.extent is None
+        nx, ny = (2 * ceil(share * n / 2) + more for n in result.grid.cells)
+        return SurfaceGrid((nx, ny), result.grid.window)
 
     def few(self, coarse: Fineness, result: Result) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.
@@ -248,19 +234,6 @@ def _may_hide_stick(end: Increment) -> bool:
     i, j = np.unravel_index(np.argmin(np.where(end.in_contact, slip, np.inf)), slip.shape)
     around = slip[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]
     return bool(2 * slip[i, j] <= np.max(around))
-
-
-def _part(cells: tuple[int, int], share: float, more: int = 0) -> tuple[int, int]:
-    """Reduce the numbers of cells of a grid along x and y, for a coarse solve.
-
-    The reduced numbers are rounded up to even numbers.
-
-    cells  numbers of cells of the result along x and y
-    share  factor of these numbers, below 1
-    more   number of cells that are then added along each side
-    """
-    nx, ny = (2 * ceil(share * n / 2) + more for n in cells)
-    return nx, ny
 
 
 def scaled(cells: tuple[int, int], factor: float) -> tuple[int, int]:

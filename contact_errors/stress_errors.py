@@ -143,15 +143,6 @@ def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -
     return stress_on_cells(state, indenter=indenter, depths=depths)
 
 
-def _is_fitted(field: StressField) -> bool:
-    """Return true if a fit locates the contact edge of a stress field within the cells.
-
-    The largest stress adjacent to a fitted edge converges with a higher order.
-    """
-    edge = field.edge
-    return bool(field.how.get("edges")) if edge is None else edge.determined
-
-
 def stress_errors(
     state: LoadedBodies, field: StressField, found: Sequence[Extreme], *, indenter: bool = False
 ) -> tuple[StatedError, ...]:
@@ -178,7 +169,9 @@ def stress_errors(
     body, near = state.indenter if indenter else state.body, NEAR * _side(state)
     here = _places(field, body, near)
     there = [_places(_field(one, indenter=indenter, depths=sampled), body, near) for one in two]
-    fitted, errors, measures = _is_fitted(field), [], field.points.measures
+    # The largest stress adjacent to a fitted contact edge converges with a higher order.
+    fitted = bool(field.how.get("edges")) if field.edge is None else field.edge.determined
+    errors, measures = [], field.points.measures
     for extreme in found:
         largest, unresolved = 0.0, False
         for at_edge, values in here.items():
