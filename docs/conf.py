@@ -1,4 +1,4 @@
-"""Sphinx: `./run docs`, or sphinx-build -W -b html docs build/docs. It needs no network."""
+"""Sphinx configuration. Build by `./run docs`, or sphinx-build -W -b html docs build/docs."""
 
 import re
 import sys
@@ -32,7 +32,7 @@ nitpicky = False
 html_math_renderer = "mathml"  # by docutils: the pages need no network either
 html_theme = "alabaster"
 html_theme_options = {
-    "description": "Slip, stick and how accurately they are known",
+    "description": "Frictional contact of coated bodies, with the error of each number",
     "fixed_sidebar": True,
     "page_width": "1240px",
     "body_max_width": "none",
@@ -46,15 +46,18 @@ templates_path = ["_templates"]
 
 
 def setup(app) -> None:
-    """The pages that are read off the code are written first."""
+    """Register the hooks of this build: generated pages, parameter lists and formulas."""
     app.connect("builder-inited", lambda app: write_pages(HERE))
-    app.connect("autodoc-process-docstring", described)
+    app.connect("autodoc-process-docstring", list_parameters)
     app.add_html_math_renderer("mathml", (formula, None), (formula, None))
 
 
-def described(app, kind, name, thing, options, lines) -> None:
-    """Parameters as a list: of a value of a scene what its file says of the keys, not the marks of
-    its types; elsewhere the lines of the docstring that begin with a name and two spaces."""
+def list_parameters(app, kind, name, thing, options, lines) -> None:
+    """Convert a docstring to a parameter list for Sphinx.
+
+    Lines that begin with a name and two spaces become parameters. For objects of a scene, the
+    descriptions of its keys are appended and type annotations are removed.
+    """
     lines[:] = [NAMED.sub(r":param \1: ", line) for line in lines]
     if isinstance(thing, type) and issubclass(thing, BaseModel):
         app.env.current_document.autodoc_annotations.pop(name, None)

@@ -1,4 +1,4 @@
-"""What a scene of the gallery is held against: a published number, ours, and the verdict."""
+"""Comparison of the scenes of the gallery with published numbers, and the verdicts."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from contact_scene import read_scene_file
 from slipstick import solve, stated_errors
 
 SCENES = Path(__file__).parent / "gallery"
-TELLS = 0.1  # agreement within a larger part of the number is no statement
+CONCLUSIVE = 0.1  # largest error, as a part of the number, for which agreement is a statement
 
 
 class Verdict(StrEnum):
-    """What comparing says."""
+    """Result of the comparison of a published with a computed number."""
 
     AGREES = "agrees"
     DIFFERS = "differs"
-    CANNOT_TELL = "cannot tell"
+    INCONCLUSIVE = "inconclusive"
 
 
 @dataclass(frozen=True)
 class Solved:
-    """A scene with changes, solved once."""
+    """A scene of the gallery with changes, which is solved when its result is first read."""
 
     scene: str
     solver: str
@@ -34,17 +34,20 @@ class Solved:
 
     @cached_property
     def result(self) -> Any:
-        """Of the solver."""
+        """Result of the solver for the scene with its changes."""
         contents = read_scene_file(SCENES / f"{self.scene}.toml", self.changes)
         return solve(contents, self.solver)
 
     @cached_property
     def errors(self) -> Any:
-        """Stated beside it."""
+        """Stated errors of all scalars of the result."""
         return stated_errors(self.result)
 
     def value(self, name: str, step: int = -1) -> tuple[float, float]:
-        """A scalar at the end of a step, of a vector what is along x, and its stated error."""
+        """Return a scalar at the end of a load step and its stated error, in SI units.
+
+        Of a vector the component along x is returned. The error is infinite if none is stated.
+        """
         value = getattr(self.result.steps[step], name)
         error = self.errors.steps[step][name].error
         if isinstance(value, int | float):
@@ -57,14 +60,17 @@ Ours = Callable[[Solved], tuple[float, float]]
 
 @dataclass(frozen=True)
 class Claim:
-    """A number that somebody vouches for.
+    """A published number with the computation that is compared with it.
 
-    published  in `unit`
-    reading    how far it may be off as it stands there: digits, a digitised curve, what its theory
-               leaves out [unit]
-    ours       value and error [SI]
-    size       of the unit in SI
-    verdict    that is expected; another one is a failure of the gallery
+    what       quantity, for the table of the page
+    by         author or theory of the published number
+    published  published number, in `unit`
+    reading    error of the published number in `unit`: digits, digitised curve, neglected effects
+    ours       function that returns our value and its error in SI units
+    unit, size
+               name of the unit, and its size in SI units
+    changes    changes of the scene for this number
+    verdict    expected verdict; any other verdict stops the build of the pages
     """
 
     what: str
@@ -80,12 +86,16 @@ class Claim:
 
 @dataclass(frozen=True)
 class Entry:
-    """A scene with its claims.
+    """A page of the gallery: one scene, and the published numbers that are compared with it.
 
-    words   what it is about; conclusion: what follows
-    source  of what was published
-    shown   changes of the scene that is drawn
-    more    what else stands below the claims, as text
+    scene       name of the scene file in docs/gallery
+    words       description of the contact
+    source      publication
+    claims      published numbers
+    conclusion  text below the table
+    shown       changes of the scene that is drawn
+    more        function that returns further text of the page, or None
+    solved      results by changes of the scene
     """
 
     scene: str
@@ -99,14 +109,14 @@ class Entry:
     more: Callable[[Entry], str] | None = None
     solved: dict[tuple[str, ...], Solved] = field(default_factory=dict, compare=False)
 
-    def of(self, changes: tuple[str, ...]) -> Solved:
-        """The scene with these changes."""
+    def with_changes(self, changes: tuple[str, ...]) -> Solved:
+        """Return the scene with changes, which is solved once for all its claims."""
         return self.solved.setdefault(changes, Solved(self.scene, self.solver, changes))
 
 
 @dataclass(frozen=True)
-class Found:
-    """A claim that has been put to the test; ours and error in the claim's unit."""
+class Comparison:
+    """A published number with our value and its error, in the unit of the publication."""
 
     claim: Claim
     ours: float
@@ -114,17 +124,18 @@ class Found:
 
     @property
     def verdict(self) -> Verdict:
-        """The two differ where they are further apart than the errors of both allow.
+        """DIFFERS if the difference exceeds the sum of both errors.
 
-        Any number agrees within a large error: such a one does not tell.
+        AGREES if our error is also small enough for a statement, else INCONCLUSIVE: any number
+        agrees within a large error.
         """
         if abs(self.ours - self.claim.published) > self.claim.reading + self.error:
             return Verdict.DIFFERS
-        tells = self.error <= TELLS * abs(self.ours) + self.claim.reading
-        return Verdict.AGREES if tells else Verdict.CANNOT_TELL
+        conclusive = self.error <= CONCLUSIVE * abs(self.ours) + self.claim.reading
+        return Verdict.AGREES if conclusive else Verdict.INCONCLUSIVE
 
 
-def found(entry: Entry, claim: Claim) -> Found:
-    """Solve what it takes."""
-    ours, error = claim.ours(entry.of(claim.changes))
-    return Found(claim, ours / claim.size, error / claim.size)
+def compare(entry: Entry, claim: Claim) -> Comparison:
+    """Solve the scene of a claim, unless it has been solved, and compare the two numbers."""
+    ours, error = claim.ours(entry.with_changes(claim.changes))
+    return Comparison(claim, ours / claim.size, error / claim.size)

@@ -1,4 +1,4 @@
-"""The gallery: published contacts, ours beside them. Numbers carry who made them."""
+"""Entries of the gallery: published contacts with the numbers that are computed again here."""
 
 from __future__ import annotations
 
@@ -13,35 +13,35 @@ HERTZ = "closed form of Hertz"
 
 
 def scalar(name: str, step: int = -1) -> Ours:
-    """As it is reported."""
+    """Compare a reported scalar at the end of a load step."""
     return lambda solved: solved.value(name, step)
 
 
 def ratio(name: str, by: float, step: int = -1) -> Ours:
-    """Over a number."""
+    """Compare a reported scalar, divided by a constant."""
 
-    def of(solved):
+    def divided(solved):
         value, error = solved.value(name, step)
         return value / by, error / by
 
-    return of
+    return divided
 
 
 def stick_ratio(solved):
-    """Stick radius over contact radius."""
+    """Return the stick radius over the contact radius, and its error."""
     c, dc = solved.value("stick_radius")
     a, da = solved.value("contact_radius")
     return c / a, c / a * (dc / c + da / a)
 
 
 def energy_of_cycle(solved):
-    """From the reversal to the end."""
+    """Return the energy dissipated from the first reversal to the end, and its error [energy]."""
     (after, error), (before, _) = (solved.value("dissipated_energy", n) for n in (-1, -3))
     return after - before, error
 
 
 def mean_pressure(solved):
-    """Force over area."""
+    """Return the mean pressure, force over contact area, and its error [stress]."""
     force, _ = solved.value("normal_force")
     radius, error = solved.value("contact_radius")
     mean = force / (pi * radius**2)
@@ -49,13 +49,13 @@ def mean_pressure(solved):
 
 
 def inverse(name: str, factor: float) -> Ours:
-    """A factor over a number: a stiffness."""
+    """Compare a constant divided by a reported scalar, for example a stiffness."""
 
-    def of(solved):
+    def inverted(solved):
         value, error = solved.value(name)
         return factor / value, factor * error / value**2
 
-    return of
+    return inverted
 
 
 HERTZ_CLASSIC = 14.691225517e9  # of the ball on the bare substrate

@@ -1,4 +1,5 @@
-"""What no increment reports: deflection under a given pressure, stress of a sliding contact."""
+"""Quantities of the gallery that no result contains: deflection by a uniform pressure, and largest
+stresses of a sliding contact."""
 
 from __future__ import annotations
 
@@ -29,30 +30,40 @@ THICKNESSES, RATIOS = (0.125, 0.25, 0.5, 1.0, 2.0), (0.5, 2.0, 4.0)  # over a_H;
 
 
 def deflection(at: float, radius: float, pressure: float) -> Ours:
-    """Below a point of a disc with an even pressure, or beside it [length].
+    """Compare the surface displacement under a uniform pressure on a disc [length].
 
-    at  distance from the middle, not on the rim
+    at        distance of the point from the middle of the disc; not equal to the radius
+    radius    radius of the disc
+    pressure  uniform pressure
     """
 
-    def of(solved: Solved) -> tuple[float, float]:
+    def displacement(solved: Solved) -> tuple[float, float]:
         stack = stack_of(solved.result.scene.body)
         fine, coarse = (_by_layers(stack, at, radius, panels) for panels in (PANELS, PANELS // 2))
         G, nu = stack.outer
         there = _by_half_space(at / radius) * 2 * (1 - nu) * radius / (np.pi * G)
         return pressure * (there + fine), pressure * abs(fine - coarse)
 
-    return of
+    return displacement
 
 
 def _by_half_space(at: float) -> float:
-    """Of the outermost material: (1-ν) p a / G over π/2 (Johnson 1985, eqs. 3.29)."""
+    """Return the displacement of a half-space of the outermost material, in units of
+    2 (1 - ν) p a / (π G) (Johnson 1985, eqs. 3.29).
+
+    at  distance from the middle over the radius a of the disc
+    """
     if at <= 1:
         return float(ellipe(at**2))
     return at * float(ellipe(at**-2) - (1 - at**-2) * ellipk(at**-2))
 
 
 def _by_layers(stack, at: float, radius: float, panels: int) -> float:
-    """What the layers change: a ∫ ΔC22 J1(αa) J0(αr) dα by Gauss's rule."""
+    """Return the change of the displacement by the layers, per unit of pressure.
+
+    The integral a ∫ ΔC22 J1(αa) J0(αr) dα is computed by Gauss's rule on `panels` intervals.
+    ΔC22 is the normal compliance of the layered body less that of its outermost material.
+    """
     nodes, weights = np.polynomial.legendre.leggauss(16)
     ends = np.linspace(0.0, DEEPEST / stack.layers[0].thickness, panels + 1)
     half = np.diff(ends)[:, None] / 2
@@ -64,8 +75,11 @@ def _by_layers(stack, at: float, radius: float, panels: int) -> float:
 
 @cache
 def _sliding(changes: tuple[str, ...], cells: int) -> tuple[float, float]:
-    """Largest tension on the edge of the contact and largest shear at the interface, over p_H,
-    under µp along x with the pressure of pressing without friction."""
+    """Return the largest tensile stress at the edge of the contact, and the largest shear stress
+    at the interface, over p_H.
+
+    The tractions are the pressure of frictionless pressing and the shear µp along x.
+    """
     from gallery_claims import SCENES
 
     contents = read_scene_file(SCENES / "torn_coating.toml", changes)
@@ -86,14 +100,16 @@ def _sliding(changes: tuple[str, ...], cells: int) -> tuple[float, float]:
 
 
 def _with_error(changes: tuple[str, ...], which: int) -> tuple[float, float]:
-    """On the finer cells, and twice what fewer of them change, but no less than how the edge cuts
-    cells matters."""
+    """Return one of the stresses of `_sliding` on the finer cells, and its error.
+
+    The error is twice the difference between both grids, at least `CUT` of the value.
+    """
     coarse, fine = (_sliding(changes, cells)[which] for cells in CELLS)
     return fine, max(2 * abs(fine - coarse), CUT * fine)
 
 
 def coating(ratio: float, thickness: float) -> tuple[str, ...]:
-    """Changes of the scene. thickness over a_H."""
+    """Return the changes of the scene for E1/E2 = `ratio` and the layer thickness over a_H."""
     return (
         f'body.layers[1].material.young_modulus="{210 * ratio:g} GPa"',
         f'body.layers[1].thickness="{thickness * HERTZ[1] * 1e3:.12g} mm"',
@@ -101,7 +117,7 @@ def coating(ratio: float, thickness: float) -> tuple[str, ...]:
 
 
 def edge_tension(solved: Solved) -> tuple[float, float]:
-    """Largest tension on the trailing edge over p_H."""
+    """Return the largest tensile stress at the trailing edge over p_H, and its error."""
     return _with_error(solved.changes, 0)
 
 
@@ -114,7 +130,8 @@ def _text(ratio: float, thickness: float, which: int) -> str:
 
 
 def tensions_by_thickness(_: Entry) -> str:
-    """Tension at the trailing edge and shear at the interface, by coating."""
+    """Return a table of the tensile stress at the trailing edge and of the shear stress at the
+    interface, by modulus and thickness of the coating."""
     rows = [
         (f"{thickness:g}", *(_text(ratio, thickness, n) for n in (0, 1) for ratio in RATIOS))
         for thickness in THICKNESSES
@@ -122,6 +139,6 @@ def tensions_by_thickness(_: Entry) -> str:
     heads = [f"{name}, E₁/E₂ = {ratio:g}" for name in ("σ₁ / p_H", "τ / p_H") for ratio in RATIOS]
     return (
         "Largest tension σ₁ on the trailing edge and largest shear τ_xz at the interface while the "
-        f"ball slides with µ = {MU:g}, by thickness (–: so thin a film bends the pressure within "
-        f"these cells, and no edge is seen):\n\n{table(('h / a_H', *heads), rows)}"
+        f"ball slides with µ = {MU:g}, by thickness (–: the pressure near the edge of so thin a "
+        f"film is not resolved by these cells):\n\n{table(('h / a_H', *heads), rows)}"
     )

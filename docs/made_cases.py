@@ -1,4 +1,4 @@
-"""The verification manual: a page per case, from its declaration and its accepted numbers."""
+"""Pages of the verification manual: one for each case, from its declaration and its baseline."""
 
 import json
 from collections.abc import Iterator, Mapping
@@ -17,14 +17,17 @@ LEVELS = ("full", "standard", "quick")
 
 
 def pages() -> dict[str, str]:
-    """Text by name of the page; `index` lists them."""
+    """Return the text of each page by its name; the page `index` lists the cases."""
     cases = [case_of(name, Level.QUICK) for name in CASES]
     accepted = {case.name: _accepted(case.name) for case in cases}
     return {"index": _index(cases)} | {c.name: page(c, *accepted[c.name]) for c in cases}
 
 
 def page(case: Case, level: str, numbers: Mapping[str, Any]) -> str:
-    """What is solved, why the answer is known, what is judged, and what came out."""
+    """Return the page of a case: problem, equations, verdicts with tolerances, accepted numbers.
+
+    level, numbers  finest accepted level, and its content of the baseline; empty without a baseline
+    """
     parts = [
         f"# {case.title}\n",
         f"{_text(case.problem)}\n",

@@ -1,5 +1,7 @@
-"""The pages of the gallery: every scene is solved, drawn and judged; a verdict that is not the
-expected one stops the documentation."""
+"""Pages of the gallery: each scene is solved, drawn and compared with published numbers.
+
+An unexpected verdict stops the build of the documentation.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from gallery_claims import SCENES, Entry, Found, Verdict, found
+from gallery_claims import SCENES, Comparison, Entry, Verdict, compare
 from gallery_entries import ENTRIES
 from made_notebooks import notebook
 from made_reference import table
@@ -21,21 +23,21 @@ from slipstick import save
 SYMBOLS = {
     Verdict.AGREES: "✓ agrees",
     Verdict.DIFFERS: "✗ differs",
-    Verdict.CANNOT_TELL: "? cannot tell",
+    Verdict.INCONCLUSIVE: "? inconclusive",
 }
 
 
-class Unexpected(Exception):
-    """A verdict of the gallery is not the one that its text speaks of."""
+class UnexpectedVerdict(Exception):
+    """Exception: a verdict of the gallery differs from the one that its text states."""
 
 
 def write_gallery(folder: Path) -> None:
-    """Pages and figures; raises Unexpected."""
+    """Write all pages and figures of the gallery into a folder; raise UnexpectedVerdict."""
     folder.mkdir(parents=True, exist_ok=True)
     spent = {}
     for entry in ENTRIES:
         started = time.process_time()
-        judged = [found(entry, claim) for claim in entry.claims]
+        judged = [compare(entry, claim) for claim in entry.claims]
         _draw(entry, folder)
         spent[entry.scene] = time.process_time() - started
         refuse_unexpected(entry, judged)
@@ -46,25 +48,25 @@ def write_gallery(folder: Path) -> None:
     (folder / "index.md").write_text(_index(spent), encoding="utf-8")
 
 
-def refuse_unexpected(entry: Entry, judged: list[Found]) -> None:
-    """Raises Unexpected, naming the number, what was expected and what came."""
+def refuse_unexpected(entry: Entry, judged: list[Comparison]) -> None:
+    """Raise UnexpectedVerdict if the verdict of a number is not the expected one."""
     for one in judged:
         if one.verdict is not one.claim.verdict:
-            raise Unexpected(
+            raise UnexpectedVerdict(
                 f"{entry.scene}: {one.claim.what}: ours {one.ours:.8g} ± {one.error:.1g}, "
                 f"{one.claim.by} {one.claim.published:.8g} ± {one.claim.reading:.1g} "
                 f"{one.claim.unit}: {one.verdict}, expected: {one.claim.verdict}"
             )
 
 
-def page(entry: Entry, judged: list[Found], seconds: float) -> str:
-    """The figure, the numbers, the verdict, and the file to make them from."""
+def page(entry: Entry, judged: list[Comparison], seconds: float) -> str:
+    """Return the page of a scene: figure, numbers with verdicts, scene file and commands."""
     rows = [
         (
             one.claim.what,
             f"{one.claim.published:.9g} {one.claim.unit}",
             one.claim.by,
-            f"{ours(one)} {one.claim.unit}",
+            f"{value_with_error(one)} {one.claim.unit}",
             SYMBOLS[one.verdict],
         )
         for one in judged
@@ -78,11 +80,11 @@ def page(entry: Entry, judged: list[Found], seconds: float) -> str:
             f"# {entry.title}\n",
             f"{entry.words}\n",
             f"![Tractions of the contact]({entry.scene}.png)\n",
-            table(("number", "published", "by", "ours", "verdict"), rows),
+            table(("number", "published", "by", "slipstick", "verdict"), rows),
             f"{entry.conclusion}\n",
             *([entry.more(entry)] if entry.more else []),
             f"*Source*: {entry.source}.\n",
-            f"## Again, in {max(1, round(seconds))} s\n",
+            f"## Reproduce it, in {max(1, round(seconds))} s\n",
             f"    slipstick run docs/gallery/{entry.scene}.toml{solver} --output "
             f"out/{entry.scene}\n",
             f"or in a {{download}}`notebook <{entry.scene}.ipynb>`.\n",
@@ -92,8 +94,8 @@ def page(entry: Entry, judged: list[Found], seconds: float) -> str:
     )
 
 
-def ours(one: Found) -> str:
-    """The number to the first two digits of its error, no more than nine in all."""
+def value_with_error(one: Comparison) -> str:
+    """Return our number with its error, to two digits of the error and at most nine in all."""
     if one.error < 1e-8 * abs(one.ours):
         return f"{one.ours:.9g}"
     places = 1
@@ -103,7 +105,7 @@ def ours(one: Found) -> str:
 
 
 def _draw(entry: Entry, folder: Path) -> None:
-    solved = entry.of(entry.shown)
+    solved = entry.with_changes(entry.shown)
     with tempfile.TemporaryDirectory() as directory:
         run = Path(directory) / "run"
         save(solved.result, run, errors=solved.errors)
@@ -112,7 +114,8 @@ def _draw(entry: Entry, folder: Path) -> None:
 
 
 def _thumbnail(overview: Path, sticks: bool) -> None:
-    """Cut out the zones of stick and slip, or without them the stress below, or the pressure."""
+    """Store one panel of an overview as a small picture: stick and slip zones, else stress, else
+    pressure."""
     width, height = (DOTS_PER_INCH * side for side in PLACE)
     with Image.open(overview) as picture:
         stressed = picture.width > 2.5 * width
@@ -127,18 +130,19 @@ def _index(spent: dict[str, float]) -> str:
     names = "\n".join(entry.scene for entry in ENTRIES)
     return (
         "# Gallery\n\n"
-        "Published contacts, ours beside them: the figure, our error, the verdict. Each is one "
-        "scene file in `docs/gallery`, solved, drawn and judged whenever these pages are built. "
-        "Two numbers agree (✓) where they are no further apart than both may be off, else they "
-        "differ (✗), and the page says who is off; where our own error says too little, that is "
-        "said (?). A verdict other than expected stops the build.\n\n"
+        "Published contacts, computed again. Each is one scene file in `docs/gallery`, which is "
+        "solved, drawn and compared whenever these pages are built. Two numbers agree (✓) if their "
+        "difference is within the sum of both errors. Otherwise they differ (✗), and the page "
+        "gives the reason. A comparison is inconclusive (?) if our stated error is too large. An "
+        "unexpected verdict stops the build.\n\n"
         f"::::{{container}} scenes\n{cards}\n::::\n\n"
         f"```{{toctree}}\n:hidden:\n\n{names}\n```\n"
     )
 
 
 def _card(entry: Entry, seconds: int) -> str:
-    """Picture, title, source, verdicts by their number, and how long it takes."""
+    """Return the card of a scene on the index page: picture, title, source, counts of verdicts, and
+    seconds."""
     counts = Counter(claim.verdict for claim in entry.claims)
     verdicts = [
         f"{SYMBOLS[kind][0]} {counts[kind]} {_plural(kind, counts[kind])}"
@@ -159,5 +163,5 @@ def _card(entry: Entry, seconds: int) -> str:
 
 
 def _plural(kind: Verdict, number: int) -> str:
-    """The verdict as said of so many numbers."""
+    """Return the verdict as a verb for one or several numbers."""
     return kind.removesuffix("s") if number > 1 else str(kind)

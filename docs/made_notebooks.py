@@ -1,4 +1,4 @@
-"""A scene of the gallery as a notebook: written, solved and drawn in three cells, not run here."""
+"""Jupyter notebooks of the gallery, which write, solve and draw one scene each."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ for figure in sorted((Path("out") / "{scene}").glob("*.png")):
 
 
 def notebook(entry: Entry) -> str:
-    """Of format 4.5, as text."""
+    """Return the notebook of a scene as JSON text of nbformat 4.5."""
     scene = (SCENES / f"{entry.scene}.toml").read_text(encoding="utf-8")
     cells = (
         _cell("markdown", f"# {entry.title}\n\n{entry.words}\n\n*Source*: {entry.source}."),

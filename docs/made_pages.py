@@ -1,4 +1,4 @@
-"""All pages that are not written by hand, into docs/made/ (not kept in the repository)."""
+"""Generated pages of the documentation, in docs/made/, which is not part of the repository."""
 
 from pathlib import Path
 
@@ -10,7 +10,8 @@ INCLUDED = ("scene_keys", "columns", "commands", "exit_codes")
 
 
 def write_pages(docs: Path) -> None:
-    """Write what has changed; the rest keeps its date, so that Sphinx need not read it again."""
+    """Write the generated pages that have changed. Unchanged files keep their date, so that Sphinx
+    does not read them again."""
     made = docs / "made"
     pages = {f"{name}.md": getattr(made_reference, name)() for name in INCLUDED}
     pages |= {f"cases/{name}.md": text for name, text in made_cases.pages().items()}

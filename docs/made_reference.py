@@ -1,4 +1,4 @@
-"""Pages read off the code: keys of the scene file, columns of the results, commands, exit codes."""
+"""Reference pages from the code: keys of scene files, columns of results, commands, exit codes."""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -56,7 +56,7 @@ COLUMNS = {
 
 
 def scene_keys() -> str:
-    """Every table of a scene file with its keys."""
+    """Return the page of all tables of a scene file with their keys."""
     parts = []
     for title, model in TABLES.items():
         meanings = field_descriptions(model)
@@ -67,7 +67,7 @@ def scene_keys() -> str:
 
 
 def columns() -> str:
-    """Every reported value, with the unit that files have it in."""
+    """Return the page of all reported quantities with their units in files."""
     parts, seen = [], set()
     for title, record in COLUMNS.items():
         marks = {k: v for k, v in reported(record).items() if k not in seen}
@@ -78,7 +78,7 @@ def columns() -> str:
 
 
 def commands() -> str:
-    """What `--help` says of every command, and the exit codes."""
+    """Return the page of all commands: usage, help text and options."""
     parts = []
     for name, lazy in ALL_COMMANDS.items():
         command = lazy.load(name.split()[-1])
@@ -91,21 +91,21 @@ def commands() -> str:
 
 
 def exit_codes() -> str:
-    """The line at the end of `slipstick --help`, as a table."""
+    """Return the exit codes, which end `slipstick --help`, as a table."""
     line = str(application.info.epilog).removeprefix("Exit codes: ").rstrip(".")
     rows = [item.split(" ", 1) for item in line.split("; ")]
     return table(("code", "meaning"), rows)
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """A table of Markdown."""
+    """Return a Markdown table of text cells."""
     head = tuple(head)
     lines = [head, ("---",) * len(head), *rows]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
 def parameters(model: type[BaseModel]) -> Iterator[tuple[str, str]]:
-    """Names and meanings of what makes a value of a scene, in reStructuredText."""
+    """Yield name and meaning of each attribute of a scene object, in reStructuredText."""
     meanings = field_descriptions(model)
     for name, field in model.model_fields.items():
         if name not in meanings:
@@ -141,6 +141,6 @@ def _first_sentence(text: str | None) -> str:
 
 
 def _cell(text: str) -> str:
-    """Text within a table: one line, no bar of its own; brackets are dimensions, not links."""
+    """Return text for a table cell: one line, with escaped bars and brackets."""
     flat = " ".join(text.split()).replace("|", "\\|")
     return re.sub(r"\[([^\]]+)\]", r"\\[\1\\]", flat)

@@ -28,7 +28,7 @@ ISOLINES = (-3.0, -2.0, -1.0, -0.5, 0.0, 0.5)
 
 
 def main() -> None:
-    """Solve, draw, write."""
+    """Solve the scene, draw tractions and stress, and write the picture."""
     result = solve(read_scene_file(SCENE, CHANGES))
     end, scene = result.steps[-1], result.scene
     section = stress_on_cells(state_of_result(result, None)).section
@@ -48,7 +48,7 @@ def main() -> None:
 
 
 def surface(ax, x, end, friction) -> None:
-    """Pressure and shear at y = 0, over the zones of stick and slip."""
+    """Draw pressure and shear at y = 0 over the coloured stick and slip zones."""
     middle = len(x) // 2
     pressure, shear = end.pressure[:, middle] / GPA, end.shear[0, :, middle] / GPA
     stuck, touching = end.in_stick[:, middle], end.in_contact[:, middle]
@@ -72,7 +72,7 @@ def surface(ax, x, end, friction) -> None:
 
 
 def body(ax, section, interface):
-    """σxx on the section y = 0, material by material: it jumps at the interface."""
+    """Draw σxx on the section y = 0 of each material separately, as it jumps at the interface."""
     x, z = section.x[..., 0] / MM, section.depth[..., 0] / MM
     stress = section.along_x["xx"][..., 0] / GPA
     for material in np.unique(section.material):

@@ -14,9 +14,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.append(str(ROOT / "docs"))
 
-from gallery_claims import SCENES, Claim, Found, Verdict, found  # noqa: E402
+from gallery_claims import SCENES, Claim, Comparison, Verdict, compare  # noqa: E402
 from gallery_entries import ENTRIES  # noqa: E402
-from made_gallery import Unexpected, refuse_unexpected  # noqa: E402
+from made_gallery import UnexpectedVerdict, refuse_unexpected  # noqa: E402
 from made_notebooks import notebook  # noqa: E402
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
@@ -54,7 +54,7 @@ def test_python_in_the_readme_runs(tmp_path: Path) -> None:
 @pytest.mark.slow  # the pages are not made of other verdicts, either
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda entry: entry.scene)
 def test_verdicts_are_those_expected(entry) -> None:
-    judged = [found(entry, claim) for claim in entry.claims]
+    judged = [compare(entry, claim) for claim in entry.claims]
     assert judged
     refuse_unexpected(entry, judged)
 
@@ -76,20 +76,22 @@ def claim(published: float, reading: float, verdict: Verdict = Verdict.AGREES) -
         (1.02, 0.0, 0.019, Verdict.DIFFERS),
         (1.02, 0.002, 0.019, Verdict.AGREES),
         (1.02, 0.0, 0.021, Verdict.AGREES),
-        (1.02, 0.0, 0.2, Verdict.CANNOT_TELL),
+        (1.02, 0.0, 0.2, Verdict.INCONCLUSIVE),
         (1.21, 0.0, 0.2, Verdict.DIFFERS),
-        (1.02, 0.0, float("inf"), Verdict.CANNOT_TELL),
+        (1.02, 0.0, float("inf"), Verdict.INCONCLUSIVE),
     ],
 )
 def test_numbers_agree_within_what_both_may_be_off(
     published: float, reading: float, error: float, verdict: Verdict
 ) -> None:
-    assert Found(claim(published, reading), 1.0, error).verdict is verdict
+    assert Comparison(claim(published, reading), 1.0, error).verdict is verdict
 
 
 def test_another_verdict_than_the_page_speaks_of_is_refused() -> None:
-    one = Found(claim(2.0, 0.1), 1.0, 0.01)
-    with pytest.raises(Unexpected, match=r"ours 1 ± 0\.01, somebody 2 .*differs, expected: agrees"):
+    one = Comparison(claim(2.0, 0.1), 1.0, 0.01)
+    with pytest.raises(
+        UnexpectedVerdict, match=r"ours 1 ± 0\.01, somebody 2 .*differs, expected: agrees"
+    ):
         refuse_unexpected(ENTRIES[0], [one])
 
 
