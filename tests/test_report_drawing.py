@@ -45,15 +45,6 @@ def test_both_axes_of_a_logarithmic_chart_are_labelled() -> None:
         assert len([label for label in axis.get_ticklabels() if label.get_text()]) >= 3
 
 
-def test_a_smooth_curve_is_drawn_with_far_fewer_points_than_it_has() -> None:
-    x = np.linspace(-1, 1, 2000)
-    line = curve("", x, np.sqrt(1 - x**2))
-    panel = Panel(x_label="x", y_label="y", curves=(line,))
-    drawn = inline_svg(Chart(name="one", title="t", caption="c", rows=((panel,),)))
-    corners = max(path.count("L") for path in re.findall(r' d="([^"]*)"', drawn))
-    assert 20 < corners < 100
-
-
 def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
     names = range(36)
     curves = tuple(curve(str(n), [0, 1], [0, n], Look.COMPUTED, n) for n in names)

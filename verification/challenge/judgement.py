@@ -70,6 +70,8 @@ def _covered(field: Field, semi_axes: tuple[float, float]) -> tuple[float, float
     return within, SCATTER * cells**-0.75 * pi**-0.25
 
 
+AskedQuantity = AskedValue | AskedField | AskedPoints
+
 # Errors stall if the upper end of the interval of the order is below this value.
 STALLS_BELOW = 0.5
 ORDER_OFF = 0.1
@@ -124,12 +126,9 @@ def rows_of(
     for level in levels:
         for step, reason in level.gave_up.items():
             yield Row("solved", step or None, level.label, Status.FAIL, f"gave up: {reason}")
-    for value in challenge.values:
-        yield from _of_value(value, solver, levels, demanded or value.par)
-    for field in challenge.fields:
-        yield from _of_field(field, solver, levels, demanded or field.par)
-    for points in challenge.points:
-        yield from _of_points(points, solver, levels, demanded or points.par)
+    required: tuple[AskedQuantity, ...] = (*challenge.values, *challenge.fields, *challenge.points)
+    for quantity in required:
+        yield from _rows_of(quantity, solver, levels, demanded or quantity.par)
 
 
 def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
@@ -151,23 +150,72 @@ def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, 
     ]
 
 
-def _of_value(
-    asked: AskedValue, solver: Solver, levels: Sequence[Answer], grade: Grade
+def _rows_of(
+    asked: AskedQuantity, solver: Solver, levels: Sequence[Answer], grade: Grade
 ) -> Iterator[Row]:
+    """Yield the verdicts on one required quantity: its error, convergence, and own properties.
+
+    levels  answers, coarse to fine
+    """
     key = asked.quantity, asked.step
-    found = [(one, value) for one in levels if (value := one.value(key)) is not None]
+    found = [(one, given) for one in levels if (given := _given(asked, one)) is not None]
     if not found:
         return
-    yield from _not_on_finest(key, found[-1][0], levels[-1])
-    errors = [(one.h, abs(value - asked.value) / asked.scale) for one, value in found]
-    finest, value = found[-1]
-    hint = _hint(value, asked)
-    yield _judged(key, finest.label, value, asked.value, errors, grade, asked.uncertainty, hint)
+    finest, given = found[-1]
+    yield from _not_on_finest(key, finest, levels[-1])
+    errors = [(one.h, _error(asked, value, solver.sampling)) for one, value in found]
+    value = reference = None
+    hint = ""
+    if isinstance(asked, AskedValue):
+        value, reference, hint = given, asked.value, _hint(given, asked)
+    yield _judged(key, finest.label, value, reference, errors, grade, asked.uncertainty, hint)
     yield from _convergence(key, solver, errors, asked.uncertainty)
-    claims = [
-        (one.uncertainty(key), error) for (one, _), (_, error) in zip(found, errors, strict=True)
-    ]
-    yield from _of_claims(asked, finest.label, claims, grade)
+    if isinstance(asked, AskedValue):
+        claims = [(one.uncertainty(key), e) for (one, _), (_, e) in zip(found, errors, strict=True)]
+        yield from _of_claims(asked, finest.label, claims, grade)
+    elif isinstance(asked, AskedField):
+        yield from _of_areas(asked, given, finest.label, max(grade.bound, Grade.B.bound))
+
+
+def _given(asked: AskedQuantity, answer: Answer) -> Any:
+    """Return the number, field or numbers at points of an answer; None if it has none."""
+    key = asked.quantity, asked.step
+    if isinstance(asked, AskedValue):
+        return answer.value(key)
+    return (answer.fields if isinstance(asked, AskedField) else answer.points).get(key)
+
+
+def _error(asked: AskedQuantity, given: Any, sampling: str) -> float:
+    """Return the error of a required quantity over its scale, or a field's over its own norm.
+
+    given     number, field or numbers at points
+    sampling  meaning of the values of a field: "point", or "cell" for means over squares
+    """
+    if isinstance(asked, AskedField):
+        return _field_error(asked, given, sampling)
+    if isinstance(asked, AskedValue):
+        return float(abs(given - asked.value) / asked.scale)
+    values = np.asarray(given)
+    if values.shape != asked.values.shape:
+        raise ValueError(
+            f"{asked.quantity} of step {asked.step}: {values.size} numbers, expected one at "
+            f"each of the {len(asked.places)} places"
+        )
+    return float(np.max(np.abs(values - asked.values)) / asked.scale)
+
+
+def _field_error(asked: AskedField, field: Field, sampling: str) -> float:
+    """Return the L2 or L1 error of a traction at the points of an answer."""
+    side = np.sqrt(field.area)
+    if sampling == "cell":
+        exact = cell_means(asked.traction.at, field.x, field.y, (side, side))
+    else:
+        exact = asked.traction.at(field.x, field.y)
+    off = np.abs(field.value - exact)
+    if asked.norm == "L1":
+        return float(np.sum(field.area * off) / asked.scale)
+    own = np.linalg.norm(side * exact)
+    return float(np.linalg.norm(side * off) / own) if own > 0 else math.inf
 
 
 def _of_claims(
@@ -208,34 +256,6 @@ def order_text(order: tuple[float, float]) -> str:
     return f"{round(value, 2) + 0.0:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
 
 
-def _of_field(
-    asked: AskedField, solver: Solver, levels: Sequence[Answer], grade: Grade
-) -> Iterator[Row]:
-    key = asked.quantity, asked.step
-    found = [(one, one.fields[key]) for one in levels if key in one.fields]
-    if not found:
-        return
-    yield from _not_on_finest(key, found[-1][0], levels[-1])
-    errors = []
-    for one, field in found:
-        if solver.sampling == "cell":
-            side = np.sqrt(field.area)
-            exact = cell_means(asked.traction.at, field.x, field.y, (side, side))
-        else:
-            exact = asked.traction.at(field.x, field.y)
-        off = np.abs(field.value - exact)
-        if asked.norm == "L2":
-            own = np.sqrt(np.sum(field.area * exact**2))
-            error = float(np.sqrt(np.sum(field.area * off**2)) / own) if own > 0 else math.inf
-        else:
-            error = float(np.sum(field.area * off) / asked.scale)
-        errors.append((one.h, error))
-    finest, field = found[-1][0].label, found[-1][1]
-    yield _judged(key, finest, None, None, errors, grade, asked.uncertainty, "")
-    yield from _convergence(key, solver, errors, asked.uncertainty)
-    yield from _of_areas(asked, field, finest, max(grade.bound, Grade.B.bound))
-
-
 def _of_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
     """Judge the areas of the points of a field: load, second moment and contact area must be
     correct.
@@ -256,26 +276,6 @@ def _of_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iter
             f"{asked.quantity}: {name}", asked.step, level, status, because,
             has, should, missed, allowed,
         )  # fmt: skip
-
-
-def _of_points(
-    asked: AskedPoints, solver: Solver, levels: Sequence[Answer], grade: Grade
-) -> Iterator[Row]:
-    key = asked.quantity, asked.step
-    found = [(one, np.asarray(one.points[key])) for one in levels if key in one.points]
-    if not found:
-        return
-    errors = []
-    for one, values in found:
-        if values.shape != asked.values.shape:
-            raise ValueError(
-                f"{asked.quantity} of step {asked.step}: {values.size} numbers, expected one at "
-                f"each of the {len(asked.places)} places"
-            )
-        errors.append((one.h, float(np.max(np.abs(values - asked.values)) / asked.scale)))
-    yield from _not_on_finest(key, found[-1][0], levels[-1])
-    yield _judged(key, found[-1][0].label, None, None, errors, grade, asked.uncertainty, "")
-    yield from _convergence(key, solver, errors, asked.uncertainty)
 
 
 def _not_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:

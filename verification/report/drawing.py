@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-from numpy.typing import NDArray
 
 from contact_results.figures import style
 from verification.exhibits.chart import Chart, Curve, Look, Panel, plain
@@ -28,15 +27,7 @@ LEGEND_LINE = 0.19  # inches
 MARKERS = ("o", "s", "^", "D", "v", "P")
 MAX_TICKS, FEW_TICKS = 8, 6  # the latter beside long names
 FEW_DECADES = 2.5  # with labels between powers of ten
-FLATNESS = 1e-3  # of either side of a panel: half a pixel of 500
 MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
-LINES = (
-    Look.COMPUTED,
-    Look.REFERENCE,
-    Look.BOUND,
-    Look.SLOPE,
-    Look.FITTED,
-)  # without marks at their points
 
 
 def draw(chart: Chart) -> Figure:
@@ -78,9 +69,6 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
     ax.margins(x=0.05 if panel.y_places else 0.02, y=0.12)
     if panel.logarithmic:
         _label_decades(ax, FEW_TICKS if panel.y_places else MAX_TICKS)
-    for line, one in zip(ax.lines[-len(panel.curves) :], panel.curves, strict=False):
-        if one.look in LINES:
-            line.set_data(*thinned(line.get_xydata(), ax.transScale + ax.transLimits).T)
     if panel.x_places:
         ax.set_xticks(range(len(panel.x_places)), panel.x_places)
         ax.set_xlim(-0.5, len(panel.x_places) - 0.5)
@@ -109,31 +97,6 @@ def _label_decades(ax: Any, most: int) -> None:
             axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
             axis.set_minor_formatter(NullFormatter())
     ax.grid(True, color=GRID_COLOUR, linewidth=0.6)
-
-
-def thinned(points: NDArray[np.float64], to_axes: Any) -> NDArray[np.float64]:
-    """Remove points of a curve that lie on the line between their neighbours.
-
-    The algorithm is that of Ramer (1972) and Douglas and Peucker (1973).
-
-    points   (n, 2) in the units of the data
-    to_axes  transform from data to fractions of the sides of the panel
-    """
-    places = to_axes.transform(points)
-    if len(points) < 3 or not np.isfinite(places).all():
-        return points
-    kept, open_parts = {0, len(points) - 1}, [(0, len(points) - 1)]
-    while open_parts:
-        first, last = open_parts.pop()
-        between, along = places[first + 1 : last] - places[first], places[last] - places[first]
-        if len(between):
-            part = np.clip(between @ along / max(along @ along, 1e-300), 0.0, 1.0)
-            apart = np.hypot(*(between - part[:, None] * along).T)
-            if apart.max() > FLATNESS:
-                worst = first + 1 + int(np.argmax(apart))
-                kept.add(worst)
-                open_parts += [(first, worst), (worst, last)]
-    return points[sorted(kept)]
 
 
 def look_of(curve: Curve) -> dict[str, Any]:

@@ -34,7 +34,7 @@ from verification.report.changes import (
 from verification.report.files import PAGE, SHEETS
 from verification.report.sections import claims_line, features, study_section
 from verification.report.summary_text import counts_text
-from verification.report.svg import image_address, inline_svg, with_shared_styles
+from verification.report.svg import image_address, inline_svg
 from verification.running.report_record import Report
 from verification.running.study import StudyRecord, measured_text
 
@@ -64,7 +64,7 @@ def render_study(record: StudyRecord) -> str:
 
 
 def _rendered(template: str, **shown: object) -> str:
-    return with_shared_styles(environment().get_template(template).render(**shown))
+    return environment().get_template(template).render(**shown)
 
 
 @cache

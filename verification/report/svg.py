@@ -7,7 +7,6 @@ from __future__ import annotations
 import hashlib
 import io
 import re
-from collections import Counter
 from html import escape
 from urllib.parse import quote
 
@@ -32,10 +31,6 @@ DIGITS = 6  # of the digest that stands for the name of a diagram
 DECIMALS = 1  # of a point, 1/72 inch
 FINE_DECIMALS, SMALL = 2, 10.0  # for the shapes of marks
 REFERENCE = re.compile(r'(?:xlink:href="#|url\(#)([^")]*)')
-FIGURE = re.compile(r"<svg[ >].*?</svg>", re.DOTALL)
-# Within a tag alone: text cannot contain an opening bracket.
-STYLED = re.compile(r'(<\w[^<>]*?) style="([^"<>{}]*)"')
-HEAD = "</style>\n</head>"
 
 
 def inline_svg(chart: Chart, prefix: str = "") -> str:
@@ -72,8 +67,7 @@ def image_address(picture: Picture) -> str:
 
 
 def compact(svg: str, name: str) -> str:
-    """Remove the parts of an SVG text by matplotlib that a page does not need: two thirds of the
-    bytes.
+    """Remove the parts of an SVG text by matplotlib that a page does not need.
 
     name  name that is unique in the page, so that diagrams cannot refer to each other's elements
     """
@@ -84,31 +78,7 @@ def compact(svg: str, name: str) -> str:
     svg = re.sub(r' transform="rotate\(-?0 [^"]*\)"', "", svg)
     svg = re.sub(r' (d|x|y|width|height|points|transform|viewBox)="([^"]*)"', _short_numbers, svg)
     svg = re.sub(r' (?:xmlns(?::xlink)?|version)="[^"]*"', "", svg.replace("xlink:href", "href"))
-    svg = re.sub(r"> <", "><", re.sub(r"\s*\n\s*", " ", svg))
-    while (shorter := re.sub(r"<(g|defs)></\1>", "", svg)) != svg:
-        svg = shorter
-    return _without_bare_groups(svg)
-
-
-def with_shared_styles(page: str) -> str:
-    """Replace style attributes that occur several times in the SVG diagrams of a page by style
-    classes.
-
-    The classes are numbered in the order of their first use.
-    """
-    counts = Counter(
-        style for figure in FIGURE.findall(page) for _, style in STYLED.findall(figure)
-    )
-    shared = [style for style, count in counts.items() if count > 1]
-    names = {style: f"s{number}" for number, style in enumerate(shared)}
-
-    def classed(tag: re.Match[str]) -> str:
-        name = names.get(tag[2])
-        return tag[0] if name is None else f'{tag[1]} class="{name}"'
-
-    page = FIGURE.sub(lambda figure: STYLED.sub(classed, figure[0]), page)
-    rules = "".join(f"svg .{name} {{ {style} }}\n" for style, name in names.items())
-    return page.replace(HEAD, rules + HEAD, 1)
+    return re.sub(r"> <", "><", re.sub(r"\s*\n\s*", " ", svg))
 
 
 def _with_own_ids(svg: str, name: str) -> str:
@@ -140,18 +110,3 @@ def _short_numbers(match: re.Match[str]) -> str:
 def _short_number(value: float) -> str:
     decimals = FINE_DECIMALS if abs(value) < SMALL else DECIMALS
     return f"{value:.{decimals}f}".rstrip("0").rstrip(".")
-
-
-def _without_bare_groups(svg: str) -> str:
-    """Remove the tags of SVG groups without attributes, and keep their contents."""
-    kept: list[bool] = []
-
-    def end(match: re.Match[str]) -> str:
-        if match[0].endswith("/>"):
-            return match[0]
-        if match[0] == "</g>":
-            return match[0] if kept.pop() else ""
-        kept.append(match[0] != "<g>")
-        return match[0] if kept[-1] else ""
-
-    return re.sub(r"<g(?: [^>]*)?>|</g>", end, svg)
