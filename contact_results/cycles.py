@@ -131,7 +131,8 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
         from semi_analytical.surface_tensile_stress import SurfaceTensileStress
 
         tension = SurfaceTensileStress(cast(Any, result))
-    cycles, fields = [], FieldStore()
+    cycles: list[FrettingCycle] = []
+    fields = FieldStore()
     increments: Sequence[Increment] = result.increments
     steps = [list(within) for _, within in groupby(increments, lambda i: i.step)]
     for cycle in closed:
@@ -141,9 +142,7 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
             stress = tension.within(path) if tension else None
             found = _fretting_cycle(surface, cycle, path, stress)
             loop = loop_numbers(path, found.energy_per_cycle, result.scene.friction, surface)
-            cycles.append(fields.stored(replace(found, loop={"from_virgin": False, **loop})))
-    if cycles:
-        cycles[0] = replace(cycles[0], loop={**cycles[0].loop, "from_virgin": True})
+            cycles.append(fields.stored(replace(found, loop={"from_virgin": not cycles, **loop})))
     return tuple(cycles)
 
 

@@ -12,29 +12,10 @@ STRESS_PAGE = "stress.html"
 
 PAGE = "index.html"
 OVERVIEW_FIGURE = "overview.png"
-PRESSURE_FIGURE = "pressure.png"
-SHEAR_FIGURE = "shear.png"
-PROFILE_FIGURE = "profiles.png"
-STICK_SLIP_FIGURE = "stick_slip.png"
-SLIP_FIGURE = "slip.png"
-DISSIPATION_FIGURE = "dissipation.png"
-FRETTING_FIGURE = "fretting.png"
-
-RUN_FILES = (
-    SUMMARY,
-    TIMING,
-    FIELDS,
-    PROFILES,
-    INCREMENTS,
-    CYCLES,
-    COLUMNS,
-    PAGE,
+FIGURES = (
     OVERVIEW_FIGURE,
-    PRESSURE_FIGURE,
-    SHEAR_FIGURE,
-    PROFILE_FIGURE,
-    STICK_SLIP_FIGURE,
-    SLIP_FIGURE,
-    DISSIPATION_FIGURE,
-    FRETTING_FIGURE,
+    *("pressure.png", "shear.png", "profiles.png", "stick_slip.png"),
+    *("slip.png", "dissipation.png", "fretting.png"),
 )
+
+RUN_FILES = (SUMMARY, TIMING, FIELDS, PROFILES, INCREMENTS, CYCLES, COLUMNS, PAGE, *FIGURES)

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 
 from contact_results.cycles import FrettingCycle
-from contact_results.directory import file_names
+from contact_results.directory.file_names import OVERVIEW_FIGURE
 from contact_results.figures.map_panels import Above, RingsAbove
-from contact_results.figures.maps import field_map, fretting_map, stick_slip_map
+from contact_results.figures.maps import FIELDS, field_map, fretting_map, stick_slip_map
 from contact_results.figures.overview import DOTS_PER_INCH as OF_OVERVIEW
 from contact_results.figures.overview import overview
 from contact_results.figures.profile_plot import profile_plot
@@ -21,13 +21,6 @@ from contact_scene.quantities.stated_error import StatedError
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
-
-MAPS = {
-    "pressure": file_names.PRESSURE_FIGURE,
-    "shear": file_names.SHEAR_FIGURE,
-    "slip": file_names.SLIP_FIGURE,
-    "dissipation": file_names.DISSIPATION_FIGURE,
-}
 
 
 def write_figures(
@@ -50,7 +43,7 @@ def write_figures(
     """
     with figure_style():
         for name, figure in _draw_figures(result, cycles, errors):
-            dots = DOTS_PER_INCH if name != file_names.OVERVIEW_FIGURE else OF_OVERVIEW
+            dots = DOTS_PER_INCH if name != OVERVIEW_FIGURE else OF_OVERVIEW
             save(figure, directory / name, dots)
             if not everything:
                 break
@@ -70,15 +63,15 @@ def _draw_figures(
     """
     surface = surface_of(result)
     above = seen_from_above(result)
-    yield file_names.OVERVIEW_FIGURE, overview(result, above, errors)
-    yield file_names.PROFILE_FIGURE, profile_plot(result, surface)
-    for field, name in MAPS.items():
+    yield OVERVIEW_FIGURE, overview(result, above, errors)
+    yield "profiles.png", profile_plot(result, surface)
+    for field in FIELDS:
         if (figure := field_map(result, above, field)) is not None:
-            yield name, figure
+            yield f"{field}.png", figure
     if result.steps[-1].in_stick is not None:
-        yield file_names.STICK_SLIP_FIGURE, stick_slip_map(result, above)
+        yield "stick_slip.png", stick_slip_map(result, above)
     if cycles and isinstance(surface, Cells):
-        yield file_names.FRETTING_FIGURE, fretting_map(result, surface, cycles[-1])
+        yield "fretting.png", fretting_map(result, surface, cycles[-1])
 
 
 def seen_from_above(result: Result) -> Above:

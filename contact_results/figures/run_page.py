@@ -82,7 +82,7 @@ def write_page(
         *(_cycle_section(cycles) if cycles else ()),
         f'<p class="soft">{READ_ON}</p>',
         *(f"<p><strong>Warning:</strong> {escape(text)}.</p>" for text in warnings_of(result)),
-        *_figures_html(directory / name for name in file_names.RUN_FILES if name.endswith(".png")),
+        *_figures_html(directory / name for name in file_names.FIGURES),
         "<h2>Settings</h2><table>",
         *(_row_html(name, text) for name, text in _setting_rows(result)),
         "</table><details><summary>The scene</summary><pre>",

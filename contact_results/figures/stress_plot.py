@@ -11,7 +11,6 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
 from contact_results.figures.section_panel import draw_section, show_depths
 from contact_results.stress.points import StressField, StressIncrement, StressPoints
@@ -34,8 +33,7 @@ def write_stress_figures(
     """
     with style.figure_style():
         for name, draw in ((SECTION, section_plot), (LINES, line_plot)):
-            with atomic_file(directory / name) as path:
-                style.save(draw(field, body, title), path, style.OF_SECTIONS)
+            style.save(draw(field, body, title), directory / name, style.OF_SECTIONS)
     return SECTION, LINES
 
 
@@ -219,17 +217,17 @@ def write_history_figure(
     """Draw the stress at chosen points over the increments, with one panel per point.
 
     layers  number of layers of the body
-    path    path of the image file, which is written atomically
+    path    path of the image file
     """
     count = len(history[0].errors)
-    with style.figure_style(), atomic_file(path) as temporary:
+    with style.figure_style():
         figure = style.new_figure(6.4, 0.5 + 2.6 * count)
         figure.suptitle(title, fontsize=style.STYLE["axes.titlesize"])
         axes = figure.subplots(count, sharex=True, squeeze=False)[:, 0]
         for n, ax in enumerate(axes):
             _draw_point(ax, history, n, layers)
         axes[-1].set_xlabel("increment; dotted: ends of load steps")
-        style.save(figure, temporary)
+        style.save(figure, path)
 
 
 def _draw_point(ax: Any, history: Sequence[StressIncrement], n: int, layers: int) -> None:

@@ -12,7 +12,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from contact_results.directory.atomic_file import atomic_file
 from contact_scene.quantities.field_metadata import CONVENTION, Reported
 
 
@@ -50,13 +49,13 @@ def reported_column(name: str, mark: Reported, prefix: str = "") -> Column:
 
 
 def write_table(path: Path, columns: Sequence[Column], rows: Iterable[Sequence[object]]) -> None:
-    """Write a CSV table atomically.
+    """Write a CSV table.
 
     columns  columns of the table, for its first line
     rows     cells of each row; None is an empty cell, and numbers are written without loss of
              digits
     """
-    with atomic_file(path) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
+    with open(path, "w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(column.header for column in columns)
         table.writerows(rows)

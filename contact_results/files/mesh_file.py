@@ -15,8 +15,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.directory.atomic_file import atomic_file
-
 Values = NDArray[Any]
 
 # Index of each component of a full tensor, by rows, in the order xx, yy, zz, yz, xz, xy.
@@ -55,7 +53,7 @@ def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
 
     Infinite values become NaN, which ParaView excludes from its colour scale.
 
-    path        path of the file, which is written atomically
+    path        path of the file
     convention  text about units, axes and signs, written as a comment
     """
     import meshio
@@ -66,10 +64,9 @@ def write_mesh(mesh: Mesh, path: Path, convention: str) -> None:
         point_data={name: _finite_values(values) for name, values in mesh.at_points.items()},
         cell_data={name: [_finite_values(values)] for name, values in mesh.on_cells.items()},
     )
-    with atomic_file(path) as temporary:
-        whole.write(temporary, file_format="vtu", binary=True, compression="zlib")
-        comment = HEAD + f"\n<!-- {convention} -->".encode("ascii")
-        temporary.write_bytes(temporary.read_bytes().replace(HEAD, comment, 1))
+    whole.write(path, file_format="vtu", binary=True, compression="zlib")
+    comment = HEAD + f"\n<!-- {convention} -->".encode("ascii")
+    path.write_bytes(path.read_bytes().replace(HEAD, comment, 1))
 
 
 def _finite_values(values: Values) -> Values:

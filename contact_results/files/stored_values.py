@@ -28,7 +28,6 @@ LARGEST_RATIO = 4096
 MAX_CHUNKS = 10_000  # largest number in one read; fields have one chunk per increment
 # Exceptions that h5py, or code that uses its values, raises for a file of other content.
 MISREAD = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError)
-MAX_DEPTH = 4  # largest number of levels of nested groups; a run has one level
 
 MAPS = "maps"  # group of the arrays that the scene reads from files
 # Label of the first index of fields at the ends of load steps.
@@ -51,7 +50,7 @@ def open_hdf5(path: Path) -> Iterator[h5py.File]:
     """
     try:
         with h5py.File(path) as file:
-            _refuse_foreign(file, MAX_DEPTH)
+            file.visititems_links(_refuse_link)
             yield file
     except (OSError, RuntimeError) as error:
         if getattr(error, "errno", None) in (EACCES, EAGAIN) and "lock" in str(error):
@@ -61,22 +60,10 @@ def open_hdf5(path: Path) -> Iterator[h5py.File]:
         raise ValueError(f"{path} cannot be read as HDF5: {error}") from None
 
 
-def _refuse_foreign(group: h5py.Group, depth: int) -> None:
-    """Raise ValueError if an HDF5 group contains a link, or a dataset with values in another file.
-
-    depth  number of levels of nested groups that are allowed in this group
-    """
-    for name in group:
-        place = f"{group.file.filename} has {name!r} in {group.name}, which"
-        if not isinstance(group.get(name, getlink=True), h5py.HardLink):
-            raise ValueError(f"{place} links to another place; expected the values themselves")
-        item = group[name]
-        if isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
-            raise ValueError(f"{place} refers to values in another file; expected them in this one")
-        if isinstance(item, h5py.Group):
-            if not depth:
-                raise ValueError(f"{place} is nested more than {MAX_DEPTH} groups deep")
-            _refuse_foreign(item, depth - 1)
+def _refuse_link(name: str, link: object) -> None:
+    """Raise ValueError if an entry of an HDF5 file is a link to another place."""
+    if not isinstance(link, h5py.HardLink):
+        raise ValueError(f"{name!r} links to another place; expected the values themselves")
 
 
 def fields_digest(path: Path) -> str:
@@ -129,6 +116,8 @@ def read_dataset(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
     ResourceRefused
         The values do not fit into the available memory.
     """
+    if dataset.external or dataset.is_virtual:
+        raise ValueError(f"{dataset.name} refers to values in another file; expected the values")
     shape = dataset.shape if row is None else (1, *dataset.shape[1:])
     chunk = dataset.chunks or shape
     if 0 in (*dataset.shape, *chunk):

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.file_names import STRESS
 from contact_results.files.csv_file import Column, write_meanings, write_table
 from contact_results.files.mesh_file import Mesh, tensor, write_mesh
@@ -122,7 +121,22 @@ def write_files(
         write_points(field.volume.rotate_to_scene(field.direction), directory / VOLUME, convention)
         files[VOLUME] = POINT_ARRAYS
     write_meanings(directory / MEANINGS, files, convention)
-    write_stress_summary(state, which, field, found, errors, accuracy, convention, directory)
+    stated = [None] * len(found) if errors is None else [e.model_dump(mode="json") for e in errors]
+    record = {
+        "convention": convention,
+        "title": state.title,
+        "body": which,
+        "step": state.step,
+        "peak_pressure": state.peak_pressure,
+        "accuracy": None if accuracy is None else accuracy.model_dump(mode="json"),
+        **field.how,
+        "measures": MEASURES,
+        "maxima": [
+            {**vars(extreme), "error": error} for extreme, error in zip(found, stated, strict=True)
+        ],
+    }
+    text = json.dumps(record, indent=2, allow_nan=False, ensure_ascii=False) + "\n"
+    (directory / STRESS).write_text(text, encoding="utf-8")
 
 
 def write_points(points: StressPoints, path: Path, convention: str) -> None:
@@ -157,45 +171,6 @@ def interface_points(field: StressField, body: Body) -> Iterator[tuple[int, str,
         points = field.section
         on_it = np.flatnonzero(points.is_on_side(depth, material))
         yield number, name, points.select(on_it[np.argsort(points.x.flat[on_it], kind="stable")])
-
-
-def write_stress_summary(
-    state: LoadedBodies,
-    which: str,
-    field: StressField,
-    found: Sequence[Extreme],
-    errors: Sequence[StatedError] | None,
-    accuracy: AccuracyReached | None,
-    convention: str,
-    directory: Path,
-) -> None:
-    """Write `stress.json`: settings, and the largest stresses with their errors.
-
-    which       "body" for the lower body, or "indenter"
-    field       computed stress, with the settings of its computation
-    found       largest stresses
-    errors      stated errors of `found`; None if they were not computed
-    accuracy    requested and reached accuracy; None if none was requested
-    convention  text about units, axes and signs
-    directory   output directory
-    """
-    stated = [None] * len(found) if errors is None else [e.model_dump(mode="json") for e in errors]
-    record = {
-        "convention": convention,
-        "title": state.title,
-        "body": which,
-        "step": state.step,
-        "peak_pressure": state.peak_pressure,
-        "accuracy": None if accuracy is None else accuracy.model_dump(mode="json"),
-        **field.how,
-        "measures": MEASURES,
-        "maxima": [
-            {**vars(extreme), "error": error} for extreme, error in zip(found, stated, strict=True)
-        ],
-    }
-    text = json.dumps(record, indent=2, allow_nan=False, ensure_ascii=False) + "\n"
-    with atomic_file(directory / STRESS) as path:
-        path.write_text(text, encoding="utf-8")
 
 
 def _point_rows(points: StressPoints, body: Body) -> Iterator[tuple[object, ...]]:
