@@ -46,11 +46,12 @@ def open_hdf5(path: Path) -> Iterator[h5py.File]:
     """Open an HDF5 file for reading in the `with` block.
 
     Raises ValueError if h5py cannot read the file, if another process uses it, or if it contains
-    links or values in other files.
+    links to other places.
     """
     try:
         with h5py.File(path) as file:
-            file.visititems_links(_refuse_link)
+            if (name := file.visititems_links(_name_of_link)) is not None:
+                raise ValueError(f"{path}: {name!r} links to another place; expected its values")
             yield file
     except (OSError, RuntimeError) as error:
         if getattr(error, "errno", None) in (EACCES, EAGAIN) and "lock" in str(error):
@@ -60,10 +61,9 @@ def open_hdf5(path: Path) -> Iterator[h5py.File]:
         raise ValueError(f"{path} cannot be read as HDF5: {error}") from None
 
 
-def _refuse_link(name: str, link: object) -> None:
-    """Raise ValueError if an entry of an HDF5 file is a link to another place."""
-    if not isinstance(link, h5py.HardLink):
-        raise ValueError(f"{name!r} links to another place; expected the values themselves")
+def _name_of_link(name: str, link: object) -> str | None:
+    """Return the name of an entry of an HDF5 file that is a link to another place, else None."""
+    return None if isinstance(link, h5py.HardLink) else name
 
 
 def fields_digest(path: Path) -> str:

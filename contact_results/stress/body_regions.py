@@ -81,7 +81,7 @@ class BodyRegions:
             return np.asarray(near)
         return np.concatenate([near, np.linspace(near[-1], self.deepest, IN_LAYER + 1)[1:]])
 
-    def levels(self, depths: Sequence[float] | None) -> Iterator[Level]:
+    def stress_levels(self, depths: Sequence[float] | None) -> Iterator[Level]:
         """Yield the depths at which the stress is computed, each with its material, downward.
 
         The result contains the given depths and both sides of every interface.

@@ -38,7 +38,7 @@ def stress_on_disc(
     does.
     """
     body = RadialBody.from_state(state, indenter)
-    levels, x, radius = tuple(body.parts.levels(depths)), body.section, body.parts.radius
+    levels, x, radius = tuple(body.parts.stress_levels(depths)), body.section, body.parts.radius
     grid = body.stress_points(levels, x, np.zeros_like(x))
     whole = _both_sides(grid) if body.is_round else grid
     section = whole.add_cells()
