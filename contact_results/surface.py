@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     Result = semi_analytical.Result | fem_reference.Result | radial.Result
 
 
+AROUND = 48  # points on a full circle if the fields depend on the radius alone
 # Vector fields on the surface, their components on rings, and all fields of an increment.
 VECTORS = ("shear", "slip")
 POLAR = ("radial", "circumferential", "along_load")
@@ -240,6 +242,22 @@ class Rings:
             np.stack([outward * cos - around * sin + ahead, outward * sin + around * cos])
         )
 
+    def full_circle(self, increment: Any) -> tuple[Rings, Any]:
+        """Extend the rings and the fields of an increment to angles over the full circle.
+
+        A half circle is reflected about the direction of the load. Rings without angles get AROUND
+        angles, and their fields stay functions of the radius.
+        """
+        if self.covers_circle:
+            return self, increment
+        if self.angles is None:
+            angles = np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)
+            return replace(self, angles=angles), increment
+        angles = np.append(self.angles, 2 * np.pi - self.angles[-2:0:-1])
+        given = {name: getattr(increment, name, None) for name in SURFACE_FIELDS}
+        fields = {name: _reflect_field(name, field) for name, field in given.items()}
+        return replace(self, angles=angles), SimpleNamespace(**fields)
+
     def on_both_sides(self) -> Rings:
         """Return rings on which profiles are drawn along the whole diameter in load direction.
 
@@ -288,6 +306,20 @@ class Rings:
         (x, y), (along, across) = self.direction, vector
         y *= sense
         return np.stack([along * x - across * y, along * y + across * x])
+
+
+def _reflect_field(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
+    """Extend a field on rings from the half circle to the full circle by reflection.
+
+    name   name of the field; circumferential components are odd in the angle, all others even
+    field  values (rings, angles) on the half circle
+
+    A field that depends on the radius alone, and None, are returned unchanged.
+    """
+    if field is None or field.ndim == 1:
+        return field
+    image = field[:, -2:0:-1]
+    return np.concatenate([field, -image if name.endswith("circumferential") else image], axis=1)
 
 
 def surface_on(axes: Mapping[str, Field], direction: tuple[float, float]) -> Surface:

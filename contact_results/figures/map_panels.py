@@ -66,10 +66,11 @@ class RingsAbove:
 
         name  name of the field, an attribute of the increment
         """
-        field = self.rings.scalar(step, name)
+        rings, fields = self.rings.full_circle(step)
+        field = rings.scalar(fields, name)
         if field is None:
             return None
-        sampled = self._interpolate_rings(field.astype(float))
+        sampled = self._interpolate_rings(rings, field.astype(float))
         return sampled > 0.5 if field.dtype == bool else sampled
 
     def vector(self, step: Increment, name: str) -> Field | None:
@@ -79,13 +80,12 @@ class RingsAbove:
 
         name  "shear" or "slip"
         """
-        components = self.rings.components(step, name)
+        rings, fields = self.rings.full_circle(step)
+        components = rings.components(fields, name)
         if components is None:
             return None
-        outward, around, ahead = map(self._interpolate_rings, components)
+        outward, around, ahead = (self._interpolate_rings(rings, part) for part in components)
         _, angle = self._polar_coordinates()
-        if self.rings.angles is not None and not self.rings.covers_circle:
-            around = np.sign(angle) * around
         cos, sin = np.cos(angle), np.sin(angle)
         along, across = outward * cos - around * sin + ahead, outward * sin + around * cos
         x, y = self.rings.direction
@@ -94,29 +94,30 @@ class RingsAbove:
     def _polar_coordinates(self) -> tuple[Field, Field]:
         """Return the polar coordinates of every cell centre, each of shape (nx, ny).
 
-        These are the radius [length] and the angle from the load, in (-π, π].
+        These are the radius [length] and the angle from the load, in [0, 2π).
         """
         x, y = np.meshgrid(self.x, self.y, indexing="ij")
         cos, sin = self.rings.direction
-        return np.hypot(x, y), np.arctan2(cos * y - sin * x, cos * x + sin * y)
+        angle = np.arctan2(cos * y - sin * x, cos * x + sin * y)
+        return np.hypot(x, y), angle % (2 * np.pi)
 
-    def _interpolate_rings(self, field: Field) -> Field:
+    def _interpolate_rings(self, rings: Rings, field: Field) -> Field:
         """Interpolate a field of the rings at the cell centres (nx, ny).
 
-        field  values (rings,) or (rings, angles)
+        rings  rings with angles over the full circle
+        field  values (rings, angles)
         """
         from scipy.ndimage import map_coordinates
 
         radius, angle = self._polar_coordinates()
-        at = [np.interp(radius, self.rings.radii, np.arange(len(self.rings.radii)))]
-        if field.ndim > 1:
-            angles = self.rings.angles
-            assert angles is not None
-            if self.rings.covers_circle:
-                # Repeat the first ray at angle 2π.
-                field = np.concatenate([field, field[:, :1]], axis=1)
-                angle, angles = angle % (2 * np.pi), np.append(angles, 2 * np.pi)
-            at.append(np.interp(np.abs(angle), angles, np.arange(len(angles))))
+        assert rings.angles is not None
+        # Repeat the first ray at angle 2π.
+        field = np.concatenate([field, field[:, :1]], axis=1)
+        rays = np.append(rings.angles, 2 * np.pi)
+        at = [
+            np.interp(radius, rings.radii, np.arange(len(rings.radii))),
+            np.interp(angle, rays, np.arange(len(rays))),
+        ]
         return np.asarray(map_coordinates(field, at, order=1))
 
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -13,7 +11,7 @@ from numpy.typing import NDArray
 from contact_results.directory.run_directory import files_at_once
 from contact_results.files.mesh_file import Mesh, write_mesh
 from contact_results.files.stored_run import StoredRun
-from contact_results.surface import SURFACE_FIELDS, Rings, Surface
+from contact_results.surface import Rings, Surface
 
 # Names of the arrays with their units, by the name of the field.
 VECTORS = {"shear": "shear [Pa]", "slip": "slip [m]"}
@@ -23,7 +21,6 @@ SCALARS = {
     "in_stick": "in_stick [1]",
     "dissipation": "dissipation [J/m^2]",
 }
-AROUND = 48  # points on a ring if the fields depend on the radius alone
 
 Places = NDArray[np.float64]
 
@@ -38,7 +35,7 @@ def write_surface(surface: Surface, increment: Any, path: Path, convention: str)
     convention  text about units, axes and signs
     """
     if isinstance(surface, Rings):
-        surface, increment = _extend_to_full_circle(surface, increment)
+        surface, increment = surface.full_circle(increment)
     arrays: dict[str, NDArray[Any]] = {}
     for name, heading in VECTORS.items():
         vector = surface.vector(increment, name)
@@ -88,36 +85,6 @@ def _disc_mesh(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
     ahead = np.roll(index, -1, axis=1)
     quads = np.stack([index[:-1], index[1:], ahead[1:], ahead[:-1]], axis=-1)
     return _add_zero_depth(places.reshape(-1, 2)), ("quad", quads.reshape(-1, 4))
-
-
-def _extend_to_full_circle(rings: Rings, increment: Any) -> tuple[Rings, Any]:
-    """Extend rings and the fields of an increment to angles over the full circle.
-
-    A half circle is reflected about the direction of the load. Rings without angles get AROUND
-    angles, and their fields stay functions of the radius.
-    """
-    if rings.covers_circle:
-        return rings, increment
-    if rings.angles is None:
-        angles = np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)
-        return replace(rings, angles=angles), increment
-    angles = np.append(rings.angles, 2 * np.pi - rings.angles[-2:0:-1])
-    fields = {name: _reflect_field(name, getattr(increment, name)) for name in SURFACE_FIELDS}
-    return replace(rings, angles=angles), SimpleNamespace(**fields)
-
-
-def _reflect_field(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
-    """Extend a field on rings from the half circle to the full circle by reflection.
-
-    name   name of the field; circumferential components are odd in the angle, all others even
-    field  values (rings, angles) on the half circle
-
-    A field that depends on the radius alone, and None, are returned unchanged.
-    """
-    if field is None or field.ndim == 1:
-        return field
-    image = field[:, -2:0:-1]
-    return np.concatenate([field, -image if name.endswith("circumferential") else image], axis=1)
 
 
 def _add_zero_depth(places: Places) -> Places:
