@@ -13,7 +13,7 @@ LIMITS = {
     "fem_reference": 1,
     "radial": 1,
     "contact_errors": 3,
-    "contact_results": 7,
+    "contact_results": 4,
     "slipstick": 4,
     "verification": 25,
     "docs": 20,
