@@ -52,10 +52,10 @@ def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
     and y. Cells are not wider than the spacing of the other map.
     """
     scene = normal_form(scene)
-    return _grid(scene, asked, asked.window or _within_maps(scene, fitted_window(scene)))
+    return _grid_on_window(scene, asked, asked.window or _within_maps(scene, fit_window(scene)))
 
 
-def enlarged(scene: Scene, asked: SurfaceDiscretisation, grid: SurfaceGrid) -> SurfaceGrid:
+def enlarge_window(scene: Scene, asked: SurfaceDiscretisation, grid: SurfaceGrid) -> SurfaceGrid:
     """Return a grid with a window GROWTH times wider, if a contact has reached the border of the
     window.
 
@@ -65,16 +65,16 @@ def enlarged(scene: Scene, asked: SurfaceDiscretisation, grid: SurfaceGrid) -> S
     grid   grid whose window is too small
     """
     L_x, L_y = grid.window
-    return _grid(scene, asked, _within_maps(scene, (GROWTH * L_x, GROWTH * L_y)))
+    return _grid_on_window(scene, asked, _within_maps(scene, (GROWTH * L_x, GROWTH * L_y)))
 
 
-def _grid(scene: Scene, asked: SurfaceDiscretisation, window: Pair) -> SurfaceGrid:
+def _grid_on_window(scene: Scene, asked: SurfaceDiscretisation, window: Pair) -> SurfaceGrid:
     if asked.cells is not None:
         return SurfaceGrid(asked.cells, window)
     cells = np.array(DEFAULT_CELLS)
     if points := [
         np.ceil(np.divide(window, map_.spacing) * (1 - ROUND_OFF)).astype(int)
-        for map_ in _maps(scene)
+        for map_ in _scene_maps(scene)
     ]:
         most = sqrt(MAX_DEFAULT_CELLS / np.prod(points[0], dtype=float))
         usual = min(-(-cells[0] // int(np.min(points[0]))), int(most))
@@ -84,7 +84,7 @@ def _grid(scene: Scene, asked: SurfaceDiscretisation, window: Pair) -> SurfaceGr
     return SurfaceGrid((int(cells[0]), int(cells[1])), window)
 
 
-def _maps(scene: Scene) -> list[HeightMap | FrictionMap]:
+def _scene_maps(scene: Scene) -> list[HeightMap | FrictionMap]:
     friction = scene.friction.varying if scene.friction else None
     maps = (scene.indenter, friction)
     return [map_ for map_ in maps if isinstance(map_, HeightMap | FrictionMap)]
@@ -96,7 +96,7 @@ def _within_maps(scene: Scene, window: Pair) -> Pair:
     return float(L_x), float(L_y)
 
 
-def fitted_window(scene: Scene) -> Pair:
+def fit_window(scene: Scene) -> Pair:
     """Determine the sides of the smallest window for the largest contact of the history [length].
 
     raises  ContactAtWindowEdge if no window contains the contact; UnsupportedScene for a shape
@@ -110,16 +110,16 @@ def fitted_window(scene: Scene) -> Pair:
     window = (2 * MARGIN * semi_axes[0], 2 * MARGIN * semi_axes[1])
     for _ in range(MAX_ENLARGEMENTS):
         grid = SurfaceGrid((SCOUT_CELLS, SCOUT_CELLS), window)
-        model = ContactModel.of(scene, grid, decided.symmetry)
+        model = ContactModel.from_scene(scene, grid, decided.symmetry)
         try:
-            marked = np.any([_contact(model, load) for load in loads], axis=0)
+            marked = np.any([_contact_cells(model, load) for load in loads], axis=0)
         except ContactAtWindowEdge:
             window = (GROWTH * window[0], GROWTH * window[1])
             continue
         if not np.any(marked):
             window = (window[0] / GROWTH, window[1] / GROWTH)
             continue
-        extents = _extents(marked, grid)
+        extents = _contact_extents(marked, grid)
         fitted = (MARGIN * extents[0], MARGIN * extents[1])
         if min(fitted[0] / window[0], fitted[1] / window[1]) > 0.5:
             return fitted
@@ -137,7 +137,7 @@ def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
     The test uses the frictionless contact under `SURELY` of the load, which is smaller.
     """
     decided = plan(scene)
-    model = ContactModel.of(scene, grid, decided.symmetry)
+    model = ContactModel.from_scene(scene, grid, decided.symmetry)
     for load in _largest_loads(scene, decided.tilt):
         force, approach = (None if x is None else SURELY * x for x in (load.force, load.approach))
         try:
@@ -148,7 +148,7 @@ def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
             return
 
 
-def _contact(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
+def _contact_cells(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
     """Return the cells in contact under a normal load on the full window (nx, ny).
 
     No cell is returned where the contact is too small for the grid.
@@ -159,7 +159,7 @@ def _contact(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
         return np.zeros(model.window.cells, dtype=bool)
 
 
-def _extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, float]:
+def _contact_extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, float]:
     """Compute the sides of the smallest window about the origin that contains the contact cells
     [length].
 
@@ -208,10 +208,10 @@ def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
             f"window in [semi_analytical]"
         )
     degree = exponent if load.approach is not None else exponent + 1
-    return _root(powers[0], degree), _root(powers[1], degree)
+    return _nth_root(powers[0], degree), _nth_root(powers[1], degree)
 
 
-def _root(power: float, exponent: float) -> float:
+def _nth_root(power: float, exponent: float) -> float:
     if exponent == 3:
         return float(np.cbrt(power))
     return sqrt(power) if exponent == 2 else power ** (1 / exponent)

@@ -38,12 +38,12 @@ class SurfaceGrid:
     @property
     def x(self) -> NDArray[np.float64]:
         """Cell centres along x, symmetric about zero, shape (nx,) [length]."""
-        return _centres(self.cells[0], self.spacing[0])
+        return _cell_centres(self.cells[0], self.spacing[0])
 
     @property
     def y(self) -> NDArray[np.float64]:
         """Cell centres along y, symmetric about zero, shape (ny,) [length]."""
-        return _centres(self.cells[1], self.spacing[1])
+        return _cell_centres(self.cells[1], self.spacing[1])
 
     @property
     def even(self) -> bool:
@@ -73,5 +73,5 @@ class SurfaceGrid:
         return SurfaceGrid((self.cells[0] // 2, self.cells[1] // 2), self.window)
 
 
-def _centres(count: int, spacing: float) -> NDArray[np.float64]:
+def _cell_centres(count: int, spacing: float) -> NDArray[np.float64]:
     return (np.arange(count, dtype=np.float64) - (count - 1) / 2) * spacing

@@ -22,7 +22,7 @@ from semi_analytical.edge.contact_area import covered_cells
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.fields import Increment
 from semi_analytical.increments.energy import NOTHING_YET, pressed_work
-from semi_analytical.increments.energy_balance import balanced
+from semi_analytical.increments.energy_balance import add_energies
 from semi_analytical.increments.increment import (
     State,
     normal_target,
@@ -38,7 +38,7 @@ from semi_analytical.increments.normal_solve import (
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import (
     TangentialState,
-    untouched,
+    untouched_state,
 )
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import Coupling, Plan
@@ -67,7 +67,7 @@ class Correct(Protocol):
 MAX_CONVOLUTIONS = 30_000
 
 
-def marked(
+def solve_history(
     model: ContactModel, plan: Plan, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[State]]]:
     """Iterate over the converged increments of the load history, each with a state for a later
@@ -78,11 +78,11 @@ def marked(
     since        checkpoint from which to resume; None to start at the beginning
     raises       NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
-    solver = _Solver(model, plan, _advance(plan), _correction(model, plan), tolerance)
+    solver = _Solver(model, plan, _increment_solver(plan), _edge_correction(model, plan), tolerance)
     return resumable_increments(model.scene, plan.increments, solver, since)
 
 
-def _advance(plan: Plan) -> Advance:
+def _increment_solver(plan: Plan) -> Advance:
     """Return the function that solves one increment, as required by the coupling of the plan.
 
     Solvers that are not required are not imported.
@@ -94,7 +94,7 @@ def _advance(plan: Plan) -> Advance:
     return solve_coupled_increment
 
 
-def _correction(model: ContactModel, plan: Plan) -> Correct | None:
+def _edge_correction(model: ContactModel, plan: Plan) -> Correct | None:
     """Return the edge correction that is applied to each state; None if the plan excludes it."""
     if plan.edge == "off":
         return None
@@ -149,7 +149,7 @@ class _Solver:
         after = self.increment(self.model, before, normal, tangential, self.tolerance)
         residuals_of(self.model, after).require(self.tolerance, "the increment", after.iterations)
         matters = self.plan.path[ramp.step - 1].path_matters
-        after = balanced(self.model, before, after, path_matters=matters)
+        after = add_energies(self.model, before, after, path_matters=matters)
         if self.correct is None or (self.plan.edge == "last" and fraction < 1):
             return after
         stepwise = self.plan.edge == "last" and not self.plan.couples
@@ -186,11 +186,11 @@ class _Solver:
         before, after = reached.before, reached.state
         held = before is not None and before.target == after.target
         spreads = self.plan.coupling is not Coupling.NONE or not held
-        increment = _increment(self.model, last, reached, spreads=spreads)
+        increment = _reported_increment(self.model, last, reached, spreads=spreads)
         return of_contact(increment, self.model.scene.rig)
 
 
-def _increment(
+def _reported_increment(
     model: ContactModel, last: Increment | None, reached: Reached[State], *, spreads: bool
 ) -> Increment:
     """Convert a converged state to an increment of the results, with all fields on the full window.
@@ -228,10 +228,12 @@ def _increment(
         edge_report=state.edge_report,
     )
     if state.corrected is not None:
-        pressed = _with_edges(pressed, state, state.corrected, model)
+        pressed = _apply_edge_correction(pressed, state, state.corrected, model)
     if sheared is None:
         return pressed
-    stuck, sheared, pressed = _stick(model, p, sheared, state.corrected, pressed, spreads=spreads)
+    stuck, sheared, pressed = _stick_zone(
+        model, p, sheared, state.corrected, pressed, spreads=spreads
+    )
     increment = replace(
         pressed,
         status=sheared.status if model.scene.friction else pressed.status,
@@ -247,7 +249,7 @@ def _increment(
         dissipated_energy=sheared.dissipated_energy,
         dissipation_uncertainty=state.energy.uncertain,
     )
-    return _traced(increment, last, sheared)
+    return _add_slip(increment, last, sheared)
 
 
 def _contact_cells(model: ContactModel, state: State) -> float:
@@ -258,7 +260,7 @@ def _contact_cells(model: ContactModel, state: State) -> float:
     return domain.images * covered_cells(p, p > 0, domain)
 
 
-def _with_edges(
+def _apply_edge_correction(
     increment: Increment, state: State, corrected: Corrected, model: ContactModel
 ) -> Increment:
     """Replace the pressure and contact of an increment by the edge-corrected ones, with the elastic
@@ -297,7 +299,7 @@ def _with_edges(
     )
 
 
-def _stick(
+def _stick_zone(
     model: ContactModel,
     p: Field,
     sheared: TangentialState,
@@ -329,7 +331,7 @@ def _stick(
     return stuck, replace(sheared, shear=corrected.shear, in_stick=stick), increment
 
 
-def _traced(increment: Increment, last: Increment | None, sheared: TangentialState) -> Increment:
+def _add_slip(increment: Increment, last: Increment | None, sheared: TangentialState) -> Increment:
     """Add slip, slip distance and dissipation of a state to an increment of the results.
 
     The increment is returned unchanged if the tangential shift is undefined.
@@ -339,7 +341,7 @@ def _traced(increment: Increment, last: Increment | None, sheared: TangentialSta
     """
     if sheared.dissipated_energy is None:
         return increment
-    nothing = untouched(sheared.in_stick.shape)
+    nothing = untouched_state(sheared.in_stick.shape)
     slip = last.slip if last else None
     dissipation = last.dissipation if last else None
     traced = replace(

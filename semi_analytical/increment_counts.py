@@ -144,23 +144,23 @@ class _LoadStep:
         return any(self.ramp.tangential.end) or self.ramp.twisting.end != 0
 
     @property
-    def _first(self) -> bool:
+    def _is_first_loading(self) -> bool:
         return self.ramp.normal.start == 0
 
     @property
-    def _pressing(self) -> bool:
+    def _changes_normal_load(self) -> bool:
         ramp = self.ramp
         return ramp.normal.start != ramp.normal.end or ramp.tilting.start != ramp.tilting.end
 
     @property
-    def _growing(self) -> bool:
+    def _only_normal_load_grows(self) -> bool:
         """True if only the normal load changes in the load step, and does not decrease."""
         normal, tilting = self.ramp.normal, self.ramp.tilting
         grows = normal.start is not None and normal.start <= normal.end
-        return grows and tilting.start == tilting.end and not self._moving
+        return grows and tilting.start == tilting.end and not self._changes_tangential_load
 
     @property
-    def _moving(self) -> bool:
+    def _changes_tangential_load(self) -> bool:
         """True if the tangential load, the torsion or the bulk strain changes in the load step."""
         twisting = self.ramp.twisting
         if self.ramp.strains:
@@ -168,7 +168,7 @@ class _LoadStep:
         return self.start != self.ramp.tangential.end or twisting.start != twisting.end
 
     @property
-    def _turning(self) -> bool:
+    def _changes_direction(self) -> bool:
         """True if the tangential load changes its direction in the load step, other than by
         reversal.
 
@@ -180,7 +180,7 @@ class _LoadStep:
         twists = self.ramp.twisting.start != 0 or self.ramp.twisting.end != 0
         pushes = any(start) or any(end)
         if twists and pushes:
-            return self._moving
+            return self._changes_tangential_load
         return abs(cross) > STRAIGHT * hypot(*start) * hypot(*end)
 
     def matters(self, coupled: bool) -> tuple[bool, str]:
@@ -189,11 +189,15 @@ class _LoadStep:
 
         coupled  True if the normal and tangential problems are coupled
         """
-        if self._first and self.shape.rim is not None:
+        if self._is_first_loading and self.shape.rim is not None:
             return False, "all tractions below a flat punch grow in proportion"
-        if self._growing and not coupled:
+        if self._only_normal_load_grows and not coupled:
             return False, "the normal load grows without slip"
-        if self._pressing or self._turning or (coupled and self._moving):
+        if (
+            self._changes_normal_load
+            or self._changes_direction
+            or (coupled and self._changes_tangential_load)
+        ):
             return True, ""
         return False, "the load has a constant direction and the bodies are uncoupled"
 
@@ -205,7 +209,7 @@ class _LoadStep:
         change.
         """
         x, change = self._parts_of_limit(bodies)
-        return change / x if self._turning and x else 0.0
+        return change / x if self._changes_direction and x else 0.0
 
     def count(self, bodies: Bodies, accuracy: float, changes: float) -> tuple[int, str]:
         """Compute the number of increments for an accuracy, and name the error rule.
@@ -213,23 +217,23 @@ class _LoadStep:
         accuracy  allowed increment error, Σ|error of q| / Σµp
         changes   Σ Δx/x of all steps that change direction; 0 for fewer than two
         """
-        if self._first and not self._moving:
-            return _pressed_first(bodies, accuracy, self.shape)
-        if self._first:
-            return _rounded(BOTH_AT_ONCE / accuracy), "normal and tangential first loading"
+        if self._is_first_loading and not self._changes_tangential_load:
+            return _first_loading_count(bodies, accuracy, self.shape)
+        if self._is_first_loading:
+            return _round_up(BOTH_AT_ONCE / accuracy), "normal and tangential first loading"
         x, change = self._parts_of_limit(bodies)
         coefficient = SIDEWAYS * x * min(x, change)
-        if self._turning:
+        if self._changes_direction:
             again = min(TURNING * changes, TURNED_ROUND)
             coefficient = max(coefficient, again * x * change)
-        if self._pressing:
+        if self._changes_normal_load:
             rate = PRESSING_UNLIKE if bodies.coupled else PRESSING_LATER
             coefficient += rate * self._pressing_change
-            return _rounded(coefficient / accuracy), "the normal load changes under shear"
+            return _round_up(coefficient / accuracy), "the normal load changes under shear"
         why = "pressure and shear are coupled"
-        if self._turning:
+        if self._changes_direction:
             why = "the tangential load changes its direction"
-        return _rounded(coefficient / accuracy), why
+        return _round_up(coefficient / accuracy), why
 
     @property
     def _pressing_change(self) -> float:
@@ -246,7 +250,7 @@ class _LoadStep:
         Each result is 1 if it is unknown before the solution, and 0 if the tangential load does not
         change.
         """
-        if not self._moving:
+        if not self._changes_tangential_load:
             return 0.0, 0.0
         normal, tangential = self.ramp.normal, self.ramp.tangential
         by_force = normal.kind is tangential.kind is ControlKind.FORCE
@@ -264,7 +268,7 @@ class _LoadStep:
         return max(hypot(*start), hypot(*end)) / limit, change / limit
 
 
-def _pressed_first(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[int, str]:
+def _first_loading_count(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[int, str]:
     """Compute the number of increments of normal first loading of coupled bodies, and the reason.
 
     The error depends on the relative size of the stick zone, whose edge moves with that of the
@@ -276,7 +280,7 @@ def _pressed_first(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[
     most = (FULL_STICK_LAYERS if layered else FULL_STICK) / accuracy
     mu = bodies.friction.uniform
     if mu is None:
-        return _rounded(most), "first loading of coupled bodies, with friction other than µp"
+        return _round_up(most), "first loading of coupled bodies, with friction other than µp"
     if layered:
         m_squared = LAYERS * mu
         why = f"first loading of coated bodies, µ = {mu:.2g}"
@@ -286,8 +290,8 @@ def _pressed_first(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[
     count = (PRESSING_FIRST / accuracy) ** (2 / 3) * m_squared
     if shape.gap_exponent != 2 or not shape.is_of_revolution:
         count = max(count, OTHER_SHAPES * sqrt(m_squared) / accuracy)
-    return _rounded(min(count, most)), why
+    return _round_up(min(count, most)), why
 
 
-def _rounded(count: float) -> int:
+def _round_up(count: float) -> int:
     return min(MOST, max(1, ceil(count - ROUND_OFF)))

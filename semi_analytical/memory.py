@@ -52,25 +52,25 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
     held = min(array * kept * increments, MAX_IN_MEMORY) + LIGHT * increments
     if plan.coupling is Coupling.FULL:
-        solving = _coupled(grid, plan)
+        solving = _coupled_bytes(grid, plan)
     else:
-        solving = array * _arrays(grid, plan) + _edges(grid, plan)
+        solving = array * _count_arrays(grid, plan) + _edge_bytes(grid, plan)
     coupled = plan.coupling is not Coupling.NONE
     drawing = DRAWING + DRAWING_ARRAYS * array + DRAWING_COUPLED * coupled
     return int(LIBRARIES + held + max(solving, drawing))
 
 
-def _share(grid: SurfaceGrid, plan: Plan) -> float:
+def _domain_share(grid: SurfaceGrid, plan: Plan) -> float:
     """Return the ratio of the number of cells of the reduced domain to that of the window."""
     return 1 / plan.symmetry.images if grid.even else 1.0
 
 
-def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
+def _count_arrays(grid: SurfaceGrid, plan: Plan) -> float:
     """Count the arrays of the size of the window that are in memory at the peak of the solution.
 
     The edge correction is excluded.
     """
-    share = _share(grid, plan)
+    share = _domain_share(grid, plan)
     arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * share
     if plan.shear:
         arrays += SHEAR_ARRAYS[0] + SHEAR_ARRAYS[1] * share
@@ -78,7 +78,7 @@ def _arrays(grid: SurfaceGrid, plan: Plan) -> float:
     return arrays + HISTORY_ARRAYS * (sum(plan.increments) > 1)
 
 
-def _coupled(grid: SurfaceGrid, plan: Plan) -> float:
+def _coupled_bytes(grid: SurfaceGrid, plan: Plan) -> float:
     """Estimate the memory of coupled bodies during the solution or the edge correction [byte]."""
     array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
     by_increment = COUPLED_ARRAYS[plan.symmetry.images if grid.even else 1]
@@ -90,12 +90,12 @@ def _coupled(grid: SurfaceGrid, plan: Plan) -> float:
     return array * (most + more) + EDGE_COUPLED + EDGE_COUPLED_RIM * side
 
 
-def _edges(grid: SurfaceGrid, plan: Plan) -> float:
+def _edge_bytes(grid: SurfaceGrid, plan: Plan) -> float:
     """Estimate the peak memory of the edge correction for uncoupled bodies [byte]."""
     if plan.edge == "off":
         return 0
     array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
-    share = _share(grid, plan)
+    share = _domain_share(grid, plan)
     alone = EDGE_ARRAYS * array + EDGE_RIM * side
     if not plan.shear:
         return alone * share

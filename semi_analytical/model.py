@@ -42,7 +42,7 @@ class ContactModel:
         self._operators: dict[Pair, DisplacementOperator] = {}
 
     @classmethod
-    def of(
+    def from_scene(
         cls, scene: Scene, window: SurfaceGrid, symmetry: ReducedDomain = WINDOW
     ) -> "ContactModel":
         """Build the contact model of a scene, with the undeformed gap at the cell centres.
@@ -63,7 +63,7 @@ class ContactModel:
         pressure  p on the reduced domain, or on a box of its cells (nx, ny)
         first     first cell of the box
         """
-        return self.friction.limit(pressure, self._of_window(first, pressure.shape))
+        return self.friction.limit(pressure, self._window_slices(first, pressure.shape))
 
     def friction_slope(self, pressure: Field, first: Pair = (0, 0)) -> Field:
         """Compute the derivative of the friction limit with respect to the pressure [1].
@@ -71,9 +71,9 @@ class ContactModel:
         pressure  p on the reduced domain, or on a box of its cells (nx, ny)
         first     first cell of the box
         """
-        return self.friction.slope(pressure, self._of_window(first, pressure.shape))
+        return self.friction.slope(pressure, self._window_slices(first, pressure.shape))
 
-    def _of_window(self, first: Pair, shape: tuple[int, ...]) -> tuple[slice, slice]:
+    def _window_slices(self, first: Pair, shape: tuple[int, ...]) -> tuple[slice, slice]:
         """Return the slices of a box of cells of the reduced domain for arrays on the full window.
 
         first  first cell of the box
@@ -181,16 +181,16 @@ class ContactModel:
         if any(n % 2 for n in self.grid.cells) or min(self.window.cells) <= COARSEST:
             return None
         grid = ReducedGrid(self.window.coarsened(), self.domain)
-        return ContactModel(self.scene, grid, halved(self.gap), self.convolutions)
+        return ContactModel(self.scene, grid, coarsen_field(self.gap), self.convolutions)
 
 
-def halved(values: Field) -> Field:
+def coarsen_field(values: Field) -> Field:
     """Average a field over two by two cells, (..., nx, ny) to (..., nx/2, ny/2)."""
     # Sums of pairs: means of mirror images are bitwise mirror images.
     along = values[..., ::2, :] + values[..., 1::2, :]
     return np.asarray((along[..., ::2] + along[..., 1::2]) / 4)
 
 
-def doubled(values: Field) -> Field:
+def refine_field(values: Field) -> Field:
     """Repeat each cell value of a field on two by two cells, (..., nx, ny) to (..., 2 nx, 2 ny)."""
     return np.repeat(np.repeat(values, 2, axis=-2), 2, axis=-1)

@@ -108,20 +108,20 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     shear = friction and (loaded or coupled or strained)
     tilt = any(step.moment is not None or any(step.tilt or (0, 0)) for step in scene.loading)
     torsion = shear and any(step.torque is not None or step.twist for step in scene.loading)
-    symmetry, why_symmetry = _symmetry(scene, shear, coupled, tilt, torsion)
+    symmetry, why_symmetry = _choose_symmetry(scene, shear, coupled, tilt, torsion)
     effects = (
         effect.PRESSURE,
         effect.second_body(scene),
         effect.layers(scene),
         effect.friction(scene),
-        _prescribed("tangential load", loaded, "a tangential load or torsion", friction),
-        _prescribed("tilt", tilt, "a moment or a tilt"),
-        _prescribed("torsion", torsion, "a torque or a twist", friction),
+        _prescribed_effect("tangential load", loaded, "a tangential load or torsion", friction),
+        _prescribed_effect("tilt", tilt, "a moment or a tilt"),
+        _prescribed_effect("torsion", torsion, "a torque or a twist", friction),
         effect.strained(scene),
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
         Effect(MIRROR_PLANES, symmetry != WINDOW, why_symmetry),
-        Effect(EDGES, *_edges(scene, edge, torsion)),
+        Effect(EDGES, *_decide_edge_correction(scene, edge, torsion)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
@@ -139,7 +139,7 @@ def _tangentially_loaded(scene: Scene) -> bool:
     )
 
 
-def _prescribed(name: str, on: bool, loads: str, friction: bool = True) -> Effect:
+def _prescribed_effect(name: str, on: bool, loads: str, friction: bool = True) -> Effect:
     """Describe an effect that is on if loads of some kind are prescribed; without friction it may
     be off.
 
@@ -153,7 +153,7 @@ def _prescribed(name: str, on: bool, loads: str, friction: bool = True) -> Effec
     return Effect(name, on, f"{'a' if on else 'no'} load step prescribes {loads}")
 
 
-def _symmetry(
+def _choose_symmetry(
     scene: Scene, shear: bool, coupled: bool, tilt: bool, torsion: bool
 ) -> tuple[ReducedDomain, str]:
     """Choose the symmetry reduction of a scene, and state the reason.
@@ -185,7 +185,7 @@ def _symmetry(
     return found, even + f"solved on {'a quarter' if x and y else 'half'} of the window"
 
 
-def _edges(scene: Scene, asked: EdgeCorrection, torsion: bool) -> tuple[bool, str]:
+def _decide_edge_correction(scene: Scene, asked: EdgeCorrection, torsion: bool) -> tuple[bool, str]:
     """Decide if the edge correction is applied to a scene, and state the reason.
 
     The edge correction accounts for contact edges inside cells.
@@ -217,11 +217,11 @@ def all_effects(plan: Plan) -> Plan:
         torsion=True,
         coupling=Coupling.FULL,
         symmetry=WINDOW,
-        effects=tuple(_forced(effect) for effect in plan.effects),
+        effects=tuple(_forced_effect(effect) for effect in plan.effects),
     )
 
 
-def _forced(effect: Effect) -> Effect:
+def _forced_effect(effect: Effect) -> Effect:
     """Return the description of an effect in a plan that computes all effects.
 
     Effects that the scene does not require are marked as forced on, a symmetry reduction as not

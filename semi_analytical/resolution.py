@@ -13,7 +13,7 @@ from scipy import ndimage
 from contact_scene import HeightMap
 from contact_scene.array_types import Field, Mask
 from contact_scene.solver_errors import ContactNotResolved, SolverError
-from semi_analytical.default_grid import fitted_window
+from semi_analytical.default_grid import fit_window
 from semi_analytical.fields import Increment, Result
 
 # Cells per contact radius from which peak pressure and approach are meaningful.
@@ -45,20 +45,22 @@ class Resolution:
 
 def resolution(result: Result) -> tuple[Resolution, ...]:
     """Measure the resolution of a result in cells at the end of every load step."""
-    return tuple(_at(result, end) for end in result.steps)
+    return tuple(_resolution_at(result, end) for end in result.steps)
 
 
-def _at(result: Result, end: Increment) -> Resolution:
-    grid, load, contact = result.grid, end.pressure, _contact(result, end)
+def _resolution_at(result: Result, end: Increment) -> Resolution:
+    grid, load, contact = result.grid, end.pressure, _contact_size(result, end)
     stick = annulus = None
     if end.in_stick is not None and end.stick_area is not None:
         stick = _semi_axis(end.in_stick, load, end.stick_area / grid.cell_area)
         if np.any(end.in_contact & ~end.in_stick):
             annulus = max(contact - stick, 0.0)
-    return Resolution(contact, stick, annulus, _layer(result), _wave(result, end.in_contact))
+    return Resolution(
+        contact, stick, annulus, _layer_cells(result), _wavelength_cells(result, end.in_contact)
+    )
 
 
-def _contact(result: Result, end: Increment) -> float:
+def _contact_size(result: Result, end: Increment) -> float:
     return _semi_axis(end.in_contact, end.pressure, end.contact_area / result.grid.cell_area)
 
 
@@ -66,17 +68,17 @@ def refuse_unresolved(result: Result) -> None:
     """Raise ContactNotResolved if the largest contact of the history has less than one cell per
     radius."""
     end = max(result.steps, key=lambda step: step.contact_area)
-    found = _contact(result, end)
+    found = _contact_size(result, end)
     if found >= 1:
         return
     raise ContactNotResolved(
         f"the contact is smaller than the cells: at its largest, at the end of step {end.step}, "
         f"{np.count_nonzero(end.in_contact)} of them carry the load, so that its size and pressure "
-        f"are determined by the cells. {_remedy(result, found)}"
+        f"are determined by the cells. {_remedy_text(result, found)}"
     )
 
 
-def _remedy(result: Result, found: float) -> str:
+def _remedy_text(result: Result, found: float) -> str:
     """Return the sentence of an error message with settings that would resolve the contact.
 
     found  radius of the contact in cells
@@ -87,7 +89,7 @@ def _remedy(result: Result, found: float) -> str:
     if isinstance(result.scene.indenter, HeightMap):
         return f"Use {cells} and a map of this spacing (heights in between are interpolated)"
     try:
-        window = fitted_window(result.scene)
+        window = fit_window(result.scene)
     except SolverError:
         window = L_x / more, L_y / more
     if max(window[0] / L_x, window[1] / L_y) > 0.5:
@@ -123,12 +125,12 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
     return float(np.average(axes, weights=np.bincount(of, load[i, j])))
 
 
-def _layer(result: Result) -> float | None:
+def _layer_cells(result: Result) -> float | None:
     thinnest = min(result.scene.body.thinnest, result.scene.indenter.thinnest)
     return thinnest / max(result.grid.spacing) if np.isfinite(thinnest) else None
 
 
-def _wave(result: Result, touched: Mask) -> float | None:
+def _wavelength_cells(result: Result, touched: Mask) -> float | None:
     """Compute the mean wavelength 2π √(m₂/m₄) of a height map near the contact, in cells.
 
     The formula is that of Longuet-Higgins (1957). m₂ and m₄ are mean squares of slope and curvature

@@ -12,12 +12,12 @@ from contact_scene.stepping.checkpoint import (
 )
 from semi_analytical.default_grid import (
     discretise,
-    enlarged,
+    enlarge_window,
     refuse_small_window,
 )
 from semi_analytical.fields import Increment, Result
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.history import marked
+from semi_analytical.history import solve_history
 from semi_analytical.memory import refuse_if_too_large
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import Plan
@@ -75,10 +75,10 @@ def solve(
     scene = normal_form(scene)
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(grid, decided)
-    model = ContactModel.of(scene, grid, decided.symmetry)
+    model = ContactModel.from_scene(scene, grid, decided.symmetry)
     last = store.last() if store else None
     since = last if last and last.extent == grid else None
-    history = marked(model, decided, tolerance, since)
+    history = solve_history(model, decided, tolerance, since)
     increments = with_checkpoints(history, since, store, progress, grid)
     return Result(scene, grid, tolerance, decided, tuple(increments))
 
@@ -103,7 +103,7 @@ def solve_discretised(
     grids = [first]
     if discretisation.window is None and scene.indenter.extent is None:
         for _ in range(MAX_ENLARGEMENTS):
-            larger = enlarged(scene, discretisation, grids[-1])
+            larger = enlarge_window(scene, discretisation, grids[-1])
             if larger == grids[-1]:  # the whole friction map
                 break
             grids.append(larger)

@@ -33,7 +33,7 @@ class SurfaceTensileStress:
 
         path  increments of the cycle; cycles must be given in the order of their start
         """
-        direction = _direction(path, self._result.grid.cell_area)
+        direction = _force_direction(path, self._result.grid.cell_area)
         if direction is None:
             return None
         self._stresses = {step: s for step, s in self._stresses.items() if step >= path[0].step}
@@ -41,7 +41,9 @@ class SurfaceTensileStress:
         for end in ends:
             if end.step not in self._stresses:
                 self._stresses[end.step] = _in_plane_stress(self._result, end)
-        return np.max([_along(direction, self._stresses[end.step]) for end in ends], axis=0)
+        return np.max(
+            [_normal_stress_along(direction, self._stresses[end.step]) for end in ends], axis=0
+        )
 
 
 def _in_plane_stress(result: Result, end: Increment) -> Field:
@@ -60,7 +62,7 @@ def _in_plane_stress(result: Result, end: Increment) -> Field:
     return np.asarray(stress[[0, 1, 5]])
 
 
-def _direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
+def _force_direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
     """Return the direction in which the tangential force changes most in a load cycle (unit
     vector).
 
@@ -78,7 +80,7 @@ def _direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
     return np.asarray(changes[np.argmax(sizes)] / np.max(sizes))
 
 
-def _along(direction: Vector, stress: Field) -> Field:
+def _normal_stress_along(direction: Vector, stress: Field) -> Field:
     """Compute the normal stress n·σ n of the in-plane stress (3, nx, ny) along a unit vector n."""
     (x, y), (xx, yy, xy) = direction, stress
     return np.asarray(x * x * xx + y * y * yy + 2 * x * y * xy)

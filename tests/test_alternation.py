@@ -19,7 +19,7 @@ from semi_analytical.coupled.generalised_derivative import (
 from semi_analytical.coupled.globalisation import solve_together
 from semi_analytical.coupled.krylov import least_residual
 from semi_analytical.coupled.linearised_increment import LinearisedIncrement
-from semi_analytical.coupled.newton_iterate import reached
+from semi_analytical.coupled.newton_iterate import evaluate_point
 from semi_analytical.model import ContactModel
 from semi_analytical.normal.normal_load import (
     FixedApproach,
@@ -53,7 +53,7 @@ class Held:
     def __call__(self, displacements):
         return displacements / self._held
 
-    def yielding(self, compliance):
+    def with_compliance(self, compliance):
         return Held(*(part + compliance for part in self._given))
 
 
@@ -208,7 +208,7 @@ LOOSE = 1e-8
 
 
 def model(cells=32):
-    return ContactModel.of(scene(press()), grid(cells))
+    return ContactModel.from_scene(scene(press()), grid(cells))
 
 
 @pytest.mark.parametrize("shape", [(32, 32), (16, 48), (80, 32)])
@@ -253,10 +253,10 @@ def test_a_step_near_the_solution_squares_the_error(seed, saturation, rng):
         t = exact + size * direction * (exact[2] > 0)
         t[2] = problem.normal_load.admissible(t[2])
         at = Point(t, problem.together(t), solution.approach, solution.motion)
-        zones = Zones.of(Natural.at(at, problem), problem)
+        zones = Zones.from_natural_map(Natural.evaluate(at, problem), problem)
         increment = LinearisedIncrement(problem, zones)
-        base, _ = reached(problem, increment.admissible(t), solution.motion)
-        residual = increment.residual(base, Natural.at(base, problem))
+        base, _ = evaluate_point(problem, increment.admissible(t), solution.motion)
+        residual = increment.residual(base, Natural.evaluate(base, problem))
         step = increment.solve(residual, 1e-13)
         return np.max(np.abs(base.tractions + step.tractions - exact)) / np.max(exact)
 
@@ -269,7 +269,7 @@ def test_the_inverse_of_cells_on_springs_is_that_of_the_sum_of_compliances(softn
     contact, shape = model(), (32, 16)
     own = contact.self_compliance
     A, more = contact.operator(shape), softness * contact.self_compliance
-    found = A.inverse.yielding(more)
+    found = A.inverse.with_compliance(more)
     u = 1e-9 * rng.standard_normal((3 + len(COMPLIANCES), *shape))
     # F + ρ by F of the coefficients, those of a cell on itself raised by the springs.
     rows, columns = A.transforms.half_period

@@ -239,7 +239,7 @@ def test_operators_on_a_domain_are_those_on_the_window(domain, window, rng):
     assert off(extend(found[2]), expected[2]) < REDUCED_ROUND_OFF
     some = np.concatenate([q, p, bins])
     for softer in (0.0, 2 * A_window.self_compliance):
-        approximate = [one.inverse.yielding(softer) for one in (A_domain, A_window)]
+        approximate = [one.inverse.with_compliance(softer) for one in (A_domain, A_window)]
         found = approximate[0](some)
         assert found.dtype == np.float32
         assert off(extended(found), approximate[1](extended(some))) < SINGLE
@@ -267,7 +267,7 @@ def even_map(cells=40, spacing=4 * A / 40, order=1.0):
 
 @pytest.mark.parametrize("domain", DOMAINS, ids=str)
 def test_friction_varies_on_a_box_as_on_the_window(domain):
-    model = ContactModel.of(scene(PRESS, friction=even_map()), grid(32, 0.9), domain)
+    model = ContactModel.from_scene(scene(PRESS, friction=even_map()), grid(32, 0.9), domain)
     expected = domain.restrict(model.friction.limit(np.ones((32, 32))))
     np.testing.assert_array_equal(model.friction_limit(np.ones(model.grid.cells)), expected)
     found = model.friction_limit(np.ones((5, 7)), first=(3, 2))
@@ -445,7 +445,7 @@ def test_the_plan_finds_the_planes_of_a_scene(described, domain):
 def test_cells_beside_the_axis_are_solved_on_the_window(offset):
     """The indenter is even, but not its gap at the cells."""
     beside = ShiftedGrid((8, 8), (3 * A, 3 * A), offset)
-    domain = ContactModel.of(scene(PRESS), beside, QUARTER).domain
+    domain = ContactModel.from_scene(scene(PRESS), beside, QUARTER).domain
     assert (domain == QUARTER) == (offset == (0.0, 0.0))
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from stack_strategies import WAVENUMBERS, stacks
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
-from semi_analytical.frf.depth import Descent, Level, in_plane, material_at
+from semi_analytical.frf.depth import Descent, Level, in_plane_stresses, material_at
 from semi_analytical.frf.stack import HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.grid import SurfaceGrid
@@ -56,7 +56,7 @@ def fields_at(stack, level, point, traction_transform, reach):
 
 def _wave_fields(stack, level, alpha):
     fields = Descent(stack, alpha).at(level)
-    plane = in_plane(fields, material_at(stack, level), alpha)
+    plane = in_plane_stresses(fields, material_at(stack, level), alpha)
     return (
         *fields.displacement.reshape(4, -1),
         *fields.traction.reshape(4, -1),
@@ -498,7 +498,7 @@ def test_in_plane_stresses_follow_hooke(where, alpha):
     stack, level = where
     fields = Descent(stack, np.array([alpha])).at(level)
     G, nu = material = material_at(stack, level)
-    plane = in_plane(fields, material, np.array([alpha]))
+    plane = in_plane_stresses(fields, material, np.array([alpha]))
     normal = -fields.traction[1]
     E = 2 * G * (1 + nu)
     stretch = -alpha * fields.displacement[0]

@@ -22,7 +22,7 @@ from radial.response.bodies import (
 )
 from radial.response.wavenumbers import wave_blocks, waves
 from radial.tangential.ring_energies import bessel_functions
-from semi_analytical.frf.depth import Descent, Level, in_plane, material_at
+from semi_analytical.frf.depth import Descent, Level, in_plane_stresses, material_at
 from semi_analytical.frf.stack import Stack
 
 Complex = NDArray[np.complex128]
@@ -103,7 +103,7 @@ def _inverse_transform(
     count    number of wavenumbers that contribute
     """
     fields = descent.remainder(level)
-    plane = in_plane(fields, material_at(descent.stack, level), descent.alpha)
+    plane = in_plane_stresses(fields, material_at(descent.stack, level), descent.alpha)
     total = np.zeros((9, turns.shape[1]))
     for m, turn in enumerate(turns):
         A, B, p = sources[:, m]

@@ -92,7 +92,7 @@ def solve_coupled(
             continue
         # A pressure that meets the tolerance stays; only the shear is solved again.
         if normal.first_residual > tolerance:
-            p = mixing.next(p, normal.pressure)
+            p = mixing.next_pressure(p, normal.pressure)
         if reduction != FINE_REDUCTION and outer > 1 and normal.iterations > STIFF_ITERATIONS:
             p, reduction = normal.pressure, FINE_REDUCTION
             mixing = _AndersonMixing(problem.normal_load, mixing.factor)
@@ -190,7 +190,7 @@ class _AndersonMixing:
         self._points: list[Field] = []
         self._residuals: list[Field] = []
 
-    def next(self, p: Field, answer: Field) -> Field:
+    def next_pressure(self, p: Field, answer: Field) -> Field:
         """Compute the next pressure of the alternating iteration by Anderson mixing.
 
         p       present pressure (nx, ny)
@@ -201,11 +201,11 @@ class _AndersonMixing:
         self._residuals = [*self._residuals, r][-MAX_HISTORY:]
         guess = plain = answer if self.factor == 1 else p + self.factor * r
         if len(self._points) > 1:
-            guess = plain - self._correction(r)
+            guess = plain - self._history_correction(r)
         guess = np.where(plain > 0, np.maximum(guess, 0.0), 0.0)
         return self._load.admissible(guess)
 
-    def _correction(self, r: Field) -> Field:
+    def _history_correction(self, r: Field) -> Field:
         """Compute the correction of Anderson mixing, Σ c_k (Δx_k + factor Δr_k) (nx, ny).
 
         The coefficients c_k minimise |r - Σ c_k Δr_k|. Δx_k and Δr_k are differences of successive

@@ -13,12 +13,12 @@ from semi_analytical.coupled.coupled_problem import (
     CoupledSolution,
 )
 from semi_analytical.coupled.globalisation import solve_together
-from semi_analytical.coupled.predictor import predicted
+from semi_analytical.coupled.predictor import predict_tractions
 from semi_analytical.increments.full_slip import (
-    at_limit,
     force_reaches_limit,
+    frictionless_state,
+    gross_slip_state,
     refuse_excessive_torque,
-    unresisted,
 )
 from semi_analytical.increments.increment import (
     State,
@@ -30,10 +30,10 @@ from semi_analytical.increments.normal_solve import (
     NormalTarget,
     refuse_contact_at_edge,
     refuse_unresolved_contact,
-    rough_start,
+    rough_initial_guess,
 )
 from semi_analytical.increments.stick_slip import (
-    advanced,
+    end_state,
     shear_residuals,
 )
 from semi_analytical.increments.tangential_solve import (
@@ -44,7 +44,7 @@ from semi_analytical.increments.tangential_state import (
     first_motion,
     rigid,
     surface_target,
-    untouched,
+    untouched_state,
 )
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.box import (
@@ -80,7 +80,7 @@ def solve_coupled_increment(
     assert tangential is not None
     refuse_unresolved_contact(model, normal)
     last = before.sheared if before is not None and before.sheared is not None else None
-    last = last or untouched(model.grid.cells)
+    last = last or untouched_state(model.grid.cells)
     if last.shift is None:
         raise motion_undefined()
     if tangential.force is not None and normal.force is not None:
@@ -92,12 +92,12 @@ def solve_coupled_increment(
     aim, residual = tolerance, np.inf
     motion = first_motion(last, tangential)
     for _ in range(MAX_ATTEMPTS):
-        problem = _problem(model, box, last, normal, tangential)
+        problem = _coupled_problem(model, box, last, normal, tangential)
         inside = (..., *box.slices)
         solution = solve_together(problem, start[inside], shear[inside], motion, 0.8 * aim)
         iterations += solution.iterations
         trial = _Trial(model, last, normal, tangential, box, solution, iterations)
-        state, g = trial.state()
+        state, g = trial.whole_state()
         assert state.sheared is not None
         residual = worst(
             state.pressing.complementarity,
@@ -141,14 +141,14 @@ def _initial_guess(
 
     before, last  state at the start of the increment, and its tangential part
     """
-    guess = None if before is None else predicted(model, before, normal, tangential)
+    guess = None if before is None else predict_tractions(model, before, normal, tangential)
     if guess is not None:
         return *guess, 0
-    start, iterations = rough_start(model, normal)
+    start, iterations = rough_initial_guess(model, normal)
     return start, last.shear, iterations
 
 
-def _problem(
+def _coupled_problem(
     model: ContactModel,
     box: Box,
     last: TangentialState,
@@ -205,7 +205,7 @@ class _Trial:
     solution: CoupledSolution
     iterations: int
 
-    def state(self) -> tuple[State, Field]:
+    def whole_state(self) -> tuple[State, Field]:
         """Return the state of the solution on the whole domain, and its gap (nx, ny) [length]."""
         model, solution, cells = self.model, self.solution, self.model.grid.cells
         p, q = self.box.embed(solution.pressure, cells), self.box.embed(solution.shear, cells)
@@ -253,7 +253,7 @@ class _Trial:
         target = surface_target(model, self.last, self.tangential)
         passed = rigid(model, solution.motion) + target - u_t
         residuals = shear_residuals(model, shearing, bound, passed, self.tangential, self.last)
-        after = advanced(model, p, bound, self.last, self.tangential, shearing, passed, residuals)
+        after = end_state(model, p, bound, self.last, self.tangential, shearing, passed, residuals)
         return replace(after, displacement=u_t)
 
     def _gross_slip(self, p: Field, bound: Field, u_t: VectorField) -> TangentialState:
@@ -270,5 +270,5 @@ class _Trial:
         elif load.force is not None:
             force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area)
             if np.any(bound):
-                return replace(at_limit(model, p, last, load), displacement=u_t)
-        return unresisted(model, p, u_t, last, load, self.solution.motion)
+                return replace(gross_slip_state(model, p, last, load), displacement=u_t)
+        return frictionless_state(model, p, u_t, last, load, self.solution.motion)

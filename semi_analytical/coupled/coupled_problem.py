@@ -28,7 +28,7 @@ class Preconditioner(Protocol):
 
     def __call__(self, displacements: NDArray[Any], /) -> NDArray[Any]: ...
 
-    def yielding(self, compliance: float) -> "Preconditioner":
+    def with_compliance(self, compliance: float) -> "Preconditioner":
         """Return the approximate inverse for surfaces with an additional compliance in each cell.
 
         The proximal-point method adds this compliance.
@@ -88,7 +88,7 @@ class CoupledProblem:
         shortest = min(self.domain.window(self.gap.shape))
         return 1 / (self.self_compliance * max(1.0, shortest / PATCHES))
 
-    def yielding(self, compliance: float, tractions: Field) -> "CoupledProblem":
+    def with_compliance(self, compliance: float, tractions: Field) -> "CoupledProblem":
         """Return the coupled problem with an additional compliance, as a step of the proximal-point
         method.
 
@@ -102,7 +102,7 @@ class CoupledProblem:
         return replace(
             self,
             together=lambda t: self.together(t) + compliance * t,
-            precondition_together=self.precondition_together.yielding(compliance),
+            precondition_together=self.precondition_together.with_compliance(compliance),
             gap=self.gap - compliance * p,
             target=self.target + compliance * q,
             self_compliance=self.self_compliance + compliance,

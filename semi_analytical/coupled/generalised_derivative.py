@@ -89,7 +89,7 @@ class Natural:
     shear_error: float
 
     @classmethod
-    def at(cls, point: Point, problem: CoupledProblem) -> "Natural":
+    def evaluate(cls, point: Point, problem: CoupledProblem) -> "Natural":
         """Evaluate the natural map of contact and friction at an iterate.
 
         The tangential load must be below the friction limit.
@@ -150,7 +150,7 @@ class Zones:
     slip_compliance: Vector
 
     @classmethod
-    def of(cls, natural: Natural, problem: CoupledProblem) -> "Zones":
+    def from_natural_map(cls, natural: Natural, problem: CoupledProblem) -> "Zones":
         """Determine the zones of contact, stick and slip of an iterate.
 
         natural  contact and friction conditions at the iterate (natural map)
@@ -172,30 +172,30 @@ class Zones:
         )
 
     @cached_property
-    def _stuck(self) -> Indices:
+    def _stick_cells(self) -> Indices:
         return np.flatnonzero(self.stick)
 
     @cached_property
-    def _pressed(self) -> Indices:
+    def _contact_cells(self) -> Indices:
         return np.flatnonzero(self.contact)
 
     @cached_property
-    def _apart(self) -> Indices:
+    def _open_cells(self) -> Indices:
         return np.flatnonzero(~self.contact)
 
     @property
     def size(self) -> int:
         """Number of free unknowns: shear in the stick zone, shear across the slip, pressure in
         contact."""
-        return 2 * len(self._stuck) + len(self.slip) + len(self._pressed)
+        return 2 * len(self._stick_cells) + len(self.slip) + len(self._contact_cells)
 
-    def parts(self, vector: Vector) -> tuple[Vector, Vector, Vector]:
+    def split_unknowns(self, vector: Vector) -> tuple[Vector, Vector, Vector]:
         """Split a vector of the free unknowns of the linear system into views of its three parts.
 
         The parts are the shear in the stick zone (2, cells), the shear across the slip in the slip
         zone (cells,) and the pressure in contact (cells,).
         """
-        stuck, slip = 2 * len(self._stuck), len(self.slip)
+        stuck, slip = 2 * len(self._stick_cells), len(self.slip)
         return vector[:stuck].reshape(2, -1), vector[stuck : stuck + slip], vector[stuck + slip :]
 
     def free(self, v: NDArray[Any]) -> Vector:
@@ -207,8 +207,12 @@ class Zones:
         # NumPy is many times slower with indices after a slice, so components are separate.
         x, y, z = v.reshape(3, -1)
         free = np.empty(self.size)
-        (stuck_x, stuck_y), along, pressed = self.parts(free)
-        stuck_x[:], stuck_y[:], pressed[:] = x[self._stuck], y[self._stuck], z[self._pressed]
+        (stuck_x, stuck_y), along, pressed = self.split_unknowns(free)
+        stuck_x[:], stuck_y[:], pressed[:] = (
+            x[self._stick_cells],
+            y[self._stick_cells],
+            z[self._contact_cells],
+        )
         along[:] = self.tangent[0] * x[self.slip] + self.tangent[1] * y[self.slip]
         return free
 
@@ -219,13 +223,13 @@ class Zones:
                 pressure of cells in contact
         """
         v = np.zeros((3, self.contact.size))
-        stuck, along, pressed = self.parts(vector)
+        stuck, along, pressed = self.split_unknowns(vector)
         for one, at_stick, tangent in zip(v[:2], stuck, self.tangent, strict=True):
-            one[self._stuck], one[self.slip] = at_stick, tangent * along
-        v[2][self._pressed] = pressed
+            one[self._stick_cells], one[self.slip] = at_stick, tangent * along
+        v[2][self._contact_cells] = pressed
         return v.reshape(3, *self.contact.shape)
 
-    def fixed(self, v: Field) -> Vector:
+    def restrict_to_fixed(self, v: Field) -> Vector:
         """Restrict a field (3, nx, ny) to the components that the linear system does not solve for.
 
         These are the components along the slip direction in slipping cells and all components
@@ -233,9 +237,9 @@ class Zones:
         """
         v = v.reshape(3, -1)
         across = self.tangent[1] * v[0][self.slip] - self.tangent[0] * v[1][self.slip]
-        return np.concatenate([across, *(one[self._apart] for one in v)])
+        return np.concatenate([across, *(one[self._open_cells] for one in v)])
 
-    def whole(self, free: Vector, fixed: Vector) -> Field:
+    def assemble_field(self, free: Vector, fixed: Vector) -> Field:
         """Assemble a field (3, nx, ny) from its free and its fixed components in the zones.
 
         Inverse of `free` and `fixed` together. Used for the displacement of a Newton step.
@@ -244,12 +248,12 @@ class Zones:
         fixed  components along the slip direction, and all outside the contact: vector as from
                `fixed`
         """
-        v = self._with_normal(self.field(free), fixed[: len(self.slip)]).reshape(3, -1)
+        v = self._add_slip_components(self.field(free), fixed[: len(self.slip)]).reshape(3, -1)
         for one, apart in zip(v, fixed[len(self.slip) :].reshape(3, -1), strict=True):
-            one[self._apart] = apart
+            one[self._open_cells] = apart
         return v.reshape(3, *self.contact.shape)
 
-    def _with_normal(self, v: Field, normal: Vector) -> Field:
+    def _add_slip_components(self, v: Field, normal: Vector) -> Field:
         """Add components along the slip direction n in slipping cells to a field (3, nx, ny), in
         place.
 
@@ -271,7 +275,7 @@ class Zones:
             one[self.slip] += slope * pressure
         return t.reshape(3, *self.contact.shape)
 
-    def nearest(self, tractions: Tractions, bound: Field) -> Tractions:
+    def admissible_tractions(self, tractions: Tractions, bound: Field) -> Tractions:
         """Modify tractions so that they are admissible in the zones of contact, stick and slip.
 
         Tractions become zero outside the contact. The shear of slipping cells along the slip
@@ -280,7 +284,7 @@ class Zones:
         tractions  (q_x, q_y, p), shape (3, nx, ny)
         bound      friction limit b (nx, ny)
         """
-        return self._with_normal(self.field(self.free(tractions)), bound.ravel()[self.slip])
+        return self._add_slip_components(self.field(self.free(tractions)), bound.ravel()[self.slip])
 
     def slip_terms(self, free: Vector) -> Vector:
         """Compute the terms d s of slipping cells in the rows of the linear system; other rows are
@@ -291,7 +295,7 @@ class Zones:
         free  free unknowns (size,)
         """
         rows = np.zeros_like(free)
-        self.parts(rows)[1][:] = self.slip_compliance * self.parts(free)[1]
+        self.split_unknowns(rows)[1][:] = self.slip_compliance * self.split_unknowns(free)[1]
         return rows
 
     def changes(self, other: "Zones | None") -> int:

@@ -58,7 +58,7 @@ def least_residual(
     extras = np.empty((most, extra), dtype=np.float32)
     basis[:k] = rows
     del free, rows  # release the memory of many vectors
-    first, r = _orthogonal(right, basis[:k])
+    first, r = _orthogonalise(right, basis[:k])
     size = float(np.sqrt(np.sum(r * r)))
     hessenberg, weights = np.zeros((k + most + 1, most)), np.zeros(0)
     goal = np.zeros(most + 1)
@@ -69,7 +69,7 @@ def least_residual(
             r, 1 / hessenberg[end - 1, number - 1] if number else 1 / size, out=basis[end - 1]
         )
         image, extras[number] = apply(basis[end - 1])
-        hessenberg[:end, number], r = _orthogonal(image, basis[:end])
+        hessenberg[:end, number], r = _orthogonalise(image, basis[:end])
         hessenberg[end, number] = np.sqrt(np.sum(r * r))
         within = hessenberg[k : end + 1, : number + 1]
         weights = np.asarray(np.linalg.lstsq(within, goal[: number + 2])[0])
@@ -89,7 +89,7 @@ def least_residual(
     )
 
 
-def _orthogonal(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
+def _orthogonalise(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
     """Return the components of a vector along an orthonormal basis, and its orthogonal remainder.
 
     Gram-Schmidt orthogonalisation is repeated once if the remainder is small.

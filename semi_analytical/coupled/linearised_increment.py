@@ -72,7 +72,7 @@ class LinearisedIncrement:
                 units[number] = self._precondition(unit)
             carriers = units
         self._carriers, count = carriers, len(carriers)
-        responses = np.array([self._forces(carrier) for carrier in carriers])
+        responses = np.array([self._force_changes(carrier) for carrier in carriers])
         self._inverse = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
     def carriers_in(self, zones: Zones) -> Matrix:
@@ -108,7 +108,7 @@ class LinearisedIncrement:
         bound = problem.friction_limit(p)
         if load.exhausts(bound):
             raise NotConverged("the coupled increment", 0, np.inf, 0.0)
-        t = zones.nearest(np.concatenate([tractions[:2], p[None]]), bound)
+        t = zones.admissible_tractions(np.concatenate([tractions[:2], p[None]]), bound)
         carriers = self._carriers[: len(self._shifts)]
         forces = np.array([load.forces(zones.field(carrier)[:2]) for carrier in carriers])
         forces = forces.reshape(len(carriers), len(carriers))
@@ -136,34 +136,38 @@ class LinearisedIncrement:
         """
         zones, problem = self._zones, self._problem
 
-        def apply(v: Vector) -> tuple[Vector, Vector]:
-            free = self._unknowns(v)
+        def apply_operator(v: Vector) -> tuple[Vector, Vector]:
+            free = self._preconditioned_change(v)
             u = problem.together(zones.tractions(free))
-            return zones.free(u) + zones.slip_terms(free), zones.fixed(u)
+            return zones.free(u) + zones.slip_terms(free), zones.restrict_to_fixed(u)
 
         extra = 3 * zones.contact.size - zones.size
-        found = least_residual(apply, residual, self._free_units(), extra, depth, MAX_ITERATIONS)
-        free = self._unknowns(found.solution)
+        found = least_residual(
+            apply_operator, residual, self._free_units(), extra, depth, MAX_ITERATIONS
+        )
+        free = self._preconditioned_change(found.solution)
         closing = zip(found.motion[len(self._shifts) :], self._closures, strict=True)
         return Step(
             zones.tractions(free),
-            zones.whole(found.image - zones.slip_terms(free), found.extra),
+            zones.assemble_field(found.image - zones.slip_terms(free), found.extra),
             sum((-m * closure for m, closure in closing), 0.0),
             found.iterations,
         )
 
-    def _unknowns(self, rows: Vector) -> Vector:
+    def _preconditioned_change(self, rows: Vector) -> Vector:
         """Apply the preconditioner to a residual; the resulting change leaves the prescribed forces
         constant.
 
         rows  residual, one row per free unknown
         """
         free = self._precondition(rows)
-        for weight, carrier in zip(self._inverse @ self._forces(free), self._carriers, strict=True):
+        for weight, carrier in zip(
+            self._inverse @ self._force_changes(free), self._carriers, strict=True
+        ):
             free -= weight * carrier
         return free
 
-    def _forces(self, free: Vector) -> Vector:
+    def _force_changes(self, free: Vector) -> Vector:
         """Compute the changes of the prescribed forces and moments caused by changes of the free
         tractions."""
         t = self._zones.tractions(free)
@@ -196,7 +200,7 @@ class BinnedPreconditioner:
         shape = zones.contact.shape
         v: NDArray[Any] = np.zeros((2 + len(shares), zones.contact.size), dtype=np.float32)
         v[:3] = zones.field(rows).reshape(3, -1)
-        along = zones.parts(rows)[1]
+        along = zones.split_unknowns(rows)[1]
         for one in v[:2]:
             one[slip] *= shares[0]
         for one, share in zip(v[3:], shares[1:], strict=True):
@@ -205,7 +209,7 @@ class BinnedPreconditioner:
         for one in u[:2]:
             one[slip] *= shares[0]
         free = zones.free(u[:3])
-        along = zones.parts(free)[1]
+        along = zones.split_unknowns(free)[1]
         for one, share in zip(u[3:], shares[1:], strict=True):
             along += share * one[slip]
         return free

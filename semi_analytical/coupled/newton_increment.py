@@ -41,7 +41,7 @@ def solve_by_newton(
     best, idle = np.inf, 0
     for number in range(1, MAX_STEPS + 1):
         at.linearise()
-        residual = _residual(problem, at)
+        residual = _largest_residual(problem, at)
         if residual <= tolerance:
             in_slip = at.natural.slip & (at.natural.bound > 0)
             q, p = at.point.tractions[:2], at.point.tractions[2]
@@ -59,7 +59,7 @@ def solve_by_newton(
     raise NotConverged("the coupled increment", at.iterations, best, tolerance)
 
 
-def _residual(problem: CoupledProblem, at: NewtonIterate) -> float:
+def _largest_residual(problem: CoupledProblem, at: NewtonIterate) -> float:
     """Return the largest dimensionless residual of an iterate with admissible tractions.
 
     The residuals are those of contact conditions, friction law and slip direction.

@@ -53,7 +53,7 @@ class NewtonIterate:
         """
         start[2] = problem.normal_load.admissible(np.where(np.isfinite(problem.gap), start[2], 0.0))
         self._problem = problem
-        self.point, _ = reached(problem, start, motion)
+        self.point, _ = evaluate_point(problem, start, motion)
         self.natural = natural_map(problem, self.point)
         self.iterations, self.settled = 0, False
         self._zones: Zones | None = None
@@ -67,7 +67,7 @@ class NewtonIterate:
         admissible in these zones, and the natural map is evaluated again.
         """
         problem, motion = self._problem, self.natural.motion
-        zones = Zones.of(self.natural, problem)
+        zones = Zones.from_natural_map(self.natural, problem)
         images = problem.domain.images
         contact, changed = np.sum(zones.contact), zones.changes(self._zones)
         self.settled = bool(images * changed <= SETTLED * np.sqrt(images * contact))
@@ -77,7 +77,7 @@ class NewtonIterate:
         del increment  # limit the memory to one increment
         increment = self._increment = LinearisedIncrement(problem, zones, carriers)
         tractions = increment.admissible(self.point.tractions)
-        self.point, self.closing = reached(problem, tractions, motion)
+        self.point, self.closing = evaluate_point(problem, tractions, motion)
         self.natural = natural_map(problem, self.point)
 
     def step(self, depth: float) -> None:
@@ -95,7 +95,9 @@ class NewtonIterate:
         self.point, self.natural = _line_search(self._problem, self.point, step, merit)
 
 
-def reached(problem: CoupledProblem, tractions: Tractions, motion: Vector) -> tuple[Point, Motion]:
+def evaluate_point(
+    problem: CoupledProblem, tractions: Tractions, motion: Vector
+) -> tuple[Point, Motion]:
     """Compute displacements and rigid normal motion for given tractions of a coupled increment.
 
     Return the iterate, and the rigid normal motion that closes its gap on average.
@@ -121,7 +123,7 @@ def natural_map(problem: CoupledProblem, point: Point) -> Natural:
     bound = problem.friction_limit(np.maximum(point.tractions[2], 0.0))
     if problem.tangential_load.exhausts(bound) or not np.all(np.isfinite(point.tractions)):
         raise NotConverged("the coupled increment", 0, np.inf, 0.0)
-    natural = Natural.at(point, problem)
+    natural = Natural.evaluate(point, problem)
     if not np.any(natural.contact):
         raise NotConverged("the coupled increment", 0, np.inf, 0.0)
     return natural

@@ -65,11 +65,11 @@ class Dilation:
         The field is constant beyond the outermost cell centres.
         """
         if values.ndim == 2:
-            return self._dilated(values, self.domain.scalar)
+            return self._dilate_component(values, self.domain.scalar)
         components = zip(values, self.domain.vector, strict=True)
-        return np.stack([self._dilated(one, parity) for one, parity in components])
+        return np.stack([self._dilate_component(one, parity) for one, parity in components])
 
-    def _dilated(self, values: Field, parity: Parity) -> Field:
+    def _dilate_component(self, values: Field, parity: Parity) -> Field:
         for axis, (middle, sign) in enumerate(zip(self.centre, parity, strict=True)):
             count = values.shape[axis]
             at = middle + (np.arange(count) - middle) / self.factor
@@ -98,7 +98,7 @@ class Dilation:
         return pressure, ratio * pressure
 
 
-def predicted(
+def predict_tractions(
     model: ContactModel, before: State, normal: NormalTarget, tangential: TangentialTarget
 ) -> Start | None:
     """Predict pressure and shear at the end of an increment; None without a prediction.
@@ -110,11 +110,11 @@ def predicted(
     if now is None:
         return None
     if before.target == normal:
-        return _extrapolated(now, before.behind, tangential)
-    return _dilated(model, now, before.behind, normal)
+        return _extrapolate_tractions(now, before.behind, tangential)
+    return _predict_by_dilation(model, now, before.behind, normal)
 
 
-def _extrapolated(
+def _extrapolate_tractions(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> Start:
     """Extrapolate pressure and shear linearly along a straight tangential load path.
@@ -130,7 +130,7 @@ def _extrapolated(
     return np.maximum(p, 0.0), now.shear + ratio * (now.shear - behind.shear)
 
 
-def _dilated(
+def _predict_by_dilation(
     model: ContactModel,
     now: PreviousIncrement,
     behind: PreviousIncrement | None,

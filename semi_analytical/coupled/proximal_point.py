@@ -53,7 +53,7 @@ def solve_on_springs(
     for number in range(1, MAX_PROXIMAL_STEPS + 1):
         if iterations > MAX_ITERATIONS:
             break
-        regularised = problem.yielding(compliance * problem.self_compliance, tractions)
+        regularised = problem.with_compliance(compliance * problem.self_compliance, tractions)
         try:
             found = _proximal_step(regularised, tractions, motion)
         except NotConverged as stalled:

@@ -45,7 +45,7 @@ def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
     cut = loaded & ~deep
     for where, mean in ((deep, mean_of_smooth), (cut, mean_of_cut)):
         if np.any(where):
-            a = _among(exponent, f.shape, where)
+            a = _select_exponents(exponent, f.shape, where)
             result[where] = mean(f[where], b[where], c[where], a)
     return result
 
@@ -61,7 +61,7 @@ def power(base: Field, exponent: Exponent) -> Field:
     return np.asarray(np.sqrt(base) * base**whole if whole else np.sqrt(base))
 
 
-def _among(exponent: Exponent, shape: tuple[int, ...], where: NDArray[Any]) -> Exponent:
+def _select_exponents(exponent: Exponent, shape: tuple[int, ...], where: NDArray[Any]) -> Exponent:
     """Select the exponents that belong to some elements; a single number remains a single number.
 
     exponent  a number, or an array that broadcasts to `shape`
@@ -80,7 +80,7 @@ def mean_of_smooth(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
     f_x, f_y  slopes: change of the function across a cell
     a         exponent
     """
-    mean = _series(1 / f**2, *_series_terms(f_x, f_y, a))
+    mean = _sum_series(1 / f**2, *_series_terms(f_x, f_y, a))
     mean *= power(f, a)
     return mean
 
@@ -114,7 +114,7 @@ def _series_terms(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]
     )
 
 
-def _series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> Field:
+def _sum_series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> Field:
     """Sum the binomial series 1 + second/f² + fourth/f⁴ + sixth/f⁶ of the mean of a power over a
     cell.
 
@@ -138,14 +138,14 @@ def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, F
     """
     straight = c < STRAIGHT * b
     if not np.any(straight):
-        return _oblique(f, b, c, a)
+        return _oblique_means(f, b, c, a)
     found = np.empty((2, len(f)))
-    for where, means in ((straight, _straight), (~straight, _oblique)):
-        found[:, where] = means(f[where], b[where], c[where], _among(a, f.shape, where))
+    for where, means in ((straight, _straight_means), (~straight, _oblique_means)):
+        found[:, where] = means(f[where], b[where], c[where], _select_exponents(a, f.shape, where))
     return found[0], found[1]
 
 
-def _straight(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
+def _straight_means(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
     """Compute the mean of (f + b x + c y)_+^a over a cell and its f-derivative for a small slope c.
 
     The integral along the larger slope b has a closed form. Gauss points are used along c.
@@ -160,7 +160,7 @@ def _straight(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
     return mean / ((a + 1) * b), slope / b
 
 
-def _oblique(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
+def _oblique_means(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
     """Compute the mean of (f + b x + c y)_+^a over a cell and its f-derivative from the four
     corners.
 
@@ -170,12 +170,12 @@ def _oblique(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
     outer, inner = (b + c) / 2, (b - c) / 2
     corners = np.maximum(np.array([f + outer, f - outer, f + inner, f - inner]), 0.0)
     of_corners = power(corners, a + 1)
-    slope = _differences(of_corners) / ((a + 1) * b * c)
+    slope = _corner_differences(of_corners) / ((a + 1) * b * c)
     of_corners *= corners
-    return _differences(of_corners) / ((a + 1) * (a + 2) * b * c), slope
+    return _corner_differences(of_corners) / ((a + 1) * (a + 2) * b * c), slope
 
 
-def _differences(corners: Field) -> Field:
+def _corner_differences(corners: Field) -> Field:
     return np.asarray(corners[0] + corners[1] - (corners[2] + corners[3]))
 
 
@@ -196,9 +196,9 @@ def centre_value(
     b, c = np.maximum(f_x, f_y), np.minimum(f_x, f_y)
     f = power(mean, np.divide(1, exponent))
     deep = f > DEEP * (b + c)
-    slopes, a = (b[deep], c[deep]), _among(exponent, f.shape, deep)
+    slopes, a = (b[deep], c[deep]), _select_exponents(exponent, f.shape, deep)
     f[deep] = _smooth_centre(f[deep], *slopes, a)
-    cut, a = ~deep, _among(exponent, f.shape, ~deep)
+    cut, a = ~deep, _select_exponents(exponent, f.shape, ~deep)
     f[cut] = _cut_centre(f[cut], b[cut], c[cut], a, None if near is None else near[cut])
     return f
 
@@ -215,7 +215,7 @@ def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
     """
     f, terms = target, _series_terms(b, c, a)
     for _ in range(FIXED_POINT_STEPS):
-        f = target / power(_series(1 / f**2, *terms), np.divide(1, a))
+        f = target / power(_sum_series(1 / f**2, *terms), np.divide(1, a))
     return f
 
 

@@ -32,7 +32,7 @@ def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -
     An edge cell counts as 1 or 0 by its centre where the region is too thin for a fit, or where the
     values do not fall towards the edge (flat punch).
     """
-    framed = domain.framed(inside, 1)
+    framed = domain.add_frame(inside, 1)
     trusted = ~near(~framed)  # cells whose neighbours are inside, too
     i, j = np.nonzero(near(framed) & ~trusted)
     if len(i) == 0:

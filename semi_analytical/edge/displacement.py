@@ -46,7 +46,7 @@ class Within:
     rest: Field
 
     @classmethod
-    def of(
+    def from_subcells(
         cls,
         means: Field,
         i: Indices,
@@ -111,7 +111,7 @@ class Within:
         return Within(slopes, at[0], at[1], rest)
 
     @classmethod
-    def summed(cls, slopes: Field, terms: Sequence[tuple[Field, Within]]) -> Within:
+    def combine(cls, slopes: Field, terms: Sequence[tuple[Field, Within]]) -> Within:
         """Combine given slopes with the sum of the remainders of several variations times smooth
         fields.
 
@@ -160,7 +160,7 @@ class EdgeOperator:
         # The slopes of a scalar field have the parities of a vector.
         reduced = domain.images > 1
         inputs = "xy" if reduced else "zz" * columns
-        self._sides = self._transforms.sides(inputs, "z" * len(kernels))
+        self._sides = self._transforms.axis_transforms(inputs, "z" * len(kernels))
         self._components: dict[str, Sequence[Response]] = {}
         for _, of in chain.from_iterable(kernels):
             if of.component not in self._components:
@@ -191,13 +191,13 @@ class EdgeOperator:
         """
         slopes = np.concatenate([w.slopes for w in within])
         self._counter.count += 0.5 * (len(self._matrix) + len(slopes))
-        u = self._transforms.filtered(slopes, *self._sides, self._multiplied)
+        u = self._transforms.filter_fields(slopes, *self._sides, self._multiply_amplitudes)
         for traction, near in zip(within, self._near, strict=True):
             for total, moved in zip(u, around(traction, near, len(self._matrix)), strict=True):
-                total += self._domain.folded(moved, REACH)
+                total += self._domain.fold_frame(moved, REACH)
         return u
 
-    def _multiplied(self, amplitudes: Sequence[Array], columns: slice) -> list[Array]:
+    def _multiply_amplitudes(self, amplitudes: Sequence[Array], columns: slice) -> list[Array]:
         symbols = {name: [one[columns] for one in pair] for name, pair in self._components.items()}
         u = []
         for row in self._matrix:

@@ -75,13 +75,13 @@ class EdgeLine:
     stretched: tuple[float, float]
 
     @classmethod
-    def of(cls, phi: Quadratic, stretched: tuple[float, float]) -> EdgeLine:
+    def from_fits(cls, phi: Quadratic, stretched: tuple[float, float]) -> EdgeLine:
         """Compute the edge points nearest to the expansion points of quadratics in φ.
 
         phi        quadratic fits of φ about cells (n,)
         stretched  sides of a cell along x and y in the unit of distances
         """
-        q = phi.scaled(*stretched)
+        q = phi.in_scaled_axes(*stretched)
         steep = np.maximum(q.slope, np.finfo(float).tiny)
         n_x, n_y = q.f_x / steep, q.f_y / steep
         bend = q.f_xx * n_x**2 + 2 * q.f_xy * n_x * n_y + q.f_yy * n_y**2
@@ -99,18 +99,18 @@ class EdgeLine:
             stretched,
         )
 
-    def with_medians(self) -> EdgeLine:
+    def use_median_curvature(self) -> EdgeLine:
         """Replace the curvature and the ratio bend/slope of each edge point by their medians
         over the edge."""
         bend = self.slope * np.median(self.bend / self.slope)
         curvature = np.full_like(bend, np.median(self.curvature))
         return replace(self, bend=bend, curvature=curvature)
 
-    def with_images(self, domain: ReducedDomain) -> EdgeLine:
+    def append_images(self, domain: ReducedDomain) -> EdgeLine:
         """Append the images of the edge points beyond the mirror planes of a reduced domain."""
         line = self
         for axis in domain.planes:
-            one, image = vars(line), vars(line._mirrored(axis))
+            one, image = vars(line), vars(line._reflect_points(axis))
             both: dict[str, Any] = {
                 name: np.concatenate([one[name], image[name]], axis=-1)
                 for name in one.keys() - {"stretched"}
@@ -118,7 +118,7 @@ class EdgeLine:
             line = replace(line, **both)
         return line
 
-    def _mirrored(self, axis: int) -> EdgeLine:
+    def _reflect_points(self, axis: int) -> EdgeLine:
         """Return the mirror images of the edge points about a plane half a cell before the first
         cell.
 
@@ -128,7 +128,7 @@ class EdgeLine:
         at[axis], normal[axis], places[axis] = -1 - at[axis], -normal[axis], -1 - places[axis]
         return replace(self, at=at, x=places[0], y=places[1], normal=normal)
 
-    def at_cells(self, i: Indices, j: Indices) -> LocalEdge:
+    def geometry_at_cells(self, i: Indices, j: Indices) -> LocalEdge:
         """Compute distance and geometry of the edge for cells (i, j), shape (n,).
 
         The result is a weighted mean over the nearest edge points.
@@ -139,14 +139,14 @@ class EdgeLine:
         far, which = KDTree(self.at.T).query(np.stack([i, j], axis=-1), k=count)
         weight = far[:, -1:] ** 2 - far**2 + 1e-9
         weight /= np.sum(weight, axis=1, keepdims=True)
-        each = self.at_places(which, i[:, None], j[:, None])
+        each = self.geometry_at_places(which, i[:, None], j[:, None])
         s, n_x, n_y, slope, bend, curvature = (
             np.sum(weight * part, axis=-1)
             for part in (each.distance, *each.normal, each.slope, each.bend, each.curvature)
         )
         return LocalEdge(s, np.stack([n_x, n_y]) / np.hypot(n_x, n_y), slope, bend, curvature)
 
-    def at_places(
+    def geometry_at_places(
         self, which: Indices | slice, x: Field | Indices, y: Field | Indices
     ) -> LocalEdge:
         """Compute distance and geometry of the edge for places (x, y), from one edge point per

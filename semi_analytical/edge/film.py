@@ -74,7 +74,7 @@ class FilmLaw:
     stretched: tuple[float, float]
 
     @cached_property
-    def _ratios(self) -> CubicSpline:
+    def _pressure_ratios(self) -> CubicSpline:
         """Effect of the layers on three basic edge pressures, as functions of ln s (interpolating
         splines).
 
@@ -114,7 +114,7 @@ class FilmLaw:
 
         c  coefficient of the second term of the law, shape of s
         """
-        first, second, _ = self._at(s)
+        first, second, _ = self._interpolate_ratios(s)
         return np.asarray(first + c * s / 1.5 * (second - first))
 
     def means_over_root(
@@ -135,16 +135,16 @@ class FilmLaw:
         deep = s > DEEP * (a + b)
         off = np.sqrt((a**2 + b**2) / 12)
         for sign in (1, -1):
-            means[:, deep] += self._values(s[deep] + sign * off[deep], c[deep]) / 2
+            means[:, deep] += self._law_values(s[deep] + sign * off[deep], c[deep]) / 2
         cut = (s > -(a + b) / 2) & ~deep
         for y, weight in zip(POINTS, WEIGHTS, strict=True):
             for sign in (1, -1):
                 end = np.maximum(s[cut] + sign * b[cut] / 2 + y * a[cut], 0.0)
-                means[:, cut] += sign * weight / b[cut] * self._integrals(end, c[cut])
+                means[:, cut] += sign * weight / b[cut] * self._law_integrals(end, c[cut])
         law, law_rate, root, root_rate = np.where(means[2] > TOUCHED * np.sqrt(b), means, 1.0)
         return law / root, law_rate * root / (law * root_rate) - 1
 
-    def _at(self, s: Field) -> Field:
+    def _interpolate_ratios(self, s: Field) -> Field:
         """Interpolate the effect of the layers on three basic edge pressures Φ1, Φ2, Φ3, shape (3,
         …).
 
@@ -153,10 +153,12 @@ class FilmLaw:
         s  distances from the edge over the layer thickness (…)
         """
         u = np.log(np.maximum(s, 1e-300))
-        found = self._ratios(np.clip(u, self._ratios.x[0], self._ratios.x[-1]))
+        found = self._pressure_ratios(
+            np.clip(u, self._pressure_ratios.x[0], self._pressure_ratios.x[-1])
+        )
         return np.asarray(np.moveaxis(found, -1, 0))
 
-    def _values(self, s: Field, c: Field) -> Field:
+    def _law_values(self, s: Field, c: Field) -> Field:
         """Compute the edge pressure law, its derivative, √s and the derivative of √s; shape (4, n).
 
         The law is √s times a ratio that depends on the layers and on c.
@@ -170,7 +172,7 @@ class FilmLaw:
             root * here, (here / 2 + (after - before) / (2 * step)) / root, root, 0.5 / root
         ])  # fmt: skip
 
-    def _integrals(self, s: Field, c: Field) -> Field:
+    def _law_integrals(self, s: Field, c: Field) -> Field:
         """Compute integrals from 0 to s of the edge pressure law, its derivative, √s and its
         derivative.
 
@@ -180,7 +182,7 @@ class FilmLaw:
         c  coefficient of the second term of the law (n,)
         """
         root = np.sqrt(s)
-        first, second, third = self._at(s)
+        first, second, third = self._interpolate_ratios(s)
         bent = c * s / 1.5
         of_root = s * root / 1.5
         return np.stack([
@@ -212,7 +214,7 @@ def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw 
     thickness = min(_uniform_depth(stack) for stack in layered)
     if thickness > THICK * max(spacing):
         return None
-    unit = sum(map(_compliance, stacks))
+    unit = sum(map(_material_compliance, stacks))
 
     def response(k: Field) -> Field:
         alpha = k / thickness
@@ -237,7 +239,7 @@ def _uniform_depth(stack: Stack) -> float:
     return depth
 
 
-def _compliance(stack: Stack) -> float:
+def _material_compliance(stack: Stack) -> float:
     """Return (1 - ν)/G of the outermost material of a body [length²/force].
 
     This is the wavenumber times the normal surface displacement per pressure.

@@ -58,7 +58,7 @@ class FilmShape(EdgeShape):
 
         The model of the data is φ at the cell plus `sensitivity` times φ at the nearest edge point.
         """
-        foot = self.line.at_cells(i, j).foot / np.array(self.line.stretched)[:, None]
+        foot = self.line.geometry_at_cells(i, j).foot / np.array(self.line.stretched)[:, None]
         return fit_about(
             self.phi,
             self.weight,
@@ -77,10 +77,12 @@ class FilmShape(EdgeShape):
         x, law = part_centres(), self.law
         at_x = phi.x[:, None] + np.repeat(x, PARTS)
         at_y = phi.y[:, None] + np.tile(x, PARTS)
-        own = EdgeLine.of(phi, law.stretched)
-        local = own.at_places(np.arange(len(phi.f))[:, None], at_x, at_y)
-        of_cells = self.line.at_cells(np.rint(phi.x).astype(int), np.rint(phi.y).astype(int))
-        c = np.broadcast_to(_coefficient(of_cells, self.depth, law)[:, None], at_x.shape)
+        own = EdgeLine.from_fits(phi, law.stretched)
+        local = own.geometry_at_places(np.arange(len(phi.f))[:, None], at_x, at_y)
+        of_cells = self.line.geometry_at_cells(
+            np.rint(phi.x).astype(int), np.rint(phi.y).astype(int)
+        )
+        c = np.broadcast_to(_law_coefficient(of_cells, self.depth, law)[:, None], at_x.shape)
         sides = np.array(law.stretched)[:, None, None] / PARTS * local.normal
         s, width = local.distance, np.sum(np.abs(sides), axis=0)
         ratio = np.ones(s.shape)
@@ -113,13 +115,13 @@ def film_shape(
     """
     problem = _Problem(np.where(region, means, 0.0), region, stencil, law, depth, domain, exponent)
     along = np.nonzero(region & (depth < ALONG))
-    line = problem.first(*along) if before is None else before
+    line = problem.initial_edge(*along) if before is None else before
     for _ in range(STEPS if before is None else STEPS_AGAIN):
         shape = problem.about(line)
-        line = EdgeLine.of(shape.fits(*along).quadratic, law.stretched)
+        line = EdgeLine.from_fits(shape.fits(*along).quadratic, law.stretched)
         if before is None:  # second derivatives are not yet reliable
-            line = line.with_medians()
-        line = line.with_images(domain)
+            line = line.use_median_curvature()
+        line = line.append_images(domain)
     return problem.about(line)
 
 
@@ -134,7 +136,7 @@ class _Problem:
     exponent: Exponent
 
     @property
-    def by_depth(self) -> Field:
+    def means_by_depth(self) -> Field:
         """Cell means of φ, with the depth of each cell as its distance from the edge (nx, ny).
 
         Initial guess of φ, and φ of the cells far from the edge.
@@ -144,7 +146,7 @@ class _Problem:
         curved = np.full(s.shape, -9 / 8 / (np.max(self.depth) * size))  # Hertz contact
         return power(self.means / self.law.over_root(s, curved), np.divide(1, self.exponent))
 
-    def first(self, i: Indices, j: Indices) -> EdgeLine:
+    def initial_edge(self, i: Indices, j: Indices) -> EdgeLine:
         """Return the initial guess of the contact edge, fitted to cells away from the edge.
 
         Cells along the edge are excluded, because their φ depends on the unknown position of the
@@ -153,9 +155,9 @@ class _Problem:
         i, j  indices of the cells along the edge (n,)
         """
         inner = (self.region & (self.depth >= ALONG)).astype(float)
-        fits = fit_about(self.by_depth, inner, i, j, self.stencil, domain=self.domain)
-        line = EdgeLine.of(fits.quadratic, self.law.stretched)
-        return line.with_medians().with_images(self.domain)
+        fits = fit_about(self.means_by_depth, inner, i, j, self.stencil, domain=self.domain)
+        line = EdgeLine.from_fits(fits.quadratic, self.law.stretched)
+        return line.use_median_curvature().append_images(self.domain)
 
     def about(self, line: EdgeLine) -> FilmShape:
         """Compute the cell means of φ and their sensitivity to the edge, for a given contact edge.
@@ -165,12 +167,12 @@ class _Problem:
 
         line  points of the given contact edge
         """
-        phi, weight = self.by_depth, self.region.astype(float)
+        phi, weight = self.means_by_depth, self.region.astype(float)
         sensitivity = np.zeros_like(phi)
         i, j = np.nonzero(self.region & (self.depth < MAX_FIT_DEPTH + 1.5 * self.stencil.reach))
-        local = line.at_cells(i, j)
+        local = line.geometry_at_cells(i, j)
         along_x, along_y = np.array(self.law.stretched)[:, None] * local.normal
-        c = _coefficient(local, self.depth, self.law)
+        c = _law_coefficient(local, self.depth, self.law)
         ratio, rate = self.law.means_over_root(local.distance, along_x, along_y, c)
         slope, a = local.slope_at_place, self.exponent
         a_here = a[i, j] if isinstance(a, np.ndarray) else a
@@ -193,7 +195,7 @@ class _Problem:
         )
 
 
-def _coefficient(local: LocalEdge, depth: Field, law: FilmLaw) -> Field:
+def _law_coefficient(local: LocalEdge, depth: Field, law: FilmLaw) -> Field:
     """Return the coefficient c of the pressure law at cells near the edge of curvature κ.
 
     c = ¾ (b - κ) for φ = g s (1 + b s) at the distance s from the edge.

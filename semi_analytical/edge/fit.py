@@ -75,23 +75,23 @@ def fit_about(
                  polynomial plus the factor times the value of the polynomial at the end of the
                  vector
     """
-    data, weight = (domain.framed(field, stencil.reach) for field in (data, weight))
+    data, weight = (domain.add_frame(field, stencil.reach) for field in (data, weight))
     fade, basis = stencil_weights(stencil), monomials(stencil)[: 3 * degree]
-    products = _products(stencil, degree)
+    products = _monomial_products(stencil, degree)
     if sensitivity is not None:
-        factor, (x, y) = domain.framed(sensitivity[0], stencil.reach), sensitivity[1]
+        factor, (x, y) = domain.add_frame(sensitivity[0], stencil.reach), sensitivity[1]
         foot = np.stack([x**0, x, y, x**2 / 2, x * y, y**2 / 2], axis=-1)
     found = np.zeros((6, len(i)))
     rms, mean, count = np.empty(len(i)), np.empty(len(i)), np.empty(len(i), dtype=int)
     for first in range(0, len(i), CHUNK):
         some = slice(first, first + CHUNK)
         at = i[some], j[some], stencil
-        given, w = (in_windows(field, *at) for field in (data, weight))
+        given, w = (values_in_windows(field, *at) for field in (data, weight))
         w *= fade
         normal = (w @ products.T).reshape(len(w), *2 * basis.shape[:1])
         fit = (w * given) @ basis.T
         if sensitivity is not None:
-            c, to = in_windows(factor, *at), foot[some]
+            c, to = values_in_windows(factor, *at), foot[some]
             mixed = (w * c) @ basis.T
             normal += mixed[:, None] * to[:, :, None] + to[:, None] * mixed[:, :, None]
             normal += np.sum(w * c**2, axis=1)[:, None, None] * to[:, None] * to[:, :, None]
@@ -108,14 +108,14 @@ def fit_about(
     return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, mean, count)
 
 
-def in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
+def values_in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
     """Return the values of a field in square windows about cells (i, j); shape (n, window).
 
     padded   field with a margin of `stencil.reach` cells on each side
     i, j     indices of the central cells (n,)
     stencil  size of the windows
     """
-    dx, dy = _offsets(stencil)
+    dx, dy = _window_offsets(stencil)
     across = padded.shape[1]
     at = ((i + stencil.reach) * across + j + stencil.reach)[:, None] + (dx * across + dy)
     return np.asarray(padded.take(at))
@@ -124,7 +124,7 @@ def in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field
 @cache
 def stencil_weights(stencil: Stencil) -> Field:
     """Return the Gaussian weights of the cells in the window of a stencil (window,)."""
-    dx, dy = _offsets(stencil)
+    dx, dy = _window_offsets(stencil)
     return _read_only(np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2)))
 
 
@@ -132,13 +132,13 @@ def stencil_weights(stencil: Stencil) -> Field:
 def monomials(stencil: Stencil) -> Field:
     """Compute the means of 1, x, y, x²/2, xy, y²/2 over the cells of a stencil window (6,
     window)."""
-    dx, dy = _offsets(stencil)
+    dx, dy = _window_offsets(stencil)
     rows = (np.ones(len(dx)), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
     return _read_only(np.stack(rows))
 
 
 @cache
-def _products(stencil: Stencil, degree: int) -> Field:
+def _monomial_products(stencil: Stencil, degree: int) -> Field:
     """Compute the products of all pairs of monomials in the window of a stencil (9 degree²,
     window).
 
@@ -152,7 +152,7 @@ def _products(stencil: Stencil, degree: int) -> Field:
 
 
 @cache
-def _offsets(stencil: Stencil) -> tuple[Indices, Indices]:
+def _window_offsets(stencil: Stencil) -> tuple[Indices, Indices]:
     shift = np.arange(-stencil.reach, stencil.reach + 1)
     dx, dy = np.meshgrid(shift, shift, indexing="ij")
     return dx.ravel(), dy.ravel()

@@ -65,7 +65,9 @@ class EdgeKernels:
         Entry (i, j) belongs to the offset (i, j) >= 0. The tractions x and y are in cells.
         """
         A = self.cells[self.component]
-        moments = np.stack([-_slope(A, axis, self.parity[axis]) / 12 for axis in (0, 1)])
+        moments = np.stack(
+            [-_coefficient_slope(A, axis, self.parity[axis]) / 12 for axis in (0, 1)]
+        )
         nx, ny = (min(n, NEAR + 1) for n in A.shape)
         moments[:, :nx, :ny] = self.near_moments[:, :nx, :ny]
         return moments
@@ -114,7 +116,7 @@ def _subcell_sums(weights: Field, parity: int) -> Field:
     return sums
 
 
-def _slope(values: Field, axis: int, parity: int) -> Field:
+def _coefficient_slope(values: Field, axis: int, parity: int) -> Field:
     """Compute the derivative of influence coefficients along one axis, per cell.
 
     The first moments of the coefficients follow from it. Differences are of fourth order, at the

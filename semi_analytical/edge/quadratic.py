@@ -41,11 +41,11 @@ class Quadratic:
         """
         return Quadratic(*(part[which] for part in vars(self).values()))
 
-    def reshaped(self, shape: tuple[int, ...]) -> Quadratic:
+    def reshape_arrays(self, shape: tuple[int, ...]) -> Quadratic:
         """Return the quadratics with all arrays in another shape."""
         return Quadratic(*(part.reshape(shape) for part in vars(self).values()))
 
-    def scaled(self, dx: float, dy: float) -> Quadratic:
+    def in_scaled_axes(self, dx: float, dy: float) -> Quadratic:
         """Convert derivatives to a unit of length in which a cell has the sides dx and dy.
 
         The places remain index coordinates.

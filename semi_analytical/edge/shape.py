@@ -125,10 +125,10 @@ class EdgeShape:
         at_x, at_y = x.astype(float), y.astype(float)
         for _ in range(REFITS):
             here, safe = self.about(at_x, at_y)
-            at_x, at_y = _downhill(here)
+            at_x, at_y = _step_to_edge(here)
         on_it = here.about(at_x, at_y)
         for _ in range(REFITS):
-            on_it = here.about(*_downhill(on_it))
+            on_it = here.about(*_step_to_edge(on_it))
         return on_it, safe & (np.hypot(on_it.x - x, on_it.y - y) < FARTHEST)
 
 
@@ -168,7 +168,7 @@ class AdjacentCells:
         self.count = len(i)
 
 
-def _downhill(here: Quadratic) -> tuple[Field, Field]:
+def _step_to_edge(here: Quadratic) -> tuple[Field, Field]:
     """Move places towards the edge of the region, where φ = 0, by one Newton step of at most one
     cell.
 
@@ -259,4 +259,4 @@ def depth_of(region: Mask, domain: ReducedDomain = WINDOW) -> Field:
 
     Cells beyond the window count as outside. The result is zero at cells outside the region.
     """
-    return np.asarray(distance_transform_edt(domain.framed(region, 1))[1:-1, 1:-1])
+    return np.asarray(distance_transform_edt(domain.add_frame(region, 1))[1:-1, 1:-1])

@@ -72,7 +72,7 @@ class EdgeCells:
     @cached_property
     def fitted(self) -> tuple[Indices, Indices]:
         """Indices of the cells nearest to the edge, whose subcell tractions come from fits of φ."""
-        touched = near(self.domain.framed(self.region, 1))
+        touched = near(self.domain.add_frame(self.region, 1))
         i, j = np.nonzero(touched & (self.depth <= FITTED))
         return i, j
 
@@ -196,7 +196,7 @@ def fit_edge(
         i=np.concatenate([i, deep_i]),
         j=np.concatenate([j, deep_j]),
         parts=np.concatenate(
-            [parts * largest, by_differences(means, deep_i, deep_j, fade, domain)]
+            [parts * largest, tractions_by_differences(means, deep_i, deep_j, fade, domain)]
         ),
         phi=phi,
         unsafe=unsafe,
@@ -247,7 +247,7 @@ def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
     return parts
 
 
-def by_differences(
+def tractions_by_differences(
     means: Field, i: Indices, j: Indices, fade: Field, domain: ReducedDomain
 ) -> Field:
     """Compute subcell tractions (n, PARTS, PARTS) of cells away from the edge, from a local
@@ -261,7 +261,7 @@ def by_differences(
     domain  domain of `means`
     """
     i, j = i + 1, j + 1
-    p = domain.framed(means, 1)
+    p = domain.add_frame(means, 1)
     centre = p[i, j]
     lower, upper, left, right = p[i - 1, j], p[i + 1, j], p[i, j - 1], p[i, j + 1]
     corners = p[i + 1, j + 1] + p[i - 1, j - 1] - p[i + 1, j - 1] - p[i - 1, j + 1]

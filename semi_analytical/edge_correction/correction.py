@@ -17,8 +17,8 @@ from semi_analytical.edge_correction.shear_at_edge import FollowingShear
 from semi_analytical.increments.increment import State
 from semi_analytical.increments.tangential_state import (
     TangentialState,
+    bulk_strain_displacement,
     rigid,
-    stretched,
 )
 from semi_analytical.model import ContactModel
 
@@ -47,28 +47,28 @@ class EdgeCorrection:
                     between the two states has no effect
         tolerance   residual tolerance of the tangential solves
         """
-        extended = self._extended(state)
+        extended = self._extend_state(state)
         try:
-            corrected = self._corrected_pressure(last, state, extended)
+            corrected = self._correct_pressure(last, state, extended)
         except NotFitted as cause:
             return EdgeReport(str(cause))
         sheared = extended.sheared
         if self._coupled or sheared is None:
             return corrected
         free = not np.any(sheared.shear) or not np.any(sheared.in_stick)
-        before = self._extended(last) if last and path_known else None
+        before = self._extend_state(last) if last and path_known else None
         if free or _determines_border(before, state, sheared):
-            shear = self._corrected_shear(before, sheared, corrected, tolerance)
+            shear = self._correct_shear(before, sheared, corrected, tolerance)
             return replace(corrected, sheared=shear)
         return corrected
 
-    def _extended(self, state: State) -> State:
+    def _extend_state(self, state: State) -> State:
         """Extend the fields of a state from the reduced domain to the full window."""
         extend, sheared = self._domain.extend_fields, state.sheared
         tangential = None if sheared is None else extend(sheared)
         return replace(state, pressing=extend(state.pressing), sheared=tangential)
 
-    def _corrected_pressure(self, last: State | None, state: State, extended: State) -> Corrected:
+    def _correct_pressure(self, last: State | None, state: State, extended: State) -> Corrected:
         """Correct the pressure of a solved state.
 
         If the bodies are uncoupled and the previous state has an equal pressure, its correction is
@@ -80,7 +80,7 @@ class EdgeCorrection:
         sheared, law, follows = extended.sheared, self._operators.model.friction, None
         if sheared is not None:
             p = extended.pressing.pressure
-            follows = FollowingShear.of(law, p, sheared.shear, sheared.in_stick)
+            follows = FollowingShear.from_state(law, p, sheared.shear, sheared.in_stick)
         known = last.corrected if last and last.target == state.target else None
         same = last is not None and np.array_equal(last.pressing.pressure, state.pressing.pressure)
         if not self._coupled and known and same:
@@ -89,7 +89,7 @@ class EdgeCorrection:
         solved = extended if self._coupled else state
         return edge_pressure(self._operators, solved, follows, coupled=self._coupled)
 
-    def _corrected_shear(
+    def _correct_shear(
         self,
         before: State | None,
         solved: TangentialState,
@@ -121,7 +121,9 @@ class EdgeCorrection:
             )
         parts = model.friction.limit(edge.parts)
         domain = edge.domain
-        limit = Within.of(domain.restrict(bound), edge.i, edge.j, parts, domain).extended(domain)
+        limit = Within.from_subcells(
+            domain.restrict(bound), edge.i, edge.j, parts, domain
+        ).extended(domain)
         if not np.any(solved.in_stick):
             return sliding_shear(self._operators, bound, limit, solved)
         assert before is not None
@@ -141,7 +143,7 @@ class EdgeCorrection:
             force=solved.force,
             target=last.displacement
             - rigid(model, last.shift)
-            - stretched(model.on_window, solved.strain, before.sheared.strain),
+            - bulk_strain_displacement(model.on_window, solved.strain, before.sheared.strain),
             before=(last.shear, last.within),
             reversed_slip=last.slip if reversed_load else None,
             tolerance=tolerance,

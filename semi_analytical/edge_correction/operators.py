@@ -32,15 +32,15 @@ class EdgeOperators:
         self.model = model
 
     @cached_property
-    def by_pressure(self) -> EdgeOperator:
+    def displace_by_pressure(self) -> EdgeOperator:
         """Operator from pressure variations within cells to u_z [length], on the reduced domain."""
-        return self._operator(PRESSURE, self.model.domain)
+        return self._build_operator(PRESSURE, self.model.domain)
 
     @cached_property
-    def by_shear(self) -> EdgeOperator:
+    def displace_by_shear(self) -> EdgeOperator:
         """Operator from shear variations within cells to (u_x, u_y) [length], on the full
         window."""
-        return self._operator(SHEAR, WINDOW)
+        return self._build_operator(SHEAR, WINDOW)
 
     @cached_property
     def apart(self) -> EdgeOperator:
@@ -49,7 +49,7 @@ class EdgeOperators:
 
         Used on the full window for coupled bodies, whose shear causes normal displacements.
         """
-        return self._operator(APART, WINDOW)
+        return self._build_operator(APART, WINDOW)
 
     def film(self, contact: Mask, domain: ReducedDomain) -> FilmLaw | None:
         """Return the law of the pressure near the contact edge of layered bodies.
@@ -60,22 +60,22 @@ class EdgeOperators:
         contact  cells in contact (nx, ny)
         domain   domain of `contact`: full window or reduced domain
         """
-        law = self._film
+        law = self._film_law
         return law if law and law.holds_within(np.max(depth_of(contact, domain))) else None
 
     @cached_property
-    def _film(self) -> FilmLaw | None:
+    def _film_law(self) -> FilmLaw | None:
         scene = self.model.scene
         return film_law(scene.body, scene.indenter, self.model.grid.spacing)
 
-    def _operator(self, rows: Matrix, domain: ReducedDomain) -> EdgeOperator:
+    def _build_operator(self, rows: Matrix, domain: ReducedDomain) -> EdgeOperator:
         model = self.model
-        kernels = [[(sign, self._kernels[name]) for sign, name in row] for row in rows]
+        kernels = [[(sign, self._edge_kernels[name]) for sign, name in row] for row in rows]
         cells = domain.cells(model.window.cells)
         return EdgeOperator(kernels, cells, model.convolutions, domain)
 
     @cached_property
-    def _kernels(self) -> dict[str, EdgeKernels]:
+    def _edge_kernels(self) -> dict[str, EdgeKernels]:
         model = self.model
         dx, dy = model.grid.spacing
         parts = influence_coefficients(

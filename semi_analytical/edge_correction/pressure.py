@@ -83,7 +83,7 @@ def edge_pressure(
         if number:
             factor = relaxation_factor(factor, last, step)
         changes.append(float(np.sum(np.abs(step)) / np.sum(p)))
-        before, p = _Last(p, edge, response), p + factor * step
+        before, p = _Iterate(p, edge, response), p + factor * step
         edge = problem.fit_edge(p, edge)
         approach, _ = state.target.reached(operators.model, solved.motion)
         response = problem.response(approach, p)
@@ -95,7 +95,7 @@ def edge_pressure(
             f"the correction does not converge: its last change is {change:.1e}, allowed are "
             f"{LEAST_SETTLED:.0e}"
         )
-    return problem.corrected(_Last(p, edge, response), before, solved, changes)
+    return problem.assemble_result(_Iterate(p, edge, response), before, solved, changes)
 
 
 def next_change(changes: Sequence[float]) -> float:
@@ -150,21 +150,21 @@ def radius_change(before: SubcellTractions, after: SubcellTractions) -> float:
     return abs((after.area / before.area) ** 0.5 - 1)
 
 
-class _Solved(NamedTuple):
+class _NormalResult(NamedTuple):
     """Hold the result of one normal solve of the edge correction.
 
-    pressure  mean pressure of each cell (nx, ny) [force/length^2]
-    motion    rigid motion of the indenter
-    by_edge   normal displacement by the pressure variation within cells and by the shear (nx, ny)
-              [length]
+    pressure           mean pressure of each cell (nx, ny) [force/length^2]
+    motion             rigid motion of the indenter
+    edge_displacement  normal displacement by the pressure variation within cells and by the shear
+                       (nx, ny) [length]
     """
 
     pressure: Field
     motion: Motion
-    by_edge: Field
+    edge_displacement: Field
 
 
-class _Last(NamedTuple):
+class _Iterate(NamedTuple):
     """Hold one iterate of the edge correction of the pressure.
 
     pressure  mean pressure of each cell (nx, ny) [force/length^2]
@@ -253,7 +253,7 @@ class _Problem:
         """
         return approach if self.state.target.approach is None else float(np.sum(p))
 
-    def solve(self, p: Field, edge: SubcellTractions) -> _Solved:
+    def solve(self, p: Field, edge: SubcellTractions) -> _NormalResult:
         """Solve the normal problem by conjugate gradients for a fixed contact edge inside the
         cells.
 
@@ -266,8 +266,8 @@ class _Problem:
         """
         box, operator = self.box.slices, self.model.operator(self.box.shape)
         contact, outer = edge.region[box], np.where(edge.outer, edge.means, 0.0)[box]
-        by_edge = self.by_edge(p, edge)
-        gap = np.where(contact, (self.gap + by_edge)[box], 0.0)  # removes infinite gaps
+        edge_displacement = self.edge_displacement(p, edge)
+        gap = np.where(contact, (self.gap + edge_displacement)[box], 0.0)  # removes infinite gaps
         load = self.state.target.on(self.model, self.box).less(outer)
         inner = load.admissible(np.where(contact, p[box], 0.0))
         u = operator.normal(inner + outer)
@@ -275,9 +275,9 @@ class _Problem:
         solver = operator.normal, operator.precondition, load.projection(contact.astype(np.float64))
         inner, u, _ = close_gap(*solver, inner, u, residual, INNER_REDUCTION)
         pressure = self.box.embed(load.admissible(inner) + outer, p.shape)
-        return _Solved(pressure, load.motion(inner, u + gap), by_edge)
+        return _NormalResult(pressure, load.motion(inner, u + gap), edge_displacement)
 
-    def by_edge(self, p: Field, edge: SubcellTractions) -> Field:
+    def edge_displacement(self, p: Field, edge: SubcellTractions) -> Field:
         """Compute the normal surface displacement that a pressure uniform in each cell leaves out.
 
         The result (nx, ny) [length] is the displacement by the variation of the pressure within
@@ -286,17 +286,17 @@ class _Problem:
         p     mean pressure of each cell (nx, ny)
         edge  pressure in the subcells along the contact edge
         """
-        by_p = Within.of(p, edge.i, edge.j, edge.parts, edge.domain)
+        by_p = Within.from_subcells(p, edge.i, edge.j, edge.parts, edge.domain)
         if not self.coupled or self.shear is None:
-            return np.asarray(self.operators.by_pressure(by_p)[0])
+            return np.asarray(self.operators.displace_by_pressure(by_p)[0])
         q, limit = self.shear(p), self.model.friction.limit
-        of_limit = Within.of(limit(p), edge.i, edge.j, limit(edge.parts))
+        of_limit = Within.from_subcells(limit(p), edge.i, edge.j, limit(edge.parts))
         within = [of_limit.along(n, one) for n, one in zip(self.shear.slip, q, strict=True)]
         u = self.operators.apart(*within, by_p)[0]
         return np.asarray(u + self.model.operator(p.shape).normal_by_shear(q))
 
-    def corrected(
-        self, last: _Last, before: _Last, solved: _Solved, changes: Sequence[float]
+    def assemble_result(
+        self, last: _Iterate, before: _Iterate, solved: _NormalResult, changes: Sequence[float]
     ) -> Corrected:
         """Assemble the corrected state on the full window, with estimates of its remaining errors.
 
@@ -309,7 +309,7 @@ class _Problem:
         target, extend = self.state.target, self.model.domain.extend
         approach, tilt = target.reached(self.model, solved.motion)
         load = target.on(self.model, Box.whole(self.gap.shape))
-        u = solved.by_edge + self.model.operator(self.gap.shape).normal(solved.pressure)
+        u = solved.edge_displacement + self.model.operator(self.gap.shape).normal(solved.pressure)
         gap = np.maximum(self.gap + u - load.closure(solved.motion), 0.0)
         gap[edge.region] = 0.0
         p = extend(last.pressure)

@@ -78,7 +78,7 @@ def sliding_shear(
     slip = direction_of_slip(solved.shear, magnitude(solved.shear) > 0)
     shear, nowhere = bound * slip, np.zeros(bound.shape, dtype=bool)
     x, y = (
-        Within.summed(n * limit.slopes + np.stack(np.gradient(n)) * bound, [(n, limit)])
+        Within.combine(n * limit.slopes + np.stack(np.gradient(n)) * bound, [(n, limit)])
         for n in slip
     )
     model = operators.model
@@ -88,7 +88,7 @@ def sliding_shear(
         shear=shear,
         within=(x, y),
         slip=slip,
-        displacement=by_means + operators.by_shear(x, y),
+        displacement=by_means + operators.displace_by_shear(x, y),
         shift=solved.shift,
         stick=nowhere,
         stick_cells=0.0,
@@ -119,7 +119,7 @@ class ShearProblem:
     reversed_slip: VectorField | None
     tolerance: float
 
-    def full(self, bound: Field, slip: VectorField, before: VectorField) -> VectorField:
+    def gross_slip_shear(self, bound: Field, slip: VectorField, before: VectorField) -> VectorField:
         """Return the shear (2, nx, ny) that gross slip would cause at the corrected pressure.
 
         The shear is µp n, or after a load reversal q' + µp (n - n'), with the direction of slip n'
@@ -155,7 +155,7 @@ class ShearProblem:
         if not np.any(slips) or not np.any(stick):
             return None
         slip = direction_of_slip(q, slips)
-        full = self.full(bound, slip, before)
+        full = self.gross_slip_shear(bound, slip, before)
         shear = np.where(stick, full - q, 0.0)
         border = fit_edge(magnitude(shear), stick, edge)
         if border is None or border.unsafe > MAX_UNSAFE:
@@ -177,7 +177,7 @@ class ShearProblem:
         along = deficit.shear / np.where(d > 0, d, 1.0)
         deep = deficit.stick.copy()
         deep[edge.i, edge.j] = False
-        of_d = Within.of(d, edge.i, edge.j, edge.parts)
+        of_d = Within.from_subcells(d, edge.i, edge.j, edge.parts)
         slips = (self.bound > 0) & ~deficit.stick
         last, within_last = self.before
         after_reversal = 0.0 if self.reversed_slip is None else 1.0
@@ -193,7 +193,7 @@ class ShearProblem:
                 (-along[k], of_d),
                 (np.where(deep, 1.0, after_reversal), within_last[k]),
             )
-            found.append(Within.summed(np.where(deep, inner, outer), terms))
+            found.append(Within.combine(np.where(deep, inner, outer), terms))
         return found[0], found[1]
 
     def solve(
@@ -253,13 +253,13 @@ def edge_shear(
     deficit = problem.deficit(solved.shear, limit, before, solved.in_stick, None)
     if deficit is None:
         return None
-    full = problem.full(problem.bound, deficit.slip, problem.before[0])
+    full = problem.gross_slip_shear(problem.bound, deficit.slip, problem.before[0])
     deficit = replace(deficit, full=full)
     q, motion = full - deficit.shear, solved.shift
     step, factor, changes, of_radius = np.zeros_like(q), 1.0, list[float](), inf
     for number in range(MAX_ITERATIONS):
         within = problem.within(q, deficit)
-        u = problem.operators.by_shear(*within)
+        u = problem.operators.displace_by_shear(*within)
         try:
             solution = problem.solve(q, motion, deficit, u)
         except NotConverged:

@@ -86,7 +86,7 @@ class FollowingShear:
     total: Field
 
     @classmethod
-    def of(
+    def from_state(
         cls, friction: CoulombFriction, pressure: Field, shear: VectorField, stick: Mask
     ) -> FollowingShear:
         """Decompose the shear of a solved state into its friction limit and its deficit from gross

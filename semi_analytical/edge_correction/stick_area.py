@@ -70,7 +70,7 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask, *, spreads: bool =
     i, j = np.nonzero((depth <= CUT) & (outside <= CUT))
     laws = LAWS if spreads else LAWS[:1]
     cells, deficit = AdjacentCells(depth, i, j), deficit / np.max(deficit)
-    fits = [_fit(deficit, stick, depth, cells, *law) for law in laws]
+    fits = [_fit_power_law(deficit, stick, depth, cells, *law) for law in laws]
     residual = np.stack([fit.residual for fit in fits])
     best = np.argmin(residual, axis=0)
     stuck = np.stack([fit.stuck for fit in fits])[best, np.arange(len(i))]
@@ -80,7 +80,7 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask, *, spreads: bool =
     return float(np.sum(covered))
 
 
-def _fit(
+def _fit_power_law(
     deficit: Field,
     stick: Mask,
     depth: Field,

@@ -91,10 +91,10 @@ class Descent:
         self._traction = [np.array([[unit, zero], [zero, unit]])]
         self._transverse = [unit]
         for k, film in enumerate(stack.layers):
-            through, across = _transmitted(
+            through, across = _transmit_traction(
                 self._below[k], film.poisson_ratio, alpha * film.thickness
             )
-            self._traction.append(_product(through, self._traction[k]))
+            self._traction.append(_multiply_matrices(through, self._traction[k]))
             self._transverse.append(across * self._transverse[k])
 
     def at(self, level: Level) -> DepthScalars:
@@ -113,12 +113,12 @@ class Descent:
                 crossed = thickness
             left = max(0.0, thickness - crossed)
             below = compliance_above(below, nu, self.alpha * left)
-        through, across = _transmitted(below, nu, self.alpha * crossed)
-        traction = _product(through, self._traction[k])
+        through, across = _transmit_traction(below, nu, self.alpha * crossed)
+        traction = _multiply_matrices(through, self._traction[k])
         transverse = across * self._transverse[k]
         _, c11, c12, c22, _ = below.rows
         unit = 1 / (2 * G * self.alpha)
-        displacement = unit * _product(np.array([[c11, c12], [c12, c22]]), traction)
+        displacement = unit * _multiply_matrices(np.array([[c11, c12], [c12, c22]]), traction)
         return DepthScalars(displacement, traction, 2 * unit * below.shear * transverse, transverse)
 
     @cached_property
@@ -149,8 +149,8 @@ class Descent:
         to_traction = np.array([[-2 * e * sh - k, f], [-f, k]])
         start = np.array([[c11, c12], [c12, c22]])
         return DepthScalars(
-            _product(to_displacement, start) / unit,
-            _product(to_traction, start),
+            _multiply_matrices(to_displacement, start) / unit,
+            _multiply_matrices(to_traction, start),
             csh / unit * ch,
             -csh / 2 * sh,
         )
@@ -166,7 +166,7 @@ def material_at(stack: Stack, level: Level) -> HalfSpace:
     return stack.base
 
 
-def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneScalars:
+def in_plane_stresses(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneScalars:
     """Compute the stresses in a horizontal plane from displacement and traction by Hooke's law; nu
     <= 1/2.
 
@@ -184,7 +184,7 @@ def in_plane(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneSc
     )
 
 
-def _transmitted(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
+def _transmit_traction(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
     """Compute the traction at a depth per unit traction at a smaller depth within one material.
 
     The results are the matrix (2, 2, wavenumbers) of the components along the wave vector and
@@ -230,7 +230,7 @@ def _x_cosh_minus_sinh(x: Array, scale: Array | float = 1.0) -> Array:
     return np.where(x < 1, series * small * scale, direct)
 
 
-def _product(left: Array, right: Array) -> Array:
+def _multiply_matrices(left: Array, right: Array) -> Array:
     """Multiply matrices over the first two axes, for each entry of the third axis."""
     result: Array = np.einsum("ijk,jlk->ilk", left, right)
     return result

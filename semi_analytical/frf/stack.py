@@ -90,12 +90,12 @@ def stack_of(body: Body) -> Stack:
     """Build the stack (layers and base with elastic constants) of a body of the scene."""
     base = body.material
     return Stack(
-        [(*_constants(layer.material), layer.thickness) for layer in body.layers],
-        _constants(base) if isinstance(base, IsotropicMaterial) else None,
+        [(*_elastic_constants(layer.material), layer.thickness) for layer in body.layers],
+        _elastic_constants(base) if isinstance(base, IsotropicMaterial) else None,
     )
 
 
-def _constants(material: IsotropicMaterial) -> HalfSpace:
+def _elastic_constants(material: IsotropicMaterial) -> HalfSpace:
     return HalfSpace(material.shear_modulus, material.poisson_ratio)
 
 

@@ -57,7 +57,7 @@ def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
     alpha  wavenumbers [1/length], > 0
     """
     G, nu = material
-    unit = 1 / (G * _checked(alpha))
+    unit = 1 / (G * _check_wavenumbers(alpha))
     return SurfaceScalars((1 - nu) * unit, (0.5 - nu) * unit, (1 - nu) * unit, unit)
 
 
@@ -72,11 +72,11 @@ def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
     Raises ValueError for alpha = 0: the displacement of an infinite body under uniform load is
     unbounded.
     """
-    alpha = _checked(alpha)
+    alpha = _check_wavenumbers(alpha)
     if stack.is_rigid:
         return SurfaceScalars(*(np.zeros_like(alpha) for _ in range(4)))
     flat = alpha.reshape(-1)
-    below = _underside(stack, flat)
+    below = _compliance_below_layer(stack, flat)
     for film in stack.layers[:1]:
         below = compliance_above(below, film.poisson_ratio, flat * film.thickness)
     (_, c11, c12, c22, _), shear = below
@@ -93,20 +93,20 @@ def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
     alpha  wavenumbers [1/length], > 0
     """
-    alpha = _checked(alpha)
+    alpha = _check_wavenumbers(alpha)
     if not stack.layers:
         return SurfaceScalars(*(np.zeros_like(alpha) for _ in range(4)))
     flat = alpha.reshape(-1)
-    # For thin layers the difference does not cancel, but the terms of `_echo` do.
+    # For thin layers the difference does not cancel, but `_remainder_of_thick_layer` does.
     thin = flat * stack.layers[0].thickness < 0.5
     four = np.empty((4, flat.size))
     full, half_space = scalars(stack, flat[thin]), half_space_scalars(stack.outer, flat[thin])
     four[:, thin] = np.subtract(full, half_space)
-    four[:, ~thin] = _echo(stack, flat[~thin])
+    four[:, ~thin] = _remainder_of_thick_layer(stack, flat[~thin])
     return SurfaceScalars(*four.reshape(4, *alpha.shape))
 
 
-def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
+def _remainder_of_thick_layer(stack: Stack, alpha: Array) -> SurfaceScalars:
     """Compute the surface compliance of a body minus that of a half-space of its outermost
     material.
 
@@ -118,7 +118,7 @@ def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
     """
     film = stack.layers[0]
     x = np.minimum(alpha * film.thickness, OPAQUE)
-    below, shear = _underside(stack, alpha)
+    below, shear = _compliance_below_layer(stack, alpha)
     divisor = compound_rows(below, film.poisson_ratio, decaying_waves(x))[4]
     _, e11, e12, e22, e_divisor = compound_rows(below, film.poisson_ratio, echo_waves(x))
     direct = 2 * (1 - film.poisson_ratio)
@@ -136,7 +136,7 @@ def _echo(stack: Stack, alpha: Array) -> SurfaceScalars:
     )
 
 
-def _underside(stack: Stack, alpha: Array) -> Compliance:
+def _compliance_below_layer(stack: Stack, alpha: Array) -> Compliance:
     """Compute the compliance of the material below the outermost layer, in units 1/(2 G alpha).
 
     G is the shear modulus of the outermost layer.
@@ -191,7 +191,7 @@ def compliance_above(below: Compliance, nu: float, x: Array) -> Compliance:
     )
 
 
-def _checked(alpha: ArrayLike) -> Array:
+def _check_wavenumbers(alpha: ArrayLike) -> Array:
     """Convert wavenumbers to an array; raise ValueError unless all are positive and finite."""
     alpha = np.asarray(alpha, dtype=np.float64)
     if not (np.all(alpha > 0) and np.all(np.isfinite(alpha))):

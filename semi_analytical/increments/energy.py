@@ -68,7 +68,7 @@ class Configuration:
     motions: Vector | None
 
     @classmethod
-    def at_rest(cls, gap: Field, after: Configuration) -> Configuration:
+    def unloaded(cls, gap: Field, after: Configuration) -> Configuration:
         """Return the unloaded configuration before first touch, in which all tractions are zero.
 
         gap    undeformed gap (nx, ny) [length]
@@ -129,13 +129,13 @@ class Energy:
 
         before  energies at the start of the increment
         """
-        terms = self._terms()
+        terms = self._balance_terms()
         if terms is None or self.largest == 0:
             return None if terms is None else 0.0
-        work, elastic, dissipated, unresolved = terms - np.array(before._terms())
+        work, elastic, dissipated, unresolved = terms - np.array(before._balance_terms())
         return float(abs(work - elastic - dissipated - unresolved) / self.largest)
 
-    def _terms(self) -> Vector | None:
+    def _balance_terms(self) -> Vector | None:
         """Return input work, elastic, dissipated and unresolved energy (4,); None where
         undefined."""
         if self.input_work is None or self.dissipated is None or self.unresolved is None:
@@ -146,7 +146,7 @@ class Energy:
 NOTHING_YET = Energy()
 
 
-def after_increment(
+def add_increment_energy(
     spent: Energy,
     before: Configuration,
     after: Configuration,
@@ -165,7 +165,7 @@ def after_increment(
     path_matters   True if the end state depends on the number of increments of the load step
     """
     elastic = elastic_energy(after, cell_area)
-    work, worked, unresolved = _work(before, after), spent.input_work, spent.unresolved
+    work, worked, unresolved = _load_work(before, after), spent.input_work, spent.unresolved
     uncertain = spent.uncertain
     if (
         work is None or dissipated is None or worked is None or unresolved is None
@@ -241,7 +241,7 @@ def friction_changed(before: Configuration, after: Configuration, cell_area: flo
     return float(np.sum(np.hypot(*changed) * way)) * cell_area
 
 
-def _work(before: Configuration, after: Configuration) -> float | None:
+def _load_work(before: Configuration, after: Configuration) -> float | None:
     """Compute the work of all prescribed forces and moments in one increment [force length].
 
     The sum is Σ ½ (f₀ + f₁)(ω₁ - ω₀), with the forces and moments f and their conjugate rigid

@@ -7,19 +7,19 @@ import numpy as np
 from semi_analytical.increments.energy import (
     NOTHING_YET,
     Configuration,
-    after_increment,
+    add_increment_energy,
 )
 from semi_analytical.increments.increment import State
 from semi_analytical.increments.tangential_state import (
+    bulk_strain_displacement,
     rigid,
     strain_moments,
-    stretched,
 )
 from semi_analytical.model import ContactModel
 from semi_analytical.tangential.admissible_shear import everywhere
 
 
-def balanced(
+def add_energies(
     model: ContactModel, before: State | None, after: State, *, path_matters: bool = True
 ) -> State:
     """Return the converged state `after` an increment, completed by its energies.
@@ -31,11 +31,11 @@ def balanced(
     """
     end = configuration(model, after)
     if before is None:
-        spent, start = NOTHING_YET, Configuration.at_rest(model.gap, end)
+        spent, start = NOTHING_YET, Configuration.unloaded(model.gap, end)
     else:
         spent, start = before.energy, configuration(model, before)
     dissipated = 0.0 if after.sheared is None else after.sheared.dissipated_energy
-    energy = after_increment(
+    energy = add_increment_energy(
         spent, start, end, dissipated, model.grid.cell_area, path_matters=path_matters
     )
     return replace(after, energy=energy)
@@ -71,15 +71,15 @@ def configuration(model: ContactModel, state: State) -> Configuration:
     shift = sheared.shift
     extension = along * model.domain.resultant(sheared.shear)
     slipped, motions = np.zeros_like(sheared.shear), None
-    moments = [*(state.moment or ()), *_some(sheared.torque)]
-    rotations = [*(pressing.tilt or ()), *_some(sheared.twist)]
+    moments = [*(state.moment or ()), *_present_values(sheared.torque)]
+    rotations = [*(pressing.tilt or ()), *_present_values(sheared.twist)]
     if sheared.strain is not None:
         # The strain moves the lower body, so its work has the opposite sign.
         moments += [*strain_moments(model, sheared.shear)]
         rotations += [-part for part in sheared.strain]
     if shift is not None:
         slipped = sheared.displacement - rigid(model, sheared.motion)
-        slipped = slipped + stretched(model, sheared.strain)
+        slipped = slipped + bulk_strain_displacement(model, sheared.strain)
         motions = np.array([approach, *(shift - extension), *rotations])
     return Configuration(
         pressure=pressure,
@@ -95,5 +95,5 @@ def configuration(model: ContactModel, state: State) -> Configuration:
     )
 
 
-def _some(value: float | None) -> tuple[float, ...]:
+def _present_values(value: float | None) -> tuple[float, ...]:
     return () if value is None else (value,)

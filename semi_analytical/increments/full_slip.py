@@ -12,8 +12,8 @@ from contact_scene.solver_errors import GrossSliding
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import (
     TangentialState,
+    bulk_strain_displacement,
     rigid,
-    stretched,
     torsion_reached,
     touching_share,
 )
@@ -68,7 +68,7 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
     raise GrossSliding(f"{reached}: gross sliding; prescribe twist or tangential_shift instead")
 
 
-def at_limit(
+def gross_slip_state(
     model: ContactModel, pressure: Field, last: TangentialState, load: TangentialTarget
 ) -> TangentialState:
     """Return the tangential state in which a prescribed tangential force reaches the friction
@@ -108,7 +108,7 @@ def at_limit(
     )
 
 
-def unresisted(
+def frictionless_state(
     model: ContactModel,
     pressure: Field,
     displacement: VectorField,
@@ -148,7 +148,7 @@ def unresisted(
         relative_slip
         + last.displacement
         - displacement
-        - stretched(model, load.strain, last.strain)
+        - bulk_strain_displacement(model, load.strain, last.strain)
     )
     slipped = np.where((pressure > 0) | (last.pressure > 0), contact_fraction * relative_slip, 0.0)
     return replace(

@@ -26,7 +26,7 @@ from semi_analytical.increments.stick_slip import slip_and_stick
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import (
     TangentialState,
-    untouched,
+    untouched_state,
 )
 from semi_analytical.model import ContactModel
 from semi_analytical.tangential.admissible_shear import magnitude
@@ -165,7 +165,7 @@ def solve_increment(
     sheared = slip_and_stick(
         model,
         pressing.pressure,
-        last or untouched(model.grid.cells),
+        last or untouched_state(model.grid.cells),
         tangential,
         tolerance,
         ahead,
@@ -204,7 +204,10 @@ def tangential_target(
     sheared = start.sheared if start is not None else None
     reached: tuple[Pair, Pair | None] = ((0.0, 0.0), (0.0, 0.0))
     if sheared is not None:
-        reached = _pair(sheared.force), None if sheared.shift is None else _pair(sheared.shift)
+        reached = (
+            _float_pair(sheared.force),
+            None if sheared.shift is None else _float_pair(sheared.shift),
+        )
     force, shift = ramp.tangential.prescribed(fraction, reached)
     torque = twist = None
     if twists:
@@ -219,6 +222,6 @@ def tangential_target(
     )
 
 
-def _pair(vector: np.ndarray) -> Pair:
+def _float_pair(vector: np.ndarray) -> Pair:
     x, y = map(float, vector)
     return x, y

@@ -13,7 +13,7 @@ from contact_scene.solver_errors import (
     NotConverged,
     NothingTouches,
 )
-from semi_analytical.model import ContactModel, doubled
+from semi_analytical.model import ContactModel, refine_field
 from semi_analytical.normal.initial_pressure import bearing_pressure
 from semi_analytical.normal.normal_load import (
     FixedApproach,
@@ -144,7 +144,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
     raises     ContactAtWindowEdge, ContactNotResolved, NotConverged
     """
     refuse_unresolved_contact(model, target)
-    start, iterations = nested_start(model, target)
+    start, iterations = nested_initial_guess(model, target)
     gap = target.gap(model)
     box = box_around(start > 0, MARGIN, model.domain)
     whole = Box.whole(gap.shape)
@@ -178,7 +178,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
     raise NotConverged("the pressure", iterations, residual, tolerance)
 
 
-def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
+def nested_initial_guess(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
     """Return an initial guess of the pressure (nx, ny), and the iterations spent on it.
 
     The guess is the solution on a coarser grid, whose initial guess is found in the same manner. It
@@ -186,21 +186,21 @@ def nested_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]
     grid comes into contact.
     """
     coarse = model.coarse
-    if coarse is None or not _touches(coarse, target):
+    if coarse is None or not _makes_contact(coarse, target):
         gap = target.gap(model)
         load = target.on(model, Box.whole(gap.shape))
         return bearing_pressure(gap, load, model.bearing_modulus, model.grid.cell_area), 0
-    pressure, iterations = rough_start(coarse, target)
-    return np.where(np.isfinite(model.gap), doubled(pressure), 0.0), iterations
+    pressure, iterations = rough_initial_guess(coarse, target)
+    return np.where(np.isfinite(model.gap), refine_field(pressure), 0.0), iterations
 
 
-def rough_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
+def rough_initial_guess(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
     """Solve the frictionless normal problem on the model's own grid at the loose COARSE_TOLERANCE.
 
     Return the pressure (nx, ny) and the number of iterations. The pressure is the initial guess on
     the next finer grid, and that of the coupled problem.
     """
-    start, iterations = nested_start(model, target)
+    start, iterations = nested_initial_guess(model, target)
     gap = target.gap(model)
     operator = model.operator(gap.shape)
     solution = solve_normal(
@@ -214,7 +214,7 @@ def rough_start(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
     return solution.pressure, iterations + solution.iterations
 
 
-def _touches(model: ContactModel, target: NormalTarget) -> bool:
+def _makes_contact(model: ContactModel, target: NormalTarget) -> bool:
     """Return True if the prescribed normal load brings at least one cell of the grid into
     contact."""
     gap = target.gap(model)
@@ -229,12 +229,12 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
     into contact; ContactAtWindowEdge if the window is too small, or its border comes into contact
     first.
     """
-    if _touches(model, target):
+    if _makes_contact(model, target):
         undeformed = target.gap(model)
         if target.moment is None and np.min(model.domain.rim(undeformed)) <= np.min(undeformed):
             raise ContactAtWindowEdge(
                 "the lowest point of the indenter lies at the border of the window, so that the "
-                f"contact begins there. {_lower(model)}"
+                f"contact begins there. {_remedy_at_border(model)}"
             )
         return
     if target.moment is None:
@@ -247,7 +247,7 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
         )
     if np.isfinite(model.domain.rim(model.gap)).any():
         raise ContactAtWindowEdge(
-            f"the moment places the normal force outside the window. {_wider(model)}"
+            f"the moment places the normal force outside the window. {_remedy_for_window(model)}"
         )
     raise ContactNotResolved(
         "the moment places the normal force beyond the outermost cells of the indenter, which tips "
@@ -255,18 +255,18 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
     )
 
 
-def _lower(model: ContactModel) -> str:
+def _remedy_at_border(model: ContactModel) -> str:
     """Return the remedy, as text of an error message, for a contact that begins at the window
     border."""
     if model.scene.indenter.extent is None:
-        return _wider(model)
+        return _remedy_for_window(model)
     return (
         "Change indenter.flip if the map is inverted (heights are positive away from the body, "
         "with flip = true towards it), and remove the slope of a measured map"
     )
 
 
-def _wider(model: ContactModel) -> str:
+def _remedy_for_window(model: ContactModel) -> str:
     """Return the remedy, as text of an error message, for a window that is too small."""
     if model.scene.indenter.extent is not None:
         return "Use a height map and a window that are larger than the contact"
@@ -284,5 +284,5 @@ def refuse_contact_at_edge(p: Field, model: ContactModel) -> None:
         w = model.window.window
         raise ContactAtWindowEdge(
             f"the contact reaches the edge of the window of {w[0]:.4g} m by {w[1]:.4g} m. "
-            f"{_wider(model)}"
+            f"{_remedy_for_window(model)}"
         )

@@ -11,10 +11,10 @@ from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from semi_analytical.increments.full_slip import (
-    at_limit,
     force_reaches_limit,
+    frictionless_state,
+    gross_slip_state,
     refuse_excessive_torque,
-    unresisted,
 )
 from semi_analytical.increments.tangential_solve import (
     TangentialTarget,
@@ -74,7 +74,7 @@ def slip_and_stick(
         relative_slip = rigid(model, solution.motion) + target - solution.displacement
         residuals = shear_residuals(model, solution, bound, relative_slip, load, last)
         if residuals.worst <= tolerance:
-            return advanced(model, pressure, bound, last, load, solution, relative_slip, residuals)
+            return end_state(model, pressure, bound, last, load, solution, relative_slip, residuals)
         start, motion = Point(solution.shear, solution.displacement), solution.motion
         aim *= 0.1
     raise NotConverged("the shear", iterations, residuals.worst, tolerance)
@@ -100,11 +100,13 @@ def _trivial_state(
         refuse_excessive_torque(model, bound, load)
         if np.any(bound):
             return None
-        return unresisted(model, pressure, nothing, last, load, first_motion(last, load))
+        return frictionless_state(model, pressure, nothing, last, load, first_motion(last, load))
     if load.force is None:
         assert load.shift is not None
         return (
-            None if np.any(bound) else unresisted(model, pressure, nothing, last, load, load.shift)
+            None
+            if np.any(bound)
+            else frictionless_state(model, pressure, nothing, last, load, load.shift)
         )
     moved = last.shear, last.shift, last.displacement
     changes = load.strain not in (None, last.strain or UNSTRAINED)
@@ -115,8 +117,8 @@ def _trivial_state(
     if not force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
         return None
     if np.any(bound):
-        return at_limit(model, pressure, last, load)
-    return unresisted(model, pressure, nothing, last, load, first_motion(last, load))
+        return gross_slip_state(model, pressure, last, load)
+    return frictionless_state(model, pressure, nothing, last, load, first_motion(last, load))
 
 
 def shear_residuals(
@@ -155,7 +157,7 @@ def shear_residuals(
     )
 
 
-def advanced(
+def end_state(
     model: ContactModel,
     pressure: Field,
     bound: Field,
@@ -206,10 +208,10 @@ def advanced(
         torque=torque,
         strain=load.strain,
     )
-    return replace(after, status=_status(model, after, bound, last))
+    return replace(after, status=_contact_status(model, after, bound, last))
 
 
-def _status(
+def _contact_status(
     model: ContactModel, after: TangentialState, bound: Field, last: TangentialState
 ) -> ContactStatus:
     if np.any(after.in_stick):

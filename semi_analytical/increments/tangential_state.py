@@ -69,7 +69,7 @@ class TangentialState:
         return self.shift if self.twist is None else np.array([*self.shift, self.twist])
 
 
-def untouched(cells: tuple[int, int]) -> TangentialState:
+def untouched_state(cells: tuple[int, int]) -> TangentialState:
     """Return the tangential state before first touch: no shear, no shift, no slip.
 
     cells  number of cells of the domain along x and y
@@ -118,11 +118,11 @@ def surface_target(
     load  prescribed tangential load at its end
     """
     target = last.displacement - rigid(model, last.motion)
-    target = target - stretched(model, load.strain, last.strain)
+    target = target - bulk_strain_displacement(model, load.strain, last.strain)
     return target if load.twist is None else target + load.twist * model.rotation
 
 
-def stretched(
+def bulk_strain_displacement(
     model: ContactModel, strain: Strain | None, last: Strain | None = None
 ) -> VectorField | float:
     """Compute the surface displacement by a change of the bulk strain (2, nx, ny) [length].
@@ -219,14 +219,14 @@ def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
     touched, largest = less > 0, np.max(more)
     p, grown = more / largest, (more / largest) ** 2 - (less / largest) ** 2
     if np.any(touched):
-        growth = _at_nearest(grown, touched & ~binary_erosion(touched), changes)
+        growth = _mean_at_nearest_cells(grown, touched & ~binary_erosion(touched), changes)
     else:
         growth = np.ones(np.count_nonzero(changes))
     own = p[changes] ** 2
     return np.divide(own, growth, out=np.ones_like(own), where=own < growth)
 
 
-def _at_nearest(values: Field, known: Mask, wanted: Mask) -> Field:
+def _mean_at_nearest_cells(values: Field, known: Mask, wanted: Mask) -> Field:
     """Return for each wanted cell the mean of a field over the nearest cells where the field is
     known.
 

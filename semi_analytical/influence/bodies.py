@@ -26,14 +26,14 @@ def influence_coefficients(
     integrals = RectangleIntegrals(*spacing, offsets)
     down, along = (spacing[0] * spacing[1] * c for c in compliances(rig))
     return Composite(
-        _of_body(lower, spacing, integrals, offsets),
-        _of_body(upper, spacing, integrals, offsets),
+        _body_coefficients(lower, spacing, integrals, offsets),
+        _body_coefficients(upper, spacing, integrals, offsets),
         along,
         down,
     )
 
 
-def _of_body(
+def _body_coefficients(
     body: Body,
     spacing: tuple[float, float],
     integrals: RectangleIntegrals,

@@ -63,19 +63,19 @@ class LayeredCoefficients:
             (dx, dy), (nx, ny) = self.spacing, self.shape
             given = (self.stack.layers, self.stack.base, float(dx), float(dy), int(nx), int(ny))
             identity = repr((sources_digest(), component, *given))
-            compute = partial(self._integrals, component)
+            compute = partial(self._integrate_component, component)
             self._known[component] = self.remember(identity, (nx, ny), compute)
         return self._known[component]
 
     @cached_property
-    def _remainder(self) -> RadialTable:
+    def _remainder_table(self) -> RadialTable:
         """Table of the remainder by the layers, up to the farthest point that is averaged."""
         sides = ((n + MARGIN) * d for n, d in zip(self.shape, self.spacing, strict=True))
         return remainder_table(self.stack, hypot(*sides))
 
-    def _integrals(self, component: str) -> Field:
+    def _integrate_component(self, component: str) -> Field:
         """Integrate the point response of one component over the loaded cell (nx, ny)."""
-        outer, parity, by_layers = self.stack.outer, PARITY[component], self._remainder
+        outer, parity, by_layers = self.stack.outer, PARITY[component], self._remainder_table
         response = partial(point_response, component, by_layers, half_space_response(outer))
         (result,) = cell_integrals(response, [parity], self.spacing, self.shape)
         if parity == (1, 1):

@@ -56,7 +56,7 @@ def cell_integrals(
     shape      number of offsets along x and y
     clearance  height of the singularity above the origin [length]
     """
-    result = _averaged(response, parities, spacing, shape)
+    result = _average_cells(response, parities, spacing, shape)
     radius = FAR * max(spacing)
     i, j = (np.arange(min(n, int(radius / d) + 1)) for n, d in zip(shape, spacing, strict=True))
     distance = np.hypot(np.hypot((i * spacing[0])[:, None], j * spacing[1]), clearance)
@@ -71,7 +71,7 @@ def cell_integrals(
     return result
 
 
-def _averaged(
+def _average_cells(
     response: Response,
     parities: Sequence[tuple[int, int]],
     spacing: tuple[float, float],
@@ -90,11 +90,11 @@ def _averaged(
     points *= spacing[0] * spacing[1]
     result = np.empty((len(parities), *shape))
     for averaged, field, (along_x, along_y) in zip(result, points, parities, strict=True):
-        averaged[:] = _averaged_along(_averaged_along(field, 0, along_x), 1, along_y)
+        averaged[:] = _average_along_axis(_average_along_axis(field, 0, along_x), 1, along_y)
     return result
 
 
-def _averaged_along(field: Field, axis: int, parity: int) -> Field:
+def _average_along_axis(field: Field, axis: int, parity: int) -> Field:
     """Average a response over the cells along one axis, from point values at offsets >= 0.
 
     The result is shorter by MARGIN.

@@ -46,7 +46,9 @@ class RadialTable:
             place = (2 * r[inside] - low - high) / (high - low)
             for start in range(0, len(place), AT_ONCE):
                 some = slice(start, start + AT_ONCE)
-                values[:, inside[some]] = self.coefficients[panel].T @ _polynomials(place[some])
+                values[:, inside[some]] = self.coefficients[panel].T @ _chebyshev_polynomials(
+                    place[some]
+                )
         return values
 
 
@@ -74,7 +76,7 @@ def tabulate(transforms: Transforms, clearance: float, reach: float) -> tuple[Ar
     return edges, np.asarray(np.einsum("kn,...nf->...kf", matrix, np.stack(values, axis=-3)))
 
 
-def _polynomials(place: Array) -> Array:
+def _chebyshev_polynomials(place: Array) -> Array:
     """Evaluate the first NODES Chebyshev polynomials T_k at positions in [-1, 1], (NODES,
     positions).
 

@@ -99,7 +99,7 @@ class PressureMoments:
         s  gap before the rigid motion (nx, ny) [length]
         """
         shapes = self.shapes
-        metric = _products(p * shapes, shapes)
+        metric = _weighted_products(p * shapes, shapes)
         right = np.array([np.sum(p * shape * (s - (self.approach or 0.0))) for shape in shapes])
         fit = np.linalg.pinv(metric, rcond=1e-14, hermitian=True) @ right
         approach = fit[0] if self.approach is None else self.approach
@@ -126,9 +126,9 @@ class PressureMoments:
         p = np.maximum(p, 0.0)
         if self.total is not None:
             p = p * (self.total / np.sum(p))
-        carrying = self._carrying(p, p)
+        carrying = self._nearest_carrying_pressure(p, p)
         if carrying is None:
-            carrying = self._carrying(p, self.cells * np.mean(p))
+            carrying = self._nearest_carrying_pressure(p, self.cells * np.mean(p))
         if carrying is None:
             raise NotConverged("the pressure under its moments", MAX_SWEEPS, np.inf, ROUND_OFF)
         return carrying
@@ -154,7 +154,7 @@ class PressureMoments:
         right = np.max(aside, where=aside <= 0, initial=-np.inf)
         return bool(left - right < np.pi)
 
-    def _carrying(self, p: Field, weight: Field) -> Field | None:
+    def _nearest_carrying_pressure(self, p: Field, weight: Field) -> Field | None:
         """Return the non-negative pressure with the prescribed sum and moments that is nearest to
         p.
 
@@ -167,7 +167,7 @@ class PressureMoments:
             return None
         shapes, sums = self.shapes, self.sums
         shifted, multiplier = find_multiplier(
-            lambda m: _Shifted(m, p, weight, shapes, sums), np.zeros(len(sums))
+            lambda m: _ShiftedPressure(m, p, weight, shapes, sums), np.zeros(len(sums))
         )
         return shifted.p if shifted.settled(multiplier) else None
 
@@ -180,7 +180,7 @@ class PressureMoments:
         inside  1 in contact, 0 elsewhere (nx, ny)
         """
         units = inside * self.shapes
-        inverse = np.linalg.pinv(_products(units, units), rcond=1e-14, hermitian=True)
+        inverse = np.linalg.pinv(_weighted_products(units, units), rcond=1e-14, hermitian=True)
 
         def projected(field: Field) -> Field:
             shares = inverse @ np.array([np.sum(unit * field) for unit in units])
@@ -209,7 +209,7 @@ class PressureMoments:
         return tuple(self.shapes)
 
 
-def _products(a: Field, b: Field) -> Field:
+def _weighted_products(a: Field, b: Field) -> Field:
     """Compute the symmetric matrix (k, k) of sums over the cells of products of two sets of k
     fields.
 
@@ -219,7 +219,7 @@ def _products(a: Field, b: Field) -> Field:
     return 0.5 * (sums + sums.T)
 
 
-class _Shifted:
+class _ShiftedPressure:
     """Projected pressure max(0, p + weight Σ λ shape) for given multipliers λ of force and moments.
 
     The shapes are the closures of the gap by unit rigid motions. `multipliers.py` solves for the
@@ -249,5 +249,5 @@ class _Shifted:
 
         The shortest step is taken where the multipliers are not unique.
         """
-        metric = _products(self._slack * self._shapes, self._shapes)
+        metric = _weighted_products(self._slack * self._shapes, self._shapes)
         return np.asarray(-np.linalg.pinv(metric, rcond=1e-14, hermitian=True) @ self.defect)

@@ -62,13 +62,13 @@ def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
     domain  domain of `cells`
     """
     sides = [
-        (_half_side if mirrored else _side)(np.any(cells, axis=1 - axis), margin)
+        (_half_box_side if mirrored else _box_side)(np.any(cells, axis=1 - axis), margin)
         for axis, mirrored in enumerate(domain.mirrors)
     ]
     return Box((sides[0][0], sides[1][0]), (sides[0][1], sides[1][1]))
 
 
-def _side(marked: Mask, margin: int) -> tuple[int, int]:
+def _box_side(marked: Mask, margin: int) -> tuple[int, int]:
     """Return the first index and the number of cells of the box `box_around` along one axis.
 
     marked  True at indices along the axis with cells that the box must contain
@@ -84,7 +84,7 @@ def _side(marked: Mask, margin: int) -> tuple[int, int]:
     return int(np.clip(middle_first, 0, available - length)), int(length)
 
 
-def _half_side(marked: Mask, margin: int) -> tuple[int, int]:
+def _half_box_side(marked: Mask, margin: int) -> tuple[int, int]:
     """Return first index and number of cells of the box `box_around` along an axis with a mirror
     plane.
 
@@ -93,5 +93,5 @@ def _half_side(marked: Mask, margin: int) -> tuple[int, int]:
     marked  True at indices along the axis with cells that the box must contain
     margin  number of cells around them
     """
-    _, length = _side(np.concatenate([marked[::-1], marked]), margin)
+    _, length = _box_side(np.concatenate([marked[::-1], marked]), margin)
     return 0, length // 2

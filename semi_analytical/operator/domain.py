@@ -39,7 +39,7 @@ class ReducedDomain:
         return tuple(axis for axis, mirrored in enumerate(self.mirrors) if mirrored)
 
     @property
-    def _sides(self) -> Pair:
+    def _side_ratios(self) -> Pair:
         """Ratio of the window's side to the domain's side along x and y: 2 with a mirror plane,
         else 1."""
         x, y = self.mirrors
@@ -48,7 +48,7 @@ class ReducedDomain:
     @property
     def images(self) -> int:
         """Number of mirror images of the domain that make up the window: 1, 2 or 4."""
-        x, y = self._sides
+        x, y = self._side_ratios
         return x * y
 
     @property
@@ -68,7 +68,7 @@ class ReducedDomain:
         return (-s_x * x, s_y * y), (s_x * x, -s_y * y)
 
     @property
-    def rotating(self) -> Parity:
+    def binned_slip(self) -> Parity:
         """Parity about x = 0 and y = 0 of the bins of slip compliance, which act on slip
         directions.
 
@@ -90,7 +90,7 @@ class ReducedDomain:
 
         window  number of cells of the window along x and y
         """
-        x, y = self._sides
+        x, y = self._side_ratios
         return window[0] // x, window[1] // y
 
     def window(self, cells: Pair) -> Pair:
@@ -98,7 +98,7 @@ class ReducedDomain:
 
         cells  number of cells of the domain along x and y
         """
-        x, y = self._sides
+        x, y = self._side_ratios
         return x * cells[0], y * cells[1]
 
     def restrict(self, field: AnyField) -> AnyField:
@@ -115,8 +115,10 @@ class ReducedDomain:
         if not any(self.mirrors):
             return field
         if field.ndim == 2:
-            return _extended(field, self.scalar)
-        return np.stack([_extended(*given) for given in zip(field, self.vector, strict=True)])
+            return _extend_by_parity(field, self.scalar)
+        return np.stack(
+            [_extend_by_parity(*given) for given in zip(field, self.vector, strict=True)]
+        )
 
     def extend_fields(self, record: Record) -> Record:
         """Return a dataclass with all its fields (arrays of two or three axes) extended to the
@@ -143,7 +145,7 @@ class ReducedDomain:
         rows, columns = [0] * (not x) + [nx - 1], [0] * (not y) + [ny - 1]
         return np.concatenate([values[rows].ravel(), values[:, columns].ravel()])
 
-    def framed(self, field: AnyField, width: int) -> AnyField:
+    def add_frame(self, field: AnyField, width: int) -> AnyField:
         """Add a frame of `width` cells to a scalar field (nx, ny): mirror images beyond planes,
         else zeros."""
         nx, ny = field.shape
@@ -156,7 +158,7 @@ class ReducedDomain:
             framed[:, :width] = framed[:, images]
         return framed
 
-    def folded(self, framed: Field, width: int) -> Field:
+    def fold_frame(self, framed: Field, width: int) -> Field:
         """Remove a frame of `width` cells from a displacement field of a reduced domain.
 
         The displacement beyond a mirror plane is added to that of the mirror cell in the domain.
@@ -177,7 +179,7 @@ class ReducedDomain:
 
         Differences are central, and one-sided at the border of the window.
         """
-        framed, slopes = self.framed(field, 1), np.empty((2, *field.shape))
+        framed, slopes = self.add_frame(field, 1), np.empty((2, *field.shape))
         np.subtract(framed[2:, 1:-1], framed[:-2, 1:-1], out=slopes[0])
         np.subtract(framed[1:-1, 2:], framed[1:-1, :-2], out=slopes[1])
         slopes /= 2
@@ -201,7 +203,7 @@ class ReducedDomain:
                 )
 
 
-def _extended(field: AnyField, parity: Parity) -> AnyField:
+def _extend_by_parity(field: AnyField, parity: Parity) -> AnyField:
     for axis, sign in enumerate(parity):
         if sign:
             image = np.flip(field, axis)

@@ -45,11 +45,11 @@ def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Res
     for axis, (a, b) in enumerate(
         zip(transforms.parity(row), transforms.parity(column), strict=True)
     ):
-        lines = np.moveaxis(_in_order(np.moveaxis(lines, 1 - axis, 0), a, b), 0, 1 - axis)
+        lines = np.moveaxis(_sort_factors(np.moveaxis(lines, 1 - axis, 0), a, b), 0, 1 - axis)
     return np.ascontiguousarray(lines)
 
 
-def _in_order(lines: Field, one: int, other: int) -> Field:
+def _sort_factors(lines: Field, one: int, other: int) -> Field:
     """Sort the factors of a traction-displacement pair along one axis in the order of the
     amplitudes.
 
@@ -91,7 +91,7 @@ class Product:
         dtype: Dtype = DOUBLE,
     ) -> None:
         self._transforms = transforms
-        self._sides = transforms.sides(inputs, outputs, padded=padded, dtype=dtype)
+        self._sides = transforms.axis_transforms(inputs, outputs, padded=padded, dtype=dtype)
         names = [["".join(sorted(row + column)) for column in inputs] for row in outputs]
         self._rows = [[(k, name) for k, name in enumerate(row) if name in entries] for row in names]
         self._entries = {name: entries[name] for row in self._rows for _, name in row}
@@ -99,9 +99,9 @@ class Product:
     def __call__(self, values: Array) -> Array:
         """Convolve input fields (inputs, nx, ny) with the matrix of kernels; return (outputs, nx,
         ny)."""
-        return self._transforms.filtered(values, *self._sides, self._times)
+        return self._transforms.filter_fields(values, *self._sides, self._multiply_amplitudes)
 
-    def _times(self, amplitudes: Sequence[Array], columns: slice) -> list[Array]:
+    def _multiply_amplitudes(self, amplitudes: Sequence[Array], columns: slice) -> list[Array]:
         dtype = amplitudes[0].dtype  # mixed products would be slower
         entries = self._entries.items()
         some = {name: entry[columns].astype(dtype, copy=False) for name, entry in entries}
@@ -143,29 +143,29 @@ class DisplacementOperator:
     def normal(self, pressure: Field) -> Field:
         """Compute the normal surface displacement u_z (nx, ny) [length] caused by a pressure
         (nx, ny)."""
-        return self._product("z", "z", pressure[None])[0]
+        return self._apply_product("z", "z", pressure[None])[0]
 
     def tangential(self, shear: Field) -> Field:
         """Compute the tangential surface displacement (2, nx, ny) [length] caused by a shear (2,
         nx, ny)."""
-        return self._product("xy", "xy", shear)
+        return self._apply_product("xy", "xy", shear)
 
     def normal_by_shear(self, shear: Field) -> Field:
         """Compute the normal surface displacement u_z (nx, ny) [length] caused by a shear (2,
         nx, ny)."""
-        return self._product("xy", "z", shear)[0]
+        return self._apply_product("xy", "z", shear)[0]
 
     def tangential_by_pressure(self, pressure: Field) -> Field:
         """Compute the tangential surface displacement (2, nx, ny) [length] caused by a pressure
         (nx, ny)."""
-        return self._product("z", "xy", pressure[None])
+        return self._apply_product("z", "xy", pressure[None])
 
     def together(self, tractions: Field) -> Field:
         """Compute all surface displacements (u_x, u_y, u_z) [length] caused by (q_x, q_y, p), both
         (3, nx, ny)."""
-        return self._product("xyz", "xyz", tractions)
+        return self._apply_product("xyz", "xyz", tractions)
 
-    def _product(self, inputs: str, outputs: str, values: Field) -> Field:
+    def _apply_product(self, inputs: str, outputs: str, values: Field) -> Field:
         self.transforms.counter.count += 0.5 * (len(inputs) + len(outputs))
         if (inputs, outputs) not in self._products:
             pairs = {"".join(sorted(a + b)) for a in inputs for b in outputs}
@@ -255,18 +255,18 @@ class ApproximateInverse:
             scaled = KernelSpectrum((self._unit * quarter).astype(dtype), -1 if pair == "xy" else 1)
             entries[pair] = response(transforms, pair, scaled)
         names = "".join(name for name in "xyz" + BINS if 2 * name in spectra)
-        self._product = Product(transforms, entries, names, names, padded=False, dtype=dtype)
+        self._apply_product = Product(transforms, entries, names, names, padded=False, dtype=dtype)
 
     def __call__(self, displacements: Array) -> Array:
         """Compute tractions (components, nx, ny) from displacements of the same shape.
 
         The displacements must be within the range of `dtype`.
         """
-        tractions = self._product(np.asarray(displacements, dtype=self._dtype))
+        tractions = self._apply_product(np.asarray(displacements, dtype=self._dtype))
         tractions *= 1 / self._unit
         return tractions
 
-    def yielding(self, compliance: float) -> ApproximateInverse:
+    def with_compliance(self, compliance: float) -> ApproximateInverse:
         """Build the approximate inverse for surfaces with an additional compliance in each cell.
 
         The proximal-point method adds this compliance. The compliances of the bins increase in

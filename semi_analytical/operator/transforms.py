@@ -67,28 +67,33 @@ class Waves:
     def __init__(
         self, cells: int, period: int, turned: bool, *, of_complex: bool, in_pairs: bool
     ) -> None:
-        self._cells, self._period, self._turned, self._in_pairs = cells, period, turned, in_pairs
+        self._cells, self._period, self._has_factor_i, self._in_pairs = (
+            cells,
+            period,
+            turned,
+            in_pairs,
+        )
         self._forward = np.fft.fft if of_complex else np.fft.rfft
         self._back = np.fft.ifft if of_complex else np.fft.irfft
         self.count = (period if of_complex else period // 2 + 1) * (1 + in_pairs)
 
     def forward(self, values: Array, out: Array) -> Array:
         """Fourier transform the values of cells (…, cells) to amplitudes (…, count) in `out`."""
-        spectrum = _complex(out) if self._in_pairs else out
+        spectrum = _as_complex(out) if self._in_pairs else out
         self._forward(values, n=self._period, axis=-1, out=spectrum)
-        if self._turned:
+        if self._has_factor_i:
             spectrum *= 1j
         return out
 
     def back(self, amplitudes: Array) -> Array:
         """Transform Fourier amplitudes (…, count) to values of the cells (…, cells)."""
-        spectrum = _complex(np.ascontiguousarray(amplitudes)) if self._in_pairs else amplitudes
-        if self._turned:
+        spectrum = _as_complex(np.ascontiguousarray(amplitudes)) if self._in_pairs else amplitudes
+        if self._has_factor_i:
             spectrum = -1j * spectrum
         return np.asarray(self._back(spectrum, n=self._period, axis=-1)[..., : self._cells])
 
 
-def _complex(pairs: Array) -> Array:
+def _as_complex(pairs: Array) -> Array:
     return pairs.view(np.result_type(pairs.dtype, np.complex64))
 
 
@@ -181,7 +186,7 @@ class Transforms:
         """Return the parity of a component about x = 0 and y = 0: 1 even, -1 odd, 0 without
         mirror plane."""
         x, y = self.domain.vector
-        return {"x": x, "y": y, "z": self.domain.scalar}.get(component, self.domain.rotating)
+        return {"x": x, "y": y, "z": self.domain.scalar}.get(component, self.domain.binned_slip)
 
     def phase(self, component: str) -> complex:
         """Return the ratio of the spectrum of a component to its amplitudes.
@@ -189,11 +194,11 @@ class Transforms:
         The ratio has a factor -i per sine, and -i for a component whose amplitudes have the factor
         i.
         """
-        turned = self._turned(component)
+        turned = self._has_factor_i(component)
         phase: complex = (-1j) ** (self.parity(component).count(-1) + turned)
         return phase
 
-    def _turned(self, component: str) -> bool:
+    def _has_factor_i(self, component: str) -> bool:
         """Return True for components whose amplitudes have an additional factor i.
 
         The factor makes the responses between components real. Scalars on the full window have the
@@ -203,7 +208,7 @@ class Transforms:
             return sorted(self.parity(component)) == [0, 1]
         return component == "z" and self.whole
 
-    def sides(
+    def axis_transforms(
         self, inputs: str, outputs: str, *, padded: bool = True, dtype: Dtype = DOUBLE
     ) -> tuple[list[Sides], list[Sides]]:
         """Return the one-dimensional transforms along x and y of each input and each output
@@ -218,23 +223,25 @@ class Transforms:
         x, y = (m * (1 + padded) for m in self.half_period)
 
         def of(component: str) -> Sides:
-            turned = mixed and self._turned(component)
+            turned = mixed and self._has_factor_i(component)
             last = turned and not self.whole
             return (
-                self._side(component, 0, x, turned, dtype),
-                self._side(component, 1, y, last, dtype),
+                self._axis_transform(component, 0, x, turned, dtype),
+                self._axis_transform(component, 1, y, last, dtype),
             )
 
         return [of(one) for one in inputs], [of(one) for one in outputs]
 
-    def _side(self, component: str, axis: int, period: int, turned: bool, dtype: Dtype) -> Side:
+    def _axis_transform(
+        self, component: str, axis: int, period: int, turned: bool, dtype: Dtype
+    ) -> Side:
         sign, cells = self.parity(component)[axis], self.shape[axis]
         if sign:
             return _mirrored(cells, period, sign, dtype)
         of_complex = self.whole and axis == 0
         return Waves(cells, period, turned, of_complex=of_complex, in_pairs=not self.whole)
 
-    def filtered(
+    def filter_fields(
         self, values: Array, inputs: Sequence[Sides], outputs: Sequence[Sides], multiply: Multiply
     ) -> Array:
         """Transform fields, multiply their Fourier amplitudes by a function, and transform the
@@ -265,18 +272,18 @@ class Transforms:
             return result
         for line, one, (_, side) in zip(lines, values, inputs, strict=False):
             side.forward(one, line)
-        for columns in _blocks(y.count, width):
+        for columns in _block_slices(y.count, width):
             block = blocks[: len(inputs), : columns.stop - columns.start]
             for into, line, (side, _) in zip(block, lines, inputs, strict=False):
                 side.forward(line[:, columns].T, into)
             found = multiply(list(block), columns)
             for line, one, (side, _) in zip(lines, found, outputs, strict=False):
                 line[:, columns] = side.back(one).T
-        for rows in _blocks(nx, max(1, BLOCK // y.count)):
+        for rows in _block_slices(nx, max(1, BLOCK // y.count)):
             for into, line, (_, side) in zip(result, lines, outputs, strict=False):
                 into[rows] = side.back(line[rows])
         return result
 
 
-def _blocks(count: int, width: int) -> Iterator[slice]:
+def _block_slices(count: int, width: int) -> Iterator[slice]:
     return (slice(first, min(first + width, count)) for first in range(0, count, width))

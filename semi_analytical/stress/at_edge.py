@@ -41,13 +41,13 @@ def stress_at_surface(
     """
     found = [
         stress_from_beyond(edged.cells, plane, some.x, some.y, material, spacing)
-        + _in_box(edged, some, material, spacing)
-        + _by_points(edged, some.x, some.y, 0.0, material, spacing)
+        + _stress_in_box(edged, some, material, spacing)
+        + _stress_by_points(edged, some.x, some.y, 0.0, material, spacing)
         for some in (
             phi.chosen(slice(start, start + OBSERVERS)) for start in range(0, len(phi.x), OBSERVERS)
         )
     ]
-    ring = _by_parts(edged, phi.x, phi.y, 0.0, material, spacing, PARTS, (BOX + 1, PATCH))
+    ring = _stress_by_subcells(edged, phi.x, phi.y, 0.0, material, spacing, PARTS, (BOX + 1, PATCH))
     return np.asarray(np.concatenate(found, axis=-1) + ring)
 
 
@@ -68,17 +68,19 @@ def change_at_depth(
     cells = depth / max(spacing)
     near = max(PARTS, int(np.ceil(PARTS_AT_A_CELL / cells)))
     points = 2 if cells >= 1 else 4
-    change = _by_parts(edged, x, y, depth, material, spacing, near, (0, BOX))
-    change += _by_parts(edged, x, y, depth, material, spacing, PARTS, (BOX + 1, PATCH))
+    change = _stress_by_subcells(edged, x, y, depth, material, spacing, near, (0, BOX))
+    change += _stress_by_subcells(edged, x, y, depth, material, spacing, PARTS, (BOX + 1, PATCH))
     for start in range(0, len(x), OBSERVERS):
         part = slice(start, start + OBSERVERS)
-        change[:, part] += _by_points(
+        change[:, part] += _stress_by_points(
             edged, x[part], y[part], depth, material, spacing, points, slopes_alone=True
         )
     return change
 
 
-def _in_box(edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing: Spacing) -> Field:
+def _stress_in_box(
+    edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing: Spacing
+) -> Field:
     """Compute the surface stress (6, n) by the tractions in a box of cells about each of n
     positions.
 
@@ -96,12 +98,12 @@ def _in_box(edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing:
     sides = ((half + x, 0), (half - x, 0), (half + y, 1), (half - y, 1))
     box = np.stack([reach * spacing[axis] for reach, axis in sides])
     slip = edged.slip_at(phi.x, phi.y)
-    stress = stress_by_root(phi.scaled(*spacing), box, slip, material.poisson_ratio)
+    stress = stress_by_root(phi.in_scaled_axes(*spacing), box, slip, material.poisson_ratio)
     shift = np.arange(-BOX, BOX + 1)
     at_i, at_j = np.broadcast_arrays(
         (i[:, None] + shift)[:, :, None], (j[:, None] + shift)[:, None, :]
     )
-    by_root = phi.reshaped((-1, 1, 1)).about(at_i, at_j).cell_mean(0.5)
+    by_root = phi.reshape_arrays((-1, 1, 1)).about(at_i, at_j).cell_mean(0.5)
     last = edged.means.shape
     inside = (at_i >= 0) & (at_i < last[1]) & (at_j >= 0) & (at_j < last[2])
     means = edged.means[:, np.clip(at_i, 0, last[1] - 1), np.clip(at_j, 0, last[2] - 1)] * inside
@@ -119,7 +121,7 @@ def _in_box(edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing:
     return stress + np.einsum("ftnij,tnij->fn", response, left[-response.shape[1] :])
 
 
-def _by_points(
+def _stress_by_points(
     edged: EdgedTractions,
     x: Field,
     y: Field,
@@ -163,10 +165,10 @@ def _by_points(
             force = area * (mean + s * by_x + t * by_y)
             places = (to_x - s) * spacing[0], (to_y - t) * spacing[1]
             total += stress_by_force(*places, depth, material.poisson_ratio, force)
-    return _summed(total, observer, len(x))
+    return _sum_over_sources(total, observer, len(x))
 
 
-def _by_parts(
+def _stress_by_subcells(
     edged: EdgedTractions,
     x: Field,
     y: Field,
@@ -204,11 +206,11 @@ def _by_parts(
         to_y = ((y[o] - edged.j[c])[:, None, None] - at) * spacing[1]
         to_x, to_y = np.broadcast_arrays(to_x, to_y)
         each = stress_by_force(to_x, to_y, depth, material.poisson_ratio, forces[:, c])
-        stress += _summed(np.sum(each, axis=(-2, -1)), o, len(x))
+        stress += _sum_over_sources(np.sum(each, axis=(-2, -1)), o, len(x))
     return stress
 
 
-def _summed(stress: Field, observer: Indices, count: int) -> Field:
+def _sum_over_sources(stress: Field, observer: Indices, count: int) -> Field:
     """Sum the stresses of pairs of a position and a source over all sources of each position.
 
     stress    stress of each pair (6, pairs)

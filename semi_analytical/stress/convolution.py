@@ -53,7 +53,7 @@ def mirror_planes(tractions: Field) -> tuple[bool, bool]:
 
 
 @dataclass(frozen=True)
-class _Side:
+class _AxisTransform:
     """Fourier, sine or cosine transforms along the last axis of a field.
 
     Amplitudes have wavenumbers 0 … half, or all of a period.
@@ -113,7 +113,7 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
     offsets    number of offsets of the coefficients, at least those of `offsets_between`
     """
     x, y = (
-        _Side(cells, int(next_fast_len(count, real=True)), mirrored and cells % 2 == 0)
+        _AxisTransform(cells, int(next_fast_len(count, real=True)), mirrored and cells % 2 == 0)
         for cells, count, mirrored in zip(
             tractions.shape[1:], offsets, mirror_planes(tractions), strict=True
         )
@@ -134,7 +134,7 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
             for spectrum, name in zip(spectra, names, strict=True):
                 response, (along_x, along_y) = next(responses)
                 padded[: offsets[1], : offsets[0]] = response.T
-                lines = _sums(_sums(padded, along_x).T, along_y).T
+                lines = _cosine_or_sine_sums(_cosine_or_sine_sums(padded, along_x).T, along_y).T
                 if spectrum.shape[-1] > lines.shape[-1]:
                     lines = np.concatenate([lines, along_x * lines[:, -2:0:-1]], axis=1)
                 factor = x.factor(along_x < 0, name == "x") * y.factor(along_y < 0, name == "y")
@@ -146,7 +146,7 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
     return convolve
 
 
-def _sums(response: Field, parity: int) -> Field:
+def _cosine_or_sine_sums(response: Field, parity: int) -> Field:
     """Compute the cosine (even) or sine (odd) transform of a response over the offsets of a period.
 
     response  (…, half + 1) values at offsets >= 0; also the shape of the result

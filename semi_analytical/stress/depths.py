@@ -27,7 +27,9 @@ def levels_of(stack: Stack, depths: Sequence[float | Level]) -> tuple[Level, ...
     not finite or in a rigid base, and for a level outside of its layer.
     """
     return tuple(
-        _checked(stack, depth) if isinstance(depth, Level) else _level(stack, float(depth))
+        _check_level(stack, depth)
+        if isinstance(depth, Level)
+        else _level_at_depth(stack, float(depth))
         for depth in depths
     )
 
@@ -37,9 +39,9 @@ def interfaces(body: Body | Stack) -> tuple[tuple[Level, ...], ...]:
 
     A rigid base has no lower side.
     """
-    stack = _stack(body)
+    stack = _stack_of_body(body)
     pairs = []
-    for k, depth in enumerate(_bottoms(stack)):
+    for k, depth in enumerate(_layer_bottoms(stack)):
         sides = (Level(depth, k), Level(depth, k + 1))
         on_rigid_base = stack.base is None and k + 1 == len(stack.layers)
         pairs.append(sides[:1] if on_rigid_base else sides)
@@ -53,8 +55,8 @@ def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ..
 
     contact_radius  length over which the tractions act [length]
     """
-    stack = _stack(body)
-    bottoms = _bottoms(stack)
+    stack = _stack_of_body(body)
+    bottoms = _layer_bottoms(stack)
     floor = bottoms[-1] if stack.base is None else np.inf
     depths = [d * contact_radius for d in DEFAULT_DEPTHS if d * contact_radius < floor]
     for top, bottom in zip((0.0, *bottoms), bottoms, strict=False):
@@ -62,22 +64,22 @@ def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ..
         depths += [top + (bottom - top) * part for part in (0.25, 0.5, 0.75)]
     sides = [side for pair in interfaces(stack) for side in pair]
     near = 1e-6 * contact_radius
-    between = [_level(stack, d) for d in depths if all(abs(d - z) > near for z in bottoms)]
+    between = [_level_at_depth(stack, d) for d in depths if all(abs(d - z) > near for z in bottoms)]
     return tuple(sorted({*between, *sides}, key=lambda level: (level.depth, level.layer)))
 
 
-def _stack(body: Body | Stack) -> Stack:
+def _stack_of_body(body: Body | Stack) -> Stack:
     return body if isinstance(body, Stack) else stack_of(body)
 
 
-def _bottoms(stack: Stack) -> tuple[float, ...]:
+def _layer_bottoms(stack: Stack) -> tuple[float, ...]:
     return tuple(float(z) for z in np.cumsum([film.thickness for film in stack.layers]))
 
 
-def _level(stack: Stack, depth: float) -> Level:
+def _level_at_depth(stack: Stack, depth: float) -> Level:
     if not (np.isfinite(depth) and depth >= 0):
         raise ValueError(f"depth is {depth}, expected a finite length >= 0 (the body is z >= 0)")
-    bottoms = _bottoms(stack)
+    bottoms = _layer_bottoms(stack)
     for layer, bottom in enumerate(bottoms):
         if abs(depth - bottom) <= ON_INTERFACE * bottom:
             return Level(bottom, layer)
@@ -91,8 +93,8 @@ def _level(stack: Stack, depth: float) -> Level:
     return Level(depth, len(bottoms))
 
 
-def _checked(stack: Stack, level: Level) -> Level:
-    bottoms = (0.0, *_bottoms(stack), np.inf)
+def _check_level(stack: Stack, level: Level) -> Level:
+    bottoms = (0.0, *_layer_bottoms(stack), np.inf)
     last = len(stack.layers) if stack.base is not None else len(stack.layers) - 1
     if not 0 <= level.layer <= last:
         raise ValueError(f"{level} names a layer that does not exist; the deepest is {last}")

@@ -32,7 +32,7 @@ def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
     slip  (2, n) shear over pressure
     nu    Poisson's ratio
     """
-    angle, weight = _directions(phi, box)
+    angle, weight = _ray_directions(phi, box)
     cos, sin = np.cos(angle), np.sin(angle)
     f, f_x, f_y, f_xx, f_xy, f_yy = (
         np.asarray(part)[:, None]
@@ -56,7 +56,7 @@ def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
     return np.asarray(stress)
 
 
-def _directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
+def _ray_directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
     """Choose angles and quadrature weights of the rays from each observer (n, rays).
 
     Gauss points lie between the corners of the box and the directions near which the integral along
@@ -109,21 +109,21 @@ def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
         loaded = (high > low) & (f + b * middle + c * middle * middle > 0)
         if np.any(loaded):
             parts = (part[loaded] for part in (f, b, c, low, high))
-            total[loaded] += _between(*parts)
+            total[loaded] += _integrate_between(*parts)
     return total
 
 
-def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
+def _integrate_between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
     """Integrate √Q/r along a loaded part of a ray, low < r < high, with Q = f + b r + c r² >= 0.
 
     Q is the squared pressure at the distance r from the observer. The singular part of the integral
     is omitted if `low` is 0.
     """
     at_low, at_high = (np.sqrt(np.maximum(f + (b + c * r) * r, 0.0)) for r in (low, high))
-    whole = at_high - at_low + b / 2 * _arc(c, high - low, at_low + at_high)
+    whole = at_high - at_low + b / 2 * _inverse_tangent_term(c, high - low, at_low + at_high)
     from_zero = low == 0
     away = np.where(from_zero, high, low)
-    last = f * _arc(f, 1 / away - 1 / high, at_low / away + at_high / high)
+    last = f * _inverse_tangent_term(f, 1 / away - 1 / high, at_low / away + at_high / high)
     centre = np.sqrt(np.maximum(f, 0.0))
     regular = from_zero & (centre > 0)
     below = np.where(regular, 2 * centre * at_high + b * high + 2 * f, 1.0)
@@ -131,7 +131,7 @@ def _between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
     return np.asarray(whole + np.where(from_zero, centre * np.log(ratio), last))
 
 
-def _arc(k: Field, n: Field, d: Field) -> Field:
+def _inverse_tangent_term(k: Field, n: Field, d: Field) -> Field:
     """Compute 2 arctan(√-k n/d)/√-k for k < 0, and 2 artanh(√k n/d)/√k for k > 0.
 
     Both are branches of one primitive, used in the closed form of ∫ √Q/r dr along a ray, with a

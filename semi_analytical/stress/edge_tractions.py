@@ -60,7 +60,7 @@ class EdgedTractions:
         count  number of subcells along a cell side
         """
         at = part_centres(count)
-        about = self.here.reshaped((-1, 1, 1))
+        about = self.here.reshape_arrays((-1, 1, 1))
         small = about.about(about.x + at[:, None], about.y + at)
         mean = small.f + (small.f_xx + small.f_yy) / (24 * count**2)
         within = mean_power(mean, small.f_x / count, small.f_y / count, 0.5)
@@ -87,7 +87,7 @@ def part_centres(count: int) -> Field:
     return (np.arange(count) + 0.5) / count - 0.5
 
 
-def edged_tractions(
+def fit_edge_tractions(
     pressure: Field, shear: Field | None, stuck: Mask | None, stencil: Stencil, rings: int
 ) -> EdgedTractions:
     """Fit the pressure near the contact edge, and divide the edge cells into subcells.

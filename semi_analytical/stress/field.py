@@ -122,7 +122,7 @@ def subsurface(
     ResourceRefused
         The fields do not fit into the memory.
     """
-    levels = levels_of(_stack(body), depths)
+    levels = levels_of(_deformable_stack(body), depths)
     refuse_beyond_memory(grid.cells, len(levels))
     return SubsurfaceField.joined(fields_by_level(body, grid, pressure, shear, levels))
 
@@ -164,8 +164,8 @@ def fields_by_level(
     depths           depths [length], or levels where the side of an interface matters
     rows             indices along y of the required rows of cells; None for all
     """
-    tractions = _tractions(grid, pressure, shear)
-    stack = _stack(body)
+    tractions = _checked_tractions(grid, pressure, shear)
+    stack = _deformable_stack(body)
     levels = levels_of(stack, depths)
     rows = np.arange(grid.cells[1]) if rows is None else rows
     offsets = offsets_between(tractions, rows)
@@ -203,18 +203,18 @@ def depth_coefficients(
     """
     if not stack.layers:
         for level in levels:
-            yield _closed_form(stack, level, spacing, shape, sheared)
+            yield _half_space_coefficients(stack, level, spacing, shape, sheared)
         return
     from semi_analytical.stress.radial_table import layered_coefficients
 
     by_layers = layered_coefficients(stack, levels, spacing, shape, sheared=sheared)
     for level, result in zip(levels, by_layers, strict=True):
         if level.layer == 0:
-            result += _closed_form(stack, level, spacing, shape, sheared)
+            result += _half_space_coefficients(stack, level, spacing, shape, sheared)
         yield result
 
 
-def _closed_form(
+def _half_space_coefficients(
     stack: Stack,
     level: Level,
     spacing: tuple[float, float],
@@ -232,7 +232,7 @@ def _closed_form(
     return half_space_response(x, y, level.depth, material_at(stack, level), sheared=sheared)
 
 
-def _stack(body: Body | Scene | Stack) -> Stack:
+def _deformable_stack(body: Body | Scene | Stack) -> Stack:
     """Return the layers and base of a body; raise ValueError for a rigid body."""
     if isinstance(body, Scene):
         body = body.body
@@ -242,7 +242,7 @@ def _stack(body: Body | Scene | Stack) -> Stack:
     return stack
 
 
-def _tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field:
+def _checked_tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field:
     """Check the shapes of pressure and shear, and return (q_x, q_y, p); p alone if the shear is
     zero."""
     for name, field, expected in (

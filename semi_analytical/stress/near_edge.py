@@ -21,7 +21,7 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress.at_edge import change_at_depth, stress_at_surface
 from semi_analytical.stress.components import FIELDS, STRESS
 from semi_analytical.stress.convolution import mirror_planes
-from semi_analytical.stress.edge_tractions import EdgedTractions, edged_tractions
+from semi_analytical.stress.edge_tractions import EdgedTractions, fit_edge_tractions
 from semi_analytical.stress.field import SubsurfaceField, subsurface
 from semi_analytical.stress.patch import NODES
 
@@ -96,7 +96,7 @@ class NearEdge:
     def stress(self) -> Field:
         """Compute the surface stress at the edge points, as the limit from within the contact
         (6, n)."""
-        return _at_surface(self, self.phi)
+        return _surface_stress(self, self.phi)
 
     def at(self, x: Field, y: Field) -> Field:
         """Compute the surface stress (6, n) [force/length^2] at n positions near the contact edge.
@@ -109,7 +109,7 @@ class NearEdge:
                 (x, y), (self.grid.x, self.grid.y), self.grid.spacing, strict=True
             )
         )
-        return _at_surface(self, self.tractions.shape.about(*of_cells)[0])
+        return _surface_stress(self, self.tractions.shape.about(*of_cells)[0])
 
     @property
     def beside(self) -> Mask:
@@ -140,7 +140,7 @@ class NearEdge:
         for index, level in enumerate(field.levels):
             if level.depth == 0:
                 phi, safe = self.tractions.shape.about(x, y)
-                stress[index][:, i[safe], k[safe]] = _at_surface(self, phi.chosen(safe))
+                stress[index][:, i[safe], k[safe]] = _surface_stress(self, phi.chosen(safe))
             elif self.reaches(level):
                 stress[index][:, i, k] += change_at_depth(
                     self.tractions, x, y, level.depth, self.stack.outer, self.grid.spacing
@@ -190,10 +190,10 @@ def near_edge(
     if shear is not None and np.max(np.abs(shear)) <= NO_SHEAR * np.max(pressure):
         shear = None
     region = pressure > 0
-    stuck = None if shear is None else _stuck(pressure, shear)
+    stuck = None if shear is None else _stick_cells(pressure, shear)
     stencils = CORRECTED_STENCILS if corrected else STENCILS
     try:
-        one, other = (edged_tractions(pressure, shear, stuck, *stencil) for stencil in stencils)
+        one, other = (fit_edge_tractions(pressure, shear, stuck, *stencil) for stencil in stencils)
     except ValueError as error:
         raise EdgeNotSeen(str(error)) from None
     i, j = np.nonzero(region & ~binary_erosion(region))
@@ -208,10 +208,12 @@ def near_edge(
     plane = subsurface(stack, grid, pressure, shear, (0.0,)).stress[0]
     depth = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
     slipping = np.inf if stuck is None or not np.any(stuck) else np.min(depth[stuck])
-    found = NearEdge(stack, grid, one, _on_edge(phi), 0.0, 0.0, plane)
+    found = NearEdge(stack, grid, one, _set_on_edge(phi), 0.0, 0.0, plane)
     some = np.flatnonzero(both)[:: max(1, np.count_nonzero(both) // COMPARED)]
     tension, by_other = (
-        _largest(_at_surface(replace(found, tractions=tractions), _on_edge(points.chosen(some))))
+        _largest_principal_stress(
+            _surface_stress(replace(found, tractions=tractions), _set_on_edge(points.chosen(some)))
+        )
         for tractions, points in ((one, phi), (other, again))
     )
     most = np.max(tension)
@@ -237,7 +239,7 @@ def near_edge(
     return found
 
 
-def _stuck(pressure: Field, shear: Field) -> Mask:
+def _stick_cells(pressure: Field, shear: Field) -> Mask:
     """Return the cells of the contact that stick, from the ratio of shear to pressure (nx, ny).
 
     A cell sticks if its ratio is below SLIPPING times the largest ratio.
@@ -248,7 +250,7 @@ def _stuck(pressure: Field, shear: Field) -> Mask:
     return np.asarray(region & (ratio < SLIPPING * np.max(ratio)))
 
 
-def _on_edge(phi: Quadratic) -> Quadratic:
+def _set_on_edge(phi: Quadratic) -> Quadratic:
     """Set φ at the fitted edge points, where it is zero up to rounding, to exactly zero.
 
     phi  quadratics of φ about the edge points
@@ -256,13 +258,13 @@ def _on_edge(phi: Quadratic) -> Quadratic:
     return replace(phi, f=np.zeros_like(phi.f))
 
 
-def _at_surface(found: NearEdge, phi: Quadratic) -> Field:
+def _surface_stress(found: NearEdge, phi: Quadratic) -> Field:
     return stress_at_surface(
         found.tractions, phi, found.plane, found.stack.outer, found.grid.spacing
     )
 
 
-def _largest(stress: Field) -> Field:
+def _largest_principal_stress(stress: Field) -> Field:
     """Compute the largest in-plane principal stress of the surface (n,) from the stress (6, n).
 
     At the contact edge the surface is free of traction.

@@ -39,15 +39,15 @@ def stress_from_beyond(
     """
     i, j = np.rint(x).astype(int), np.rint(y).astype(int)
     nodes = np.arange(-NODES, NODES + 1)
-    patches = _patches(cells, i, j).reshape(len(i), -1)
+    patches = _cell_patches(cells, i, j).reshape(len(i), -1)
     by_patch = (patches @ _patch_kernel(material, spacing)).reshape(len(i), 6, -1)
     at = plane[:, (i[:, None] + nodes)[:, :, None], (j[:, None] + nodes)[:, None, :]]
     rest = at.reshape(6, len(i), -1) - np.moveaxis(by_patch, 1, 0)
-    weights = _lagrange(x - i)[:, :, None] * _lagrange(y - j)[:, None, :]
+    weights = _lagrange_weights(x - i)[:, :, None] * _lagrange_weights(y - j)[:, None, :]
     return np.asarray(np.einsum("fnk,nk->fn", rest, weights.reshape(len(i), -1)))
 
 
-def _patches(cells: Field, i: Indices, j: Indices) -> Field:
+def _cell_patches(cells: Field, i: Indices, j: Indices) -> Field:
     """Return the tractions on a square patch of cells about each of n cells, shape (n, 3, side,
     side).
 
@@ -79,7 +79,7 @@ def _patch_kernel(material: HalfSpace, spacing: tuple[float, float]) -> Field:
     return np.ascontiguousarray(np.stack(columns, axis=1).reshape(6 * len(columns), -1).T)
 
 
-def _lagrange(at: Field) -> Field:
+def _lagrange_weights(at: Field) -> Field:
     """Compute the Lagrange interpolation weights of the nodes (n, 2 NODES + 1) for positions
     `at` (n,)."""
     nodes = np.arange(-NODES, NODES + 1)

@@ -24,7 +24,7 @@ def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -
     q_x, q_y, p = force / (2 * pi)
     sheared = bool(q_x.any() or q_y.any())
     if depth == 0:
-        return _at_surface(x, y, nu, (q_x, q_y, p), sheared)
+        return _stress_at_surface(x, y, nu, (q_x, q_y, p), sheared)
     z, rho = depth, np.sqrt(x * x + y * y + depth * depth)
     near, deep = 1 / rho, 1 / (rho + z)
     cubed = near * near * near
@@ -58,7 +58,7 @@ def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -
     )
 
 
-def _at_surface(
+def _stress_at_surface(
     x: Field, y: Field, nu: float, force: tuple[Field, Field, Field], sheared: bool
 ) -> Field:
     """Compute stress times area (6, …) at depth zero under point forces; only xx, yy and xy are not

@@ -22,7 +22,7 @@ from semi_analytical.frf.depth import (
     Descent,
     Level,
     PlaneScalars,
-    in_plane,
+    in_plane_stresses,
     material_at,
 )
 from semi_analytical.frf.stack import Stack
@@ -62,11 +62,13 @@ def depth_tables(
     """
     orders = ORDERS if sheared else ORDERS[:BY_PRESSURE]
     nearest = min(clearance(stack, level) for level in levels)
-    edges, coefficients = tabulate(partial(_transforms, stack, levels, orders), nearest, reach)
+    edges, coefficients = tabulate(
+        partial(_hankel_transforms, stack, levels, orders), nearest, reach
+    )
     return [RadialTable(edges, of_level) for of_level in coefficients]
 
 
-def _transforms(
+def _hankel_transforms(
     stack: Stack,
     levels: tuple[Level, ...],
     orders: tuple[int, ...],
@@ -83,20 +85,21 @@ def _transforms(
     descent = Descent(stack, alpha)
     each = [descent.remainder(level) for level in levels]
     planes = [
-        in_plane(one, material_at(stack, at), alpha) for one, at in zip(each, levels, strict=True)
+        in_plane_stresses(one, material_at(stack, at), alpha)
+        for one, at in zip(each, levels, strict=True)
     ]
     sources = np.stack(
         [integrands(*pair)[: len(orders)] for pair in zip(each, planes, strict=True)]
     )
     sources *= alpha * weight / (2 * pi)
     values = np.empty((len(levels), len(r), len(orders)))
-    for order, bessel in enumerate(_bessel(np.outer(r, alpha))):
+    for order, bessel in enumerate(_bessel_functions(np.outer(r, alpha))):
         chosen = [k for k, of in enumerate(orders) if of == order]
         values[:, :, chosen] = np.einsum("ra,lfa->lrf", bessel, sources[:, chosen], optimize=True)
     return values
 
 
-def _bessel(x: Array) -> tuple[Array, Array, Array, Array]:
+def _bessel_functions(x: Array) -> tuple[Array, Array, Array, Array]:
     """Compute the Bessel functions J_0 to J_3 of x.
 
     The recurrence cancels at small x, where the weight alpha d alpha of the integral vanishes.

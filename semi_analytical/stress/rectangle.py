@@ -59,48 +59,48 @@ class AxisPotentials:
 
     @cached_property
     def a_s(self) -> Field:
-        return _corners(self.log)
+        return _corner_differences(self.log)
 
     @cached_property
     def a_ss(self) -> Field:
-        return -_corners(self._s * self._o / (self._rho * self._sz))
+        return -_corner_differences(self._s * self._o / (self._rho * self._sz))
 
     @cached_property
     def a_sz(self) -> Field:
-        return -_corners(self._o * self._z / (self._rho * self._sz))
+        return -_corner_differences(self._o * self._z / (self._rho * self._sz))
 
     @cached_property
     def b_s(self) -> Field:
         log_deep = np.log(self._deep)
-        return -_corners(self._o * log_deep + self._z * self.log + self._s * self.angle)
+        return -_corner_differences(self._o * log_deep + self._z * self.log + self._s * self.angle)
 
     @cached_property
     def b_ss(self) -> Field:
-        return -_corners(self.angle)
+        return -_corner_differences(self.angle)
 
     @cached_property
     def b_sss(self) -> Field:
         s, o, z, rho = self._s, self._o, self._z, self._rho
-        return _corners(o * (s**2 - z * rho) / (rho * self._deep * self._sz))
+        return _corner_differences(o * (s**2 - z * rho) / (rho * self._deep * self._sz))
 
     @cached_property
     def b_sso(self) -> Field:
-        return -_corners(self._s / (self._rho * self._deep))
+        return -_corner_differences(self._s / (self._rho * self._deep))
 
     @cached_property
     def c_ss(self) -> Field:
-        return _corners(self._z * self.angle - self._s * self.log)
+        return _corner_differences(self._z * self.angle - self._s * self.log)
 
     @cached_property
     def c_sss(self) -> Field:
-        return _corners(self._o / self._deep - self.log)
+        return _corner_differences(self._o / self._deep - self.log)
 
     @cached_property
     def c_sso(self) -> Field:
-        return -_corners(self._s / self._deep)
+        return -_corner_differences(self._s / self._deep)
 
 
-def _corners(primitive: Field) -> Field:
+def _corner_differences(primitive: Field) -> Field:
     """Evaluate an integral over a rectangle, divided by 2 pi, from its primitive at the corners."""
     return np.diff(np.diff(primitive, axis=-2), axis=-1) / (2 * pi)
 
@@ -125,8 +125,12 @@ def half_space_response(
     along = AxisPotentials(x, y, depth), AxisPotentials(y, x, depth)
     rho = np.sqrt(x**2 + y**2 + depth**2)
     log_deep, solid = np.log(rho + depth), along[0].angle + along[1].angle
-    a = _corners(x * along[0].log + y * along[1].log - depth * solid)
-    a_z, a_xy, b_xy = -_corners(solid), _corners(1 / rho), -_corners(log_deep)
+    a = _corner_differences(x * along[0].log + y * along[1].log - depth * solid)
+    a_z, a_xy, b_xy = (
+        -_corner_differences(solid),
+        _corner_differences(1 / rho),
+        -_corner_differences(log_deep),
+    )
     G, nu = material
     z, g, half = depth, 1 - 2 * nu, 1 / (2 * G)
     result = empty_response(a.shape, sheared=sheared)
@@ -140,7 +144,7 @@ def half_space_response(
         by_p[7 - k] = -z * s.a_sz
     if not sheared:
         return result
-    c_xy = _corners(z * log_deep - rho)
+    c_xy = _corner_differences(z * log_deep - rho)
     for k, (s, o) in enumerate((along, along[::-1])):
         by_q = result[:, k]
         by_q[k] = half * (2 * a + 2 * nu * s.c_ss + z * s.b_ss)

@@ -60,7 +60,7 @@ class LinearisedShear:
         self._displace, self._inverse, self._zones, self._load = displace, inverse, zones, load
         if carriers is None:
             units = load.free_motions(zones.sliding_shear.shape)
-            self.carriers = [zones.preconditioned(zones.free(unit), inverse) for unit in units]
+            self.carriers = [zones.precondition(zones.free(unit), inverse) for unit in units]
         else:
             self.carriers = [zones.free(carrier) for carrier in carriers]
         responses = np.array([load.forces(carrier) for carrier in self.carriers])
@@ -78,10 +78,10 @@ class LinearisedShear:
         bound  friction limit µp (nx, ny)
         """
         near = self._zones.sliding_shear + self._zones.free(q)
-        self._carry(self._load.given - self._load.forces(near), near)
+        self._correct_forces(self._load.given - self._load.forces(near), near)
         return self._load.admissible(near, bound)
 
-    def solved(self, base: Point, slipped: VectorField, depth: float) -> tuple[Point, int]:
+    def solve_in_zones(self, base: Point, slipped: VectorField, depth: float) -> tuple[Point, int]:
         """Solve the tangential problem in fixed stick and slip zones by preconditioned conjugate
         gradients.
 
@@ -95,7 +95,7 @@ class LinearisedShear:
         zones = self._zones
         q, u = base.shear.copy(), base.displacement.copy()
         r = zones.free(slipped - zones.slip_compliance * q)
-        t = z = self._preconditioned(r)
+        t = z = self._precondition(r)
         rz = first = float(np.sum(r * z))
         iterations = 0
         while rz > depth**2 * first and iterations < MAX_ITERATIONS:
@@ -106,19 +106,19 @@ class LinearisedShear:
             q += step * t
             u += step * A_t
             r -= step * H_t
-            z = self._preconditioned(r)
+            z = self._precondition(r)
             rz, last = float(np.sum(r * z)), rz
             t = z + (rz / last) * t
         return Point(q, u), iterations
 
-    def _preconditioned(self, v: VectorField) -> VectorField:
+    def _precondition(self, v: VectorField) -> VectorField:
         """Apply the preconditioner to a residual v (2, nx, ny), without changing the prescribed
         forces."""
-        free = self._zones.preconditioned(v, self._inverse)
-        self._carry(-self._load.forces(free), free)
+        free = self._zones.precondition(v, self._inverse)
+        self._correct_forces(-self._load.forces(free), free)
         return free
 
-    def _carry(self, forces: Field, free: VectorField) -> None:
+    def _correct_forces(self, forces: Field, free: VectorField) -> None:
         """Add a combination of carrier shears to a shear in place, so that its forces change as
         required.
 

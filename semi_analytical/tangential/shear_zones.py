@@ -70,25 +70,25 @@ class ShearZones:
         free += across[::-1]
         return free
 
-    def same(self, other: "ShearZones | None") -> bool:
+    def has_same_slip(self, other: "ShearZones | None") -> bool:
         """Return True if another iterate has the same slip zone; None counts as different."""
         return other is not None and np.array_equal(self.slip, other.slip)
 
     @cached_property
-    def _shares(self) -> Field:
+    def _bin_weights(self) -> Field:
         found = shares(self.slip_compliance / self._self_compliance) * self.slip
-        found[-1] *= np.sqrt(1 - self._beyond)
+        found[-1] *= np.sqrt(1 - self._excess_compliance)
         return found
 
     @cached_property
-    def _beyond(self) -> Field:
+    def _excess_compliance(self) -> Field:
         return beyond(self.slip_compliance / self._self_compliance)
 
     @cached_property
-    def _alone(self) -> Field:
-        return self._beyond / (self._self_compliance + self.slip_compliance)
+    def _single_cell_inverse(self) -> Field:
+        return self._excess_compliance / (self._self_compliance + self.slip_compliance)
 
-    def preconditioned(self, v: VectorField, inverse: Map) -> VectorField:
+    def precondition(self, v: VectorField, inverse: Map) -> VectorField:
         """Apply an approximate inverse of the derivative of the tangential problem to v (2, nx,
         ny),
 
@@ -99,14 +99,14 @@ class ShearZones:
 
         inverse  F⁻¹ of two components, then (f + d_j)⁻¹ of one component per bin
         """
-        given = np.empty((len(self._shares) + 1, *v.shape[1:]))
-        unheld = self._shares[0] + self._stick
+        given = np.empty((len(self._bin_weights) + 1, *v.shape[1:]))
+        unheld = self._bin_weights[0] + self._stick
         np.multiply(unheld, v, out=given[:2])
         along = self._tangent[0] * v[0] + self._tangent[1] * v[1]
-        np.multiply(self._shares[1:], along, out=given[2:])
+        np.multiply(self._bin_weights[1:], along, out=given[2:])
         found = inverse(given)
         free = self.free(unheld * found[:2])
-        turned = np.einsum("kij,kij->ij", self._shares[1:], found[2:])
-        turned += self._alone * along
+        turned = np.einsum("kij,kij->ij", self._bin_weights[1:], found[2:])
+        turned += self._single_cell_inverse * along
         free += self._tangent * turned
         return free

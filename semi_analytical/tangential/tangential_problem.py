@@ -126,7 +126,7 @@ def solve_tangential(
         if not np.isfinite(natural.error):
             break
         found = ShearZones(natural.z, bound, self_compliance)
-        settled = found.same(zones)
+        settled = found.has_same_slip(zones)
         zones = found
         linearised = LinearisedShear(displace, inverse, zones, load, carriers if settled else None)
         carriers = linearised.carriers
@@ -151,7 +151,7 @@ def solve_tangential(
             continue
         # Newton's method squares the error, so that a more accurate linear solve has no benefit.
         depth = max(residual if settled else ROUGHLY, FINE * aim / residual)
-        guess, spent = linearised.solved(point, natural.slipped, min(depth, ROUGHLY))
+        guess, spent = linearised.solve_in_zones(point, natural.slipped, min(depth, ROUGHLY))
         iterations += spent
         natural = problem.natural(guess, natural.motion)
     raise NotConverged("the shear", iterations, residual, tolerance)

@@ -110,7 +110,7 @@ class ShearMoments:
             guess = gamma * self.reach * motion[2:]
         else:
             guess = gamma * np.array([*motion[:2], self.reach * motion[2]])
-        q, multiplier = self._projected(y, bound, guess)
+        q, multiplier = self._project(y, bound, guess)
         shift = self.shift if self.shift is not None else multiplier[:2] / gamma
         return q, np.array([*shift, multiplier[-1] / (gamma * self.reach)])
 
@@ -120,10 +120,10 @@ class ShearMoments:
 
         The projection also has the prescribed tangential force, if one is prescribed.
         """
-        return self._projected(q, bound, np.zeros(len(self.given)))[0]
+        return self._project(q, bound, np.zeros(len(self.given)))[0]
 
-    def _projected(self, y: VectorField, bound: Field, guess: Vector) -> tuple[VectorField, Vector]:
-        loaded, units = self._loaded(bound)
+    def _project(self, y: VectorField, bound: Field, guess: Vector) -> tuple[VectorField, Vector]:
+        loaded, units = self._loaded_cells(bound)
         of_loaded, limit = y[:, loaded], bound[loaded]
 
         shifted, multiplier = find_multiplier(
@@ -133,7 +133,7 @@ class ShearMoments:
         q[:, loaded] = shifted.q
         return q, multiplier
 
-    def _loaded(self, bound: Field) -> tuple[Mask, Field]:
+    def _loaded_cells(self, bound: Field) -> tuple[Mask, Field]:
         """Select the cells that can carry shear, because their friction limit is positive.
 
         Return their mask (nx, ny) and the unit motions in these n cells (k, 2, n).
@@ -158,7 +158,7 @@ class ShearMoments:
         """
         if not np.any(bound) or not np.any(self.given):
             return np.zeros((2, *bound.shape)), motion
-        loaded, units = self._loaded(bound)
+        loaded, units = self._loaded_cells(bound)
         speed = np.tensordot(self.limit(bound)[1], units, 1)
         q = np.zeros((2, *bound.shape))
         q[:, loaded] = bound[loaded] * speed / _blunt_size(speed)
@@ -174,7 +174,7 @@ class ShearMoments:
 
         bound  friction limit µp (nx, ny)
         """
-        loaded, units = self._loaded(bound)
+        loaded, units = self._loaded_cells(bound)
         limit = bound[loaded]
         start = self.given / np.sum(self.given**2)
         across = np.linalg.svd(self.given[None, :])[2][1:]
@@ -182,7 +182,7 @@ class ShearMoments:
             return float(limit @ magnitude(np.tensordot(start, units, 1))), start
 
         def power_at(x: Vector) -> tuple[float, Vector, Field]:
-            return _power(start + x @ across, limit, units)
+            return _friction_power(start + x @ across, limit, units)
 
         x = np.zeros(len(across))
         power, slope, curvature = power_at(x)
@@ -193,11 +193,11 @@ class ShearMoments:
             fall = -float(gradient @ step)
             if fall <= FLAT * power:
                 break
-            x, (power, slope, curvature) = _descended(power_at, x, step, power, fall)
+            x, (power, slope, curvature) = _descend(power_at, x, step, power, fall)
         return power, start + x @ across
 
 
-def _power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector, Field]:
+def _friction_power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector, Field]:
     """Compute the power of friction in gross slip, with its gradient and Hessian.
 
     velocity  components along the unit motions (k,)
@@ -207,12 +207,12 @@ def _power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector
     speed = np.tensordot(velocity, units, 1)
     size = _blunt_size(speed)
     weight = limit / size
-    along = _along(units, speed) / size
-    curvature = _products(units, weight) - (along * weight) @ along.T
-    return float(limit @ size), _forces(units, weight * speed), curvature
+    along = _unit_projections(units, speed) / size
+    curvature = _unit_products(units, weight) - (along * weight) @ along.T
+    return float(limit @ size), _resultant_forces(units, weight * speed), curvature
 
 
-def _forces(units: Field, q: Field) -> Vector:
+def _resultant_forces(units: Field, q: Field) -> Vector:
     """Compute tangential force and torque (k,) of a shear, divided by the cell area.
 
     units  unit rigid motions (k, 2, n), to which the forces are conjugate
@@ -221,7 +221,7 @@ def _forces(units: Field, q: Field) -> Vector:
     return np.asarray(units.reshape(len(units), -1) @ q.ravel())
 
 
-def _along(units: Field, vector: Field) -> Field:
+def _unit_projections(units: Field, vector: Field) -> Field:
     """Compute the scalar products of the unit motions with a vector field, in each of n cells (k,
     n).
 
@@ -231,7 +231,7 @@ def _along(units: Field, vector: Field) -> Field:
     return np.asarray(units[:, 0] * vector[0] + units[:, 1] * vector[1])
 
 
-def _products(units: Field, weight: Vector) -> Field:
+def _unit_products(units: Field, weight: Vector) -> Field:
     """Compute the matrix (k, k) of weighted scalar products of pairs of unit motions, summed over
     cells.
 
@@ -254,7 +254,7 @@ def _blunt_size(speed: VectorField) -> Field:
 Power = tuple[float, Vector, Field]
 
 
-def _descended(
+def _descend(
     power_at: Callable[[Vector], Power], x: Vector, step: Vector, power: float, fall: float
 ) -> tuple[Vector, Power]:
     """Apply a Newton step, bisected until the power of friction decreases sufficiently (Armijo).
@@ -289,7 +289,7 @@ class _ShiftedMoments(ProjectedShear):
     ) -> None:
         super().__init__(y + np.tensordot(multiplier, units, 1), limit)
         self._units = units
-        self.defect = _forces(units, self.q) - given
+        self.defect = _resultant_forces(units, self.q) - given
 
     def newton_step(self) -> Vector:
         """Compute the Newton step of the multipliers λ (k,), damped while all cells slip.
@@ -297,7 +297,10 @@ class _ShiftedMoments(ProjectedShear):
         The damping is relative to the stiffness of the cells. The trace of the derivative is no
         measure: it vanishes where all cells slip along their motion.
         """
-        along, products = _along(self._units, self.z), _products(self._units, self.scale)
+        along, products = (
+            _unit_projections(self._units, self.z),
+            _unit_products(self._units, self.scale),
+        )
         matrix = products - (along * self.radial) @ along.T
         stiffness = float(np.trace(products))
         damping = 1e-3 * stiffness * (np.sum(np.abs(self.defect)) / self.capacity) ** 2

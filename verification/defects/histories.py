@@ -38,7 +38,7 @@ from semi_analytical.increments import (
 )
 from semi_analytical.increments.tangential_state import (
     TangentialState,
-    untouched,
+    untouched_state,
 )
 from semi_analytical.influence.coefficients import Composite
 from semi_analytical.model import ContactModel
@@ -82,7 +82,7 @@ NO_CONTACT_RESIDUALS = _no_residuals("complementarity", "penetration")
 NO_FRICTION_RESIDUALS = _no_residuals("friction_cone", "slip_direction")
 
 
-@replaces(history, "_increment")
+@replaces(history, "_reported_increment")
 def _approach_when_unloading(whole: Any, model: Any, before: Any, state: Any, *place: Any) -> Any:
     increment = whole(model, before, state, *place)
     falls = before is not None and state.normal_force < LESS * before.normal_force
@@ -96,7 +96,7 @@ def _grown(name: str, factor: float) -> Replacements:
     factor  factor of the increase; 1 is correct
     """
 
-    @replaces(stick_slip, "advanced")
+    @replaces(stick_slip, "end_state")
     def advanced(whole: Any, model: Any, pressure: Any, bound: Any, last: Any, *rest: Any) -> Any:
         after = whole(model, pressure, bound, last, *rest)
         start = getattr(last, name)
@@ -245,16 +245,16 @@ def _friction(_: Any, self: Any) -> Any:
 
 @replaces(stick_slip, "slip_and_stick")
 def _forgetful(whole: Any, model: Any, pressure: Any, last: Any, *rest: Any) -> Any:
-    return whole(model, pressure, untouched(model.grid.cells), *rest)
+    return whole(model, pressure, untouched_state(model.grid.cells), *rest)
 
 
-@replaces(stick_slip, "advanced")
+@replaces(stick_slip, "end_state")
 def _slip_reversed(whole: Any, model: Any, pressure: Any, bound: Any, last: Any, *rest: Any) -> Any:
     after = whole(model, pressure, bound, last, *rest)
     return replace(after, slip=2 * last.slip - after.slip)
 
 
-@replaces(ContactModel, "of")
+@replaces(ContactModel, "from_scene")
 def _deeper(whole: Any, *given: Any, **more: Any) -> Any:
     model = whole(*given, **more)
     model.gap = 1.003 * model.gap
@@ -268,7 +268,7 @@ def _cold(whole: Any, self: TangentialState, *given: Any, **named: Any) -> None:
         object.__setattr__(self, "dissipated_energy", 0.5 * self.dissipated_energy)
 
 
-@replaces(energy, "_work")
+@replaces(energy, "_load_work")
 def _half_work(whole: Any, before: Any, after: Any) -> Any:
     return 0.5 * (whole(before, after) or 0.0)
 
@@ -321,7 +321,7 @@ def _tension_across(whole: Any, *given: Any) -> Any:
     return whole(*given)[[1, 0, 2]]
 
 
-@replaces(field, "_tractions")
+@replaces(field, "_checked_tractions")
 def _shear_stress_sign(whole: Any, grid: Any, pressure: Any, shear: Any) -> Any:
     return whole(grid, pressure, None if shear is None else -shear)
 

@@ -86,7 +86,7 @@ def _coupling_added(whole: Any, self: Composite, component: str) -> Any:
     return sum(body[component] for body in self.lower + self.upper)
 
 
-@replaces(surface, "_underside")
+@replaces(surface, "_compliance_below_layer")
 def _kappa_for_chi(whole: Any, body: stack.Stack, alpha: Any) -> Any:
     """Plant the reflection coefficient κ = (k-1)/(k+3-4ν) for shear waves instead of χ =
     (k-1)/(k+1).
@@ -100,7 +100,7 @@ def _kappa_for_chi(whole: Any, body: stack.Stack, alpha: Any) -> Any:
     return y, (1 + kappa) / (1 - kappa)
 
 
-@replaces(surface, "_underside")
+@replaces(surface, "_compliance_below_layer")
 def _plane_stress(whole: Any, body: stack.Stack, alpha: Any) -> Any:
     y, k = whole(body, alpha)
     if body.base is None or len(body.layers) != 1:
