@@ -39,7 +39,7 @@ class Circle(Enum):
         count = highest if self is Circle.HALF else 2 * highest
         return np.pi * (np.arange(count) + 0.5) / highest
 
-    def shown(self, highest: int) -> Array:
+    def output_angles(self, highest: int) -> Array:
         """Return the angles at which fields on a ring are output, πj/J [radian].
 
         They run from 0 to π for a half circle and from 0 to less than 2π for a whole circle.

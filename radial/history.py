@@ -88,14 +88,14 @@ def solve(
     scene = normal_form(scene)
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(scene, decided)
-    solver = _solver(scene, discretisation, decided)
+    solver = _create_solver(scene, discretisation, decided)
     last = store.last() if store else None
     history = resumable_increments(scene, decided.increments, solver, last)
     increments = with_checkpoints(history, last, store, progress, None)
     return Result(scene, discretisation, decided, tuple(increments))
 
 
-def _solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> Any:
+def _create_solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> Any:
     """Create the solver of load steps that the effects of a plan require.
 
     The solvers are: tangential load or torsion at points (rings × angles), normal load with
@@ -113,7 +113,7 @@ def _solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> A
         from radial.frictional.frictional_indentation_steps import FrictionalSteps
 
         return FrictionalSteps.of(scene, discretisation, plan.fineness)
-    pressing = _Solver.of(scene, discretisation, round(plan.fineness))
+    pressing = _FrictionlessSteps.of(scene, discretisation, round(plan.fineness))
     if not plan.twists:
         return pressing
     from radial.torsion.torsion_steps import TorsionSteps
@@ -126,7 +126,7 @@ def _solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> A
 
 
 @dataclass(frozen=True)
-class _Solver(StepsOnRings):
+class _FrictionlessSteps(StepsOnRings):
     """Solver of load steps of a contact without friction.
 
     The contact of an increment does not depend on the previous increment.
@@ -146,7 +146,9 @@ class _Solver(StepsOnRings):
     largest: tuple[NormalContact, ...]
 
     @classmethod
-    def of(cls, scene: Scene, discretisation: RadialDiscretisation, fineness: int) -> _Solver:
+    def of(
+        cls, scene: Scene, discretisation: RadialDiscretisation, fineness: int
+    ) -> _FrictionlessSteps:
         """Create the solver of load steps without friction for a scene.
 
         The output rings are placed over the largest contact of the load history.

@@ -8,7 +8,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from contact_scene import Scene
-from radial.normal.disc import orders
+from radial.normal.disc import polynomial_count
 from radial.normal.pressing import normal_contact
 from radial.normal.profile import profile
 from radial.output_points import largest_targets
@@ -28,7 +28,7 @@ def wavenumbers(scene: Scene) -> int:
     thickness of the layers.
     """
     bodies, radius = Bodies.of(scene), expected_radius(scene)
-    orders(bodies.thickness / radius, profile(scene.indenter, radius).apex)
+    polynomial_count(bodies.thickness / radius, profile(scene.indenter, radius).apex)
     chosen = bodies.waves(radius)
     return POINTS * (chosen.equal - chosen.first)
 

@@ -91,7 +91,7 @@ class Plan:
         return 0 if self.circle is None else len(self.circle.angles(self.highest))
 
     @property
-    def sheared(self) -> bool:
+    def has_shear(self) -> bool:
         """Return true if the surfaces carry shear: by friction, torsion or a tangential load."""
         return self.coupled or self.twists or self.pushed
 
@@ -120,7 +120,7 @@ def plan(scene: Scene) -> Plan:
     twists = friction and any(
         ramp.twisting.end or (curved and ramp.twisting.kind is ControlKind.FORCE) for ramp in ramps
     )
-    circle = _circle(scene, frictional, twists, pushed, curved)
+    circle = _choose_circle(scene, frictional, twists, pushed, curved)
     if frictional or twists or pushed:
         _refuse_friction(scene, frictional, circle)
     is_resolved = "a step pushes sideways" if pushed else "no step pushes sideways"
@@ -143,7 +143,7 @@ def plan(scene: Scene) -> Plan:
     return Plan(frictional, twists, pushed, increments, effects, first_direction(ramps), circle)
 
 
-def _circle(
+def _choose_circle(
     scene: Scene, frictional: bool, twists: bool, pushed: bool, curved: bool
 ) -> Circle | None:
     """Determine the angles at which a contact with tangential load or torsion is solved on a ring.

@@ -328,8 +328,8 @@ def test_twist_and_torque_lead_the_same_way(amounts: list[float]) -> None:
     assert unit > 0
     by_twist = by_torque = TwistPath(torsion)
     for amount in amounts:
-        by_twist = by_twist.to_twist(amount * unit)
-        by_torque = by_torque.to_torque(by_twist.torque)
+        by_twist = by_twist.continue_to_twist(amount * unit)
+        by_torque = by_torque.continue_to_torque(by_twist.torque)
         assert_allclose(by_torque.twist, by_twist.twist, rtol=1e-7, atol=1e-9 * unit)
         assert by_twist.work >= by_twist.dissipated - 1e-12 * abs(by_twist.work)
 
@@ -337,8 +337,8 @@ def test_twist_and_torque_lead_the_same_way(amounts: list[float]) -> None:
 def test_a_closed_loop_of_twist_loses_the_work_that_is_done_on_it() -> None:
     torsion = twisted(BARE)[1]
     far = 2 * torsion.partial_slip(0.5).twist
-    first = TwistPath(torsion).to_twist(far)
-    again = first.to_twist(-far).to_twist(far)
+    first = TwistPath(torsion).continue_to_twist(far)
+    again = first.continue_to_twist(-far).continue_to_twist(far)
     lost = again.dissipated - first.dissipated
     assert_allclose(again.work - first.work, lost, rtol=1e-9)
     assert lost > 3 * first.dissipated > 0

@@ -27,11 +27,11 @@ from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding
 from radial.angular_grid import Circle
 from radial.frictional.coupling import Coupling
 from radial.tangential.ring_compliance import ring_compliance
-from radial.tangential.ring_friction import limit_load_factor, solved_state
-from radial.tangential.ring_laws import Laws
-from radial.tangential.ring_layout import lay_out
+from radial.tangential.ring_friction import limit_load_factor, solve_increment
+from radial.tangential.ring_laws import ContactLaws
+from radial.tangential.ring_layout import create_points
 from radial.tangential.ring_newton import newton_iterate
-from radial.tangential.ring_points import Points
+from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
     Loads,
     PointState,
@@ -88,9 +88,9 @@ def beside() -> radial.Result:
 
 
 @cache
-def points(circle: Circle) -> Points:
+def points(circle: Circle) -> ContactPoints:
     asked = scene()
-    return lay_out(Coupling.of(asked), asked.indenter, [RADIUS], 6, 4, circle, FRICTION)
+    return create_points(Coupling.of(asked), asked.indenter, [RADIUS], 6, 4, circle, FRICTION)
 
 
 CALLED_FOR = {
@@ -143,7 +143,7 @@ def test_torsion_twists_the_surface_by_the_shear_modulus_alone() -> None:
     moved = (ring.compliance @ shear.ravel()).reshape(shear.shape)
     assert np.max(np.abs(moved[[0, 2]])) < 1e-12 * np.max(moved[1])
     stiffer = Body(material=IsotropicMaterial(young_modulus=0.7, poisson_ratio=0.0))
-    other = lay_out(
+    other = create_points(
         Coupling.of(scene(body=stiffer)), scene().indenter, [RADIUS], 6, 4, Circle.WHOLE, FRICTION
     )
     assert_allclose((other.compliance @ shear.ravel()).reshape(shear.shape), moved, rtol=1e-9,
@@ -237,7 +237,7 @@ RING_LIMIT = RING_LOAD * FRICTION
 
 def points_on(
     indenter: Any, body: Body, radii: Array, count: int, circle: Circle = Circle.HALF
-) -> Points:
+) -> ContactPoints:
     """Below a paraboloid with R = 1."""
     ball = Paraboloid(radius=1.0, material=indenter)
     scene = Scene(indenter=ball, body=body, loading=(LoadStep(normal_force=1.0),))
@@ -252,7 +252,7 @@ def points_on(
         part = field * length * weights / 2
         inner, outer = part @ ((1 - rule) / 2), part @ ((1 + rule) / 2)
         areas.append(np.append(inner, 0.0) + np.append(0.0, outer))
-    return Points(radii, energies, *areas, circle)
+    return ContactPoints(radii, energies, *areas, circle)
 
 
 def rings(count: int, radius: float) -> Array:
@@ -267,7 +267,7 @@ RADII = rings(COUNT, 1.0)
 
 
 @cache
-def alike() -> Points:
+def alike() -> ContactPoints:
     """Two bodies of one material without lateral contraction: uncoupled, and slip along shear."""
     material = IsotropicMaterial(young_modulus=2.0, poisson_ratio=0.0)
     return points_on(material, Body(material=material), RADII, 4)
@@ -290,8 +290,8 @@ def led(approach: float | None, shift: float, force: float | None = None) -> Loa
 def after(*shares: float) -> PointState:
     """Pressed at once, then pushed to shares of µW, one after another."""
     if not shares:
-        return solved_state(alike(), LAW, pushed(0.0), None, TOLERANCE)
-    return solved_state(alike(), LAW, pushed(shares[-1]), after(*shares[:-1]), TOLERANCE)
+        return solve_increment(alike(), LAW, pushed(0.0), None, TOLERANCE)
+    return solve_increment(alike(), LAW, pushed(shares[-1]), after(*shares[:-1]), TOLERANCE)
 
 
 @pytest.mark.parametrize(("harmonic", "way"), [(0, 2), (1, 0), (3, 2), (4, 1)])
@@ -317,19 +317,19 @@ def test_tractions_of_rings_are_those_that_move_them_so(circle: Circle, rings: i
     known = points.compliance[np.ix_(some, some)]
     units = np.sqrt(points.softness[some])
     by_tractions = known / units / units[:, None]
-    assert_allclose(points.tractions(rings) @ by_tractions, np.eye(3 * m), atol=1e-9)
+    assert_allclose(points.inverse_compliance(rings) @ by_tractions, np.eye(3 * m), atol=1e-9)
 
 
 def test_newtons_method_aims_at_where_the_laws_would_hold() -> None:
     """Towards its aim what is left of the laws shrinks as what is left of the way."""
-    laws = Laws.of(alike(), LAW, pushed(0.7), after(0.3))
+    laws = ContactLaws.of(alike(), LAW, pushed(0.7), after(0.3))
     state = after(0.6)
     x = np.concatenate([state.tractions, state.motion * [1.02, 1, 1, 1.01]])
-    at, step = laws.at(x, alike().compliance @ x[:-4]), 1e-7
+    at, step = laws.evaluate(x, alike().compliance @ x[:-4]), 1e-7
     aim = newton_iterate(laws, at)
     assert aim is not None
     x = x + step * (aim - x)
-    nearer = laws.at(x, alike().compliance @ x[:-4])
+    nearer = laws.evaluate(x, alike().compliance @ x[:-4])
     left = (at.residual - nearer.residual) / step
     assert_allclose(left, at.residual, atol=1e-5 * np.abs(at.residual).max())
 
@@ -338,25 +338,25 @@ def test_newtons_method_aims_at_where_the_laws_would_hold() -> None:
 def test_a_load_that_goes_on_starts_in_proportion(last: float, share: float) -> None:
     """From the state before, by so many of its increments as the load goes on."""
     before = after(last - (0.5 - last) / share, last)
-    start, rest = Laws.of(alike(), LAW, pushed(0.5), before).initial_guesses(before)
+    start, rest = ContactLaws.of(alike(), LAW, pushed(0.5), before).initial_guesses(before)
     assert_allclose((start - rest)[:-4], share * before.changed[:-4], atol=1e-9)
 
 
 def test_a_contact_beyond_the_rings_is_refused() -> None:
     with pytest.raises(ContactAtZoneEdge, match="last ring"):
-        solved_state(alike(), LAW, loaded(2 * RING_LOAD, 0.0), None, TOLERANCE)
+        solve_increment(alike(), LAW, loaded(2 * RING_LOAD, 0.0), None, TOLERANCE)
 
 
 def test_a_prescribed_motion_is_that_of_the_loads() -> None:
     by_force = after(0.6)
     motions = led(by_force.approach, float(by_force.motion[0]))
-    by_motion = solved_state(alike(), LAW, motions, after(), TOLERANCE)
+    by_motion = solve_increment(alike(), LAW, motions, after(), TOLERANCE)
     assert_allclose(by_motion.tractions, by_force.tractions, atol=1e-7)
 
 
 def test_one_angle_says_all_of_what_is_the_same_all_around() -> None:
     points = alike()
     still = Loads((None, None, None, RING_LOAD), (0.0, 0.0, 0.0, None))
-    turned = solved_state(points.round, LAW, still, None, TOLERANCE).every_angle(points)
+    turned = solve_increment(points.round, LAW, still, None, TOLERANCE).repeat_angles(points)
     assert_allclose(turned.tractions, after().tractions, atol=1e-7)
     assert_allclose(turned.moved, after().moved, atol=1e-9)

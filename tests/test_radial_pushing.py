@@ -28,7 +28,7 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding, NotConverged, UnsupportedScene
 from radial.frictional.rings import (
     OUTSIDE,
-    rings_about,
+    rings_for_stick_radius,
 )
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 
@@ -207,11 +207,11 @@ def coated(stiffness: float, thickness: float) -> Body:
 @pytest.mark.parametrize("front", [0.001, 0.2, 0.95])
 def test_half_spaces_answer_the_pressure_of_hertz_as_hertz_says(front: float) -> None:
     """√(1-x²) is among the tractions of the rings, whatever these are."""
-    rings = rings_about(front, 64)
+    rings = rings_for_stick_radius(front, 64)
     x = rings.places
     p = np.sqrt(np.maximum(1 - x[: rings.count] ** 2, 0.0))
     inside, outside = x <= 1, x > 1
-    lifted, drawn = rings.logarithmic[0] @ p, rings.sideways[1] @ p
+    lifted, drawn = rings.direct_responses[0] @ p, rings.coupling_responses[1] @ p
     assert_allclose(lifted[inside], math.pi / 8 * (2 - x[inside] ** 2), rtol=2e-8)
     y = OUTSIDE
     beyond = ((2 - y**2) * np.arcsin(1 / y) + np.sqrt(y**2 - 1)) / 4

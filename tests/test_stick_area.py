@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from test_fem_edge import plane_contact
 
 from radial.angular_grid import Circle
-from radial.tangential.ring_points import Points
+from radial.tangential.ring_points import ContactPoints
 from radial.tangential.stick_border import stick_area as ring_stick_area
 from semi_analytical import plan, solve
 from semi_analytical.edge.contact_area import (
@@ -239,7 +239,9 @@ def test_all_that_sticks_counts_and_nothing_else() -> None:
 
 
 def test_points_of_half_a_circle_and_of_all_of_it_stick_alike() -> None:
-    half = Points(RINGS, np.ones((7, 3, 3, 9, 9)), np.ones(9), np.ones(9), np.ones(9), Circle.HALF)
+    half = ContactPoints(
+        RINGS, np.ones((7, 3, 3, 9, 9)), np.ones(9), np.ones(9), np.ones(9), Circle.HALF
+    )
     whole = replace(half, circle=Circle.WHOLE)
     r, angles = RINGS[:, None], half.angles
     share = np.hypot(r * np.cos(angles) + 2, r * np.sin(angles)) / 4

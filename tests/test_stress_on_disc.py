@@ -42,7 +42,7 @@ from radial.normal.disc import disc
 from radial.response.bodies import Bodies
 from radial.stress.circle_fit import (
     USUAL,
-    pushed_circle,
+    fit_tangential_circle,
 )
 from radial.stress.loaded_circle import LoadedCircle
 from radial.stress.ray_integrals import below_circle
@@ -75,7 +75,7 @@ def below(body: Body) -> SubsurfaceDisc:
 
 @given(depth=st.floats(1e-3, 5.0))
 def test_below_a_ball_it_is_hubers(depth: float) -> None:
-    fields = below(BARE).at([Level(depth, 0)], RADII)[0]
+    fields = below(BARE).compute_fields([Level(depth, 0)], RADII)[0]
     exact = huber_stress(RADII, depth, 1.0, 1.0, 0.3)
     for ours, theirs in zip(
         fields[2:], (exact.radial, exact.hoop, exact.axial, exact.shear), strict=True
@@ -90,8 +90,10 @@ def test_a_layer_like_its_substrate_leaves_the_stress_as_it_is(
     # Nearer to the surface than a thousandth of a radius 1e-9 is left, not 1e-10.
     depth = part * thickness
     there = Level(depth, 0 if part < 1 else 1)
-    layered = below(coated(1.0, thickness)).at([there], RADII)[0]
-    assert_allclose(layered, below(BARE).at([Level(depth, 0)], RADII)[0], rtol=0, atol=1e-10)
+    layered = below(coated(1.0, thickness)).compute_fields([there], RADII)[0]
+    assert_allclose(
+        layered, below(BARE).compute_fields([Level(depth, 0)], RADII)[0], rtol=0, atol=1e-10
+    )
 
 
 @given(modulus=st.floats(0.1, 10.0), thickness=st.floats(0.1, 2.0), ratio=st.floats(-0.5, 0.5))
@@ -100,7 +102,7 @@ def test_an_interface_carries_what_it_is_given(
 ) -> None:
     """Displacement and traction are the same on both sides, by two ways of the response."""
     sides = [Level(thickness, 0), Level(thickness, 1)]
-    above, under = below(coated(modulus, thickness, ratio)).at(sides, RADII)
+    above, under = below(coated(modulus, thickness, ratio)).compute_fields(sides, RADII)
     for component in (0, 1, 4, 5):
         assert_allclose(above[component], under[component], rtol=0, atol=1e-10)
 
@@ -207,7 +209,10 @@ def test_a_layer_of_the_same_material_is_none(
     x[0], y[0] = circle.centre, 0.0
     bare = SubsurfaceCircle(circle, Stack((), (G, NU)), 5, 5)
     film = SubsurfaceCircle(circle, Stack([(G, NU, 0.5)], (G, NU)), 5, 5)
-    ours, theirs = film.at([Level(depth, layer)], x, y), bare.at([Level(depth, 0)], x, y)
+    ours, theirs = (
+        film.compute_fields([Level(depth, layer)], x, y),
+        bare.compute_fields([Level(depth, 0)], x, y),
+    )
     assert_allclose(ours, theirs, atol=1e-5)
 
 
@@ -215,7 +220,7 @@ def test_a_stiffer_layer_is_bonded_to_its_base() -> None:
     """Displacement and what acts on the interface are the same from both sides."""
     film = SubsurfaceCircle(ANYHOW, Stack([(3 * G, 0.2, 0.5)], (G, 0.4)), 5, 5)
     x, y = np.random.default_rng(3).uniform(-2, 2, (2, 30))
-    above, below = film.at([Level(0.5, 0), Level(0.5, 1)], x, y)
+    above, below = film.compute_fields([Level(0.5, 0), Level(0.5, 1)], x, y)
     carried = [0, 1, 2, 5, 6, 7]
     assert_allclose(above[carried], below[carried], atol=1e-5)
     assert np.max(np.abs(above[3] - below[3])) > 0.1
@@ -226,7 +231,7 @@ def nodes_of(circle: LoadedCircle) -> tuple[np.ndarray, ...]:
     radii = np.concatenate([np.arange(20) / 24, 1 + np.arange(-8, 9) / 48, [1.25]])
     angles = np.pi * np.arange(10) / 9
     x, y = radii[:, None] * np.cos(angles), radii[:, None] * np.sin(angles)
-    q_x, q_y, p = circle.at(x - circle.centre, y)
+    q_x, q_y, p = circle.interpolate_tractions(x - circle.centre, y)
     cos, sin = np.cos(angles), np.sin(angles)
     return radii, angles, q_x * cos + q_y * sin, q_y * cos - q_x * sin, p
 
@@ -238,7 +243,7 @@ def test_a_circle_beside_the_axis_is_found() -> None:
         lambda e, t: 1 + 0.2 * e * np.cos(t),
         centre=-0.03,
     )
-    found = pushed_circle(*nodes_of(given), USUAL)
+    found = fit_tangential_circle(*nodes_of(given), USUAL)
     assert_allclose((found.centre, found.radius), (-0.03, 1.0), atol=2e-3)
     # Straight lines between nodes carry 0.4 % less than a root.
     assert_allclose(found.smooth / found.load, given.smooth / given.load, atol=4e-3)

@@ -117,7 +117,7 @@ class RadialBody:
         below = SubsurfaceDisc(contact, stack, REACH, fineness)
 
         def fields(levels: Sequence[Level], x: Field, y: Field) -> Field:
-            u_r, u_z, rr, tt, zz, rz = np.moveaxis(below.at(levels, x), 1, 0)
+            u_r, u_z, rr, tt, zz, rz = np.moveaxis(below.compute_fields(levels, x), 1, 0)
             none = np.zeros_like(rr)
             return np.stack([u_r, none, u_z, rr, tt, zz, none, rz, none], axis=1)
 
@@ -140,8 +140,8 @@ class RadialBody:
         from radial.stress.circle_fit import (
             ANOTHER,
             USUAL,
-            pushed_circle,
-            round_circle,
+            axisymmetric_circle,
+            fit_tangential_circle,
         )
         from radial.stress.subsurface_circle import SubsurfaceCircle
 
@@ -154,18 +154,27 @@ class RadialBody:
         names = ("shear_radial", "shear_circumferential")
         outward, around = (state.tractions.get(name, np.zeros_like(p)) for name in names)
         if surface.angles is None:
-            circle, highest = round_circle(surface.radii, state.pressed[1], outward, around, p), 1
+            circle, highest = (
+                axisymmetric_circle(surface.radii, state.pressed[1], outward, around, p),
+                1,
+            )
         else:
             fit = USUAL if fineness == 1 else ANOTHER
-            circle = pushed_circle(surface.radii, surface.angles, outward, around, p, fit)
+            circle = fit_tangential_circle(surface.radii, surface.angles, outward, around, p, fit)
             highest = len(surface.angles)
         if indenter:
-            circle = circle.reversed()
+            circle = circle.tractions_on_upper_body()
         parts = BodyRegions.from_body(body, circle.radius, SHEARED.down)
         below = SubsurfaceCircle(circle, stack, REACH, highest, fineness)
         strained = partial(state.add_bulk_stress, indenter=indenter)
         return cls(
-            below.at, parts, SHEARED, strained, state.direction, circle.centre, circle.is_round
+            below.compute_fields,
+            parts,
+            SHEARED,
+            strained,
+            state.direction,
+            circle.centre,
+            circle.is_round,
         )
 
     @property

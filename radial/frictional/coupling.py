@@ -81,8 +81,8 @@ class Coupling:
         rings   nodes over the contact
         radius  contact radius [length]
         """
-        by_pressure, by_shear = rings.logarithmic
-        shear_lifts, pressure_draws = rings.sideways
+        by_pressure, by_shear = rings.direct_responses
+        shear_lifts, pressure_draws = rings.coupling_responses
         direct, crossed = self.direct * radius, -self.crossed * radius
         zz, rr = direct * by_pressure, direct * by_shear
         zr, rz = crossed * shear_lifts, crossed * pressure_draws

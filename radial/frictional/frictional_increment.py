@@ -66,7 +66,7 @@ class FrictionalState:
         prescribed = self.target.approach
         return self.target.actuator_approach(self.end) if prescribed is None else prescribed
 
-    def at(self, field: Array, r: Array) -> Array:
+    def interpolate_nodes(self, field: Array, r: Array) -> Array:
         """Interpolate a field linearly from the nodes of the contact to given radii (n,).
 
         The field is zero outside the contact.
@@ -105,8 +105,8 @@ def frictional_state(
     r, nothing = a * x, np.zeros_like(x)
     shear, limit = nothing, nothing
     if before is not None:
-        shear = before.at(before.end.shear, r)
-        limit = friction.limit(before.at(finite_pressure(before.end), r))
+        shear = before.interpolate_nodes(before.end.shear, r)
+        limit = friction.limit(before.interpolate_nodes(finite_pressure(before.end), r))
     slip_increment = contact_fraction(r, start_radius, a) * end.slip_increment * (end.sliding != 0)
     slip = np.interp(radii, r, slip_increment, right=0.0)
     if before is not None:
@@ -121,12 +121,12 @@ def frictional_state(
     # The bulk strain displaces the lower body against its shear, which changes the work.
     more = strain - (before.strain if before else 0.0)
     work = 0.5 * (force + end.load) * (end.approach - depth)
-    work -= 0.5 * more * end.over((shear + end.shear) * r)
+    work -= 0.5 * more * end.integrate_over_contact((shear + end.shear) * r)
     return FrictionalState(
         end, target, slip, start_radius, mid_stick_radius, stick_radius,
         (before.work if before else 0.0) + work,
-        (before.dissipated if before else 0.0) + end.over(rubbing),
-        (before.uncertainty if before else 0.0) + end.over(open_),
+        (before.dissipated if before else 0.0) + end.integrate_over_contact(rubbing),
+        (before.uncertainty if before else 0.0) + end.integrate_over_contact(open_),
         power,
         iterations,
         strain,

@@ -29,8 +29,8 @@ from radial.frictional.frictional_increment import (
 )
 from radial.frictional.rings import (
     Rings,
-    place_of,
-    rings_about,
+    layout_number,
+    rings_for_stick_radius,
 )
 from radial.frictional.stick_slip import (
     FrictionalContact,
@@ -132,20 +132,22 @@ class FrictionalSteps(StepsOnRings):
             part = (passed - start_radius) / (radius - start_radius)
             between = last + part * (strain - last)
             share = before.mid_stick_radius / before.end.radius if before else MIDDLE
-            end = self._contact_solver(rings_about(share, count), before, between)(passed)
-            power = self._power(passing, before)
+            end = self._contact_solver(rings_for_stick_radius(share, count), before, between)(
+                passed
+            )
+            power = self._load_exponent(passing, before)
             before = frictional_state(
                 self.friction, end, passing, self.radii, before, power, 0, between
             )
             iterations += 1
         share = before.mid_stick_radius / before.end.radius if before else MIDDLE
         for _ in range(MAX_LAID):
-            solve = self._contact_solver(rings_about(share, count), before, strain)
-            power = self._power(target, before)
+            solve = self._contact_solver(rings_for_stick_radius(share, count), before, strain)
+            power = self._load_exponent(target, before)
             end, more, power = contact_at_target(solve, target, radius, power, 10 * ROUND_OFF)
             iterations, radius = iterations + more, end.radius
             previous, share = share, stick_share(end)
-            if abs(place_of(share) - place_of(previous)) <= 1:
+            if abs(layout_number(share) - layout_number(previous)) <= 1:
                 break
         return frictional_state(
             self.friction, end, target, self.radii, before, power, iterations, strain
@@ -170,7 +172,7 @@ class FrictionalSteps(StepsOnRings):
             nonlocal like
             like = frictional_contact(
                 self.coupling, self.scene.indenter, radius, rings, self.friction,
-                radial_displacement(radius * rings.places), _sliding(like, rings),
+                radial_displacement(radius * rings.places), _guess_slip_signs(like, rings),
             )  # fmt: skip
             return like
 
@@ -189,11 +191,11 @@ class FrictionalSteps(StepsOnRings):
         if before is None:
             found = normal_contact(self.coupling.bodies, self.scene.indenter, target)
             return found.contact.radius, found.iterations
-        further = -target.residual(before.end) / self._power(target, before)
+        further = -target.residual(before.end) / self._load_exponent(target, before)
         return before.end.radius * exp(further), 0
 
     @staticmethod
-    def _power(target: Target, before: FrictionalState | None) -> float:
+    def _load_exponent(target: Target, before: FrictionalState | None) -> float:
         """Estimate the exponent of the normal load as a power of the contact radius.
 
         The load is the prescribed force or approach. The exponent is that of the previous state if
@@ -231,19 +233,19 @@ class FrictionalSteps(StepsOnRings):
             penetration=max(end.contact.residual, end.residual),
             normal_equilibrium=None if force is None else abs(end.load / force - 1),
             friction_cone=max(0.0, float(np.max(q - limit) / np.max(limit))),
-            slip_direction=_against(end, self.friction),
+            slip_direction=_slip_direction_residual(end, self.friction),
         )
         residuals.require(self.tolerance, "the contact radius", state.iterations)
         x = r / end.radius
-        p = pressure(end.contact, x) + end.rings.at(end.pressure_change, x)
+        p = pressure(end.contact, x) + end.rings.interpolate_traction(end.pressure_change, x)
         gap = np.zeros_like(r)
         apart = x > 1
-        normal_displacement = _beyond(
+        normal_displacement = _decaying_interpolant(
             places, end.normal_displacement - end.approach_change, -end.approach_change
         )
         gap[apart] = indenter.initial_gap(r[apart], 0.0) - end.contact.approach
         gap[apart] += displacement(end.contact, x[apart]) + normal_displacement(r[apart])
-        sticks = np.asarray(state.at(np.abs(end.sliding), r) == 0) & (x < 1)
+        sticks = np.asarray(state.interpolate_nodes(np.abs(end.sliding), r) == 0) & (x < 1)
         stored = end.elastic_energy(bare[: n + 1])
         increment = Increment(
             step=reached.place.step,
@@ -256,7 +258,7 @@ class FrictionalSteps(StepsOnRings):
             approach=state.approach,
             contact_radius=end.radius,
             peak_pressure=float(np.max(p)),
-            status=_status(state),
+            status=_contact_status(state),
             stick_radius=state.front,
             tangential_force=(0.0, 0.0),
             tangential_shift=(0.0, 0.0),
@@ -268,13 +270,13 @@ class FrictionalSteps(StepsOnRings):
             radii=r,
             pressure=p,
             gap=np.maximum(gap, 0.0),
-            shear_radial=self._shear(state, p, r),
+            shear_radial=self._shear_at_rings(state, p, r),
             slip_radial=state.slip,
             in_stick=sticks,
         )
         return of_contact(increment, self.scene.rig)
 
-    def _shear(self, state: FrictionalState, p: Array, r: Array) -> Array:
+    def _shear_at_rings(self, state: FrictionalState, p: Array, r: Array) -> Array:
         """Interpolate the radial shear to the output rings (n,) [force/length²].
 
         The ratio of shear to friction limit is interpolated from the nodes and multiplied by the
@@ -287,7 +289,7 @@ class FrictionalSteps(StepsOnRings):
         end = state.end
         share = end.shear[1:-1] / self.friction.limit(end.pressure[1:-1])
         share = np.concatenate([[0.0], share, share[-1:]])
-        return np.asarray(self.friction.limit(p) * state.at(share, r))
+        return np.asarray(self.friction.limit(p) * state.interpolate_nodes(share, r))
 
 
 def _reference_displacement(
@@ -304,11 +306,11 @@ def _reference_displacement(
     if before is None:
         return lambda radii: -strain * radii
     end, more = before.end, strain - before.strain
-    known = _beyond(end.radius * end.rings.places, end.radial_displacement, 0.0)
+    known = _decaying_interpolant(end.radius * end.rings.places, end.radial_displacement, 0.0)
     return lambda radii: known(radii) - more * radii
 
 
-def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
+def _decaying_interpolant(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
     """Return an interpolant of a surface field that continues outside the given positions.
 
     Beyond the last position the field decays as 1/r to the value `limit`.
@@ -319,7 +321,7 @@ def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
     """
     spline, last = CubicSpline(r, field), r[-1]
 
-    def at(radii: Array) -> Array:
+    def evaluate(radii: Array) -> Array:
         """Evaluate the interpolated and continued surface field at given radii (…).
 
         radii  radii, inside or outside the contact [length]
@@ -327,7 +329,7 @@ def _beyond(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
         near = spline(np.minimum(radii, last))
         return np.asarray(limit + (near - limit) * last / np.maximum(radii, last))
 
-    return at
+    return evaluate
 
 
 def _intermediate_radii(start_radius: float, end: float, growth: float) -> Array:
@@ -342,7 +344,7 @@ def _intermediate_radii(start_radius: float, end: float, growth: float) -> Array
     return np.geomspace(start_radius, end, steps + 1)[1:-1]
 
 
-def _sliding(was: FrictionalContact | None, rings: Rings) -> Signs:
+def _guess_slip_signs(was: FrictionalContact | None, rings: Rings) -> Signs:
     """Return an initial guess of the slip zone of a contact from another contact (n + 1,).
 
     The values are the signs of the shear of slipping nodes, and 0 for sticking nodes. A node takes
@@ -356,7 +358,7 @@ def _sliding(was: FrictionalContact | None, rings: Rings) -> Signs:
     return np.rint(np.interp(rings.x, was.rings.x, was.sliding)).astype(np.int64)
 
 
-def _against(end: FrictionalContact, friction: CoulombFriction) -> float:
+def _slip_direction_residual(end: FrictionalContact, friction: CoulombFriction) -> float:
     """Compute the residual of the direction of slip in an increment with friction [1].
 
     The residual is |∫ (b|Δs| + q Δs) dA| / ∫ b|Δs| dA, with the friction limit b, the shear q and
@@ -369,11 +371,15 @@ def _against(end: FrictionalContact, friction: CoulombFriction) -> float:
     slip_increment = (
         end.slip_increment * (end.sliding != 0) * (np.abs(end.slip_increment) > REST * end.approach)
     )
-    most = end.over(friction.limit(finite_pressure(end)) * np.abs(slip_increment))
-    return abs(most + end.over(end.shear * slip_increment)) / most if most > 0 else 0.0
+    most = end.integrate_over_contact(friction.limit(finite_pressure(end)) * np.abs(slip_increment))
+    return (
+        abs(most + end.integrate_over_contact(end.shear * slip_increment)) / most
+        if most > 0
+        else 0.0
+    )
 
 
-def _status(state: FrictionalState) -> ContactStatus:
+def _contact_status(state: FrictionalState) -> ContactStatus:
     """Return the contact status: full stick, partial slip, or no stick area left.
 
     state  state at the end of the increment

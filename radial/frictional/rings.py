@@ -18,7 +18,7 @@ from scipy.special import ellipe, ellipkm1, j0, j1
 from contact_scene.array_types import Array
 from radial.response.array_cache import (
     MAX_CACHED,
-    cached_within,
+    cache_within_bytes,
 )
 from radial.response.quadrature import unit_gauss
 from radial.response.wavenumbers import Waves, wave_blocks
@@ -44,7 +44,7 @@ class Rings:
     and the contact radius a. The responses are matrices. Their rows are the positions of
     displacements: the nodes, then points outside the contact. Their columns are nodal tractions:
     pressure at the nodes 0 to n - 1, or radial shear at the nodes 1 to n - 1. In the last element
-    tractions are multiples of √(1-x²). Objects are created by `rings_about`.
+    tractions are multiples of √(1-x²). Objects are created by `rings_for_stick_radius`.
 
     x  radii of the n + 1 nodes over the contact radius, from 0 to 1
     """
@@ -72,9 +72,9 @@ class Rings:
         A weight is ∫ φ x dx, with the hat function φ of the node, which contains the factor
         √(1-x²), and x = r/a. ∫ p dA is 2πa² times the sum of weights and nodal values.
         """
-        return self._on_nodes(*self._integrals(1))
+        return self._sum_at_nodes(*self._integrate_hats(1))
 
-    def at(self, field: Array, x: Array) -> Array:
+    def interpolate_traction(self, field: Array, x: Array) -> Array:
         """Interpolate nodal tractions to given radii; the result is zero outside the contact.
 
         The ratio of the traction to √(1-x²) is interpolated linearly.
@@ -82,11 +82,11 @@ class Rings:
         field  traction at the nodes (n + 1,)
         x      radii over the contact radius
         """
-        share = field[:-1] / _root(self.x[:-1])
-        return np.asarray(np.interp(x, self.x[:-1], share) * _root(np.minimum(x, 1.0)))
+        share = field[:-1] / _edge_root(self.x[:-1])
+        return np.asarray(np.interp(x, self.x[:-1], share) * _edge_root(np.minimum(x, 1.0)))
 
     @cached_property
-    def logarithmic(self) -> tuple[Array, Array]:
+    def direct_responses(self) -> tuple[Array, Array]:
         """Compute the direct responses of half-spaces to tractions on rings (rows, columns).
 
         They are the normal displacement by pressure, ∫ G₀ φ s ds, and the radial displacement by
@@ -105,7 +105,7 @@ class Rings:
         s = np.where(before[..., None], inner[:, None] + off, self.x[1:, None] - off)
         apart = np.where(before, inner - x, x - self.x[1:])[..., None] + off
         share = np.where(before[..., None], v, 1 - v)
-        left, right = self._shapes(s, share, length[:, None] * weights * s)
+        left, right = self._weighted_hats(s, share, length[:, None] * weights * s)
         r, total = x[..., None], x[..., None] + s
         small = (apart / total) ** 2
         first, second = ellipkm1(small), ellipe(1 - small)
@@ -114,12 +114,13 @@ class Rings:
         once = ((r * r + s * s) / total * first - total * second) / (np.pi * moment)
         once = np.where(r > 0, once, 0.0)
         hats = [
-            self._on_nodes((part * left).sum(-1), (part * right).sum(-1)) for part in (zeroth, once)
+            self._sum_at_nodes((part * left).sum(-1), (part * right).sum(-1))
+            for part in (zeroth, once)
         ]
         return hats[0][:, :-1], hats[1][:, 1:-1]
 
     @cached_property
-    def sideways(self) -> tuple[Array, Array]:
+    def coupling_responses(self) -> tuple[Array, Array]:
         """Compute the coupling responses of half-spaces to tractions on rings (rows, columns).
 
         They are the normal displacement by radial shear, ∫ₓ¹ φ ds, and the radial displacement by
@@ -132,12 +133,14 @@ class Rings:
         beyond, within = inner >= x, outer <= x
         reach = np.where(x > 0, x, 1.0)
         by_shear, by_pressure = (
-            self._on_nodes(*(np.where(there, part, 0.0) for part in self._integrals(power)))
+            self._sum_at_nodes(
+                *(np.where(there, part, 0.0) for part in self._integrate_hats(power))
+            )
             for there, power in ((beyond, 0), (within, 1))
         )
         return by_shear[:, 1:-1], (by_pressure / reach)[:, :-1]
 
-    def _integrals(self, power: int) -> tuple[Array, Array]:
+    def _integrate_hats(self, power: int) -> tuple[Array, Array]:
         """Integrate the hat functions φ over every element, ∫ φ xᵐ dx.
 
         Hat functions contain the factor √(1-x²). The two results (n,) belong to the hats of the
@@ -148,10 +151,12 @@ class Rings:
         v, weights = unit_gauss(POINTS)
         inner, length = self.x[:-1, None], np.diff(self.x)[:, None]
         s = inner + length * v
-        left, right = self._shapes(s, np.broadcast_to(v, s.shape), length * weights * s**power)
+        left, right = self._weighted_hats(
+            s, np.broadcast_to(v, s.shape), length * weights * s**power
+        )
         return left.sum(-1), right.sum(-1)
 
-    def _shapes(self, s: Array, share: Array, weights: Array) -> tuple[Array, Array]:
+    def _weighted_hats(self, s: Array, share: Array, weights: Array) -> tuple[Array, Array]:
         """Evaluate hat functions at points of elements, multiplied by weights.
 
         The two results (…, n, points) are the hats of the inner and of the outer node of each
@@ -162,8 +167,8 @@ class Rings:
         share    fraction of the element between its inner node and the point
         weights  factors of the result
         """
-        root = _root(self.x)
-        known = _root(s) * weights
+        root = _edge_root(self.x)
+        known = _edge_root(s) * weights
         left = known * (1 - share) / root[:-1, None]
         right = known * share / np.append(root[1:-1], 1.0)[:, None]
         left[..., -1, :] += right[..., -1, :] / root[-2]
@@ -171,7 +176,7 @@ class Rings:
         return left, right
 
     @staticmethod
-    def _on_nodes(left: Array, right: Array) -> Array:
+    def _sum_at_nodes(left: Array, right: Array) -> Array:
         """Add the contributions of all elements at their nodes (…, n + 1).
 
         left, right  contributions of every element to its inner and to its outer node (…, n)
@@ -181,7 +186,7 @@ class Rings:
         total[..., 1:] += right
         return total
 
-    @cached_within(MAX_CACHED)
+    @cache_within_bytes(MAX_CACHED)
     def transforms(self, waves: Waves) -> tuple[Array, Array, Array, Array]:
         """Compute Hankel transforms of the hat functions, and Bessel functions at the positions.
 
@@ -198,23 +203,23 @@ class Rings:
         length = np.diff(self.x)[:, None]
         v, weights = unit_gauss(WAVE_POINTS)
         s = self.x[:-1, None] + length * v
-        left, right = self._shapes(s, np.broadcast_to(v, s.shape), length * weights * s)
+        left, right = self._weighted_hats(s, np.broadcast_to(v, s.shape), length * weights * s)
         found = [np.empty((len(kappa), len(self.x))) for _ in range(2)]
         for some in wave_blocks(len(kappa), s.size):
             at = np.multiply.outer(kappa[some], s)
             for total, bessel in zip(found, (j0, j1), strict=True):
                 part = bessel(at)
-                total[some] = self._on_nodes((part * left).sum(-1), (part * right).sum(-1))
+                total[some] = self._sum_at_nodes((part * left).sum(-1), (part * right).sum(-1))
         at = np.multiply.outer(self.places, kappa)
         return found[0][:, :-1], found[1][:, 1:-1], j0(at), j1(at)
 
 
-def _root(x: Array) -> Array:
+def _edge_root(x: Array) -> Array:
     """Return √(1 - x²), the behaviour of tractions at the edge; x is r over the contact radius."""
     return np.asarray(np.sqrt((1 - x) * (1 + x)))
 
 
-def place_of(front: float) -> int:
+def layout_number(front: float) -> int:
     """Return the number of the ring layout that is dense at a given stick radius.
 
     The number is log(c/(a - c)), rounded to multiples of an interval. Stick radii in one interval
@@ -226,20 +231,20 @@ def place_of(front: float) -> int:
     return round(min(max(log(c / (1 - c)), -NEAREST), NEAREST) / SHARED)
 
 
-def rings_about(front: float, count: int) -> Rings:
+def rings_for_stick_radius(front: float, count: int) -> Rings:
     """Return nodes over a contact that are dense at the border of the stick zone.
 
     front  stick radius over the contact radius
     count  approximate number of rings, without those of dense regions
     """
-    return _rings(place_of(front), count)
+    return _create_rings(layout_number(front), count)
 
 
 @lru_cache(maxsize=CACHED)
-def _rings(place: int, count: int) -> Rings:
+def _create_rings(place: int, count: int) -> Rings:
     """Create the rings of a layout: dense at the stick radius, at the axis and at the contact edge.
 
-    place  number of the layout, returned by `place_of` for a stick radius
+    place  number of the layout, returned by `layout_number` for a stick radius
     count  approximate number of rings, without those of dense regions
     """
     c = 1 / (1 + exp(-place * SHARED))

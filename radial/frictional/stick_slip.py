@@ -93,14 +93,14 @@ class FrictionalContact:
     @property
     def load(self) -> float:
         """Return the normal force W: the integral of the pressure [force]."""
-        return self.contact.load + self.over(self.pressure_change)
+        return self.contact.load + self.integrate_over_contact(self.pressure_change)
 
     @cached_property
     def pressure(self) -> Array:
         """Return the pressure p at the nodes, infinite at an apex (n + 1,) [force/length²]."""
         return pressure(self.contact, self.rings.x) + self.pressure_change
 
-    def over(self, field: Array) -> float:
+    def integrate_over_contact(self, field: Array) -> float:
         """Integrate a nodal field over the contact area, ∫ f dA.
 
         field  f at the nodes (n + 1,); zero at the edge, where it varies as √(1-x²)
@@ -114,8 +114,10 @@ class FrictionalContact:
 
         gap  f at the nodes (n + 1,) [length]
         """
-        by_change = self.over(self.pressure_change * (self.approach - gap))
-        by_shear = self.over(self.shear * self.radial_displacement[: len(self.shear)])
+        by_change = self.integrate_over_contact(self.pressure_change * (self.approach - gap))
+        by_shear = self.integrate_over_contact(
+            self.shear * self.radial_displacement[: len(self.shear)]
+        )
         whole = self.contact.elastic_energy
         return whole + 0.5 * (self.approach_change * self.contact.load + by_change + by_shear)
 
@@ -146,7 +148,7 @@ def frictional_contact(
     response = coupling.response(rings, radius)
     frictionless_displacement = coupling.frictionless_displacement(contact, rings)
     smooth = pressure(contact, rings.x)
-    found, sliding = _newton(
+    found, sliding = _solve_stick_and_slip(
         response, rings.count, friction, smooth[1:-1],
         (before - frictionless_displacement)[1 : rings.count], guess[1:-1], rings.x[1:-1],
     )  # fmt: skip
@@ -169,7 +171,7 @@ def frictional_contact(
     )
 
 
-def _newton(
+def _solve_stick_and_slip(
     response: Response, n: int, friction: CoulombFriction, smooth: Array,
     stick_displacement: Array, guess: Signs, places: Array,
 ) -> tuple[Array, Signs]:  # fmt: skip

@@ -34,12 +34,12 @@ from radial.normal.profile import (
 )
 from radial.response.array_cache import (
     MAX_CACHED,
-    cached_within,
+    cache_within_bytes,
 )
 from radial.response.bodies import Bodies
 from radial.response.quadrature import (
-    every_order,
-    shifted,
+    all_order_coefficients,
+    evaluate_legendre,
     unit_gauss,
 )
 from radial.response.wavenumbers import Waves, wave_blocks
@@ -98,7 +98,7 @@ class Disc:
         Abel transform, δ the approach, and S the Abel transform of the undeformed gap.
         """
         t, weights = unit_gauss(len(self.profile.abel) + len(self.layers))
-        moved = self.approach - self.profile.at(t)
+        moved = self.approach - self.profile.evaluate_abel(t)
         return float(self.bodies.modulus * self.radius * (weights @ (self.transform(t) * moved)))
 
     @property
@@ -119,8 +119,8 @@ class Disc:
 
         t  coordinates between the axis (0) and the contact edge (1)
         """
-        changed = legendre.legval(t, every_order(self.layers))
-        return np.asarray(self.approach - self.profile.at(t) + changed)
+        changed = legendre.legval(t, all_order_coefficients(self.layers))
+        return np.asarray(self.approach - self.profile.evaluate_abel(t) + changed)
 
     def rate(self, t: Array) -> Array:
         """Evaluate dG/dt, where G is the function of which the pressure is the Abel transform.
@@ -131,8 +131,8 @@ class Disc:
 
         t  coordinates between the axis (0) and the contact edge (1)
         """
-        changed = legendre.legval(t, legendre.legder(every_order(self.layers)))
-        return np.asarray(changed - shifted(self.profile.rate, t))
+        changed = legendre.legval(t, legendre.legder(all_order_coefficients(self.layers)))
+        return np.asarray(changed - evaluate_legendre(self.profile.rate, t))
 
     def wave_transform(self, waves: Waves) -> Array:
         """Compute the cosine transform G~(κ) = ∫₀¹ G(t) cos κt dt for the layers (κ,) [length].
@@ -143,7 +143,7 @@ class Disc:
         waves  dimensionless wavenumbers κ
         """
         bases = waves.even_transforms(len(self.layers))
-        by_profile = waves.shifted_transform(self.profile.abel)
+        by_profile = waves.legendre_transform(self.profile.abel)
         return np.asarray(self.approach * bases[0] - by_profile + self.layers @ bases)
 
 
@@ -165,7 +165,7 @@ class _Galerkin:
         self.scale = np.sqrt(4.0 * np.arange(count) + 1)
 
     @cached_property
-    def factor(self) -> Any:
+    def cholesky_factor(self) -> Any:
         """Return the Cholesky factor of the Galerkin matrix of the coefficients c_n.
 
         The matrix is positive definite because the normal response of the bodies is positive.
@@ -176,7 +176,7 @@ class _Galerkin:
         matrix = np.eye(self.count) + 2 / pi * self.scale[:, None] * kernel * self.scale
         return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
 
-    def changed(self, transform: Array) -> Array:
+    def solve_layer_coefficients(self, transform: Array) -> Array:
         """Solve for the contribution C of layers to the transform G of the pressure.
 
         The pressure is the Abel transform of G = f + C. The given function f is the part without
@@ -186,7 +186,7 @@ class _Galerkin:
         transform  cosine transform of f (κ,)
         """
         right = -2 / pi * self.scale * (self.bases @ (self.excess * transform))
-        return np.asarray(self.scale * cho_solve(self.factor, right, check_finite=False))
+        return np.asarray(self.scale * cho_solve(self.cholesky_factor, right, check_finite=False))
 
     def residual(self, layers: Array, transform: Array) -> float:
         """Return the largest error of the contribution C of layers at check points [length].
@@ -197,13 +197,13 @@ class _Galerkin:
         layers     Legendre coefficients c_n of C (count,)
         transform  cosine transform of f (κ,)
         """
-        polynomials, cosines = _judged(self.waves, self.count)
+        polynomials, cosines = _check_point_functions(self.waves, self.count)
         exact = -2 / pi * (cosines @ (self.excess * (transform + layers @ self.bases)))
         return float(np.max(np.abs(polynomials @ layers - exact)))
 
 
-@cached_within(MAX_CACHED)
-def _judged(waves: Waves, count: int) -> tuple[Array, Array]:
+@cache_within_bytes(MAX_CACHED)
+def _check_point_functions(waves: Waves, count: int) -> tuple[Array, Array]:
     """Return even Legendre polynomials and cosines at the check points of the contact equation.
 
     They are P_2n(t), shape (points, count), and cos κt, shape (points, κ). The points t lie between
@@ -242,19 +242,22 @@ def disc(
     """
     shape = profile(indenter, radius, fineness)
     if not bodies.layered:
-        depth = shape.at_edge if approach is None else approach
+        depth = shape.abel_at_edge if approach is None else approach
         return Disc(bodies, shape, radius, depth, np.zeros(1), 0.0)
-    count = orders(bodies.thickness / radius, shape.apex) * fineness
+    count = polynomial_count(bodies.thickness / radius, shape.apex) * fineness
     count = min(count, most or count)
     waves = bodies.waves(radius, fineness=fineness)
     excess = waves.rule[1] * bodies.excess(waves, radius)
-    by_profile = -waves.shifted_transform(shape.abel)
+    by_profile = -waves.legendre_transform(shape.abel)
     best: Disc | None = None
     while True:
         method = _Galerkin(waves, count, excess)
-        of_approach, of_profile = method.changed(method.bases[0]), method.changed(by_profile)
+        of_approach, of_profile = (
+            method.solve_layer_coefficients(method.bases[0]),
+            method.solve_layer_coefficients(by_profile),
+        )
         if approach is None:  # G(1) = 0, where every P_2n is 1
-            depth = float((shape.at_edge - np.sum(of_profile)) / (1 + np.sum(of_approach)))
+            depth = float((shape.abel_at_edge - np.sum(of_profile)) / (1 + np.sum(of_approach)))
         else:
             depth = approach
         layers = depth * of_approach + of_profile
@@ -269,7 +272,7 @@ def disc(
             raise NotConverged("the contact on a disc", count // 2, made.residual, ROUND_OFF)
 
 
-def orders(thickness: float, apex: bool) -> int:
+def polynomial_count(thickness: float, apex: bool) -> int:
     """Return the number of Legendre polynomials for the contribution C of the layers.
 
     C has singularities at t = ±1 ± 2ih/a (images of the edge in the underside of the layer) and,

@@ -29,7 +29,7 @@ LEAST_RADIUS = 1e-12  # least initial guess of the radius [m]
 LEAST_POWER = 0.5  # least exponent of the power law of force or approach in the radius
 
 
-class Loaded(Protocol):
+class LoadedContact(Protocol):
     """Protocol of a solved contact: its radius [length], load [force] and approach [length]."""
 
     @property
@@ -42,7 +42,7 @@ class Loaded(Protocol):
     def approach(self) -> float: ...
 
 
-C = TypeVar("C", bound=Loaded)
+C = TypeVar("C", bound=LoadedContact)
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Target:
         assert value is not None
         return value
 
-    def value(self, contact: Loaded) -> float:
+    def value(self, contact: LoadedContact) -> float:
         """Return the quantity of a solved contact that this target prescribes.
 
         The quantity is the normal force [force], or the approach with the shortening of the spring
@@ -74,7 +74,7 @@ class Target:
         """
         return self.actuator_approach(contact) if self.force is None else contact.load
 
-    def residual(self, contact: Loaded) -> float:
+    def residual(self, contact: LoadedContact) -> float:
         """Return log(computed / prescribed) of the normal force or approach of a solved contact.
 
         Raises UnsupportedScene if the computed value is not positive. The contact radius is then
@@ -89,7 +89,7 @@ class Target:
             )
         return log(value / self.prescribed)
 
-    def actuator_approach(self, contact: Loaded) -> float:
+    def actuator_approach(self, contact: LoadedContact) -> float:
         """Return the approach of a contact plus the shortening of the rig's spring [length].
 
         The sum is the approach of the far end of the spring.

@@ -12,7 +12,7 @@ from numpy.polynomial import chebyshev, legendre
 from contact_scene.array_types import Array
 from contact_scene.solver_errors import UnsupportedScene
 from radial.response.quadrature import (
-    shifted,
+    evaluate_legendre,
     unit_gauss,
 )
 
@@ -44,7 +44,7 @@ class Profile:
     abel: Array
     apex: bool
 
-    def at(self, t: Array) -> Array:
+    def evaluate_abel(self, t: Array) -> Array:
         """Evaluate the Abel transform S of the undeformed gap f at points t [length].
 
             S(t) = t ∫₀^(π/2) f'(t sin φ) dφ
@@ -53,10 +53,10 @@ class Profile:
 
         t  coordinates between the axis (0) and the contact edge (1)
         """
-        return shifted(self.abel, t)
+        return evaluate_legendre(self.abel, t)
 
     @property
-    def at_edge(self) -> float:
+    def abel_at_edge(self) -> float:
         """Return the Abel transform S(1) of the undeformed gap at the contact edge [length].
 
         S(1) is the approach at which the pressure of half-spaces is zero at the contact radius.
@@ -85,7 +85,7 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
     """
     count = FEWEST
     while True:
-        gap = _coefficients(indenter, radius, count)
+        gap = _fit_gap(indenter, radius, count)
         significant = np.flatnonzero(np.abs(gap) > ROUND_OFF * count * np.max(np.abs(gap)))
         if not len(significant):
             return Profile(np.zeros(2), False)
@@ -99,15 +99,16 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
                 "semi-analytical solver"
             )
     if fineness > 1:
-        gap = _coefficients(indenter, radius, count * fineness)
+        gap = _fit_gap(indenter, radius, count * fineness)
     slope = 2 * chebyshev.chebder(gap[: significant[-1] + 1])
     at_axis = float(chebyshev.chebval(-1.0, slope))
     return Profile(
-        slope @ _abel(len(slope), fineness), abs(at_axis) > 1e-6 * float(np.sum(np.abs(slope)))
+        slope @ _abel_matrix(len(slope), fineness),
+        abs(at_axis) > 1e-6 * float(np.sum(np.abs(slope))),
     )
 
 
-def _coefficients(indenter: ShapedBody, radius: float, count: int) -> Array:
+def _fit_gap(indenter: ShapedBody, radius: float, count: int) -> Array:
     """Fit a Chebyshev series in 2r/a - 1 to the undeformed gap over a contact.
 
     Returns the coefficients (count,) [length].
@@ -116,12 +117,12 @@ def _coefficients(indenter: ShapedBody, radius: float, count: int) -> Array:
     radius    contact radius a [length]
     count     number of Chebyshev points and coefficients
     """
-    places, fit = _fit(count)
+    places, fit = _chebyshev_fit(count)
     return np.asarray(fit @ indenter.initial_gap(radius * places, 0.0))
 
 
 @cache
-def _fit(count: int) -> tuple[Array, Array]:
+def _chebyshev_fit(count: int) -> tuple[Array, Array]:
     """Return Chebyshev points on 0 < x < 1, and the matrix that fits a Chebyshev series there.
 
     The matrix (count, count) maps values at the points to coefficients of the polynomials of 2x -
@@ -134,7 +135,7 @@ def _fit(count: int) -> tuple[Array, Array]:
 
 
 @cache
-def _abel(count: int, fineness: int) -> Array:
+def _abel_matrix(count: int, fineness: int) -> Array:
     """Return the matrix that maps the slope of the undeformed gap to its Abel transform S.
 
     The slope f' and S(t) = t ∫₀^(π/2) f'(t sin φ) dφ are given by coefficients: Chebyshev

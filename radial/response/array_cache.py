@@ -17,7 +17,7 @@ R = TypeVar("R")
 MAX_CACHED = 24 << 20  # limit of the cached results of a function [byte]
 
 
-def cached_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
+def cache_within_bytes(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
     """Return a decorator that caches the results of a function, up to a limit in bytes.
 
     The function has hashable arguments and returns an array or a tuple of arrays.
@@ -26,28 +26,28 @@ def cached_within(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
           before a new result is computed
     """
 
-    def of(compute: Callable[P, R]) -> Callable[P, R]:
+    def decorate(compute: Callable[P, R]) -> Callable[P, R]:
         """Decorate the function `compute` with a cache of its results."""
         found: OrderedDict[Hashable, Any] = OrderedDict()
 
         @wraps(compute)
-        def remembered(*given: P.args, **named: P.kwargs) -> R:
+        def cached_call(*given: P.args, **named: P.kwargs) -> R:
             """Return the cached result for the arguments, or compute the result and cache it."""
             key = (given, *named.items())
             value = found.pop(key, None)
             if value is None:
-                while found and sum(map(_size, found.values())) > most:
+                while found and sum(map(_array_bytes, found.values())) > most:
                     found.popitem(last=False)
                 value = compute(*given, **named)
             found[key] = value
             return value
 
-        remembered.cache_clear = found.clear  # type: ignore[attr-defined]  # as functools has it
-        return remembered
+        cached_call.cache_clear = found.clear  # type: ignore[attr-defined]  # as functools has it
+        return cached_call
 
-    return of
+    return decorate
 
 
-def _size(value: Any) -> int:
+def _array_bytes(value: Any) -> int:
     """Return the memory of an array, or of all arrays of a tuple [byte]."""
-    return sum(map(_size, value)) if isinstance(value, tuple) else int(value.nbytes)
+    return sum(map(_array_bytes, value)) if isinstance(value, tuple) else int(value.nbytes)

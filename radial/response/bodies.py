@@ -55,7 +55,7 @@ class Bodies:
 
         The bound is an order of magnitude: 4 times the largest shear modulus, or E*.
         """
-        moduli = (4 * modulus for stack in self.layered for modulus in _moduli(stack))
+        moduli = (4 * modulus for stack in self.layered for modulus in _shear_moduli(stack))
         return max([self.modulus, *moduli])
 
     @property
@@ -76,7 +76,7 @@ class Bodies:
                   radius
         fineness  multiple of the number of wavenumbers
         """
-        least = LONGEST_WAVE * min(longest(stack, radius) for stack in self.layered)
+        least = LONGEST_WAVE * min(least_wavenumber(stack, radius) for stack in self.layered)
         return waves(REACH * radius / self.thickness, least, reach, fineness)
 
     def excess(self, waves: Waves, radius: float) -> Array:
@@ -113,7 +113,7 @@ def layer_responses(stacks: tuple[tuple[Stack, float], ...], waves: Waves, radiu
     return k * total
 
 
-def longest(stack: Stack, radius: float) -> float:
+def least_wavenumber(stack: Stack, radius: float) -> float:
     """Estimate the wavenumber κ below which the layers of a body have no effect.
 
     κ is multiplied by the contact radius. The result is an order of magnitude.
@@ -121,12 +121,12 @@ def longest(stack: Stack, radius: float) -> float:
     stack   the body with its layers
     radius  contact radius [length]
     """
-    moduli = _moduli(stack)
+    moduli = _shear_moduli(stack)
     total = sum(film.thickness for film in stack.layers)
     return radius / (radius + total) * min(moduli) / max(moduli)
 
 
-def _moduli(stack: Stack) -> list[float]:
+def _shear_moduli(stack: Stack) -> list[float]:
     """Return the shear moduli of the layers and the base of a body [force/length²].
 
     A rigid base is omitted.

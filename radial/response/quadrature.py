@@ -17,7 +17,7 @@ def unit_gauss(count: int) -> tuple[Array, Array]:
     return (1 + points) / 2, weights / 2
 
 
-def shifted(coefficients: Array, t: Array) -> Array:
+def evaluate_legendre(coefficients: Array, t: Array) -> Array:
     """Evaluate the Legendre series Σ c_l P_l(2t - 1) at points 0 ≤ t ≤ 1.
 
     coefficients  c_l
@@ -25,7 +25,7 @@ def shifted(coefficients: Array, t: Array) -> Array:
     return np.asarray(legendre.legval(2 * t - 1, coefficients))
 
 
-def every_order(coefficients: Array, first: int = 0) -> Array:
+def all_order_coefficients(coefficients: Array, first: int = 0) -> Array:
     """Return the coefficients of a Legendre series of all orders from those of one parity.
 
     The other coefficients are 0. The result is evaluated with numpy's Legendre functions.

@@ -16,7 +16,7 @@ from scipy.special import spherical_jn
 from contact_scene.array_types import Array
 from radial.response.array_cache import (
     MAX_CACHED,
-    cached_within,
+    cache_within_bytes,
 )
 from radial.response.quadrature import unit_gauss
 
@@ -46,7 +46,7 @@ class Waves(NamedTuple):
     equal: int
 
     @property
-    @cached_within(MAX_CACHED)
+    @cache_within_bytes(MAX_CACHED)
     def rule(self) -> tuple[Array, Array]:
         """Return the Gauss points κ (n,) of the wavenumbers, and their quadrature weights (n,)."""
         last = floor(log(self.widest) / log(GROWTH))
@@ -57,7 +57,7 @@ class Waves(NamedTuple):
         points, weights = unit_gauss(POINTS)
         return (edges[:-1, None] + widths * points).ravel(), (widths * weights).ravel()
 
-    @cached_within(MAX_CACHED)
+    @cache_within_bytes(MAX_CACHED)
     def even_transforms(self, count: int) -> Array:
         """Compute the cosine transforms of even Legendre polynomials at all wavenumbers (count, κ).
 
@@ -82,7 +82,7 @@ class Waves(NamedTuple):
         found[1::2] *= -1
         return found
 
-    def shifted_transform(self, coefficients: Array) -> Array:
+    def legendre_transform(self, coefficients: Array) -> Array:
         """Return the cosine transform of a Legendre series f on 0 < t < 1, at all wavenumbers (κ,).
 
             ∫₀¹ f(t) cos κt dt = Σ c_l Re iˡ exp(iκ/2) j_l(κ/2),    f = Σ c_l P_l(2t - 1)
@@ -90,10 +90,10 @@ class Waves(NamedTuple):
         coefficients  c_l; j_l is the spherical Bessel function
         """
         count = 8 * ceil(len(coefficients) / 8)
-        return np.asarray(coefficients @ self._shifted_transforms(count)[: len(coefficients)])
+        return np.asarray(coefficients @ self._legendre_transforms(count)[: len(coefficients)])
 
-    @cached_within(MAX_CACHED)
-    def _shifted_transforms(self, count: int) -> Array:
+    @cache_within_bytes(MAX_CACHED)
+    def _legendre_transforms(self, count: int) -> Array:
         """Compute the cosine transforms of shifted Legendre polynomials (count, κ).
 
             ∫₀¹ P_l(2t - 1) cos κt dt = Re iˡ exp(iκ/2) j_l(κ/2),    l < count

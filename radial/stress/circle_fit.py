@@ -51,7 +51,7 @@ USUAL = Fit()
 ANOTHER = Fit(begins=0.6, over=0.3, powers=3, fitted_from=0.87)
 
 
-def round_circle(
+def axisymmetric_circle(
     radii: Array, radius: float, outward: Array, around: Array, p: Array
 ) -> LoadedCircle:
     """Represent the tractions of an axisymmetric contact, given at rings, as a loaded circle.
@@ -75,7 +75,7 @@ def round_circle(
     return LoadedCircle(radius, 0.0, np.stack([*shear_ratios, smooth])[..., None])
 
 
-def pushed_circle(
+def fit_tangential_circle(
     radii: Array, angles: Array, outward: Array, around: Array, p: Array, fit: Fit = USUAL
 ) -> LoadedCircle:
     """Fit a loaded circle to the pressure and shear of a contact with tangential load.
@@ -95,7 +95,7 @@ def pushed_circle(
     fitted = (p > fit.over * np.max(p)) & (r > fit.begins)
     _refuse_few(int(np.min(np.count_nonzero(fitted, axis=0))))
     squared = _least_squares(1 - r * r, theta, p * p, np.where(fitted, weights, 0), fit.powers + 1)
-    centre, radius = _zeros(squared, angles)
+    centre, radius = _fit_edge_circle(squared, angles)
     cos, sin = np.cos(theta), np.sin(theta)
     x, y = r * cos, r * sin
     rho, angle = np.hypot(x - centre, y) / radius, np.arctan2(y, x - centre)
@@ -108,14 +108,14 @@ def pushed_circle(
     smooth[inner] = p[inner] / np.sqrt(margin[inner])
     known = (rho < fit.last) & (p > 0)
     shear_ratios = [
-        _continued(q / np.where(known, p, 1.0), known)
+        _extend_outwards(q / np.where(known, p, 1.0), known)
         for q in (outward * cos - around * sin, outward * sin + around * cos)
     ]
     eta, phi = np.linspace(0.0, radius, RADII)[:, None], 2 * np.pi * np.arange(ANGLES) / ANGLES
     x, y = centre + eta * np.cos(phi), eta * np.sin(phi)
     at, to = np.hypot(x, y), np.arctan2(y, x)
     fields = [
-        _all_around(field, r[:, 0], angles, sense, degree)(at, to, grid=False)
+        _full_circle_spline(field, r[:, 0], angles, sense, degree)(at, to, grid=False)
         for field, sense, degree in (
             (shear_ratios[0], 1, 1),
             (shear_ratios[1], -1, 1),
@@ -124,7 +124,7 @@ def pushed_circle(
     ]
     whole = np.stack([fields[0] * fields[2], fields[1] * fields[2], fields[2]])
     circle = LoadedCircle(radius * size, centre * size, whole)
-    return replace(circle, smooth=whole * (_load(radii, angles, p) / circle.load))
+    return replace(circle, smooth=whole * (_normal_force(radii, angles, p) / circle.load))
 
 
 def _refuse_few(rings: int) -> None:
@@ -171,7 +171,9 @@ def _least_squares(
     return lambda s, angle: np.asarray(terms(s, angle) @ found)
 
 
-def _zeros(squared: Callable[[Array, Array], Array], angles: Array) -> tuple[float, float]:
+def _fit_edge_circle(
+    squared: Callable[[Array, Array], Array], angles: Array
+) -> tuple[float, float]:
     """Find centre and radius of the circle through the zeros of a fit of p², the contact edge.
 
     The zeros on rays are found by Newton's method. The centre lies on the x axis.
@@ -190,7 +192,7 @@ def _zeros(squared: Callable[[Array, Array], Array], angles: Array) -> tuple[flo
     return float(centre), float(np.sqrt(rest + centre**2))
 
 
-def _continued(ratio: Array, known: Mask) -> Array:
+def _extend_outwards(ratio: Array, known: Mask) -> Array:
     """Extend a field on rays with a constant value beyond the outermost known value of each ray.
 
     Used for the ratio of shear to pressure near the contact edge.
@@ -203,7 +205,7 @@ def _continued(ratio: Array, known: Mask) -> Array:
     return np.asarray(np.take_along_axis(ratio, position, axis=0))
 
 
-def _all_around(
+def _full_circle_spline(
     field: Array, r: Array, angles: Array, sense: int, degree: int
 ) -> RectBivariateSpline:
     """Return a spline over the full circle through a field on half a circle and its mirror image.
@@ -222,7 +224,7 @@ def _all_around(
     return RectBivariateSpline(r, turns, whole, kx=degree, ky=3)
 
 
-def _load(radii: Array, angles: Array, p: Array) -> float:
+def _normal_force(radii: Array, angles: Array, p: Array) -> float:
     """Return the normal force ∫ p dA of nodal pressures with hat functions [force].
 
     The angles cover half a circle, and the force includes the mirror image.

@@ -49,7 +49,7 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
         radial = mean * (1 - 2 * nu)
         stress = [radial - p, -radial - 2 * nu * p, -p, np.zeros_like(p)]
         return np.stack([out / (2 * G), (1 - nu) * down / G, *stress])
-    level, once, twice, outward, steep, steeper = _waves(contact, x, depth)
+    level, once, twice, outward, steep, steeper = _wave_integrals(contact, x, depth)
     moved, unit = modulus / (2 * G), modulus / contact.radius
     # Quantities divided by r avoid 0/0: u_r is r times `spread`, and
     # σ_θθ = 2G u_r/r - 2ν ∫ p~ exp(-kz) J₀ k dk.
@@ -67,7 +67,7 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
     )
 
 
-def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
+def _wave_integrals(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
     """Compute six integrals ∫ G~ exp(-κz) f dκ for displacement and stress below a pressure (n,).
 
     f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x, with Bessel functions of κx. G~ is the cosine
@@ -77,13 +77,13 @@ def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
     x        radii of the points over the contact radius (n,)
     depth    depth z over the contact radius, > 0
     """
-    offset, weights = _places(contact, x, depth)
+    offset, weights = _quadrature_offsets(contact, x, depth)
     t = x[:, None] + offset
-    c, R = _distance(x[:, None], depth, offset)
+    c, R = _complex_distances(x[:, None], depth, offset)
     by_G, by_rate = weights * contact.transform(t), weights * contact.rate(t)
-    end, last = (part[:, 0] for part in _distance(x[:, None], depth, 1 - x[:, None]))
+    end, last = (part[:, 0] for part in _complex_distances(x[:, None], depth, 1 - x[:, None]))
 
-    def by_parts(inside: Complex, outside: Complex) -> Array:
+    def integrate_by_parts(inside: Complex, outside: Complex) -> Array:
         """Return an integral ∫ G~ exp(-κz) κ f dκ of the pressure, integrated by parts.
 
         inside   factor of dG/dt at the quadrature points
@@ -94,15 +94,15 @@ def _waves(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
     out = 1 / (R * (R + c))
     return (
         np.asarray(np.sum(by_G / R, axis=1).real),
-        by_parts(1 / R, 1 / last),
-        by_parts(c / R**3, end / last**3),
+        integrate_by_parts(1 / R, 1 / last),
+        integrate_by_parts(c / R**3, end / last**3),
         np.asarray(np.sum(by_G * out, axis=1).real),
-        by_parts(out, 1 / (last * (last + end))),
-        by_parts(1 / R**3, 1 / last**3),
+        integrate_by_parts(out, 1 / (last * (last + end))),
+        integrate_by_parts(1 / R**3, 1 / last**3),
     )
 
 
-def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
+def _quadrature_offsets(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
     """Return quadrature points and weights for integrals over t below the pressure (n, points).
 
     t is a coordinate between the axis (0) and the contact edge (1). The first result is t - x. The
@@ -122,7 +122,7 @@ def _places(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
     return depth * np.sinh(y), weights
 
 
-def _distance(x: Array, depth: float, offset: Array) -> tuple[Complex, Complex]:
+def _complex_distances(x: Array, depth: float, offset: Array) -> tuple[Complex, Complex]:
     """Compute the complex distances c = z + it and R = √(x² + c²) at t = x + offset.
 
     1/R is the integral over all wavenumbers of the waves below the surface.

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from contact_scene.array_types import Array
 from radial.response.bodies import (
     LONGEST_WAVE,
-    longest,
+    least_wavenumber,
 )
 from radial.response.wavenumbers import wave_blocks, waves
 from radial.tangential.ring_energies import bessel_functions
@@ -44,7 +44,7 @@ class LayerContribution:
     def __init__(self, stack: Stack, radius: float, reach: float, fineness: int) -> None:
         self.stack, self.radius = stack, radius
         nearest = DIED_OUT * radius / stack.layers[0].thickness
-        self.waves = waves(nearest, LONGEST_WAVE * longest(stack, radius), reach, fineness)
+        self.waves = waves(nearest, LONGEST_WAVE * least_wavenumber(stack, radius), reach, fineness)
 
     def fields(
         self, sources: NDArray[np.inexact], levels: Sequence[Level], r: Array, theta: Array
@@ -109,7 +109,7 @@ def _inverse_transform(
         A, B, p = sources[:, m]
         along, across = (B - A) / 2, -(A + B) / 2
 
-        def by_wave(entries: Array, along: Complex = along, p: Complex = p) -> Complex:
+        def sum_responses(entries: Array, along: Complex = along, p: Complex = p) -> Complex:
             """Return the response to the pressure and the traction along a wave vector (κ,).
 
             entries  responses to a unit traction along the wave vector and to a unit pressure (2,
@@ -119,9 +119,9 @@ def _inverse_transform(
             """
             return np.asarray(entries[0, :count] * along + entries[1, :count] * p)
 
-        U, W = by_wave(fields.displacement[0]), by_wave(fields.displacement[1])
-        s, n = by_wave(fields.traction[0]), by_wave(fields.traction[1])
-        lengthwise, sideways = by_wave(plane.along), by_wave(plane.across)
+        U, W = sum_responses(fields.displacement[0]), sum_responses(fields.displacement[1])
+        s, n = sum_responses(fields.traction[0]), sum_responses(fields.traction[1])
+        lengthwise, sideways = sum_responses(plane.along), sum_responses(plane.across)
         V = fields.transverse_displacement[:count] * across
         t = fields.transverse_traction[:count] * across
         st = plane.shear[:count] * across

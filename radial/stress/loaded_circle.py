@@ -63,11 +63,11 @@ class LoadedCircle:
         eta = np.sin(angle)
         return eta, np.tile(weights, panels) / panels * (np.pi / 2) * np.cos(angle) * eta
 
-    def reversed(self) -> LoadedCircle:
+    def tractions_on_upper_body(self) -> LoadedCircle:
         """Return the tractions on the upper body, in its coordinates with z into this body."""
         return replace(self, smooth=self.smooth * np.array([-1.0, -1.0, 1.0])[:, None, None])
 
-    def at(self, x: Array, y: Array) -> Array:
+    def interpolate_tractions(self, x: Array, y: Array) -> Array:
         """Interpolate the shear q_x, q_y and the pressure to given positions (3, …).
 
         They are 0 outside the circle.
@@ -105,7 +105,7 @@ class LoadedCircle:
         count = 2 * highest + 2
         theta = 2 * np.pi * np.arange(count) / count
         cos, sin = np.cos(theta), np.sin(theta)
-        x, y, p = self.at(eta[:, None] * cos, eta[:, None] * sin)
+        x, y, p = self.interpolate_tractions(eta[:, None] * cos, eta[:, None] * sin)
         outward, around = x * cos + y * sin, y * cos - x * sin
         found = np.fft.rfft(np.stack([outward, around, p]), axis=-1)[..., : highest + 1] / count
         found[..., 1:] *= 2

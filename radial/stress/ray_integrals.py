@@ -42,25 +42,25 @@ def below_circle(
     depth = 0.0 if depth < SURFACE else depth
     # Points with the same panels are evaluated together.
     apart = np.sqrt(np.abs((1 - r) * (1 + r)))
-    widths = np.ceil(_panels(np.where(r < 1, np.maximum(apart, LEAST), 1.0)))
+    widths = np.ceil(_count_intervals(np.where(r < 1, np.maximum(apart, LEAST), 1.0)))
     nearest = np.maximum(np.hypot(np.where(r < 1, 0.0, r - 1), depth), LEAST)
     if depth == 0:
         nearest = np.maximum(np.abs(1 - r), LEAST)
-    lengths = 1 + np.ceil(_panels(np.minimum(nearest, 1.0)))
+    lengths = 1 + np.ceil(_count_intervals(np.minimum(nearest, 1.0)))
     kinds = np.stack([r < 1, widths, lengths]).astype(np.intp)
     for inside, wide, long in np.unique(kinds, axis=1).T:
         alike = np.flatnonzero(np.all(kinds == np.array([[inside], [wide], [long]]), axis=0))
         each = ANGLES * POINTS * fineness**2 * int(wide) * int(long) * 4
         for some in np.array_split(alike, -(-len(alike) * each // MAX_AT_ONCE)):
-            angles = _of_angles(r[some], int(wide), fineness) if inside else None
-            found[:, some] = _summed(
+            angles = _ray_directions(r[some], int(wide), fineness) if inside else None
+            found[:, some] = _integrate_all_rays(
                 circle, material, x[some], y[some], depth, angles, int(long), fineness
             )
     found[:3] *= circle.radius
     return found
 
 
-def _panels(smallest: Array) -> Array:
+def _count_intervals(smallest: Array) -> Array:
     """Return the number of intervals that grow in constant ratio from a smallest width to 1.
 
     Used for the quadrature over angles and rays. The number is not rounded.
@@ -70,7 +70,7 @@ def _panels(smallest: Array) -> Array:
     return np.asarray(1 - np.log(smallest) / np.log(WIDER))
 
 
-def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
+def _ray_directions(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
     """Return the directions of rays and their weights (n, rays), for points inside the circle.
 
     The tractions are integrated along rays from each point. Directions are angles from the outward
@@ -82,7 +82,7 @@ def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
     """
     width = np.sqrt((1 - r) * (1 + r))
     v, weights = unit_gauss(ANGLES * fineness)
-    edges = _graded(np.clip(width, LEAST, 1.0), count) * (pi / 2)
+    edges = _interval_ends(np.clip(width, LEAST, 1.0), count) * (pi / 2)
     lengths = np.diff(edges, axis=1)[..., None]
     offset = (edges[:, :-1, None] + lengths * v).reshape(len(r), -1)
     weight = (lengths * weights).reshape(len(r), -1)
@@ -90,7 +90,7 @@ def _of_angles(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
     return np.concatenate(angles, axis=1), np.tile(weight, 4)
 
 
-def _graded(smallest: Array, count: int) -> Array:
+def _interval_ends(smallest: Array, count: int) -> Array:
     """Return the ends of intervals between 0 and 1 that grow in constant ratio (…, count + 1).
 
     The ends are 0, the smallest value, …, 1. Used for the quadrature over angles and rays.
@@ -103,7 +103,7 @@ def _graded(smallest: Array, count: int) -> Array:
     return np.concatenate([np.zeros_like(grown[..., :1]), grown], axis=-1)
 
 
-def _summed(
+def _integrate_all_rays(
     circle: LoadedCircle, material: HalfSpace, x: Array, y: Array, depth: float,
     angles: tuple[Array, Array] | None, count: int, fineness: int,
 ) -> Array:  # fmt: skip
@@ -143,17 +143,19 @@ def _summed(
         first, length = np.zeros_like(ahead), ahead
         scale = np.full_like(ahead, depth) if depth else behind
     length = np.maximum(length, 1e-300)
-    share, part = _on_rays(np.clip(scale / length, LEAST, 1 / WIDER), count, fineness)
+    share, part = _ray_quadrature(np.clip(scale / length, LEAST, 1 / WIDER), count, fineness)
     far = first[..., None] + length[..., None] * share
     weight_far = length[..., None] * part
     ways = outward + turned
     cos, sin = np.cos(ways), np.sin(ways)
-    t = circle.at(x[:, None, None] + far * cos[..., None], y[:, None, None] + far * sin[..., None])
-    rays = _by_rays(material, t, far, weight_far, depth, cos, sin)
-    here = circle.at(x, y)
+    t = circle.interpolate_tractions(
+        x[:, None, None] + far * cos[..., None], y[:, None, None] + far * sin[..., None]
+    )
+    rays = _integrate_each_ray(material, t, far, weight_far, depth, cos, sin)
+    here = circle.interpolate_tractions(x, y)
     if depth == 0 and angles is not None:
         rays = rays + _finite_part(material, here, far, weight_far, length, cos, sin)
-    found = _turned(rays, cos, sin, weight)
+    found = _sum_over_rays(rays, cos, sin, weight)
     if depth == 0:
         p = here[2]
         nu = material.poisson_ratio
@@ -161,7 +163,7 @@ def _summed(
     return found
 
 
-def _on_rays(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
+def _ray_quadrature(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
     """Return quadrature positions along rays between 0 and 1, and weights (…, points).
 
     The points are dense towards 0, the start of the ray. Substitutions remove roots at both ends.
@@ -170,7 +172,7 @@ def _on_rays(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
     count     number of intervals
     fineness  multiple of the number of points
     """
-    edges = _graded(scale, count)
+    edges = _interval_ends(scale, count)
     v, weights = unit_gauss(POINTS * fineness)
     lengths = np.diff(edges, axis=-1)[..., None]
     places = edges[..., :-1, None] + lengths * v
@@ -183,7 +185,7 @@ def _on_rays(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
     return places.reshape(shape), parts.reshape(shape)
 
 
-def _kernels(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
+def _point_force_fields(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
     """Compute displacement and stress by a unit point force on a half-space, times the distance d.
 
     The factor d is the Jacobian of polar coordinates about the point of evaluation. For pressure
@@ -225,7 +227,7 @@ def _kernels(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
     return (*by_p, *by_s, *by_t)
 
 
-def _by_rays(
+def _integrate_each_ray(
     material: HalfSpace, t: Array, d: Array, weight: Array, depth: float, cos: Array, sin: Array
 ) -> Array:
     """Integrate displacement and stress below tractions along every ray (8, n, rays).
@@ -238,7 +240,9 @@ def _by_rays(
     depth      depth of the points of evaluation
     cos, sin   cosine and sine of the direction of every ray
     """
-    pu, pw, pss, ptt, pzz, psz, su, sw, sss, stt, szz, ssz, tu, tst = _kernels(material, d, depth)
+    pu, pw, pss, ptt, pzz, psz, su, sw, sss, stt, szz, ssz, tu, tst = _point_force_fields(
+        material, d, depth
+    )
     q_x, q_y, p = t * weight
 
     c, s = cos[..., None], sin[..., None]
@@ -278,7 +282,7 @@ def _finite_part(
     ])  # fmt: skip
 
 
-def _turned(rays: Array, cos: Array, sin: Array, weight: Array) -> Array:
+def _sum_over_rays(rays: Array, cos: Array, sin: Array, weight: Array) -> Array:
     """Sum displacement and stress over all rays of every point, in x and y components (9, n).
 
     rays              u_s, u_t, u_z and stresses along and across every ray (8, n, rays)

@@ -63,7 +63,7 @@ class SubsurfaceCircle:
                     found[part, m, some] = bessel_of_order(orders, m + order) @ (area * field[m])
         return found
 
-    def at(self, levels: Sequence[Level], x: Array, y: Array) -> Array:
+    def compute_fields(self, levels: Sequence[Level], x: Array, y: Array) -> Array:
         """Compute displacement and stress at given depths and horizontal positions (levels, 9, n).
 
         The fields are u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²]. Raises
@@ -82,11 +82,11 @@ class SubsurfaceCircle:
         if self.stack.layers:
             r, theta = np.hypot(x, y), np.arctan2(y, x)
             polar = self._layers.fields(self._sources, levels, r, theta)
-            found += _turned(polar, np.cos(theta), np.sin(theta))
+            found += _cartesian_components(polar, np.cos(theta), np.sin(theta))
         return found
 
 
-def _turned(polar: Array, cos: Array, sin: Array) -> Array:
+def _cartesian_components(polar: Array, cos: Array, sin: Array) -> Array:
     """Transform displacement and stress from cylindrical to x and y components (levels, 9, n).
 
     polar     u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ (levels, 9, n)

@@ -38,7 +38,7 @@ class SubsurfaceDisc:
             )
             self._sources = np.stack([0 * kappa, 0 * kappa, weights * kappa * transform])[:, None]
 
-    def at(self, levels: Sequence[Level], r: Array) -> Array:
+    def compute_fields(self, levels: Sequence[Level], r: Array) -> Array:
         """Compute displacement and stress at given depths and radii (levels, 6, n).
 
         The fields are u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²]. Raises ValueError

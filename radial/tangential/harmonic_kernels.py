@@ -42,7 +42,7 @@ def equal_order(highest: int, r: Array, s: Array, apart: Array) -> Array:
     chi = 1 + apart * (apart / (2 * r * s))
     border = UPWARDS / max(highest, 9)
     near = chi < np.cosh(border)
-    _upwards(found, near, chi[near], (r * s)[near], total[near], whole[near], small[near])
+    _recur_upwards(found, near, chi[near], (r * s)[near], total[near], whole[near], small[near])
     far = ~near
     x = chi[far]
     ratio = np.exp(-np.arccosh(x))
@@ -56,7 +56,7 @@ def equal_order(highest: int, r: Array, s: Array, apart: Array) -> Array:
     return found
 
 
-def _upwards(
+def _recur_upwards(
     found: Array,
     near: NDArray[np.bool_],
     chi: Array,

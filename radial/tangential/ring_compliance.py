@@ -47,7 +47,7 @@ def ring_compliance(
         (coupling.across - coupling.direct) / 4,
     )
     crossed = coupling.crossed / 2
-    added = _of_layers(coupling, nodes, radius, highest) if coupling.bodies.layered else None
+    added = _layer_matrices(coupling, nodes, radius, highest) if coupling.bodies.layered else None
     for m, block in enumerate(found):
         below = abs(m - 1)
         pp, qq = mean * unit.equal_order[below], mean * unit.equal_order[m + 1]
@@ -66,7 +66,9 @@ def ring_compliance(
     return radius**3 * found
 
 
-def _of_layers(coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int) -> Array:
+def _layer_matrices(
+    coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int
+) -> Array:
     """Compute the contribution of layers to the Galerkin matrices of tractions on rings.
 
     The matrices couple the combinations PP, QQ, PQ, zz, zP and zQ of tractions, where P = q_r -

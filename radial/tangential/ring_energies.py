@@ -35,7 +35,7 @@ CACHED = 8
 BEYOND = 32
 
 
-class Unit(NamedTuple):
+class HalfSpaceIntegrals(NamedTuple):
     """Galerkin integrals ∬ φ_i K φ_j r s dr ds of half-space kernels K, for all angular harmonics.
 
     φ_i and φ_j are the hat functions of the nodes of rings. The shapes are (harmonics, n + 1, n +
@@ -52,7 +52,7 @@ class Unit(NamedTuple):
 
 
 @lru_cache(maxsize=CACHED)
-def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
+def unit_energies(nodes: tuple[float, ...], highest: int) -> HalfSpaceIntegrals:
     """Compute the Galerkin integrals of half-space kernels with hat functions on rings.
 
     The integrals ∬ φ_i K φ_j r s dr ds are computed for all angular harmonics.
@@ -65,11 +65,11 @@ def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
     products = np.zeros((highest + 2, *size))
     squares = np.zeros((highest + 2, *size))  # Galerkin integrals of (r/s) G_m
     steps = np.zeros((highest + 1, *size))
-    for inner, outer, r, s, apart, weights in _pairs(x):
+    for inner, outer, r, s, apart, weights in _quadrature_pairs(x):
         kernel = equal_order(highest + 1, r, s, apart) * weights
         power = weights * r * (r / s) ** np.arange(highest + 1.0)[:, None, None]
-        for i, at_r in enumerate(_shapes(x, inner, r)):
-            for j, at_s in enumerate(_shapes(x, outer, s)):
+        for i, at_r in enumerate(_evaluate_hats(x, inner, r)):
+            for j, at_s in enumerate(_evaluate_hats(x, outer, s)):
                 row, column, both = inner + i, outer + j, at_r * at_s
                 part = (kernel * (both * r * s)).sum(-1)
                 products[:, row, column] += part
@@ -80,10 +80,10 @@ def unit_energies(nodes: tuple[float, ...], highest: int) -> Unit:
     m = np.arange(1.0, highest + 1)[:, None, None]
     shifted = (2 * m - 1) * products[:highest] - 2 * m * squares[1 : highest + 1]
     shifted = np.concatenate([-products[1:2], shifted])
-    return Unit(products, shifted, steps)
+    return HalfSpaceIntegrals(products, shifted, steps)
 
 
-def _shapes(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
+def _evaluate_hats(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
     """Evaluate the hat functions of the inner and the outer node of elements at given points.
 
     Both results have the shape (elements, points).
@@ -96,7 +96,7 @@ def _shapes(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
     return (outer - r) / (outer - inner), (r - inner) / (outer - inner)
 
 
-def _pairs(x: Array) -> Iterator[Pairs]:
+def _quadrature_pairs(x: Array) -> Iterator[Pairs]:
     """Yield quadrature points r < s for double integrals over all pairs of elements of the radius.
 
     Pairs of elements are grouped by their distance: a group has equal quadrature. A group contains
@@ -107,13 +107,13 @@ def _pairs(x: Array) -> Iterator[Pairs]:
     count = len(x) - 1
     length = np.diff(x)
     each = np.arange(count)
-    v, u, weights = _square(SAME, SAME)
+    v, u, weights = _unit_square_rule(SAME, SAME)
     v, u, weights = v**2, u**4, weights * 2 * v * 4 * u**3
     off = length[:, None] * v
     s, apart = x[:-1, None] + off, off * u
     # r is a sum of positive terms instead of s - off u: r > 0 for all u < 1.
     yield each, each, x[:-1, None] + off * (1 - u), s, apart, weights * length[:, None] * off
-    t, y, weights = _square(*TOUCHING)
+    t, y, weights = _unit_square_rule(*TOUCHING)
     t, weights = t**3, weights * 3 * t**5
     inner, outer = each[:-1], each[1:]
     for before, behind in ((t, t * y), (t * y, t)):
@@ -124,14 +124,14 @@ def _pairs(x: Array) -> Iterator[Pairs]:
     between = each[None, :] - each[:, None]
     for first, last, points in (*APART, (FAR, count, FAR_POINTS)):
         inner, outer = np.nonzero((between >= first) & (between < last))
-        v, u, weights = _square(points, points)
+        v, u, weights = _unit_square_rule(points, points)
         r = x[inner, None] + length[inner, None] * v
         s = x[outer, None] + length[outer, None] * u
         area = (length[inner] * length[outer])[:, None]
         yield inner, outer, r, s, s - r, weights * area
 
 
-def _square(first: int, second: int) -> tuple[Array, Array, Array]:
+def _unit_square_rule(first: int, second: int) -> tuple[Array, Array, Array]:
     """Return Gauss points and weights of the unit square, as flat arrays.
 
     first, second  number of points in each direction

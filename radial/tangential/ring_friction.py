@@ -24,11 +24,11 @@ from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
 from radial.tangential.ring_laws import (
-    At,
-    Laws,
+    ContactLaws,
+    NewtonIterate,
 )
 from radial.tangential.ring_newton import newton_iterate
-from radial.tangential.ring_points import Points
+from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
     NORMAL,
     TORSION,
@@ -49,8 +49,8 @@ TIE = 1e-9
 AT_ONCE = 12  # number of first Newton steps without line search, which find the slip zone sooner
 
 
-def solved_state(
-    points: Points,
+def solve_increment(
+    points: ContactPoints,
     friction: CoulombFriction,
     loads: Loads,
     before: PointState | None,
@@ -69,13 +69,13 @@ def solved_state(
                tangential force and torque exceed the limit load of the contact without them;
                ContactAtZoneEdge if the contact reaches the last ring
     """
-    force, W = float(np.hypot(*_given(loads)[:2])), loads.forces[NORMAL]
+    force, W = float(np.hypot(*_prescribed_shear_loads(loads)[:2])), loads.forces[NORMAL]
     most = None if W is None else friction.carried(W)
     if force and most is not None and force >= most:
-        raise _slides(force, most)
-    laws = Laws.of(points, friction, loads, before)
+        raise _gross_sliding_error(force, most)
+    laws = ContactLaws.of(points, friction, loads, before)
     for x in _initial_guesses(laws, before, tolerance, smooth):
-        at = laws.at(x, points.compliance @ x[:-4])
+        at = laws.evaluate(x, points.compliance @ x[:-4])
         for step in range(MAX_STEPS):
             if at.worst <= tolerance:
                 return _end_state(laws, at, before, step)
@@ -84,15 +84,15 @@ def solved_state(
                 aim = newton_iterate(laws, at)
                 if aim is None:
                     break
-                aim = _limited_step(laws, at, aim)
+                aim = _limit_motion(laws, at, aim)
                 at = _line_search(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
-    if np.any(_given(loads)):
+    if np.any(_prescribed_shear_loads(loads)):
         _refuse_sliding(points, friction, loads, before, tolerance)
     raise NotConverged("contact and friction on rings", MAX_STEPS, at.worst, tolerance)
 
 
 def _initial_guesses(
-    laws: Laws, before: PointState | None, tolerance: float, smooth: Array | None
+    laws: ContactLaws, before: PointState | None, tolerance: float, smooth: Array | None
 ) -> Iterator[Array]:
     """Yield initial guesses of tractions and rigid motion for Newton's method, the best first.
 
@@ -109,17 +109,17 @@ def _initial_guesses(
     if before is None:
         if smooth is not None:
             yield smooth
-        yield laws.closed_guess()
+        yield laws.guess_closed_gap()
         return
     yield from laws.initial_guesses(before)
     if any(force is not None for force in laws.loads.forces[:NORMAL]):
-        resting = laws.loads.resting(before.motion)
+        resting = laws.loads.hold_motion(before.motion)
         with suppress(NotConverged):
-            state = solved_state(laws.points, laws.friction, resting, before, tolerance)
+            state = solve_increment(laws.points, laws.friction, resting, before, tolerance)
             yield np.append(state.tractions, state.motion)
 
 
-def _given(loads: Loads) -> Array:
+def _prescribed_shear_loads(loads: Loads) -> Array:
     """Return the prescribed tangential forces along and across θ = 0, and the torque (3,).
 
     The units are force and force length. Components with a prescribed motion are 0.
@@ -130,7 +130,7 @@ def _given(loads: Loads) -> Array:
 
 
 def _refuse_sliding(
-    points: Points,
+    points: ContactPoints,
     friction: CoulombFriction,
     loads: Loads,
     before: PointState | None,
@@ -147,8 +147,8 @@ def _refuse_sliding(
     before     state at the start of the increment; None before first contact
     tolerance  bound of the residual of the contact without these loads
     """
-    normal_contact = solved_state(points, friction, loads.without_shear, before, tolerance)
-    given = _given(loads)
+    normal_contact = solve_increment(points, friction, loads.drop_shear_loads, before, tolerance)
+    given = _prescribed_shear_loads(loads)
     limit = friction.limit(np.maximum(normal_contact.pressure, 0.0))
     free = np.array([force is not None for force in loads.forces[:NORMAL]])
     times = limit_load_factor(points, limit, given, free)
@@ -156,7 +156,7 @@ def _refuse_sliding(
         return
     force, torque = float(np.hypot(*given[:2])), abs(given[TORSION])
     if not torque:
-        raise _slides(force, times * force)
+        raise _gross_sliding_error(force, times * force)
     if not force:
         raise GrossSliding(
             f"torque {torque:.6g} N m, but friction carries less than {times * torque:.6g} N m. "
@@ -168,7 +168,7 @@ def _refuse_sliding(
     )
 
 
-def _limited_step(laws: Laws, at: At, aim: Array) -> Array:
+def _limit_motion(laws: ContactLaws, at: NewtonIterate, aim: Array) -> Array:
     """Shorten a Newton step if its rigid motion is too large for the current slip and approach.
 
     If nearly all points slip, the step under a prescribed force grows without bound, and the slip
@@ -192,7 +192,9 @@ def _limited_step(laws: Laws, at: At, aim: Array) -> Array:
     return aim if distance <= reach else at.x + reach / distance * (aim - at.x)
 
 
-def _line_search(laws: Laws, at: At, aim: Array, shortest: float) -> At:
+def _line_search(
+    laws: ContactLaws, at: NewtonIterate, aim: Array, shortest: float
+) -> NewtonIterate:
     """Halve a Newton step until the residual decreases or the step is shortest.
 
     Returns the new iterate.
@@ -204,14 +206,14 @@ def _line_search(laws: Laws, at: At, aim: Array, shortest: float) -> At:
     """
     moved = laws.points.compliance @ aim[:-4]
     size, length = np.linalg.norm(at.residual), 1.0
-    trial = laws.at(aim, moved)
+    trial = laws.evaluate(aim, moved)
     while trial.worst >= at.worst and np.linalg.norm(trial.residual) >= size and length > shortest:
         length /= 2
-        trial = laws.at(at.x + length * (aim - at.x), at.u + length * (moved - at.u))
+        trial = laws.evaluate(at.x + length * (aim - at.x), at.u + length * (moved - at.u))
     return trial
 
 
-def _slides(force: float, carried: float) -> GrossSliding:
+def _gross_sliding_error(force: float, carried: float) -> GrossSliding:
     """Create the error GrossSliding for a tangential force that friction cannot carry.
 
     force    prescribed tangential force [N]
@@ -223,7 +225,9 @@ def _slides(force: float, carried: float) -> GrossSliding:
     )
 
 
-def _end_state(laws: Laws, at: At, before: PointState | None, steps: int) -> PointState:
+def _end_state(
+    laws: ContactLaws, at: NewtonIterate, before: PointState | None, steps: int
+) -> PointState:
     """Create the contact state at the end of an increment from the converged Newton iterate.
 
     laws    contact and friction laws of the increment
@@ -251,7 +255,9 @@ def _end_state(laws: Laws, at: At, before: PointState | None, steps: int) -> Poi
     )  # fmt: skip
 
 
-def limit_load_factor(points: Points, limit: Array, given: Array, free: NDArray[np.bool_]) -> float:
+def limit_load_factor(
+    points: ContactPoints, limit: Array, given: Array, free: NDArray[np.bool_]
+) -> float:
     """Compute the factor by which given loads must be multiplied to reach gross slip [1].
 
     The factor is the least dissipation of a rigid slip on which the given loads do unit work (upper
@@ -269,7 +275,7 @@ def limit_load_factor(points: Points, limit: Array, given: Array, free: NDArray[
     loads_size = np.linalg.norm(loads)
     across = null_space(loads[None])
 
-    def dissipated(part: Array) -> float:
+    def rigid_slip_work(part: Array) -> float:
         """Return the dissipation of a rigid slip on which the given loads do unit work [1].
 
         part  components of the rigid slip on which the loads do no work
@@ -279,8 +285,8 @@ def limit_load_factor(points: Points, limit: Array, given: Array, free: NDArray[
 
     start = np.zeros(across.shape[1])
     if not len(start):
-        return dissipated(start)
+        return rigid_slip_work(start)
     found = minimize(
-        dissipated, start, method="Nelder-Mead", options={"xatol": DIGITS, "fatol": DIGITS}
+        rigid_slip_work, start, method="Nelder-Mead", options={"xatol": DIGITS, "fatol": DIGITS}
     )
     return float(found.fun)

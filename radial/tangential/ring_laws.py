@@ -12,14 +12,14 @@ import numpy as np
 
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
-from radial.tangential.ring_points import Points
+from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
     ALONG,
     NORMAL,
     TORSION,
     Loads,
     PointState,
-    carried,
+    resultant_loads,
 )
 
 # Least µ in the relative error of the shear. With less friction the limit µp is round-off of p.
@@ -30,7 +30,7 @@ LEAST_FRICTION = 1e-4
 REST, FURTHEST, ASIDE = 1e-6, 2.1, 0.5
 
 
-class At(NamedTuple):
+class NewtonIterate(NamedTuple):
     """Iterate of Newton's method, with the terms of the contact and friction laws. N points.
 
     x         tractions q_r, q_θ, p and rigid motion (3 N + 4,)
@@ -52,7 +52,7 @@ class At(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Laws:
+class ContactLaws:
     """Contact and friction laws of an increment, as equations for tractions and rigid motion.
 
     points    points of the contact and their compliance
@@ -62,7 +62,7 @@ class Laws:
     motion    rigid motion at the start of the increment (4,)
     """
 
-    points: Points
+    points: ContactPoints
     friction: CoulombFriction
     loads: Loads
     moved: Array
@@ -70,8 +70,12 @@ class Laws:
 
     @classmethod
     def of(
-        cls, points: Points, friction: CoulombFriction, loads: Loads, before: PointState | None
-    ) -> Laws:
+        cls,
+        points: ContactPoints,
+        friction: CoulombFriction,
+        loads: Loads,
+        before: PointState | None,
+    ) -> ContactLaws:
         """Create the equations of contact and friction of one increment.
 
         points    points of the contact and their compliance
@@ -83,7 +87,7 @@ class Laws:
             return cls(points, friction, loads, np.zeros(2 * len(points.areas)), np.zeros(4))
         return cls(points, friction, loads, before.moved, before.motion)
 
-    def closed_guess(self) -> Array:
+    def guess_closed_gap(self) -> Array:
         """Return an initial guess of tractions and rigid motion for the first contact (3 N + 4,).
 
         The approach closes the gap at all points where the load may cause contact. Under a
@@ -115,7 +119,8 @@ class Laws:
         )
         x = np.append(before.tractions, before.motion)
         now, last = (
-            np.where(leads, carried(self.points, of[:-4]), of[-4:]) for of in (x, before.changed)
+            np.where(leads, resultant_loads(self.points, of[:-4]), of[-4:])
+            for of in (x, before.changed)
         )
         further = prescribed - now
         for group in (slice(ALONG, TORSION), slice(TORSION, NORMAL), slice(NORMAL, None)):
@@ -132,7 +137,7 @@ class Laws:
             return [x]
         return [x + share * before.changed, x]
 
-    def at(self, x: Array, u: Array) -> At:
+    def evaluate(self, x: Array, u: Array) -> NewtonIterate:
         """Evaluate the contact and friction laws and their residuals at a Newton iterate.
 
         x  tractions q_r, q_θ, p and rigid motion (3 N + 4,)
@@ -146,15 +151,17 @@ class Laws:
         z = p - gap / points.softness[2 * size :]
         y = (q - slip_increment / points.softness[: 2 * size]).reshape(2, -1)
         limit = self.friction.limit(np.maximum(z, 0.0))
-        residual = np.concatenate([q - (_shortened(y, limit) * y).ravel(), p - np.maximum(z, 0.0)])
+        residual = np.concatenate(
+            [q - (_reduction_factors(y, limit) * y).ravel(), p - np.maximum(z, 0.0)]
+        )
         # The error of the shear is relative to the friction limit, that of the pressure to the
         # pressure.
         beyond = np.max(np.abs(residual[: 2 * size])) / max(self.friction.largest, LEAST_FRICTION)
         peak = np.max(np.abs(p))
         worst = max(beyond, np.max(np.abs(residual[2 * size :]))) / peak if peak > 0 else np.inf
         if not np.isfinite(worst):
-            return At(x, residual, z, y, limit, u, np.inf)
-        forces = carried(points, t)
+            return NewtonIterate(x, residual, z, y, limit, u, np.inf)
+        forces = resultant_loads(points, t)
         most, depth = points.areas @ np.abs(p), abs(motion[NORMAL])
         sizes = (most, most, points.levers @ np.abs(p), most)
         reaches = (depth, depth, depth / points.radii[-1], depth)
@@ -165,7 +172,7 @@ class Laws:
             for wanted, found, size_of in zip(prescribed, now, of, strict=True):
                 if wanted is not None:
                     worst = max(worst, abs(found - wanted) / size_of)
-        return At(x, residual, z, y, limit, u, float(worst))
+        return NewtonIterate(x, residual, z, y, limit, u, float(worst))
 
     def slip_increment(self, u: Array, motion: Array) -> Array:
         """Return the slip of the increment at all points, times their areas (2 N,) [length³].
@@ -179,7 +186,7 @@ class Laws:
         return u[: 2 * len(self.points.areas)] - self.moved - tangential @ self.points.rigid_motions
 
 
-def _shortened(y: Array, limit: Array) -> Array:
+def _reduction_factors(y: Array, limit: Array) -> Array:
     """Return factors that reduce trial shear vectors to the friction limit (…).
 
     A factor is 1 for a vector below the limit, otherwise the limit over the length of the vector.

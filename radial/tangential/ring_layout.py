@@ -13,7 +13,7 @@ from radial.angular_grid import Circle
 from radial.frictional.coupling import Coupling
 from radial.response.quadrature import unit_gauss
 from radial.tangential.ring_compliance import ring_compliance
-from radial.tangential.ring_points import Points
+from radial.tangential.ring_points import ContactPoints
 
 GRADED = 4  # rings on each side of an edge, each with half the width of the previous one
 LEAST = 0.75  # least distance of an evenly spaced ring from an edge, in widths of a ring
@@ -24,7 +24,7 @@ REACH, BY_FRICTION = 1.15, 0.5
 POINTS = 6  # Gauss points of an element
 
 
-def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...]:
+def relative_ring_radii(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...]:
     """Return the radii of rings over the radius of the largest contact, increasing from 0.
 
     The rings are even inside the largest contact, dense at the edges of contacts, and wider
@@ -53,7 +53,7 @@ def places(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...
     return (0.0, *(float(x) for x in found if x > near[-1] * min(1.0, min(dense) * count)))
 
 
-def lay_out(
+def create_points(
     coupling: Coupling,
     indenter: ShapedBody,
     edges: Sequence[float],
@@ -62,7 +62,7 @@ def lay_out(
     circle: Circle,
     friction: float,
     rig: Rig | None = None,
-) -> Points:
+) -> ContactPoints:
     """Create the points (rings × angles) of a contact, with their compliance.
 
     coupling  elastic response of both bodies
@@ -75,7 +75,9 @@ def lay_out(
     rig       springs of the test machine, which displace all points equally; None without springs
     """
     edge = max(edges)
-    over = places(count, REACH + BY_FRICTION * friction, [other / edge for other in edges])
+    over = relative_ring_radii(
+        count, REACH + BY_FRICTION * friction, [other / edge for other in edges]
+    )
     radii = edge * np.array(over)
     scaled = tuple(x / over[-1] for x in over)
     energies = ring_compliance(coupling, scaled, radii[-1], highest)
@@ -98,4 +100,4 @@ def lay_out(
     if highest:
         signs = np.array([[1.0, -1.0], [-1.0, 1.0]])  # u_r = cos θ and u_θ = -sin θ of a shift
         energies[1, :2, :2] += along * np.multiply.outer(signs, by_all)
-    return Points(radii, energies, areas, integral(r * r), gap, circle)
+    return ContactPoints(radii, energies, areas, integral(r * r), gap, circle)

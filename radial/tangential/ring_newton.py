@@ -1,9 +1,9 @@
 """Newton step of the contact and friction laws of an increment at points.
 
 Unknowns are the displacements of slipping and open points, and the rigid motions. Tractions follow
-from displacements harmonic by harmonic (`Points.tractions`), scaled so that small and large rings
-have entries of equal magnitude. All quantities are differences from the current iterate, so that
-round-off is proportional to the remaining step.
+from displacements harmonic by harmonic (`ContactPoints.inverse_compliance`), scaled so that small
+and large rings have entries of equal magnitude. All quantities are differences from the current
+iterate, so that round-off is proportional to the remaining step.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from scipy.linalg import lapack
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from radial.tangential.ring_laws import (
-    At,
-    Laws,
+    ContactLaws,
+    NewtonIterate,
 )
 from radial.tangential.ring_state import NORMAL
 
 Numbers = NDArray[np.int64]
 
 
-class _Free(NamedTuple):
+class _FreePoints(NamedTuple):
     """Slipping and open points of a Newton step. Their displacements are the unknowns of the step.
 
     Share, slopes and rests of open points are zero.
@@ -59,7 +59,9 @@ class _Free(NamedTuple):
         return np.concatenate([self.points, m + self.points, 2 * m + apart])
 
 
-def _free(at: At, m: int, friction: CoulombFriction, units: Array) -> _Free:
+def _find_free_points(
+    at: NewtonIterate, m: int, friction: CoulombFriction, units: Array
+) -> _FreePoints:
     """Find the slipping and open points of a Newton iterate, with the terms of their friction law.
 
     at        current iterate
@@ -79,10 +81,10 @@ def _free(at: At, m: int, friction: CoulombFriction, units: Array) -> _Free:
     share, slopes, rests = np.where(
         slips, [most / safe, slope * across / down, (most - slope * pressure) * across], 0.0
     )
-    return _Free(points, slips, *(of[:, None] for of in (c, s, share, slopes, rests)))
+    return _FreePoints(points, slips, *(of[:, None] for of in (c, s, share, slopes, rests)))
 
 
-def newton_iterate(laws: Laws, at: At) -> Array | None:
+def newton_iterate(laws: ContactLaws, at: NewtonIterate) -> Array | None:
     """Return tractions and rigid motion after one Newton step (3 N + 4,).
 
     Returns None if the system is singular, or if the normal force is prescribed and all points are
@@ -96,12 +98,12 @@ def newton_iterate(laws: Laws, at: At) -> Array | None:
         return None
     # Rings outside the outermost ring in contact carry no traction.
     rings = int(np.max(np.flatnonzero(at.z > 0), initial=0)) // points.count + 1
-    K, m = points.tractions(rings), rings * points.count
-    units = np.sqrt(points.of_rings(points.softness, rings))
-    free = _free(at, m, laws.friction, units)
+    K, m = points.inverse_compliance(rings), rings * points.count
+    units = np.sqrt(points.restrict_to_rings(points.softness, rings))
+    free = _find_free_points(at, m, laws.friction, units)
     own = free.displacements(m)
-    t = points.of_rings(at.x[:-4], rings)
-    imposed = _imposed(laws, at, rings, t) / units[:, None]
+    t = points.restrict_to_rings(at.x[:-4], rings)
+    imposed = _imposed_displacements(laws, at, rings, t) / units[:, None]
     residual = imposed[own, 4]
     imposed[own, 4] = 0.0
     # Tractions by the rigid motions, and at the iterate; their work on the rigid motions.
@@ -109,8 +111,9 @@ def newton_iterate(laws: Laws, at: At) -> Array | None:
     by_motion = imposed.T @ carried
     carried[:, 4] += t * units
     by_motion[4] += imposed.T @ (t * units)
-    found = _solved(
-        _whole(laws, at, free, K, carried, residual), _loads(laws, at, carried[own], by_motion)
+    found = _solve_system(
+        _point_equations(laws, at, free, K, carried, residual),
+        _load_equations(laws, at, carried[own], by_motion),
     )
     if found is None:
         return None
@@ -123,7 +126,7 @@ def newton_iterate(laws: Laws, at: At) -> Array | None:
     return x
 
 
-def _imposed(laws: Laws, at: At, rings: int, t: Array) -> Array:
+def _imposed_displacements(laws: ContactLaws, at: NewtonIterate, rings: int, t: Array) -> Array:
     """Return the displacements that the rigid motions and the misfit of a Newton iterate impose.
 
     All are multiplied by the areas of the points. The shape is (3 m, 5). The first four columns are
@@ -139,7 +142,7 @@ def _imposed(laws: Laws, at: At, rings: int, t: Array) -> Array:
     whole = np.zeros((3, len(at.z)))
     whole[:, :m] = t.reshape(3, m)
     same = np.array_equal(whole.ravel(), at.x[:-4])
-    u = points.of_rings(at.u if same else points.compliance @ whole.ravel(), rings)
+    u = points.restrict_to_rings(at.u if same else points.compliance @ whole.ravel(), rings)
     tied = points.rigid_motions.reshape(3, 2, -1)[:, :, :m].reshape(3, -1)
     moved = laws.moved.reshape(2, -1)[:, :m].ravel() - laws.motion[:NORMAL] @ tied
     imposed = np.zeros((3 * m, 5))
@@ -148,8 +151,13 @@ def _imposed(laws: Laws, at: At, rings: int, t: Array) -> Array:
     return imposed
 
 
-def _whole(
-    laws: Laws, at: At, free: _Free, K: Array, carried: Array, residual: Array
+def _point_equations(
+    laws: ContactLaws,
+    at: NewtonIterate,
+    free: _FreePoints,
+    K: Array,
+    carried: Array,
+    residual: Array,
 ) -> tuple[Array, Array]:
     """Assemble the linear equations of slipping and open points for one Newton step.
 
@@ -184,7 +192,9 @@ def _whole(
     return rows, left
 
 
-def _loads(laws: Laws, at: At, carried: Array, by_motion: Array) -> Array:
+def _load_equations(
+    laws: ContactLaws, at: NewtonIterate, carried: Array, by_motion: Array
+) -> Array:
     """Assemble the linear equations of the prescribed loads and motions for one Newton step (4, …).
 
     A prescribed force gives an equation of equilibrium. A prescribed motion gives the value of this
@@ -207,7 +217,7 @@ def _loads(laws: Laws, at: At, carried: Array, by_motion: Array) -> Array:
     return rows
 
 
-def _solved(laws: tuple[Array, Array], loads: Array) -> Array | None:
+def _solve_system(laws: tuple[Array, Array], loads: Array) -> Array | None:
     """Solve the linear system of a Newton step; return None if the system is singular.
 
     laws   equations of slipping and open points: matrix, and columns of motions and constants

@@ -25,7 +25,7 @@ INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Points:
+class ContactPoints:
     """Points of a contact on rings times angles, and their elastic compliance.
 
     The compliance is that of both bodies and the rig's springs. There are n nodes along the radius
@@ -70,19 +70,19 @@ class Points:
 
         The area includes that of the mirror image if the angles cover half a circle.
         """
-        return self._at_points(self.weights)
+        return self._distribute_to_points(self.weights)
 
     @cached_property
     def gap_areas(self) -> Array:
         """Return the undeformed gap at every point times its area (n count,) [length³]."""
-        return self._at_points(self.gap)
+        return self._distribute_to_points(self.gap)
 
     @cached_property
     def levers(self) -> Array:
         """Return the distance of every point from the axis times its area (n count,) [length³]."""
-        return self._at_points(self.arms)
+        return self._distribute_to_points(self.arms)
 
-    def _at_points(self, of_nodes: Array) -> Array:
+    def _distribute_to_points(self, of_nodes: Array) -> Array:
         """Distribute integrals over the radius to the points of all angles (n count,).
 
         Each integral contains the hat function φ of a node. The values are those of the full
@@ -118,7 +118,7 @@ class Points:
         It maps tractions to displacements times the areas of the points, each with the components
         r, θ, z. The shape is (3 n count, 3 n count), with n nodes and `count` angles.
         """
-        return self._over_harmonics(self._harmonics, self._harmonic_energies)
+        return self._over_harmonics(self._harmonic_transform, self._harmonic_energies)
 
     @cached_property
     def softness(self) -> Array:
@@ -131,7 +131,7 @@ class Points:
         tangential = (outward + around) / 2
         return np.concatenate([tangential, tangential, down])
 
-    def of_rings(self, field: Array, rings: int) -> Array:
+    def restrict_to_rings(self, field: Array, rings: int) -> Array:
         """Restrict a vector field from all points to the points on the innermost rings.
 
         field  components r, θ, z at all points (3 n count,)
@@ -140,7 +140,7 @@ class Points:
         return np.ascontiguousarray(field.reshape(3, -1)[:, : rings * self.count]).ravel()
 
     @cached_property
-    def tractions(self) -> Callable[[int], Array]:
+    def inverse_compliance(self) -> Callable[[int], Array]:
         """Return a function that computes the inverse compliance matrix of the innermost rings.
 
         The argument of the function is the number of rings. The inverse (3 rings count, 3 rings
@@ -149,9 +149,9 @@ class Points:
         are cached.
         """
         count = max(INVERSES, ROOM // self.compliance.nbytes)
-        return lru_cache(maxsize=count)(self._tractions)
+        return lru_cache(maxsize=count)(self._compute_inverse)
 
-    def _tractions(self, rings: int) -> Array:
+    def _compute_inverse(self, rings: int) -> Array:
         """Compute the inverse of the compliance matrix on the innermost rings.
 
         The inverse is computed for each angular harmonic, because harmonics are not coupled. It is
@@ -159,10 +159,10 @@ class Points:
 
         rings  number of rings
         """
-        back = np.zeros_like(self._harmonics)
-        norms = np.sum(self._harmonics**2, axis=2)
+        back = np.zeros_like(self._harmonic_transform)
+        norms = np.sum(self._harmonic_transform**2, axis=2)
         has = norms > ROUND_OFF * np.max(norms)
-        back[has] = self._harmonics[has] / norms[has, None]
+        back[has] = self._harmonic_transform[has] / norms[has, None]
         energies = self._harmonic_energies[..., :rings, :rings]
         inverses = np.zeros_like(energies)
         for parts, energy, inverse in zip(has.T, energies, inverses, strict=True):
@@ -173,13 +173,13 @@ class Points:
             found = found.reshape(len(present), rings, len(present), rings).swapaxes(1, 2)
             inverse[np.ix_(present, present)] = found
         found = self._over_harmonics(back, inverses)
-        units = np.sqrt(self.of_rings(self.softness, rings))
+        units = np.sqrt(self.restrict_to_rings(self.softness, rings))
         found *= units
         found *= units[:, None]
         return found
 
     @cached_property
-    def _harmonics(self) -> Array:
+    def _harmonic_transform(self) -> Array:
         """Return the matrices that map values at the angles of a ring to amplitudes of harmonics.
 
         The shape is (3, families × (J + 1), count): components r, θ, z, harmonics up to J of each
@@ -191,12 +191,12 @@ class Points:
     def _harmonic_energies(self) -> Array:
         """Return the Galerkin matrices of all harmonics, times the norm of each harmonic.
 
-        The shape is (families × (J + 1), 3, 3, n, n), with the harmonics of `_harmonics`. The norm
-        is π, or 2π for the harmonics 0 and J.
+        The shape is (families × (J + 1), 3, 3, n, n), with the harmonics up to J of the symmetric
+        and antisymmetric families (see `Circle`). The norm is π, or 2π for the harmonics 0 and J.
         """
         norms = np.full(len(self.energies), np.pi)
         norms[[0, -1]] = 2 * np.pi
-        families = self._harmonics.shape[1] // len(norms)
+        families = self._harmonic_transform.shape[1] // len(norms)
         return np.concatenate([norms[:, None, None, None, None] * self.energies] * families)
 
     @staticmethod
@@ -216,14 +216,14 @@ class Points:
         return whole.reshape(3 * nodes * angles, -1)
 
     @cached_property
-    def round(self) -> Points:
+    def round(self) -> ContactPoints:
         """Return the points for an axisymmetric contact: equal nodes with one angle per ring.
 
         Used as long as no tangential load acts.
         """
         return replace(self, energies=self.energies[:1], circle=Circle.ONE)
 
-    def every_angle(self, field: Array) -> Array:
+    def repeat_angles(self, field: Array) -> Array:
         """Repeat an axisymmetric field, known on one angle per ring, at all angles (…, n count).
 
         If the field contains the area of a point as a factor, divide the result by the number of
@@ -262,11 +262,11 @@ class Points:
                     share = ray[last] ** 2 / (ray[last - 1] ** 2 - ray[last] ** 2)
                     edge += share * (edge - r[last - 1] ** 2)
             else:
-                edge = self._fitted_edge(ray, last)
+                edge = self._fit_edge(ray, last)
             area += np.pi * min(edge, further)
         return area / self.count
 
-    def _fitted_edge(self, ray: Array, last: int) -> float:
+    def _fit_edge(self, ray: Array, last: int) -> float:
         """Return the square of the contact radius on one ray, from a fit of the pressure [length²].
 
         p² is fitted by a parabola in r², and its zero is the edge. If too few nodes have pressure,
@@ -314,7 +314,7 @@ class Points:
             p, sticks = (np.concatenate([field, field[:, ::-1]], axis=-1) for field in (p, sticks))
         return stick_area(self.radii, q, p, sticks)
 
-    def shown(self, field: Array, sense: float) -> Array:
+    def interpolate_angles(self, field: Array, sense: float) -> Array:
         """Interpolate a field to the output angles by a periodic spline in θ (n, angles).
 
         field  values at the points (n count,)
@@ -337,4 +337,4 @@ class Points:
 
         They include the direction of the load, unlike the angles of the points.
         """
-        return self.circle.shown(self.highest)
+        return self.circle.output_angles(self.highest)

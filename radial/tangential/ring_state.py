@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from contact_scene.array_types import Array
-from radial.tangential.ring_points import Points
+from radial.tangential.ring_points import ContactPoints
 
 # Indices of rigid motions and of their conjugate loads: tangential force along and across θ = 0,
 # torque about the axis, normal force.
@@ -30,7 +30,7 @@ class Loads:
     motions: Prescribed
 
     @property
-    def without_shear(self) -> Loads:
+    def drop_shear_loads(self) -> Loads:
         """Return loads with zero instead of the prescribed tangential force and torque.
 
         Prescribed motions and the normal load are unchanged. Used to solve the contact whose
@@ -39,7 +39,7 @@ class Loads:
         tangential = (None if force is None else 0.0 for force in self.forces[:NORMAL])
         return Loads((*tangential, self.forces[NORMAL]), self.motions)
 
-    def resting(self, motion: Array) -> Loads:
+    def hold_motion(self, motion: Array) -> Loads:
         """Return loads that prescribe a rigid motion instead of tangential force and torque.
 
         Prescribed shifts and twist and the normal load are unchanged. Used for an initial guess
@@ -98,7 +98,7 @@ class PointState:
         """Return the approach of the indenter [length]."""
         return float(self.motion[NORMAL])
 
-    def every_angle(self, points: Points) -> PointState:
+    def repeat_angles(self, points: ContactPoints) -> PointState:
         """Extend an axisymmetric state from one angle per ring to all angles of given points.
 
         Used when a tangential load begins to act on an axisymmetric contact.
@@ -106,25 +106,25 @@ class PointState:
         points  points of the contact with tangential load
         """
 
-        def parts(field: Array, count: int) -> Array:
+        def repeat_components(field: Array, count: int) -> Array:
             """Repeat each component of an axisymmetric field at all angles.
 
             field  components at the rings (count × rings,)
             count  number of components
             """
-            return points.every_angle(field.reshape(count, -1)).ravel()
+            return points.repeat_angles(field.reshape(count, -1)).ravel()
 
         return replace(
             self,
-            tractions=parts(self.tractions, 3),
-            changed=np.append(parts(self.changed[:-4], 3), self.changed[-4:]),
-            moved=parts(self.moved, 2) / points.count,
-            slip_increment=parts(self.slip_increment, 2) / points.count,
-            share=parts(self.share, 1),
+            tractions=repeat_components(self.tractions, 3),
+            changed=np.append(repeat_components(self.changed[:-4], 3), self.changed[-4:]),
+            moved=repeat_components(self.moved, 2) / points.count,
+            slip_increment=repeat_components(self.slip_increment, 2) / points.count,
+            share=repeat_components(self.share, 1),
         )
 
 
-def carried(points: Points, tractions: Array) -> Array:
+def resultant_loads(points: ContactPoints, tractions: Array) -> Array:
     """Compute the resultants of tractions on a contact (4,) [force, force length].
 
     They are the tangential force along θ = 0 and across it, the torque and the normal force.

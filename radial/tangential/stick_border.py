@@ -24,7 +24,7 @@ ON_HARMONICS = (-0.1913, 1.0209, 0.3219, 0.3288)
 # most 0.54 for 3/2 and at least 0.7 for 1/2. For 3/2, the ratio of d at the last two sticking
 # points is AT_NEXT if the border is at the next point.
 GAINING, AT_NEXT = 0.66, 0.3
-DEEP = 3  # number of sticking points required on rings, see `deep` of `_borders`
+DEEP = 3  # number of sticking points required on rings, see `deep` of `_border_positions`
 UNTOLD = 0.5  # position of the border between two points without sufficient data
 
 
@@ -39,10 +39,10 @@ def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
     turn = sticks.shape[1]
     angles = 2 * np.pi * np.arange(turn) / turn
     directions, size = np.arctan2(shear[1], shear[0]) + angles, np.hypot(*shear)
-    along_rays = _borders(directions, size, bound, sticks, ON_HATS, radii, 0)
+    along_rays = _border_positions(directions, size, bound, sticks, ON_HATS, radii, 0)
     directions, size, limit = (np.concatenate([field.T] * 3) for field in (directions, size, bound))
     whole = np.concatenate([sticks.T] * 3)
-    along_rings = _borders(
+    along_rings = _border_positions(
         directions, size, limit, whole, ON_HARMONICS, np.arange(3.0 * turn), DEEP
     )
     along_rings = along_rings[turn : 2 * turn].T
@@ -51,10 +51,10 @@ def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
     # Positions are converted from r to r², so that they are fractions of area.
     along_rays = across * (2 * inner + across) / ((outer - inner) * (outer + inner))
     areas = np.pi / turn * (outer - inner) * (outer + inner)
-    return float(np.sum(areas * _shares(sticks, along_rays, along_rings)))
+    return float(np.sum(areas * _stick_fractions(sticks, along_rays, along_rings)))
 
 
-def _borders(
+def _border_positions(
     directions: Array,
     size: Array,
     bound: Array,
@@ -86,20 +86,20 @@ def _borders(
         inside, beyond = (sticks[:-1], sticks[1:])[::step]
         k, j = np.nonzero(inside & ~beyond)
         at = k if step > 0 else k + 1
-        direction, turn = _direction(directions, slips, at, step, j)
+        direction, turn = _slip_direction(directions, slips, at, step, j)
         last, before, further, fourth = (
-            _missing(
+            _distance_from_slip(
                 directions, size, bound, sticks, at - step * back, j, direction + (1 + back) * turn
             )
             for back in (0, 1, 2, deep)
         )
-        even = _evenness(places, at, step)
-        off = _off(last, before, further, ~np.isnan(fourth), even, table)
+        even = _spacing_ratio(places, at, step)
+        off = _border_distance(last, before, further, ~np.isnan(fourth), even, table)
         found[k, j] = off if step > 0 else 1 - off
     return found
 
 
-def _missing(
+def _distance_from_slip(
     directions: Array,
     size: Array,
     bound: Array,
@@ -124,7 +124,7 @@ def _missing(
     return np.where(known & sticks[near, j] & (d > 0), d, np.nan)
 
 
-def _off(
+def _border_distance(
     last: Array, before: Array, further: Array, deep: Mask, even: Array, table: tuple[float, ...]
 ) -> Array:
     """Estimate the distance of the stick border from the last sticking point.
@@ -148,7 +148,7 @@ def _off(
     return np.where(np.isnan(off), UNTOLD, off)
 
 
-def _evenness(places: Array, at: NDArray[np.intp], step: int) -> Array:
+def _spacing_ratio(places: Array, at: NDArray[np.intp], step: int) -> Array:
     """Return the ratio of the distances of points to their next and to their previous point.
 
     Used to interpolate to equal distances of points. The result is 1 at an end of the axis.
@@ -163,7 +163,7 @@ def _evenness(places: Array, at: NDArray[np.intp], step: int) -> Array:
     return np.where(known, np.abs((places[at + step] - places[at]) / behind), 1.0)
 
 
-def _direction(
+def _slip_direction(
     directions: Array, slips: Mask, at: NDArray[np.intp], step: int, j: NDArray[np.intp]
 ) -> tuple[Array, Array]:
     """Find the angle of the shear beyond the border of the stick zone, and its change per point.
@@ -185,7 +185,7 @@ def _direction(
     return np.where(known, directions[one, j], directions[at, j]), turn
 
 
-def _shares(sticks: Mask, along_rays: Array, along_rings: Array) -> Array:
+def _stick_fractions(sticks: Mask, along_rays: Array, along_rings: Array) -> Array:
     """Compute the fraction of the area of each cell that sticks (n - 1, J).
 
     The cells lie between adjacent rings and rays, with points at their corners. The stick zone in a

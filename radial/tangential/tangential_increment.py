@@ -17,7 +17,7 @@ from radial.frictional.contact_growth import (
     contact_fraction,
     front,
 )
-from radial.tangential.ring_points import Points
+from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
     ACROSS,
     ALONG,
@@ -25,7 +25,7 @@ from radial.tangential.ring_state import (
     TORSION,
     Loads,
     PointState,
-    carried,
+    resultant_loads,
 )
 
 REST = 1e-11  # slip below this multiple of the approach is round-off
@@ -72,7 +72,7 @@ class TangentialState:
 
         They are the tangential force along and across θ = 0, the torque and the normal force.
         """
-        return _either(self.prescribed.forces, self.carried)
+        return _prescribed_or_computed(self.prescribed.forces, self.carried)
 
     @property
     def motions(self) -> tuple[float, ...]:
@@ -80,7 +80,7 @@ class TangentialState:
 
         They are the shifts along and across θ = 0, the twist and the approach.
         """
-        return _either(self.prescribed.motions, self.end.motion)
+        return _prescribed_or_computed(self.prescribed.motions, self.end.motion)
 
     @property
     def status(self) -> ContactStatus:
@@ -97,7 +97,9 @@ class TangentialState:
         return ContactStatus.GROSS_SLIDING if slides else ContactStatus.NO_STICK_AREA_LEFT
 
 
-def _either(prescribed: tuple[float | None, ...], found: Array) -> tuple[float, ...]:
+def _prescribed_or_computed(
+    prescribed: tuple[float | None, ...], found: Array
+) -> tuple[float, ...]:
     """Return the prescribed loads (or motions), with computed values where none is prescribed.
 
     prescribed  values; None where the conjugate quantity is prescribed
@@ -110,7 +112,7 @@ def _either(prescribed: tuple[float | None, ...], found: Array) -> tuple[float, 
 
 
 def tangential_state(
-    points: Points, friction: CoulombFriction, end: PointState, last: PointState | None,
+    points: ContactPoints, friction: CoulombFriction, end: PointState, last: PointState | None,
     slip: Array, prescribed: Loads, before: TangentialState | None, smooth: float | None,
 ) -> TangentialState:  # fmt: skip
     """Compute slip, stick area and energies of an increment from its solved tractions.
@@ -133,7 +135,7 @@ def tangential_state(
     start = last.shear if last else np.zeros((2, len(nothing)))
     limits = (friction.limit(last.pressure) if last else nothing), friction.limit(end.pressure)
     rubbing = sliding_friction(start, end.shear, passed, *limits)
-    forces, motion = carried(points, end.tractions), last.motion if last else np.zeros(4)
+    forces, motion = resultant_loads(points, end.tractions), last.motion if last else np.zeros(4)
     both = forces + (before.carried if before else 0.0)
     stick_through = None
     if smooth is None:
@@ -155,7 +157,9 @@ def tangential_state(
     )  # fmt: skip
 
 
-def residuals_of(points: Points, friction: CoulombFriction, state: TangentialState) -> Residuals:
+def residuals_of(
+    points: ContactPoints, friction: CoulombFriction, state: TangentialState
+) -> Residuals:
     """Compute the residuals of contact, friction and equilibrium at the end of an increment.
 
     points    points of the contact, with areas and levers

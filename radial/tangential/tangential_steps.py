@@ -35,10 +35,10 @@ from radial.plan import ELSEWHERE, Plan
 from radial.response.bodies import Bodies
 from radial.tangential.ring_friction import (
     MAX_STEPS,
-    solved_state,
+    solve_increment,
 )
-from radial.tangential.ring_layout import lay_out
-from radial.tangential.ring_points import Points
+from radial.tangential.ring_layout import create_points
+from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
     NORMAL,
     TORSION,
@@ -79,7 +79,7 @@ class TangentialSteps(StepsOnRings):
     direction: Pair
     twists: bool
     tolerance: float
-    points: Points
+    points: ContactPoints
     taken: list[int] = field(default_factory=list)
 
     @property
@@ -109,25 +109,25 @@ class TangentialSteps(StepsOnRings):
         count = plan.rings
         both = Coupling.of(scene)
 
-        def smooth(prescribed: Target) -> float:
+        def frictionless_radius(prescribed: Target) -> float:
             """Return the radius of the frictionless contact under a given normal load [length].
 
             prescribed  normal force or approach
             """
             return normal_contact(both.bodies, scene.indenter, prescribed).contact.radius
 
-        largest = max(map(smooth, largest_targets(scene)))
+        largest = max(map(frictionless_radius, largest_targets(scene)))
         # Contacts within the first ring would not be resolved.
-        ends = {smooth(prescribed) for prescribed in set(targets(scene))}
+        ends = {frictionless_radius(prescribed) for prescribed in set(targets(scene))}
         edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
 
-        def at(circle: Circle) -> TangentialSteps:
+        def create_solver(circle: Circle) -> TangentialSteps:
             """Create the solver with rings that are dense at the contact edges found so far.
 
             circle  angles of the points on a ring
             """
             harmonics = 0 if circle is Circle.ONE else plan.highest
-            points = lay_out(
+            points = create_points(
                 both, scene.indenter, edges, count, harmonics, circle, friction.largest, scene.rig
             )
             return cls(
@@ -135,10 +135,10 @@ class TangentialSteps(StepsOnRings):
             )
 
         for _ in range(SETTLED):
-            edges = at(Circle.ONE)._radii()
-        return at(circle)
+            edges = create_solver(Circle.ONE)._contact_radii()
+        return create_solver(circle)
 
-    def _radii(self) -> list[float]:
+    def _contact_radii(self) -> list[float]:
         """Solve the contact radii at the ends of the load steps, without tangential load [length].
 
         The radii are used to place dense rings. Load steps that end without contact, or with
@@ -154,15 +154,15 @@ class TangentialSteps(StepsOnRings):
             if start and ramp.normal.start == ramp.normal.end:
                 continue
             for index in range(1, SETTLING + 1):
-                force, approach = self._normal(ramp, start, index / SETTLING)
+                force, approach = self._normal_load(ramp, start, index / SETTLING)
                 still = None, None, None
-                state = self._at(Loads((*still, force), (0.0, 0.0, 0.0, approach)), state)
+                state = self._solve_loads(Loads((*still, force), (0.0, 0.0, 0.0, approach)), state)
             assert state is not None
             found.append(state.radius)
         return found
 
     @staticmethod
-    def _normal(
+    def _normal_load(
         ramp: LoadRamp, start: TangentialState | None, fraction: float
     ) -> tuple[float | None, float | None]:
         """Return the normal force and the approach at a fraction of a load step.
@@ -199,18 +199,20 @@ class TangentialSteps(StepsOnRings):
         raises    NotConverged, GrossSliding and ContactAtZoneEdge
         """
         start_loads = (start.forces, start.motions) if start else (NOTHING, NOTHING)
-        since = self._vector(start_loads[0]), self._vector(start_loads[1])
-        tangential = [self._from(vector) for vector in ramp.tangential.prescribed(fraction, since)]
+        since = self._scene_components(start_loads[0]), self._scene_components(start_loads[1])
+        tangential = [
+            self._load_components(vector) for vector in ramp.tangential.prescribed(fraction, since)
+        ]
         about = ramp.twisting.prescribed(
             fraction, (start_loads[0][TORSION], start_loads[1][TORSION])
         )
-        down = self._normal(ramp, start, fraction)
+        down = self._normal_load(ramp, start, fraction)
         forces, motions = (
             (*pair, turn, press) for pair, turn, press in zip(tangential, about, down, strict=True)
         )
-        return self._at(Loads(forces, motions), before)
+        return self._solve_loads(Loads(forces, motions), before)
 
-    def _vector(self, parts: tuple[float, ...]) -> Pair:
+    def _scene_components(self, parts: tuple[float, ...]) -> Pair:
         """Rotate a vector from the axes of the tangential load to the x and y axes of the scene.
 
         parts  components along and across the direction of the load, and others that are not used
@@ -218,7 +220,7 @@ class TangentialSteps(StepsOnRings):
         (x, y), (along, across, *_) = self.direction, parts
         return along * x - across * y, along * y + across * x
 
-    def _from(self, vector: Pair | None) -> tuple[float | None, float | None]:
+    def _load_components(self, vector: Pair | None) -> tuple[float | None, float | None]:
         """Rotate a vector from the x and y axes of the scene to the axes of the tangential load.
 
         The result has the components along and across the direction of the load. Without a vector
@@ -231,7 +233,7 @@ class TangentialSteps(StepsOnRings):
         (x, y), (of_x, of_y) = self.direction, vector
         return of_x * x + of_y * y, of_y * x - of_x * y
 
-    def _at(self, loads: Loads, before: TangentialState | None) -> TangentialState:
+    def _solve_loads(self, loads: Loads, before: TangentialState | None) -> TangentialState:
         """Solve contact and friction under given loads, from the state of the previous increment.
 
         Loads without tangential component are solved with one angle per ring, as long as no
@@ -249,21 +251,21 @@ class TangentialSteps(StepsOnRings):
         last = before.end if before else None
         slip = before.slip if before else np.zeros((2, len(points.areas)))
         if last is not None and before is not None and before.circle is not points.circle:
-            last, slip = last.every_angle(points), points.every_angle(slip)
+            last, slip = last.repeat_angles(points), points.repeat_angles(slip)
         try:
-            end = solved_state(
-                points, self.friction, _moving(points, loads), last, EXACT * self.tolerance,
-                None if last else self._without_friction(points, loads),
+            end = solve_increment(
+                points, self.friction, _fix_excluded_motions(points, loads), last,
+                EXACT * self.tolerance, None if last else self._frictionless_guess(points, loads),
             )  # fmt: skip
         except NotConverged as error:
             self.taken.append(error.iterations)
             raise
         self.taken.append(end.steps)
         resolved = points.is_resolved(end.pressure)
-        smooth = None if resolved else self._pressed(loads).contact.radius
+        smooth = None if resolved else self._solve_frictionless(loads).contact.radius
         return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
 
-    def _pressed(self, loads: Loads) -> NormalContact:
+    def _solve_frictionless(self, loads: Loads) -> NormalContact:
         """Solve the frictionless contact under a prescribed normal force or approach.
 
         loads  prescribed loads and motions, of which only the normal one is used
@@ -271,16 +273,16 @@ class TangentialSteps(StepsOnRings):
         prescribed = target(self.scene, loads.forces[NORMAL], loads.motions[NORMAL])
         return normal_contact(Bodies.of(self.scene), self.scene.indenter, prescribed)
 
-    def _without_friction(self, points: Points, loads: Loads) -> Array:
+    def _frictionless_guess(self, points: ContactPoints, loads: Loads) -> Array:
         """Return tractions and rigid motion of the contact without friction, as an initial guess.
 
-        Newton's method needs far fewer steps from this guess than from `Laws.closed_guess`. The
+        Newton's method needs far fewer steps from this guess than from a uniform pressure. The
         shape is (3 N + 4,), with N points.
 
         points  points of the contact
         loads   prescribed loads and motions, of which only the normal one is used
         """
-        found = self._pressed(loads)
+        found = self._solve_frictionless(loads)
         p = pressure(found.contact, points.radii / found.contact.radius)
         p[~np.isfinite(p)] = p[1]
         tangential = np.zeros(2 * len(points.areas))
@@ -288,7 +290,7 @@ class TangentialSteps(StepsOnRings):
             [tangential, np.repeat(p, points.count), [0.0, 0.0, 0.0, found.approach]]
         )
 
-    def _refuse_within_first(self, points: Points, approach: float | None) -> None:
+    def _refuse_within_first(self, points: ContactPoints, approach: float | None) -> None:
         """Raise UnsupportedScene if a prescribed approach is too small for the first ring.
 
         The approach must exceed the mean undeformed gap over the hat function of at least one ring.
@@ -318,20 +320,20 @@ class TangentialSteps(StepsOnRings):
             self._refuse_narrow(state, reached.place.step)
         residuals = residuals_of(points, self.friction, state)
         residuals.require(self.tolerance, "contact and friction on rings", end.steps)
-        p = self._scalar(points, end.pressure)
-        q_r, q_t = self._vectors(points, end.shear)
-        s_r, s_t = self._vectors(points, state.slip)
+        p = self._interpolate_scalar(points, end.pressure)
+        q_r, q_t = self._interpolate_vector(points, end.shear)
+        s_r, s_t = self._interpolate_vector(points, state.slip)
         depth = end.approach * points.areas
         u_z = (points.compliance @ end.tractions)[2 * len(points.areas) :]
         gap = np.where(end.pressure > 0, 0.0, (u_z + points.gap_areas - depth) / points.areas)
-        force = self._vector(state.forces)
+        force = self._scene_components(state.forces)
         down, along = compliances(self.scene.rig)
         in_springs = down * state.forces[NORMAL] ** 2 + along * float(np.dot(force, force))
         stored = end.energy - 0.5 * in_springs
         share = np.where(np.isfinite(end.share), end.share, 2.0)
-        p, gap = np.maximum(p, 0.0), np.maximum(self._scalar(points, gap), 0.0)
+        p, gap = np.maximum(p, 0.0), np.maximum(self._interpolate_scalar(points, gap), 0.0)
         if angular:
-            q_r, q_t = self._admissible(points, np.stack([q_r, q_t]), self.friction.limit(p))
+            q_r, q_t = self._limit_shear(points, np.stack([q_r, q_t]), self.friction.limit(p))
         increment = Increment(
             step=reached.place.step,
             index=reached.place.index,
@@ -345,8 +347,8 @@ class TangentialSteps(StepsOnRings):
             peak_pressure=float(np.max(p)),
             status=state.status,
             stick_radius=state.stick_radius,
-            tangential_force=self._vector(state.forces),
-            tangential_shift=self._vector(state.motions),
+            tangential_force=self._scene_components(state.forces),
+            tangential_shift=self._scene_components(state.motions),
             torque=state.forces[TORSION] if self.twists else None,
             twist=state.motions[TORSION] if self.twists else None,
             dissipated_energy=state.dissipated,
@@ -362,7 +364,7 @@ class TangentialSteps(StepsOnRings):
             shear_circumferential=q_t if angular or self.twists else None,
             slip_radial=s_r,
             slip_circumferential=s_t if angular or self.twists else None,
-            in_stick=(self._scalar(points, share) < 1) & (p > 0),
+            in_stick=(self._interpolate_scalar(points, share) < 1) & (p > 0),
         )
         return of_contact(increment, self.scene.rig)
 
@@ -385,7 +387,7 @@ class TangentialSteps(StepsOnRings):
             )
 
     @staticmethod
-    def _admissible(points: Points, shear: Array, limit: Array) -> Array:
+    def _limit_shear(points: ContactPoints, shear: Array, limit: Array) -> Array:
         """Reduce interpolated shear to the friction limit, at equal force and torque per ring.
 
         Interpolation exceeds the limit near the border of the stick zone. Alternating projections
@@ -413,7 +415,7 @@ class TangentialSteps(StepsOnRings):
         return within
 
     @staticmethod
-    def _scalar(points: Points, field: Array) -> Array:
+    def _interpolate_scalar(points: ContactPoints, field: Array) -> Array:
         """Interpolate a scalar field from the points to the output angles (n, angles).
 
         At the axis all angles have the mean value.
@@ -423,12 +425,12 @@ class TangentialSteps(StepsOnRings):
         """
         if points.count == 1:
             return field
-        shown = points.shown(field, 1.0)
+        shown = points.interpolate_angles(field, 1.0)
         shown[0] = np.mean(field[: points.count])
         return shown
 
     @staticmethod
-    def _vectors(points: Points, vector: Array) -> tuple[Array, Array]:
+    def _interpolate_vector(points: ContactPoints, vector: Array) -> tuple[Array, Array]:
         """Interpolate a vector field from the points to the output angles: components r and θ.
 
         At the axis all angles have the same vector. Each result has the shape (n, angles).
@@ -440,7 +442,10 @@ class TangentialSteps(StepsOnRings):
             # The axis has no direction.
             outward, around = vector * (points.radii > 0)
             return outward, around
-        outward, around = points.shown(vector[0], 1.0), points.shown(vector[1], -1.0)
+        outward, around = (
+            points.interpolate_angles(vector[0], 1.0),
+            points.interpolate_angles(vector[1], -1.0),
+        )
         q_r, q_t = vector[:, : points.count]
         cos, sin = np.cos(points.angles), np.sin(points.angles)
         along = np.mean(q_r * cos - q_t * sin)
@@ -451,7 +456,7 @@ class TangentialSteps(StepsOnRings):
         return outward, around
 
 
-def _moving(points: Points, loads: Loads) -> Loads:
+def _fix_excluded_motions(points: ContactPoints, loads: Loads) -> Loads:
     """Replace loads on rigid motions that symmetry excludes by a prescribed zero motion.
 
     Points on one angle exclude shifts. Points on half a circle exclude the shift across θ = 0 and

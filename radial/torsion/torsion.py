@@ -29,13 +29,13 @@ from contact_scene import Scene
 from contact_scene.array_types import Array
 from radial.normal.disc import (
     Disc,
-    orders,
+    polynomial_count,
 )
 from radial.response.bodies import (
     Bodies,
     layer_responses,
 )
-from radial.response.quadrature import every_order, unit_gauss
+from radial.response.quadrature import all_order_coefficients, unit_gauss
 from radial.torsion.friction_limit import FrictionLimit
 from semi_analytical.frf.stack import Stack, stack_of
 
@@ -78,7 +78,7 @@ class Torsion:
         layered = [stack for stack in stacks if stack.layers]
         return cls(contact, layered, modulus, friction, fineness)
 
-    def points(self, width: float) -> int:
+    def gauss_count(self, width: float) -> int:
         """Return the number of Gauss points of an integral over an interval of the coordinate t.
 
         t is 0 at the axis and 1 at the contact edge. The points resolve the shear and, with layers,
@@ -91,7 +91,7 @@ class Torsion:
         return self.fineness * (POINTS + len(self.contact.layers) + waves)
 
     @cached_property
-    def limit(self) -> FrictionLimit:
+    def friction_limit(self) -> FrictionLimit:
         """Return the transform N(t)/t of shear at the friction limit µp.
 
         N(t) is the function whose Abel transform is the shear. t is a coordinate between the axis
@@ -100,7 +100,7 @@ class Torsion:
         return FrictionLimit.of(self.contact, self.friction, self.modulus)
 
     @cached_property
-    def whole(self) -> PartialSlip:
+    def incipient_slip(self) -> PartialSlip:
         """Return the state of monotonic torsion at incipient slip: the whole contact still sticks.
 
         States with a smaller twist are proportional to this state.
@@ -108,7 +108,7 @@ class Torsion:
         return self.partial_slip(1.0)
 
     @cached_property
-    def none(self) -> PartialSlip:
+    def least_stick(self) -> PartialSlip:
         """Return the state of monotonic torsion with the smallest stick radius that is solved.
 
         The state is close to gross slip.
@@ -116,7 +116,7 @@ class Torsion:
         return self.partial_slip(NO_STICK)
 
     @cached_property
-    def largest(self) -> float:
+    def gross_slip_torque(self) -> float:
         """Return the torque of gross slip, the largest that friction carries [force length]."""
         return self.partial_slip(0.0).torque
 
@@ -145,15 +145,17 @@ class Torsion:
 
         stick  stick radius over the contact radius, 0 to 1
         """
-        panels = self._panels(max(stick, AXIS))
+        panels = self._annulus_panels(max(stick, AXIS))
         if stick == 0:
             return PartialSlip(self, 0.0, np.inf, np.zeros(1), panels)
         places, wave_weights = self.waves
         count = 1
         if len(places):
             thickness = min(stack.layers[0].thickness for stack in self.layered)
-            count = orders(thickness / (self.contact.radius * stick), False) * self.fineness
-        t, weights = unit_gauss(self.points(stick) + 2 * count)
+            count = (
+                polynomial_count(thickness / (self.contact.radius * stick), False) * self.fineness
+            )
+        t, weights = unit_gauss(self.gauss_count(stick) + 2 * count)
         odd = legendre.legvander(t, 2 * count - 1)[:, 1::2]
         bases = stick * (odd.T * weights) @ np.sin(np.multiply.outer(stick * t, places))
         by_annulus = sum((panel.sine_transform(places) for panel in panels), np.zeros_like(places))
@@ -163,12 +165,12 @@ class Torsion:
         )
         mass = stick / (4 * np.arange(count) + 3)
         by_twist, alone = np.linalg.solve(matrix + np.diag(mass), right.T).T
-        edge = stick * float(self.limit.slope(np.array([stick]))[0])
+        edge = stick * float(self.friction_limit.slope(np.array([stick]))[0])
         twist = (edge + np.sum(alone)) / (4 / pi * stick - np.sum(by_twist))
         layers = twist * by_twist + alone
         return PartialSlip(self, stick, float(twist), layers, panels)
 
-    def _panels(self, stick: float) -> list[Panel]:
+    def _annulus_panels(self, stick: float) -> list[Panel]:
         """Return intervals that cover the slip annulus, with the transform N of the shear in it.
 
         The shear in the slip annulus is the friction limit µp. N(t) is the function whose Abel
@@ -181,9 +183,9 @@ class Torsion:
         edges = np.geomspace(stick, 1.0, ceil(log2(1 / stick)) + 1)
         made = []
         for low, width in zip(edges, np.diff(edges), strict=False):
-            v, weights = unit_gauss(self.points(width))
+            v, weights = unit_gauss(self.gauss_count(width))
             t = low + width * v
-            made.append(Panel(t, width * weights, t * self.limit.slope(t)))
+            made.append(Panel(t, width * weights, t * self.friction_limit.slope(t)))
         return made
 
 
@@ -234,7 +236,7 @@ class PartialSlip:
     layers: Array
     panels: Sequence[Panel]
 
-    def inside(self, t: Array) -> Array:
+    def stick_transform(self, t: Array) -> Array:
         """Evaluate the transform N of the circumferential shear in the stick disc [1].
 
             N(t) = (4/π) φ t - D(t)
@@ -244,11 +246,11 @@ class PartialSlip:
         φ, D  twist of the indenter, and contribution of the layers
         t     coordinates between the axis (0) and the stick radius over the contact radius
         """
-        change = legendre.legval(t / self.stick, every_order(self.layers, 1))
+        change = legendre.legval(t / self.stick, all_order_coefficients(self.layers, 1))
         return np.asarray(4 / pi * self.twist * t - change)
 
     @property
-    def _disc(self) -> list[Panel]:
+    def _disc_panels(self) -> list[Panel]:
         """Return one interval that covers the stick disc, with the transform N of the shear in it.
 
         N(t) is the function whose Abel transform is the shear. The interval is in a list, for sums
@@ -256,9 +258,9 @@ class PartialSlip:
         """
         if self.stick == 0:
             return []
-        v, weights = unit_gauss(self.of.points(self.stick) + 2 * len(self.layers))
+        v, weights = unit_gauss(self.of.gauss_count(self.stick) + 2 * len(self.layers))
         t = self.stick * v
-        return [Panel(t, self.stick * weights, self.inside(t))]
+        return [Panel(t, self.stick * weights, self.stick_transform(t))]
 
     @cached_property
     def torque(self) -> float:
@@ -267,7 +269,7 @@ class PartialSlip:
         N(t) is the function whose Abel transform is the shear, G the torsional modulus, a the
         contact radius.
         """
-        total = sum(float(w * t @ N) for t, w, N in (*self._disc, *self.panels))
+        total = sum(float(w * t @ N) for t, w, N in (*self._disc_panels, *self.panels))
         return 4 * pi * self.of.modulus * self.of.contact.radius**3 * total
 
     @cached_property
@@ -278,7 +280,7 @@ class PartialSlip:
         are those of `Torsion.waves`.
         """
         places, _ = self.of.waves
-        parts = [panel.sine_transform(places) for panel in (*self._disc, *self.panels)]
+        parts = [panel.sine_transform(places) for panel in (*self._disc_panels, *self.panels)]
         return np.asarray(np.sum(parts, axis=0))
 
     @cached_property
@@ -291,7 +293,7 @@ class PartialSlip:
         Y - 1  contribution of the layers to the torsional compliance, relative to half-spaces
         G, a   torsional modulus and contact radius
         """
-        squares = sum(float(w @ N**2) for _, w, N in (*self._disc, *self.panels))
+        squares = sum(float(w @ N**2) for _, w, N in (*self._disc_panels, *self.panels))
         _, wave_weights = self.of.waves
         by_layers = float(np.sum(wave_weights * self.transform**2)) if len(wave_weights) else 0.0
         scale = pi * self.of.modulus * self.of.contact.radius**3
@@ -323,10 +325,12 @@ class PartialSlip:
             return found
         at = x[sticks]
         rho = np.maximum(at, AXIS)[:, None]
-        v, weights = unit_gauss(2 * self.of.points(0.0))
+        v, weights = unit_gauss(2 * self.of.gauss_count(0.0))
         first, last = np.arccosh(np.maximum(self.stick / rho, 1.0)), np.arccosh(1 / rho)
         slipping = (last - first) * (
-            self.of.limit.slope_rate(np.minimum(rho * np.cosh(first + (last - first) * v), 1.0))
+            self.of.friction_limit.slope_rate(
+                np.minimum(rho * np.cosh(first + (last - first) * v), 1.0)
+            )
             @ weights
         )[:, None]
         total = -slipping[:, 0]
@@ -335,7 +339,11 @@ class PartialSlip:
             t = np.minimum(rho * np.cosh(first * y), self.stick)
             total -= first[:, 0] * (self._layers_rate(t) @ shares)
         if self.of.contact.edge:
-            rim = self.of.limit.slope(np.ones(1)) if self.stick < 1 else self.inside(np.ones(1))
+            rim = (
+                self.of.friction_limit.slope(np.ones(1))
+                if self.stick < 1
+                else self.stick_transform(np.ones(1))
+            )
             total += float(rim[0]) / np.sqrt((1 - at) * (1 + at))
         found[sticks] = self.of.modulus * at * total
         return found
@@ -348,7 +356,7 @@ class PartialSlip:
 
         t  coordinates between the axis (0) and the stick radius over the contact radius
         """
-        x, every = t / self.stick, every_order(self.layers, 1)
+        x, every = t / self.stick, all_order_coefficients(self.layers, 1)
         changed, rate = legendre.legval(x, every), legendre.legval(x, legendre.legder(every))
         return np.asarray((changed / x - rate) / (x * self.stick**2))
 
@@ -365,14 +373,16 @@ class PartialSlip:
         if not np.any(slips):
             return found
         rho = x[slips][:, None]
-        v, weights = unit_gauss(2 * self.of.points(0.0))
+        v, weights = unit_gauss(2 * self.of.gauss_count(0.0))
         border = np.arcsin(self.stick / rho)
         angle = border + (pi / 2 - border) * v
         t = np.maximum(rho * np.sin(angle), AXIS)
-        moved = (pi / 2 - border[:, 0]) * (t * self.of.limit.slope(t) * np.sin(angle) @ weights)
+        moved = (pi / 2 - border[:, 0]) * (
+            t * self.of.friction_limit.slope(t) * np.sin(angle) @ weights
+        )
         if self.stick:
             angle = border * v
-            sticking = self.inside(rho * np.sin(angle)) * np.sin(angle)
+            sticking = self.stick_transform(rho * np.sin(angle)) * np.sin(angle)
             moved += border[:, 0] * (sticking @ weights)
         places, wave_weights = self.of.waves
         if len(places):

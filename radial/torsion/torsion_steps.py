@@ -95,8 +95,12 @@ class TorsionSteps(StepsOnRings):
         torque, twist = ramp.twisting.prescribed(fraction, since)
         if twist is None:
             assert torque is not None
-            return TorsionState(normal_contact, path.to_torque(torque), (ControlKind.FORCE, torque))
-        return TorsionState(normal_contact, path.to_twist(twist), (ControlKind.DISPLACEMENT, twist))
+            return TorsionState(
+                normal_contact, path.continue_to_torque(torque), (ControlKind.FORCE, torque)
+            )
+        return TorsionState(
+            normal_contact, path.continue_to_twist(twist), (ControlKind.DISPLACEMENT, twist)
+        )
 
     def report(self, reached: Reached[TorsionState], last: Increment | None) -> Increment:
         """Compute the output of an increment: fields at the rings, energies and residuals.
@@ -117,7 +121,7 @@ class TorsionSteps(StepsOnRings):
         )
         made = self.pressing.report(normal_contact, last)
         x = made.radii / state.normal_contact.contact.radius
-        shear, slip = self._fields(state.path, x, made.pressure)
+        shear, slip = self._shear_and_slip(state.path, x, made.pressure)
         torque, twist = (last.torque or 0.0, last.twist or 0.0) if last else (0.0, 0.0)
         assert made.trapezoidal_work is not None
         assert made.elastic_energy is not None
@@ -137,7 +141,8 @@ class TorsionSteps(StepsOnRings):
         residuals = replace(
             made.residuals,
             friction_cone=max(excess, 0.0),
-            torque_equilibrium=abs(state.path.torque - prescribed) / (state.path.of.largest or 1.0)
+            torque_equilibrium=abs(state.path.torque - prescribed)
+            / (state.path.of.gross_slip_torque or 1.0)
             if kind is ControlKind.FORCE
             else None,
         )
@@ -145,7 +150,7 @@ class TorsionSteps(StepsOnRings):
         return replace(
             made,
             residuals=residuals,
-            status=_status(stick),
+            status=_contact_status(stick),
             torque=state.torque,
             twist=state.twist,
             stick_radius=stick * state.normal_contact.contact.radius,
@@ -158,7 +163,7 @@ class TorsionSteps(StepsOnRings):
             in_stick=x < stick,
         )
 
-    def _fields(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
+    def _shear_and_slip(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
         """Compute circumferential shear [force/length²] and slip [length] at the output rings (n,).
 
         Shear and slip are sums over the branches between load reversals. Both are zero outside the
@@ -179,7 +184,7 @@ class TorsionSteps(StepsOnRings):
         return shear, slip
 
 
-def _status(stick: float) -> ContactStatus:
+def _contact_status(stick: float) -> ContactStatus:
     """Return the contact status of torsion: full stick, partial slip or gross slip.
 
     stick  stick radius over the contact radius: 1 for full stick, 0 for gross slip

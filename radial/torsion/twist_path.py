@@ -43,7 +43,7 @@ class Branch:
     weight: float
     state: PartialSlip | None = None
 
-    def size(self, of: str) -> float:
+    def quantity(self, of: str) -> float:
         """Return twist, torque, work or dissipated energy of the branch's equivalent first twist.
 
         The equivalent first twist is a state of monotonic torsion of the virgin contact. The change
@@ -75,12 +75,12 @@ class TwistPath:
     @property
     def twist(self) -> float:
         """Return the twist φ of the indenter after the history of branches [radian]."""
-        return _sum(self.branches, "twist")
+        return _sum_branches(self.branches, "twist")
 
     @property
     def torque(self) -> float:
         """Return the torque M after the history of branches [force length]."""
-        return _sum(self.branches, "torque")
+        return _sum_branches(self.branches, "torque")
 
     @property
     def stick(self) -> float:
@@ -91,23 +91,23 @@ class TwistPath:
         last = self.branches[-1].state if self.branches else None
         return 1.0 if last is None else last.stick
 
-    def to_twist(self, twist: float) -> TwistPath:
+    def continue_to_twist(self, twist: float) -> TwistPath:
         """Continue the torsion to a prescribed twist [radian], and return the new state."""
-        return self._on("twist", twist)
+        return self._continue_to("twist", twist)
 
-    def to_torque(self, torque: float) -> TwistPath:
+    def continue_to_torque(self, torque: float) -> TwistPath:
         """Continue the torsion to a prescribed torque [force length], and return the new state.
 
         Raises GrossSliding if the torque is not below its friction limit.
         """
-        if abs(torque) >= self.of.largest * (1 - AT_LIMIT):
+        if abs(torque) >= self.of.gross_slip_torque * (1 - AT_LIMIT):
             raise GrossSliding(
-                f"torque {torque:.6g} N m, but friction carries less than {self.of.largest:.6g} "
-                "N m. Reduce it, or prescribe the twist"
+                f"torque {torque:.6g} N m, but friction carries less than "
+                f"{self.of.gross_slip_torque:.6g} N m. Reduce it, or prescribe the twist"
             )
-        return self._on("torque", torque)
+        return self._continue_to("torque", torque)
 
-    def _on(self, of: Named, target: float) -> TwistPath:
+    def _continue_to(self, of: Named, target: float) -> TwistPath:
         """Continue the torsion until the twist or the torque has a prescribed value.
 
         The method returns the new state. A load reversal begins a new branch. A branch that reaches
@@ -125,20 +125,20 @@ class TwistPath:
             branches.append(Branch(sense, 2.0 if branches else 1.0))
         while True:
             *others, last = branches
-            needed = sense * (target - _sum(others, of)) / last.weight
-            closes = bool(others) and needed >= others[-1].size(of)
-            state = others[-1].state if closes else reached(self.of, of, needed, last.state)
+            needed = sense * (target - _sum_branches(others, of)) / last.weight
+            closes = bool(others) and needed >= others[-1].quantity(of)
+            state = others[-1].state if closes else monotonic_state(self.of, of, needed, last.state)
             assert state is not None
             ended = replace(last, state=state)
-            dissipated += last.weight * (state.dissipated - last.size("dissipated"))
-            work += _work(others, ended) - _work(others, last)
+            dissipated += last.weight * (state.dissipated - last.quantity("dissipated"))
+            work += _branch_work(others, ended) - _branch_work(others, last)
             if not closes:
                 return TwistPath(self.of, (*others, ended), dissipated, work)
             left = others.pop()
             branches = [replace(ended, weight=1.0)] if left.weight == 1 else others
 
 
-def _sum(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
+def _sum_branches(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
     """Return the twist [radian] or torque [force length] after a sequence of branches of torsion.
 
     A branch is a change in one direction, since a load reversal. The value is the sum of all
@@ -147,10 +147,10 @@ def _sum(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
     branches  branches of the history, the current one last
     of        "twist" or "torque"
     """
-    return sum((branch.sense * branch.weight * branch.size(of) for branch in branches), 0.0)
+    return sum((branch.sense * branch.weight * branch.quantity(of) for branch in branches), 0.0)
 
 
-def _work(others: list[Branch], branch: Branch) -> float:
+def _branch_work(others: list[Branch], branch: Branch) -> float:
     """Compute the work ∫ M dφ of the torque M along one branch of torsion [force length].
 
     A branch is a change of the twist φ in one direction, since a load reversal.
@@ -158,11 +158,13 @@ def _work(others: list[Branch], branch: Branch) -> float:
     others  preceding branches; the sum of their torques is constant during the branch
     branch  the branch
     """
-    linear = branch.sense * branch.weight * branch.size("twist") * _sum(others, "torque")
-    return linear + branch.weight**2 * branch.size("work")
+    linear = (
+        branch.sense * branch.weight * branch.quantity("twist") * _sum_branches(others, "torque")
+    )
+    return linear + branch.weight**2 * branch.quantity("work")
 
 
-def reached(
+def monotonic_state(
     torsion: Torsion, of: Named, needed: float, since: PartialSlip | None = None
 ) -> PartialSlip:
     """Find the state of monotonic torsion of the virgin contact that has a given twist or torque.
@@ -174,7 +176,7 @@ def reached(
     needed   value of this quantity, above 0 [radian or force length]
     since    earlier state, whose stick radius is an upper bound; None if there is none
     """
-    whole, none = torsion.whole, torsion.none
+    whole, none = torsion.incipient_slip, torsion.least_stick
     if needed <= getattr(whole, of):
         part = needed / getattr(whole, of)
         return replace(whole, twist=part * whole.twist, layers=part * whole.layers)
@@ -182,7 +184,7 @@ def reached(
         return replace(torsion.partial_slip(0.0), twist=needed if of == "twist" else none.twist)
     most = 1.0 if since is None or since.stick == 0 else min(1.0, since.stick * (1 + NO_STICK))
 
-    def missing(stick: float) -> float:
+    def excess(stick: float) -> float:
         """Return the twist or torque of a state of monotonic torsion, minus the prescribed value.
 
         The root search finds the zero of this function.
@@ -191,4 +193,4 @@ def reached(
         """
         return float(getattr(torsion.partial_slip(stick), of)) - needed
 
-    return torsion.partial_slip(float(brentq(missing, NO_STICK, most, xtol=1e-15, rtol=1e-15)))
+    return torsion.partial_slip(float(brentq(excess, NO_STICK, most, xtol=1e-15, rtol=1e-15)))

@@ -116,8 +116,8 @@ def _torsion(place: Sequence[float], fineness: int) -> Found:
     bodies = Bodies(stacks, moduli * MODULUS)
     contact = normal_contact(bodies, BALL, Target(FORCE, None), fineness).contact
     torsion = Torsion(contact, stacks, moduli * base / 2, 1.0, fineness)
-    path = TwistPath(torsion).to_torque(part * torsion.largest)
-    values = (torsion.largest / FORCE, path.stick, path.twist * base / 2 / FORCE)
+    path = TwistPath(torsion).continue_to_torque(part * torsion.gross_slip_torque)
+    values = (torsion.gross_slip_torque / FORCE, path.stick, path.twist * base / 2 / FORCE)
     return Found(values, abs(contact.load / FORCE - 1))
 
 

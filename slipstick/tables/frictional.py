@@ -120,8 +120,10 @@ def tractions(place: Sequence[float], fineness: int) -> Found:
         at  radius over the contact radius
         """
         places = np.array([at])
-        p = pressure(end.contact, places) + end.rings.at(end.pressure_change, places)
-        return float(p[0]), float(end.rings.at(end.shear, places)[0]) / friction
+        p = pressure(end.contact, places) + end.rings.interpolate_traction(
+            end.pressure_change, places
+        )
+        return float(p[0]), float(end.rings.interpolate_traction(end.shear, places)[0]) / friction
 
     here = both(x)
     left = [OF_RING, OF_RING]

@@ -19,7 +19,7 @@ from contact_results.stress.points import StressPoints
 from contact_results.stress.radial_body import RadialBody
 from contact_scene import Body, IsotropicMaterial, Layer, Paraboloid
 from contact_scene.quantities.residuals import worst
-from radial.stress.circle_fit import round_circle
+from radial.stress.circle_fit import axisymmetric_circle
 from radial.stress.loaded_circle import LoadedCircle
 from radial.stress.subsurface_circle import SubsurfaceCircle
 from semi_analytical.frf.depth import Level as Depth
@@ -437,11 +437,11 @@ def _tension_by_rays(result: Any, _: int, problem: Problem) -> float:
     integrals."""
     end = result.steps[-1]
     nothing = np.zeros_like(end.radii)
-    still = round_circle(end.radii, end.contact_radius, nothing, nothing, end.pressure)
+    still = axisymmetric_circle(end.radii, end.contact_radius, nothing, nothing, end.pressure)
     p = np.broadcast_to(still.smooth[2], (still.smooth.shape[1], 4))
     sliding = LoadedCircle(still.radius, 0.0, np.stack([FRICTION * p, 0 * p, p]))
     below = SubsurfaceCircle(sliding, stack_of(problem.scene.body), REACH, 1)
-    stress = below.at((Depth(0.0, 0),), np.array([-still.radius]), np.zeros(1))[0, 3:]
+    stress = below.compute_fields((Depth(0.0, 0),), np.array([-still.radius]), np.zeros(1))[0, 3:]
     return float(principal_stresses(stress)[0, 0]) / P0
 
 

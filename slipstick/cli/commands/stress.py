@@ -327,7 +327,7 @@ def _solved(
         from radial.angular_grid import Circle
         from radial.largest_contact import expected_radius
 
-        if decided.sheared:
+        if decided.has_shear:
             refuse_infinite(contents.scene.indenter, expected_radius(contents.scene))
         if decided.circle is Circle.WHOLE:
             refuse_turned()
