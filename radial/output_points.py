@@ -42,7 +42,7 @@ def largest_targets(scene: Scene) -> Iterator[Target]:
     for by_force in (True, False):
         same = [end for end in ends if (end.force is not None) is by_force]
         if same:
-            yield max(same, key=lambda end: end.prescribed)
+            yield max(same, key=lambda end: end.prescribed_value)
 
 
 def targets(scene: Scene) -> Iterator[Target]:

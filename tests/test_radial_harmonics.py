@@ -14,9 +14,9 @@ from scipy.special import hyp2f1, jv
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid, Scene
 from radial.frictional.coupling import Coupling
 from radial.tangential import ring_energies
-from radial.tangential.harmonic_kernels import equal_order
+from radial.tangential.harmonic_kernels import equal_order_kernels
 from radial.tangential.ring_compliance import ring_compliance
-from radial.tangential.ring_energies import unit_energies
+from radial.tangential.ring_energies import half_space_integrals
 
 NODES = (0.0, 0.1, 0.22, 0.3, 0.5, 0.8, 0.95, 1.0, 1.3)
 HIGHEST = 6
@@ -54,7 +54,7 @@ def hat(i: int, r: float) -> float:
 
 @pytest.mark.parametrize("ratio", [1e-4, 0.3, 0.69, 0.72, 0.97])
 def test_what_rings_of_a_harmonic_do_to_each_other_is_a_legendre_function(ratio: float) -> None:
-    found = equal_order(12, np.array([ratio]), np.array([1.0]), np.array([1 - ratio]))[:, 0]
+    found = equal_order_kernels(12, np.array([ratio]), np.array([1.0]), np.array([1 - ratio]))[:, 0]
     assert_allclose(
         found, [weber_schafheitlin(m, m, ratio, 1.0) for m in range(13)], rtol=3e-13, atol=0
     )
@@ -77,7 +77,7 @@ def test_energies_of_hats_are_their_kernels_integrated(name: str, m: int, i: int
                 lambda _, end=s[0]: end, lambda r: r,
             ):  # fmt: skip
                 total += dblquad(weighted, *r, *below, epsabs=1e-10, epsrel=1e-8)[0]
-    found = getattr(unit_energies(NODES, HIGHEST), name)[m][i, j]
+    found = getattr(half_space_integrals(NODES, HIGHEST), name)[m][i, j]
     assert_allclose(found, total, rtol=2e-8, atol=1e-10)
 
 

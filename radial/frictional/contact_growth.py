@@ -27,7 +27,7 @@ def contact_fraction(r: Array, start_radius: float, radius: float) -> Array:
     return share
 
 
-def front(
+def extrapolate_stick_radius(
     radius: float, start_radius: float, stick_through: float, first: float, before: float
 ) -> float:
     """Extrapolate the stick radius to the end of an increment of normal load [length].

@@ -11,7 +11,7 @@ from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from radial.frictional.contact_growth import (
     contact_fraction,
-    front,
+    extrapolate_stick_radius,
 )
 from radial.frictional.stick_slip import FrictionalContact
 from radial.normal.pressing import Target
@@ -113,9 +113,9 @@ def frictional_state(
         slip += before.slip * (radii < a)
     rubbing = 0.5 * (limit + friction.limit(finite_pressure(end))) * np.abs(slip_increment)
     open_ = np.abs(end.shear - shear) * np.abs(slip_increment)
-    stick_radius = mid_stick_radius = stick_share(end) * a
+    stick_radius = mid_stick_radius = stick_radius_ratio(end) * a
     if before is not None:
-        stick_radius = front(
+        stick_radius = extrapolate_stick_radius(
             a, start_radius, mid_stick_radius, before.start_radius, before.mid_stick_radius
         )
     # The bulk strain displaces the lower body against its shear, which changes the work.
@@ -133,7 +133,7 @@ def frictional_state(
     )  # fmt: skip
 
 
-def stick_share(end: FrictionalContact) -> float:
+def stick_radius_ratio(end: FrictionalContact) -> float:
     """Compute the stick radius over the contact radius from the slip of the nodes [1].
 
     The stick radius is that of a circle with the area of the stick zone. Near the border of the

@@ -25,7 +25,7 @@ from radial.frictional.frictional_increment import (
     FrictionalState,
     finite_pressure,
     frictional_state,
-    stick_share,
+    stick_radius_ratio,
 )
 from radial.frictional.rings import (
     Rings,
@@ -146,7 +146,7 @@ class FrictionalSteps(StepsOnRings):
             power = self._load_exponent(target, before)
             end, more, power = contact_at_target(solve, target, radius, power, 10 * ROUND_OFF)
             iterations, radius = iterations + more, end.radius
-            previous, share = share, stick_share(end)
+            previous, share = share, stick_radius_ratio(end)
             if abs(layout_number(share) - layout_number(previous)) <= 1:
                 break
         return frictional_state(

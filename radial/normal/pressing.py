@@ -60,13 +60,13 @@ class Target:
     spring: float = 0.0
 
     @property
-    def prescribed(self) -> float:
+    def prescribed_value(self) -> float:
         """Return the prescribed value: a normal force [force] or an approach [length]."""
         value = self.approach if self.force is None else self.force
         assert value is not None
         return value
 
-    def value(self, contact: LoadedContact) -> float:
+    def controlled_value(self, contact: LoadedContact) -> float:
         """Return the quantity of a solved contact that this target prescribes.
 
         The quantity is the normal force [force], or the approach with the shortening of the spring
@@ -80,14 +80,14 @@ class Target:
         Raises UnsupportedScene if the computed value is not positive. The contact radius is then
         beyond the end of the shape (the equator of a sphere).
         """
-        value = self.value(contact)
+        value = self.controlled_value(contact)
         if not (value > 0 and isfinite(value)):
             raise UnsupportedScene(
                 f"no contact of radius {contact.radius:.3g} m carries the load: the contact "
                 "reaches the end of the shape (the equator of a sphere). Use "
                 "a smaller force or approach"
             )
-        return log(value / self.prescribed)
+        return log(value / self.prescribed_value)
 
     def actuator_approach(self, contact: LoadedContact) -> float:
         """Return the approach of a contact plus the shortening of the rig's spring [length].
@@ -148,9 +148,9 @@ def normal_contact(
     solve = partial(disc, bodies, indenter, fineness=fineness, most=most)
     if indenter.rim is not None:
         whole = solve(indenter.rim)
-        if target.prescribed > target.value(whole):
+        if target.prescribed_value > target.controlled_value(whole):
             return NormalContact(_contact_at_rim(solve, target, whole), target, 1)
-    radius = first_radius(bodies, indenter, target)
+    radius = lower_radius_estimate(bodies, indenter, target)
     contact, iterations, _ = contact_at_target(solve, target, radius, 2.0, tolerance)
     return NormalContact(contact, target, iterations)
 
@@ -202,15 +202,15 @@ def _contact_at_rim(solve: Callable[..., Disc], target: Target, whole: Disc) -> 
     target  prescribed normal force or approach
     whole   contact that just reaches the rim
     """
-    missing = further = target.prescribed - target.value(whole)
+    missing = further = target.prescribed_value - target.controlled_value(whole)
     if target.force is not None:
         further = missing / (2 * whole.bodies.modulus * whole.radius)
     probe = solve(whole.radius, whole.approach + further)
-    further *= missing / (target.value(probe) - target.value(whole))
+    further *= missing / (target.controlled_value(probe) - target.controlled_value(whole))
     return solve(whole.radius, whole.approach + further)
 
 
-def first_radius(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:
+def lower_radius_estimate(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:
     """Return a lower estimate of the contact radius, as an initial guess [length].
 
     Under a prescribed approach the estimate is the radius r at which the undeformed gap f(r) equals

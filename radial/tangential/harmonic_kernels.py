@@ -25,7 +25,7 @@ from contact_scene.array_types import Array
 UPWARDS, ROUND_OFF = 3.0, 18.0
 
 
-def equal_order(highest: int, r: Array, s: Array, apart: Array) -> Array:
+def equal_order_kernels(highest: int, r: Array, s: Array, apart: Array) -> Array:
     """Compute the kernels G_m = ∫₀^∞ J_m(kr) J_m(ks) dk for m = 0 … highest [1/length].
 
     The shape is (highest + 1, …).

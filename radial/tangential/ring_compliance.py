@@ -21,8 +21,8 @@ from radial.response.bodies import layer_responses
 from radial.response.wavenumbers import wave_blocks
 from radial.tangential.ring_energies import (
     WAVE_POINTS,
-    transforms,
-    unit_energies,
+    half_space_integrals,
+    hat_transforms,
 )
 
 
@@ -40,7 +40,7 @@ def ring_compliance(
     radius    unit of the nodes [length]
     highest   highest harmonic M
     """
-    unit = unit_energies(nodes, highest)
+    unit = half_space_integrals(nodes, highest)
     found = np.zeros((highest + 1, 3, 3, len(nodes), len(nodes)))
     mean, difference = (
         (coupling.direct + coupling.across) / 4,
@@ -85,7 +85,7 @@ def _layer_matrices(
     kappa = waves.rule[0]
     scalars = waves.rule[1] * layer_responses(coupling.stacks, waves, radius)
     for some in wave_blocks(len(kappa), (WAVE_POINTS + highest + 2) * len(nodes)):
-        fields = transforms(nodes, highest, kappa[some])
+        fields = hat_transforms(nodes, highest, kappa[some])
         along, c12, c22, across = scalars[:, some]
         mean, apart, half = (along + across) / 4, (across - along) / 4, c12 / 2
         for m, total in enumerate(found):

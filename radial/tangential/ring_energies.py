@@ -18,7 +18,7 @@ from scipy.special import j0, j1
 
 from contact_scene.array_types import Array
 from radial.response.quadrature import unit_gauss
-from radial.tangential.harmonic_kernels import equal_order
+from radial.tangential.harmonic_kernels import equal_order_kernels
 
 Numbers = NDArray[np.int64]
 # Pairs of quadrature points: element of r, element of s, r, s, s - r and weights.
@@ -52,7 +52,7 @@ class HalfSpaceIntegrals(NamedTuple):
 
 
 @lru_cache(maxsize=CACHED)
-def unit_energies(nodes: tuple[float, ...], highest: int) -> HalfSpaceIntegrals:
+def half_space_integrals(nodes: tuple[float, ...], highest: int) -> HalfSpaceIntegrals:
     """Compute the Galerkin integrals of half-space kernels with hat functions on rings.
 
     The integrals ∬ φ_i K φ_j r s dr ds are computed for all angular harmonics.
@@ -66,7 +66,7 @@ def unit_energies(nodes: tuple[float, ...], highest: int) -> HalfSpaceIntegrals:
     squares = np.zeros((highest + 2, *size))  # Galerkin integrals of (r/s) G_m
     steps = np.zeros((highest + 1, *size))
     for inner, outer, r, s, apart, weights in _quadrature_pairs(x):
-        kernel = equal_order(highest + 1, r, s, apart) * weights
+        kernel = equal_order_kernels(highest + 1, r, s, apart) * weights
         power = weights * r * (r / s) ** np.arange(highest + 1.0)[:, None, None]
         for i, at_r in enumerate(_evaluate_hats(x, inner, r)):
             for j, at_s in enumerate(_evaluate_hats(x, outer, s)):
@@ -141,7 +141,7 @@ def _unit_square_rule(first: int, second: int) -> tuple[Array, Array, Array]:
     return np.repeat(v, second), np.tile(u, first), np.outer(of_v, of_u).ravel()
 
 
-def transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
+def hat_transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
     """Compute the Hankel transforms ∫ φ J_m(κx) x dx of hat functions φ on rings, for layers.
 
     The shape is (M + 2, κ, n + 1), for m = 0 … M + 1.

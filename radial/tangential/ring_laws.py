@@ -148,8 +148,8 @@ class ContactLaws:
         q, p = t[: 2 * size], t[2 * size :]
         gap = u[2 * size :] + points.gap_areas - motion[NORMAL] * points.areas
         slip_increment = self.slip_increment(u, motion)
-        z = p - gap / points.softness[2 * size :]
-        y = (q - slip_increment / points.softness[: 2 * size]).reshape(2, -1)
+        z = p - gap / points.diagonal_compliance[2 * size :]
+        y = (q - slip_increment / points.diagonal_compliance[: 2 * size]).reshape(2, -1)
         limit = self.friction.limit(np.maximum(z, 0.0))
         residual = np.concatenate(
             [q - (_reduction_factors(y, limit) * y).ravel(), p - np.maximum(z, 0.0)]

@@ -99,7 +99,7 @@ def newton_iterate(laws: ContactLaws, at: NewtonIterate) -> Array | None:
     # Rings outside the outermost ring in contact carry no traction.
     rings = int(np.max(np.flatnonzero(at.z > 0), initial=0)) // points.count + 1
     K, m = points.inverse_compliance(rings), rings * points.count
-    units = np.sqrt(points.restrict_to_rings(points.softness, rings))
+    units = np.sqrt(points.restrict_to_rings(points.diagonal_compliance, rings))
     free = _find_free_points(at, m, laws.friction, units)
     own = free.displacements(m)
     t = points.restrict_to_rings(at.x[:-4], rings)

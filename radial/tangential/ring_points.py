@@ -121,7 +121,7 @@ class ContactPoints:
         return self._over_harmonics(self._harmonic_transform, self._harmonic_energies)
 
     @cached_property
-    def softness(self) -> Array:
+    def diagonal_compliance(self) -> Array:
         """Return the diagonal of the compliance matrix of all points (3 n count,) [length^5/force].
 
         An entry is the displacement of a point, times its area, by a unit traction at this point.
@@ -173,7 +173,7 @@ class ContactPoints:
             found = found.reshape(len(present), rings, len(present), rings).swapaxes(1, 2)
             inverse[np.ix_(present, present)] = found
         found = self._over_harmonics(back, inverses)
-        units = np.sqrt(self.restrict_to_rings(self.softness, rings))
+        units = np.sqrt(self.restrict_to_rings(self.diagonal_compliance, rings))
         found *= units
         found *= units[:, None]
         return found
@@ -216,7 +216,7 @@ class ContactPoints:
         return whole.reshape(3 * nodes * angles, -1)
 
     @cached_property
-    def round(self) -> ContactPoints:
+    def axisymmetric(self) -> ContactPoints:
         """Return the points for an axisymmetric contact: equal nodes with one angle per ring.
 
         Used as long as no tangential load acts.

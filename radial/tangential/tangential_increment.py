@@ -15,7 +15,7 @@ from contact_scene.quantities.summary import ContactStatus
 from radial.angular_grid import Circle
 from radial.frictional.contact_growth import (
     contact_fraction,
-    front,
+    extrapolate_stick_radius,
 )
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
@@ -144,7 +144,7 @@ def tangential_state(
     turned = points.circle is not Circle.ONE or end.motion[TORSION] != motion[TORSION]
     stick_radius = stick_through
     if not (turned or stick_through is None or before is None or before.stick_through is None):
-        stick_radius = front(
+        stick_radius = extrapolate_stick_radius(
             radius, start_radius, stick_through, before.start_radius, before.stick_through
         )
     open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)

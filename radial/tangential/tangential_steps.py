@@ -246,7 +246,7 @@ class TangentialSteps(StepsOnRings):
             return before
         tangential = (*loads.forces[:TORSION], *loads.motions[:TORSION])
         angular = any(tangential) or (before is not None and before.circle is not Circle.ONE)
-        points = self.points if angular else self.points.round
+        points = self.points if angular else self.points.axisymmetric
         self._refuse_within_first(points, loads.motions[NORMAL])
         last = before.end if before else None
         slip = before.slip if before else np.zeros((2, len(points.areas)))
@@ -315,7 +315,7 @@ class TangentialSteps(StepsOnRings):
         """
         state, end = reached.state, reached.state.end
         angular = state.circle is not Circle.ONE
-        points = self.points if angular else self.points.round
+        points = self.points if angular else self.points.axisymmetric
         if reached.place.index == reached.place.increments_in_step:
             self._refuse_narrow(state, reached.place.step)
         residuals = residuals_of(points, self.friction, state)
