@@ -18,7 +18,7 @@ from fem_reference.plan import Path, Plan
 UNCOUPLED = (Path.PRESSING, Path.SHEARING, Path.TWISTING)
 
 
-def accounted(
+def add_energies(
     scene: Scene,
     plan: Plan,
     before: Increment | None,
@@ -59,8 +59,8 @@ def input_work(before: Increment | None, increment: Increment) -> float | None:
     before  previous increment, whose work is continued; None for the first increment
     """
     worked = 0.0 if before is None else before.trapezoidal_work
-    forces, motions = (np.zeros(4), np.zeros(4)) if before is None else _loads(before)
-    now, place = _loads(increment)
+    forces, motions = (np.zeros(4), np.zeros(4)) if before is None else _conjugate_loads(before)
+    now, place = _conjugate_loads(increment)
     if worked is None or motions is None or place is None:
         return None
     return worked + float(np.sum(0.5 * (forces + now) * (place - motions)))
@@ -82,7 +82,7 @@ def dissipation_uncertainty(
     known = 0.0 if before is None else before.dissipation_uncertainty or 0.0
     if not plan.path_matters[increment.step - 1]:
         return known
-    changed, slipped = (_changed(name, before, increment) for name in ("shear", "slip"))
+    changed, slipped = (_change_magnitude(name, before, increment) for name in ("shear", "slip"))
     density = (changed * slipped).T
     if increment.angles is None:
         around = 2 * pi * density
@@ -94,7 +94,7 @@ def dissipation_uncertainty(
 COMPONENTS = ("radial", "circumferential", "along_load")
 
 
-def _changed(name: str, before: Increment | None, increment: Increment) -> Field:
+def _change_magnitude(name: str, before: Increment | None, increment: Increment) -> Field:
     """Compute the magnitude of the change of shear or slip from the previous increment.
 
     The result has the shape of the field: (rings,), or (rings, angles) if the field has angles.
@@ -127,18 +127,18 @@ def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | No
     if plan.path not in UNCOUPLED or any(plan.path_matters[: increment.step]):
         return None
     carrying = increment.pressure > 0
-    hats = _hats(increment.radii)
-    gap = hats.of(lambda r: np.asarray(scene.indenter.initial_gap(r, 0.0)))
+    hats = _ring_hats(increment.radii)
+    gap = hats.integrate(lambda r: np.asarray(scene.indenter.initial_gap(r, 0.0)))
     p = np.where(carrying, increment.pressure, 0.0)
     stored = pi * np.sum(p * (increment.approach * hats.weights - np.where(carrying, gap, 0)))
-    for shear, slip, motion in _sheared(plan, increment, hats):
+    for shear, slip, motion in _shear_components(plan, increment, hats):
         if motion is None:
             return None
         stored += pi * np.sum(shear * (slip * hats.weights + motion))
     return float(stored)
 
 
-def _sheared(
+def _shear_components(
     plan: Plan, increment: Increment, hats: Hats
 ) -> Iterator[tuple[Field, Field, Field | None]]:
     """Yield the fields of each shear component that do work in the elastic energy.
@@ -153,11 +153,11 @@ def _sheared(
         yield increment.shear_along_load, increment.slip_along_load, size
     if increment.shear_circumferential is not None and increment.slip_circumferential is not None:
         turned = increment.twist
-        size = None if turned is None else turned * hats.of(lambda r: r)
+        size = None if turned is None else turned * hats.integrate(lambda r: r)
         yield increment.shear_circumferential, increment.slip_circumferential, size
 
 
-def _hats(radii: Field) -> Hats:
+def _ring_hats(radii: Field) -> Hats:
     """Create the hat functions over the radius whose corner nodes are the given rings.
 
     Used to integrate fields of an increment over the surface.
@@ -170,7 +170,7 @@ def _hats(radii: Field) -> Hats:
     return hats_on(nodes)
 
 
-def _loads(increment: Increment) -> tuple[Field, Field | None]:
+def _conjugate_loads(increment: Increment) -> tuple[Field, Field | None]:
     """Return the forces and the conjugate motions of an increment, for the work of the loads.
 
     The forces are (W, T_x, T_y, M_z): normal force, tangential force and torque. The motions are

@@ -76,10 +76,10 @@ def expected_radius(scene: Scene) -> float:
     thick = [body.layers[0].thickness for body in (scene.body, scene.indenter) if body.layers]
     if min(thick) > DEEP * bare:
         return bare
-    return max(_coarse_radius(scene, ramp, guess) for ramp in _extremes(scene))
+    return max(_coarse_radius(scene, ramp, guess) for ramp in _largest_ramps(scene))
 
 
-def _extremes(scene: Scene) -> list[LoadRamp]:
+def _largest_ramps(scene: Scene) -> list[LoadRamp]:
     """Return the load steps with the largest normal load, for the estimate of the contact radius.
 
     The list contains the load ramp with the largest final force, if force control occurs in the
@@ -120,7 +120,7 @@ def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
     indenter, end, exponent = scene.indenter, ramp.normal.end, scene.indenter.gap_exponent
     if indenter.rim is not None:
         return indenter.rim
-    modulus = 1 / (_softness(scene.body) + _softness(indenter))
+    modulus = 1 / (_mean_compliance(scene.body) + _mean_compliance(indenter))
     if ramp.normal.kind is ControlKind.FORCE:
         power, more = indenter.contact_under(end, modulus), 1
     else:
@@ -134,7 +134,7 @@ def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
     return sqrt(power[0]) if degree == 2 else power[0] ** (1 / degree)
 
 
-def _softness(body: Body) -> float:
+def _mean_compliance(body: Body) -> float:
     """Compute the mean of (1-ν²)/E over the layers and the substrate of a body [length^2/force].
 
     Used as the compliance of a half-space that replaces the layered body in a first estimate. Each
@@ -159,7 +159,7 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
     decided = plan(pressing)
     radius = guess
     for _ in range(MAX_TRIALS):
-        model = ContactModel.of(pressing, _coarse(scene, radius), radius)
+        model = ContactModel.of(pressing, _coarse_discretisation(scene, radius), radius)
         try:
             (pressed,) = solved_increments(ContactMethod(model, decided), COARSE_TOLERANCE)
         except ContactAtZoneEdge:
@@ -171,7 +171,7 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
     return radius
 
 
-def _coarse(scene: Scene, radius: float) -> FiniteElementDiscretisation:
+def _coarse_discretisation(scene: Scene, radius: float) -> FiniteElementDiscretisation:
     """Return the discretisation of the coarse mesh that serves to estimate the contact radius.
 
     The outer boundary of the mesh is limited to LARGEST_COARSE_BOX contact radii if the layers are

@@ -25,7 +25,7 @@ from contact_scene.stepping.load_stepping import (
 )
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
-from fem_reference.energy import accounted
+from fem_reference.energy import add_energies
 from fem_reference.fields import Increment
 from fem_reference.loads import STILL, Loads, NormalTarget, TangentialTarget
 from fem_reference.plan import Path
@@ -54,11 +54,11 @@ def resumable_solve(
     raises     NotConverged and GrossSliding, with the last converged increment as `last_state`
     """
     scene, counts = method.model.scene, method.plan.increments
-    return resumable_increments(scene, counts, _Solver(scene, method, tolerance), since)
+    return resumable_increments(scene, counts, _IncrementSolver(scene, method, tolerance), since)
 
 
 @dataclass(frozen=True)
-class _Solver:
+class _IncrementSolver:
     """Finite-element solver in the form that the load stepping of `contact_scene` requires.
 
     The load stepping calls `advance` for each increment and `report` for its result. It could limit
@@ -98,7 +98,7 @@ class _Solver:
         normal = (start.normal_force, start.approach) if start else (0.0, 0.0)
         tangential = (start.load, start.motion) if start else (0.0, 0.0)
         loads = Loads(NormalTarget(*ramp.normal.prescribed(fraction, normal)), STILL)
-        along = self._along(ramp)
+        along = self._tangential_control(ramp)
         if along is not None:
             loads = replace(
                 loads, tangential=TangentialTarget(*along.prescribed(fraction, tangential))
@@ -126,9 +126,9 @@ class _Solver:
         increment = replace(increment, halvings=reached.halvings)
         increment = of_contact(increment, self.scene.rig)
         resisted = self.method.work_on_strain(reached.before, reached.state)
-        return accounted(self.scene, self.method.plan, last, increment, resisted)
+        return add_energies(self.scene, self.method.plan, last, increment, resisted)
 
-    def _along(self, ramp: LoadRamp) -> ScalarControl | None:
+    def _tangential_control(self, ramp: LoadRamp) -> ScalarControl | None:
         """Return the prescribed tangential load or motion of a load step as a scalar control.
 
         In torsion the result is the control of twist or torque. Under a tangential load it is the

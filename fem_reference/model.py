@@ -60,8 +60,8 @@ class ContactModel:
         """
         scales = Scales(radius, outermost_modulus(scene))
         lower, upper = (scales.dimensionless(body) for body in (scene.body, scene.indenter))
-        section = _section(lower, discretisation)
-        other = section if lower == upper else _section(upper, discretisation)
+        section = _create_section(lower, discretisation)
+        other = section if lower == upper else _create_section(upper, discretisation)
         return cls(scene, scales, (section, other))
 
     @cached_property
@@ -115,7 +115,7 @@ class ContactModel:
         the loading is normal and has the components (r, z); torsion is excluded. For n >= 1 the
         components are (r, theta, z).
         """
-        return self._condensed(motion(harmonic))
+        return self._stored_compliance(motion(harmonic))
 
     def torsion(self) -> NodalCompliance:
         """Return the compliance of the two surfaces in torsion.
@@ -123,7 +123,7 @@ class ContactModel:
         The matrix contains the circumferential displacement of the lower surface relative to the
         upper surface, per unit circumferential nodal force [length/force].
         """
-        return self._condensed(TORSION)
+        return self._stored_compliance(TORSION)
 
     def along_load(self) -> Field:
         """Compute the compliance along a tangential load in Mindlin's approximation, shape (m, m).
@@ -136,7 +136,7 @@ class ContactModel:
         C = self.compliance(1).matrix
         return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
 
-    def _condensed(self, of: Motion) -> NodalCompliance:
+    def _stored_compliance(self, of: Motion) -> NodalCompliance:
         """Return the compliance of the two surfaces for one kind of loading, in units of the scene.
 
         The compliance is computed at its first use and stored. The compliance of the rig's springs
@@ -152,11 +152,13 @@ class ContactModel:
                 self.settled.add(name)
             matrix = condensed.matrix / (self.scales.modulus * self.scales.length)
             self._compliances[of] = replace(
-                condensed, radii=self.radii, matrix=matrix + self._springs(of)[:, None, :, None]
+                condensed,
+                radii=self.radii,
+                matrix=matrix + self._spring_compliance(of)[:, None, :, None],
             )
         return self._compliances[of]
 
-    def _springs(self, of: Motion) -> Field:
+    def _spring_compliance(self, of: Motion) -> Field:
         """Compute the displacement of the nodes by the springs of the test rig, per nodal force.
 
         The springs are in series with the contact and displace all nodes equally. The result has
@@ -170,7 +172,7 @@ class ContactModel:
         return np.asarray(compliance * np.multiply.outer(of.on_axis, of.resultant))
 
 
-def _section(body: Body, discretisation: FiniteElementDiscretisation) -> SectionMesh | None:
+def _create_section(body: Body, discretisation: FiniteElementDiscretisation) -> SectionMesh | None:
     """Create the mesh of the meridional section of a body, or return None for a rigid body.
 
     The discretisation selects the mesher: tensor-product rectangles, or gmsh.

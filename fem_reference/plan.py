@@ -95,18 +95,18 @@ def plan(scene: Scene) -> Plan:
     _refuse_loads(scene, loaded, twisted, couples)
     strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
     strained = around_axis(strains, friction and (loaded or twisted))
-    path = _path(friction, loaded, twisted, couples or (rough and strained))
+    path = _choose_path(friction, loaded, twisted, couples or (rough and strained))
     matters = _path_matters(ramps, path)
     return Plan(
         path,
         first_direction(ramps),
-        _increments(scene, matters),
+        _increment_counts(scene, matters),
         matters,
-        _effects(scene, path, (friction, loaded, twisted, couples), why),
+        _list_effects(scene, path, (friction, loaded, twisted, couples), why),
     )
 
 
-def _path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> Path:
+def _choose_path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> Path:
     """Determine which tractions the solve computes, from the loads and the friction of the scene.
 
     friction  True if the scene has friction
@@ -140,7 +140,7 @@ def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
     return tuple(matters)
 
 
-def _increments(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
+def _increment_counts(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
     """Determine the number of increments of each load step.
 
     The number is the one that the scene requests, if there is one. Otherwise it is the larger of
@@ -177,7 +177,7 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
     return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF)) if limit > 0 else 1
 
 
-def _effects(
+def _list_effects(
     scene: Scene, path: Path, acting: tuple[bool, bool, bool, bool], why_coupled: str
 ) -> tuple[Effect, ...]:
     """Return all effects of a solve, each with the reason why it is computed or omitted.

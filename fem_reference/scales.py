@@ -24,15 +24,18 @@ class Scales:
         The copy has no surface shape, because the mesh requires the layers and materials only.
         """
         layers = tuple(
-            Layer(thickness=layer.thickness / self.length, material=self._scaled(layer.material))
+            Layer(
+                thickness=layer.thickness / self.length,
+                material=self._scale_material(layer.material),
+            )
             for layer in body.layers
         )
         material: Material = body.material
         if isinstance(material, IsotropicMaterial):
-            material = self._scaled(material)
+            material = self._scale_material(material)
         return Body(material=material, layers=layers)
 
-    def _scaled(self, material: IsotropicMaterial) -> IsotropicMaterial:
+    def _scale_material(self, material: IsotropicMaterial) -> IsotropicMaterial:
         """Return a copy of a material whose Young's modulus is divided by the unit of stress."""
         return IsotropicMaterial(
             young_modulus=material.young_modulus / self.modulus,

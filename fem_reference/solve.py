@@ -81,12 +81,17 @@ def solve(
         model = ContactModel.of(scene, discretisation, radius)
         if last:
             model.settled.update(last.settled)
-        solver = _solver(model, chosen_plan, discretisation, method)
+        solver = _create_method(model, chosen_plan, discretisation, method)
         history = resumable_solve(solver, discretisation.tolerance, last)
         try:
             increments = tuple(
                 with_checkpoints(
-                    _counted(model, history), last, store, progress, radius, model.settled
+                    _count_factorisations(model, history),
+                    last,
+                    store,
+                    progress,
+                    radius,
+                    model.settled,
                 )
             )
         except ContactAtZoneEdge:
@@ -104,7 +109,7 @@ def solve(
         last = None
 
 
-def _solver(
+def _create_method(
     model: ContactModel,
     chosen_plan: Plan,
     discretisation: FiniteElementDiscretisation,
@@ -122,7 +127,7 @@ def _solver(
     return ContactMethod(model, chosen_plan, penalty, end_grid(discretisation.harmonics))
 
 
-def _counted(
+def _count_factorisations(
     model: ContactModel, history: Iterator[tuple[Increment, ResumePoint[PointState]]]
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
     """Yield the increments of a load history with the number of sparse factorisations of each.

@@ -163,7 +163,7 @@ def test_forces_of_a_linear_traction_do_the_work_of_the_tractions(radii, parabol
 @given(nodes())
 def test_gap_over_hats_adds_up_to_the_volume(radii) -> None:
     hats, R = hats_on(radii), radii[-1]
-    assert 2 * pi * hats.of(lambda r: r**2 / 2).sum() == pytest.approx(pi * R**4 / 4)
+    assert 2 * pi * hats.integrate(lambda r: r**2 / 2).sum() == pytest.approx(pi * R**4 / 4)
 
 
 @given(nodes(), st.data())

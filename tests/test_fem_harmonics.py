@@ -106,7 +106,7 @@ def pressed(of: PointContact, force: float, increments: int) -> PointState:
         target = NormalTarget(force=force * (k / increments) ** 3)
         state = advance(ring, state, Loads(target), TOLERANCE)
     assert state is not None
-    return of.lifted(state)
+    return of.extend_to_points(state)
 
 
 def sheared(of: PointContact, state: PointState, *forces: float) -> PointState:
@@ -150,7 +150,7 @@ def grid_name(grid):
 def test_point_values_and_amplitudes_say_the_same(grid):
     values = np.random.default_rng(1).normal(size=(3, 5, grid.points))
     values[1, :, ~np.any(grid.sines, axis=0)] = 0.0
-    np.testing.assert_allclose(grid.at_points(grid.amplitudes(values)), values, atol=1e-13)
+    np.testing.assert_allclose(grid.evaluate_at_points(grid.amplitudes(values)), values, atol=1e-13)
 
 
 @pytest.mark.parametrize("springs", [0.0, 0.3])

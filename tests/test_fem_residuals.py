@@ -247,15 +247,17 @@ def random_state(rng: np.random.Generator, springs: float) -> tuple[Equations, I
 @pytest.mark.parametrize("springs", [0.0, 0.3], ids=["exact", "penalty"])
 def test_tangent_is_the_derivative_where_no_point_changes_its_state(springs, rng) -> None:
     equations, here = random_state(rng, springs)
-    _, tangent, _ = equations.linearised(here)
+    _, tangent, _ = equations.linearise(here)
     errors = []
     for column, change in enumerate(STEP * np.eye(len(here.values))):
         ends = [Iterate.of(here.values + sign * change) for sign in (1, -1)]
-        slips = [equations.linearised(end)[2] for end in ends]
+        slips = [equations.linearise(end)[2] for end in ends]
         p = [equations.solution(end, s, 0).pressure for end, s in zip(ends, slips, strict=True)]
         apart = np.max(p, axis=0) == 0
         smooth = (apart | (np.min(p, axis=0) > LEAST_PRESSURE)) & (slips[0] == slips[1])
         rows = np.append(np.tile(smooth, 3), [True, True])
-        difference = (equations.missed(ends[0]) - equations.missed(ends[1])) / (2 * STEP)
+        difference = (equations.residual_vector(ends[0]) - equations.residual_vector(ends[1])) / (
+            2 * STEP
+        )
         errors.append(np.abs(difference - tangent[:, column])[rows].max())
     assert np.max(errors) <= 1e-8

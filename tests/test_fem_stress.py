@@ -81,7 +81,7 @@ def test_tractions_are_continuous_across_an_interface_and_the_rest_jumps(
     coated: tuple[SurfaceTractions, SectionField],
 ) -> None:
     _, field = coated
-    above, below = (field.side(0.5 * A, material) for material in (0, 1))
+    above, below = (field.interface_points(0.5 * A, material) for material in (0, 1))
     near = field.points[0, above] < 2 * A
     for theta in (0.0, 1.0):
         one, other = (field.stress(theta)[:, side][:, near] for side in (above, below))

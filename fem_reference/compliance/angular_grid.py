@@ -67,7 +67,7 @@ class AngularGrid:
         """
         return np.stack([f @ d.T for f, d in zip(values, self.transforms, strict=True)])
 
-    def at_points(self, amplitudes: Matrix) -> Matrix:
+    def evaluate_at_points(self, amplitudes: Matrix) -> Matrix:
         """Transform harmonic amplitudes of a vector field to point values.
 
         amplitudes  amplitudes of the components r, θ, z (3, rings, harmonics)

@@ -23,7 +23,7 @@ class GaussPoints(TractionBasis):
     dr is Σ f(r_g) w_g r_g with the Gauss weights w_g.
     """
 
-    def of(self, function: Callable[[Field], Field]) -> Field:
+    def integrate(self, function: Callable[[Field], Field]) -> Field:
         """Compute the integral of f(r) φ_g r dr for the function φ_g of each Gauss point (points,).
 
         function  f, a function of an array of radii

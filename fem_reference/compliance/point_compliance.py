@@ -141,7 +141,7 @@ class PointCompliance:
         shear     shear at the points (2, points) [force/length^2]
         """
         tractions = np.stack([*shear, pressure])
-        amplitudes = self.grid.amplitudes(self._spread(tractions))
+        amplitudes = self.grid.amplitudes(self._spread_over_rings(tractions))
         weak = np.stack(
             [
                 np.einsum("aibk,bk->ai", A, amplitudes[:, :, n])
@@ -149,7 +149,7 @@ class PointCompliance:
             ],
             axis=-1,
         )
-        w_u = self._summed_on_axis(self.grid.at_points(weak) * self.grid.weights)
+        w_u = self._summed_on_axis(self.grid.evaluate_at_points(weak) * self.grid.weights)
         u = w_u / self.areas + self.springs * tractions
         return u[:2] * self.carries_shear, u[2]
 
@@ -167,7 +167,7 @@ class PointCompliance:
 
         The components of the result are r and θ.
         """
-        return self._spread(np.stack([*values, np.zeros_like(values[0])]))[:2]
+        return self._spread_over_rings(np.stack([*values, np.zeros_like(values[0])]))[:2]
 
     @cached_property
     def _e_x_around(self) -> Field:
@@ -180,7 +180,7 @@ class PointCompliance:
         return np.stack([cos, np.where(np.any(self.grid.sines, axis=0), -sin, 0.0)])
 
     @cached_property
-    def _axis(self) -> Field:
+    def _axis_vectors(self) -> Field:
         """Components r, θ and z at all angles of unit tractions on the axis along x, y and z.
 
         The shape is (3, 3, angles): component first, then direction. The traction along y is zero
@@ -194,22 +194,22 @@ class PointCompliance:
         unit[0, :2] = self._e_x_around
         return unit
 
-    def _spread(self, values: Field) -> Field:
+    def _spread_over_rings(self, values: Field) -> Field:
         """Convert a vector field at the points (3, points) to the shape (3, rings, angles).
 
         The components of the result are r, θ and z.
         """
         rings, angles = self.shape
-        axis = np.einsum("cak,c->ak", self._axis, values[:, 0])
+        axis = np.einsum("cak,c->ak", self._axis_vectors, values[:, 0])
         return np.concatenate([axis[:, None], values[:, 1:].reshape(3, rings - 1, angles)], axis=1)
 
     def _summed_on_axis(self, weak: NDArray[np.float64]) -> NDArray[np.float64]:
         """Convert area-weighted displacements on rings and angles to points.
 
         The shapes are (3, rings, angles, …) and (3, points, …). On the axis the values of all
-        angles are summed to components x, y and z. This conversion is the transpose of `_spread`,
-        so that the work of the tractions is preserved.
+        angles are summed to components x, y and z. This conversion is the transpose of
+        `_spread_over_rings`, so that the work of the tractions is preserved.
         """
-        axis = np.einsum("cak,ak...->c...", self._axis, weak[:, 0])
+        axis = np.einsum("cak,ak...->c...", self._axis_vectors, weak[:, 0])
         rest = weak[:, 1:].reshape(3, -1, *weak.shape[3:])
         return np.concatenate([axis[:, None], rest], axis=1)

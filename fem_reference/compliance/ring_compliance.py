@@ -110,7 +110,7 @@ def ring_compliance(
     else:
         edge = HatEdge(beyond_pressure(model.scene.body, model.scene.indenter))
         reach = float(basis.radii[-1])
-    gap = basis.of(model.gap) / basis.weights
+    gap = basis.integrate(model.gap) / basis.weights
     return RingCompliance(
         basis.radii, basis.weights, gap, tuple(harmonics), path, motion, stretch, reach, edge
     )

@@ -81,7 +81,7 @@ class Edge(Protocol):
     """
 
     @property
-    def of_stick(self) -> "Edge":
+    def stick_rule(self) -> "Edge":
         """Rule that locates the edge of the stick zone, for use with this rule of the contact edge.
 
         The rule applies to the difference between the friction limit and the shear. This difference
@@ -113,7 +113,7 @@ class HatEdge:
     beyond: Beyond = BEYOND
 
     @property
-    def of_stick(self) -> "HatEdge":
+    def stick_rule(self) -> "HatEdge":
         """Rule that locates the edge of the stick zone: the polynomial of a half-plane.
 
         The correction for finite elements at the contact edge does not apply to the stick zone.
@@ -160,7 +160,7 @@ class GaussEdge:
     element: float
 
     @property
-    def of_stick(self) -> "GaussEdge":
+    def stick_rule(self) -> "GaussEdge":
         """Rule for the edge of the stick zone, equal to the rule for the contact edge."""
         return self
 
@@ -232,7 +232,7 @@ def stick_area(
     stuck = ~slips[: last + 1]
     if bound[0] == 0:
         stuck[0] = stuck[1]
-    area, at_stick = 0.0, edge.of_stick
+    area, at_stick = 0.0, edge.stick_rule
     if stuck[last]:
         rim = last == len(radii) - 1
         left = bound - np.sqrt(np.sum(shear**2, axis=0))

@@ -57,7 +57,7 @@ def project(
         if abs(defect) <= ROUND_OFF * limit:
             break
         low, high = (multiplier, high) if defect < 0 else (low, multiplier)
-        slope = _slope(moved, bound, along, push)
+        slope = _load_slope(moved, bound, along, push)
         step = -defect / slope if slope > 0 else np.copysign(np.inf, -defect)
         guess = multiplier + step
         if not low < guess < high or abs(step) > 10 * jump:
@@ -71,7 +71,7 @@ def project(
     return inside, multiplier
 
 
-def _slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
+def _load_slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
     """Compute the derivative of the tangential load by the multiplier λ of the load.
 
     The load is the resultant of the shear after its limitation to the friction limit. Used by the

@@ -148,22 +148,22 @@ def solve_coupled(
     inner = max(LOOSEST, tightest) if couples else tightest
     known = _Anderson(w, target.force)
     try:
-        pressed = press(problem, q, pressure > 0)
+        pressed = solve_pressure(problem, q, pressure > 0)
         p, solves = pressed.values, pressed.steps
         for turn in range(1, MAX_TURNS + 1):
-            sheared = _shear(problem, p, q, inner)
+            sheared = _solve_shear_at_pressure(problem, p, q, inner)
             q, solves = sheared.shear, solves + sheared.solves
             if not couples:
                 delta = approach_of(problem, pressed)
                 return CoupledSolution(p, q, delta, sheared.shift, sheared.in_slip, turn, solves)
-            pressed = press(problem, q, pressed.free)
+            pressed = solve_pressure(problem, q, pressed.free)
             solves += pressed.steps
             change = over(float(np.sum(w * np.abs(pressed.values - p))), np.sum(w * pressed.values))
             if change <= tolerance and inner <= tightest:
                 delta = approach_of(problem, pressed)
                 return CoupledSolution(p, q, delta, sheared.shift, sheared.in_slip, turn, solves)
             if change > tolerance:
-                p = known.next(p, pressed.values)
+                p = known.mix_pressures(p, pressed.values)
                 inner = max(tightest, 0.1 * inner)
             else:
                 inner = tightest
@@ -187,7 +187,7 @@ def approach_of(problem: CoupledProblem, pressed: PressureSolution) -> float:
     return pressed.multiplier if prescribed is None else prescribed
 
 
-def press(problem: CoupledProblem, q: Field, guess: Mask) -> PressureSolution:
+def solve_pressure(problem: CoupledProblem, q: Field, guess: Mask) -> PressureSolution:
     """Solve the normal problem of an increment: the pressure at a given shear.
 
     Under a prescribed force, the approach is the multiplier of the solution. Raise NotConverged, or
@@ -209,7 +209,9 @@ def press(problem: CoupledProblem, q: Field, guess: Mask) -> PressureSolution:
     return solve_program(PressureProgram(K[2 * points :, 2 * points :], right, total), guess)
 
 
-def _shear(problem: CoupledProblem, p: Vector, start: Field, tolerance: float) -> TangentialState:
+def _solve_shear_at_pressure(
+    problem: CoupledProblem, p: Vector, start: Field, tolerance: float
+) -> TangentialState:
     """Solve the tangential problem of an increment: the shear at a given pressure.
 
     Unknowns are the shears of the points whose friction limit is positive. If the prescribed load
@@ -259,7 +261,7 @@ class _Anderson:
         self._points: list[Vector] = []
         self._changes: list[Vector] = []
 
-    def next(self, p: Vector, answer: Vector) -> Vector:
+    def mix_pressures(self, p: Vector, answer: Vector) -> Vector:
         """Compute the pressure for the next iteration by extrapolation of all stored iterations.
 
         The result is not negative and is zero where the last pressure is zero. It carries the

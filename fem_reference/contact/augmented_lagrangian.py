@@ -53,7 +53,7 @@ class Penalty:
         return self.factor * contact_modulus / edge_length
 
 
-def augmented(
+def repeat_passes(
     first: P,
     again: Callable[[P], P],
     left: Callable[[P], float],

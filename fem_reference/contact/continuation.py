@@ -19,7 +19,7 @@ import numpy as np
 from contact_scene.array_types import Matrix, Vector
 from contact_scene.solver_errors import NotConverged
 from fem_reference.contact.alternating_iteration import CoupledProblem, CoupledSolution
-from fem_reference.contact.coupled_newton import Root, Start, root
+from fem_reference.contact.coupled_newton import InitialGuess, Root, find_root
 from fem_reference.contact.natural_map import Equations, Iterate
 
 MAX_STEPS = 1000
@@ -33,7 +33,7 @@ LITTLE_FRICTION = 0.1  # least friction coefficient in the unit of the shear
 
 
 def solve_by_continuation(
-    problem: CoupledProblem, start: Start, tolerance: float
+    problem: CoupledProblem, start: InitialGuess, tolerance: float
 ) -> CoupledSolution:
     """Solve the coupled pressure and shear of an increment by continuation.
 
@@ -50,7 +50,7 @@ def solve_by_continuation(
     points = len(problem.compliance.areas)
     itself = np.diagonal(problem.compliance.matrix)[2 * points :] / problem.compliance.areas
     softness = float(np.median(itself))
-    path = _Path(problem, root(problem, start, tolerance, SOFT * softness), softness)
+    path = _Path(problem, find_root(problem, start, tolerance, SOFT * softness), softness)
     for _ in range(MAX_STEPS):
         found = path.step(tolerance)
         if found is not None:
@@ -59,7 +59,7 @@ def solve_by_continuation(
 
 
 @dataclass(frozen=True)
-class _Reached:
+class _PathPoint:
     """Converged point on the continuation path of an increment.
 
     The path consists of the solutions of the contact problem for decreasing compliance of springs
@@ -90,12 +90,12 @@ class _Path:
     def __init__(self, problem: CoupledProblem, begun: Root, softness: float) -> None:
         self.equations = Equations(problem)
         self._solves = begun.solves
-        self._scales = _scales(self.equations, begun.at, softness)
+        self._scales = _unknown_units(self.equations, begun.at, softness)
         self._values = begun.at.values / self._scales
         self._length = FIRST_LENGTH
         self._softer = np.append(np.zeros(len(self._values) - 1), 1.0)
-        derivative = self._derivative(self._values)
-        self._direction, self._sign = self._tangent(derivative, -self._softer)
+        derivative = self._scaled_jacobian(self._values)
+        self._direction, self._sign = self._unit_tangent(derivative, -self._softer)
 
     def lost(self, tolerance: float) -> NotConverged:
         """Create the exception that the continuation ended before the springs vanished.
@@ -118,35 +118,35 @@ class _Path:
         """
         ahead = self._values + self._length * self._direction
         if ahead[-1] > 0:
-            reached = self._corrected(ahead, self._direction, ON_PATH)
+            reached = self._correct_point(ahead, self._direction, ON_PATH)
             if reached is None:
-                self._shorten()
+                self._halve_step()
             else:
                 self._go_to(reached)
             return None
         share = self._values[-1] / (self._values[-1] - ahead[-1])
         end = self._values + share * (ahead - self._values)
         end[-1] = 0.0
-        reached = self._corrected(end, self._softer, tolerance)
+        reached = self._correct_point(end, self._softer, tolerance)
         if reached is None:
-            self._shorten()
+            self._halve_step()
             return None
         return reached.root
 
-    def _go_to(self, reached: _Reached) -> None:
+    def _go_to(self, reached: _PathPoint) -> None:
         """Move the current point of the continuation path to a converged point.
 
         The direction of the path and the length of the next step are updated.
 
         reached  converged point, with the derivative of the equations there
         """
-        direction, sign = self._tangent(reached.derivative, self._direction)
+        direction, sign = self._unit_tangent(reached.derivative, self._direction)
         self._values = reached.values
         self._direction = sign * self._sign * direction
         if reached.corrections <= MAX_CORRECTIONS // 2:
             self._length = min(GROWTH * self._length, LONGEST)
 
-    def _shorten(self) -> None:
+    def _halve_step(self) -> None:
         """Reduce the step length of the continuation by half after a failed correction.
 
         If the step length falls below SHORTEST, the point is at a kink of the path. The direction
@@ -156,11 +156,11 @@ class _Path:
         if self._length > SHORTEST:
             return
         beyond = self._values + BEYOND_KINK * self._direction
-        direction, sign = self._tangent(self._derivative(beyond), self._direction)
+        direction, sign = self._unit_tangent(self._scaled_jacobian(beyond), self._direction)
         self._direction = sign * self._sign * direction
         self._length = 100 * BEYOND_KINK
 
-    def _corrected(self, ahead: Vector, across: Vector, tolerance: float) -> _Reached | None:
+    def _correct_point(self, ahead: Vector, across: Vector, tolerance: float) -> _PathPoint | None:
         """Compute the point in which the continuation path meets a plane, by Newton's method.
 
         Return None if Newton's method fails. The unknowns are tractions, rigid motion and spring
@@ -173,26 +173,26 @@ class _Path:
         values = ahead
         for corrections in range(MAX_CORRECTIONS + 1):
             at = Iterate.of(values * self._scales)
-            missed, jacobian, in_slip = self.equations.linearised(at)
-            size = self.equations.size(missed, at)
+            missed, jacobian, in_slip = self.equations.linearise(at)
+            size = self.equations.residual_norm(missed, at)
             derivative = jacobian * self._scales
             if size <= tolerance:
-                return _Reached(Root(at, in_slip, self._solves), values, derivative, corrections)
-            change = self._solved(derivative, across, np.append(-missed, 0.0))
+                return _PathPoint(Root(at, in_slip, self._solves), values, derivative, corrections)
+            change = self._solve_extended(derivative, across, np.append(-missed, 0.0))
             values = values + change
             if values[-1] < 0 or not np.linalg.norm(values - ahead) <= self._length:
                 return None
         return None
 
-    def _derivative(self, values: Vector) -> Matrix:
+    def _scaled_jacobian(self, values: Vector) -> Matrix:
         """Compute the derivative of the contact equations by the scaled unknowns.
 
         values  scaled unknowns: tractions, rigid motion and spring compliance (3 points + 3,)
         """
-        _, jacobian, _ = self.equations.linearised(Iterate.of(values * self._scales))
+        _, jacobian, _ = self.equations.linearise(Iterate.of(values * self._scales))
         return np.asarray(jacobian * self._scales)
 
-    def _tangent(self, derivative: Matrix, along: Vector) -> tuple[Vector, float]:
+    def _unit_tangent(self, derivative: Matrix, along: Vector) -> tuple[Vector, float]:
         """Compute the unit tangent of the continuation path, and the sign of a determinant.
 
         The determinant is that of the derivative of the equations, extended by the row `along`. A
@@ -202,11 +202,11 @@ class _Path:
         along       vector with which the tangent has a positive scalar product (3 points + 3,)
         """
         right = np.append(np.zeros(len(derivative)), 1.0)
-        tangent = self._solved(derivative, along, right)
+        tangent = self._solve_extended(derivative, along, right)
         sign, _ = np.linalg.slogdet(np.vstack([derivative, along]))
         return tangent / np.linalg.norm(tangent), float(sign)
 
-    def _solved(self, derivative: Matrix, last: Vector, right: Vector) -> Vector:
+    def _solve_extended(self, derivative: Matrix, last: Vector, right: Vector) -> Vector:
         """Solve the square linear system of a derivative and one additional row.
 
         The derivative has one row fewer than unknowns, because the spring compliance is an unknown.
@@ -223,7 +223,7 @@ class _Path:
             raise self.lost(0.0) from error
 
 
-def _scales(equations: Equations, at: Iterate, softness: float) -> Vector:
+def _unknown_units(equations: Equations, at: Iterate, softness: float) -> Vector:
     """Compute the units by which the unknowns of the contact equations are scaled (3 points + 3,).
 
     The continuation measures lengths in the scaled unknowns: tractions, rigid motion and spring

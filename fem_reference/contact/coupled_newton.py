@@ -17,7 +17,7 @@ from fem_reference.contact.alternating_iteration import (
     CoupledProblem,
     CoupledSolution,
     approach_of,
-    press,
+    solve_pressure,
 )
 from fem_reference.contact.natural_map import Equations, Iterate
 
@@ -28,7 +28,7 @@ SUFFICIENT = 1e-3
 
 
 @dataclass(frozen=True)
-class Start:
+class InitialGuess:
     """Initial guess for the solve of an increment: tractions and rigid motion of the indenter.
 
     pressure  pressure at the points (points,) [force/length^2]
@@ -57,7 +57,9 @@ class Root:
     solves: int
 
 
-def solve_by_newton(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
+def solve_by_newton(
+    problem: CoupledProblem, start: InitialGuess, tolerance: float
+) -> CoupledSolution:
     """Solve the coupled pressure and shear of an increment by the semismooth Newton method.
 
     problem    compliance, gap, friction and prescribed loads of the increment
@@ -66,11 +68,13 @@ def solve_by_newton(problem: CoupledProblem, start: Start, tolerance: float) -> 
                shear residual over the friction limit, plus the errors of the prescribed loads
     raises     NotConverged
     """
-    found = root(problem, start, tolerance)
+    found = find_root(problem, start, tolerance)
     return Equations(problem).solution(found.at, found.in_slip, found.solves)
 
 
-def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float = 0.0) -> Root:
+def find_root(
+    problem: CoupledProblem, start: InitialGuess, tolerance: float, springs: float = 0.0
+) -> Root:
     """Find a root of the contact equations of an increment by the semismooth Newton method.
 
     The equations are the contact and friction laws at all points and the prescribed loads. Springs
@@ -83,19 +87,19 @@ def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float
     """
     misses: list[float] = []
     try:
-        at, solves = _first(problem, start, springs)
+        at, solves = _first_iterate(problem, start, springs)
         equations = Equations(problem)
         for step in range(MAX_STEPS):
             with np.errstate(over="ignore", invalid="ignore"):
-                missed, jacobian, in_slip = equations.linearised(at)
-            misses.append(equations.size(missed, at))
+                missed, jacobian, in_slip = equations.linearise(at)
+            misses.append(equations.residual_norm(missed, at))
             if misses[-1] <= tolerance:
                 return Root(at, in_slip, solves + step)
-            change = _step(jacobian[:, :-1], -missed)
+            change = _newton_step(jacobian[:, :-1], -missed)
             if not np.isfinite(change).all():
                 break
             bound = (1 - SUFFICIENT) * max(misses[-REMEMBERED:])
-            after = _nearer(equations, at, np.append(change, 0.0), bound)
+            after = _search_along_step(equations, at, np.append(change, 0.0), bound)
             if after is None:
                 break
             at = after
@@ -104,7 +108,7 @@ def root(problem: CoupledProblem, start: Start, tolerance: float, springs: float
     raise NotConverged("the coupled increment", len(misses), min(misses, default=np.inf), tolerance)
 
 
-def _step(jacobian: Matrix, right: Vector) -> Vector:
+def _newton_step(jacobian: Matrix, right: Vector) -> Vector:
     """Compute the Newton step of the contact equations: solve the linearised equations.
 
     Equations with one diagonal entry are solved first. They belong to points without contact, and
@@ -122,7 +126,9 @@ def _step(jacobian: Matrix, right: Vector) -> Vector:
     return change
 
 
-def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Iterate, int]:
+def _first_iterate(
+    problem: CoupledProblem, start: InitialGuess, springs: float
+) -> tuple[Iterate, int]:
     """Create the first iterate of Newton's method from the initial guess of an increment.
 
     Return also the number of linear systems solved. If the guess has no pressure, the first iterate
@@ -133,7 +139,7 @@ def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Itera
     """
     pressure, approach, solves = start.pressure, start.approach, 0
     if not np.any(pressure > 0):
-        pressed = press(problem, np.zeros_like(start.shear), pressure > 0)
+        pressed = solve_pressure(problem, np.zeros_like(start.shear), pressure > 0)
         pressure, approach, solves = pressed.values, approach_of(problem, pressed), pressed.steps
     shifted, pressed_by = problem.tangential.motion, problem.normal.approach
     return Iterate(
@@ -144,7 +150,9 @@ def _first(problem: CoupledProblem, start: Start, springs: float) -> tuple[Itera
     ), solves
 
 
-def _nearer(equations: Equations, at: Iterate, change: Vector, bound: float) -> Iterate | None:
+def _search_along_step(
+    equations: Equations, at: Iterate, change: Vector, bound: float
+) -> Iterate | None:
     """Search along a Newton step of the contact equations for an iterate with a smaller residual.
 
     The step is halved up to MAX_HALVINGS times. Return the first iterate whose residual norm is
@@ -159,7 +167,7 @@ def _nearer(equations: Equations, at: Iterate, change: Vector, bound: float) -> 
     for halvings in range(MAX_HALVINGS + 1):
         trial = Iterate.of(at.values + 0.5**halvings * change)
         with np.errstate(over="ignore", invalid="ignore"):
-            miss = equations.size(equations.missed(trial), trial)
+            miss = equations.residual_norm(equations.residual_vector(trial), trial)
         if miss < least:
             nearest, least = trial, miss
         if miss < bound:

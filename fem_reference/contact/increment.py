@@ -22,9 +22,9 @@ from fem_reference.contact.alternating_iteration import (
     CoupledSolution,
     solve_coupled,
 )
-from fem_reference.contact.augmented_lagrangian import augmented
+from fem_reference.contact.augmented_lagrangian import repeat_passes
 from fem_reference.contact.continuation import solve_by_continuation
-from fem_reference.contact.coupled_newton import Start, solve_by_newton
+from fem_reference.contact.coupled_newton import InitialGuess, solve_by_newton
 from fem_reference.contact.friction_limit import contact_status, refuse_beyond_limit
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
@@ -64,16 +64,18 @@ def advance(
     raises     NotConverged, SurfacesOverlap, GrossSliding, NothingTouches
     """
     _refuse_unresolved(contact, loads)
-    before = before or contact.untouched()
+    before = before or contact.state_before_contact()
     if before.motion is None:
         raise motion_undefined()
     increment = _Increment(contact, before, loads, tolerance)
-    passes = [increment.first()]
+    passes = [increment.first_pass()]
     if contact.penalty is not None:
         # With stiff springs at Gauss points, one update is necessary for the accuracy of the mesh.
         fewest = int(contact.at_gauss_points)
-        passes = augmented(passes[0], increment.again, increment.left, contact.penalty, fewest)
-    return increment.state(passes)
+        passes = repeat_passes(
+            passes[0], increment.next_pass, increment.penalty_error, contact.penalty, fewest
+        )
+    return increment.end_state(passes)
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
@@ -170,7 +172,7 @@ class _Increment:
     loads: Loads
     tolerance: float
 
-    def first(self) -> _Pass:
+    def first_pass(self) -> _Pass:
         """Solve the first penalty pass of the increment, with the initial multipliers.
 
         Without a penalty this pass is the only one, and the multipliers are zero. With a penalty at
@@ -186,9 +188,9 @@ class _Increment:
         elif penalty is not None and penalty.augmentations > 0:
             multiplier = before.tractions
         motion = before.motion or 0.0, before.approach
-        return self._solve(multiplier, before.tractions, motion)
+        return self._solve_pass(multiplier, before.tractions, motion)
 
-    def again(self, last: _Pass) -> _Pass:
+    def next_pass(self, last: _Pass) -> _Pass:
         """Solve the next penalty pass of the increment, with updated multipliers.
 
         The multipliers are the tractions of the last pass. In the result, the numbers of iterations
@@ -197,14 +199,14 @@ class _Increment:
         last  solution of the last pass
         """
         motion = last.motion, last.solution.approach
-        after = self._solve(last.tractions, last.tractions, motion)
+        after = self._solve_pass(last.tractions, last.tractions, motion)
         outer_iterations, solves = (
             last.outer_iterations + after.outer_iterations,
             last.solves + after.solves,
         )
         return replace(after, outer_iterations=outer_iterations, solves=solves)
 
-    def left(self, one: _Pass) -> float:
+    def penalty_error(self, one: _Pass) -> float:
         """Compute the relative error that the penalty springs cause in one pass [1].
 
         Passes are repeated until this error is allowed. The error is the larger of two ratios. The
@@ -218,8 +220,8 @@ class _Increment:
 
         one  solution of the pass
         """
-        moved = self.moved(one) + ROUND_OFF * abs(one.solution.approach)
-        left = max(one.overlap_share, over(self.weighted(one, one.strain[:2]), moved))
+        moved = self.largest_displacement(one) + ROUND_OFF * abs(one.solution.approach)
+        left = max(one.overlap_share, over(self.shear_weighted_mean(one, one.strain[:2]), moved))
         if not self.contact.at_gauss_points:
             return left
         rings = self.contact.rings
@@ -227,7 +229,7 @@ class _Increment:
         reached = float(rings.radii[touching[-1]]) if len(touching) else rings.reach
         return left * min(1.0, WIDEST_ZONE * reached / rings.reach) ** 2
 
-    def moved(self, one: _Pass) -> float:
+    def largest_displacement(self, one: _Pass) -> float:
         """Compute the largest mean tangential displacement of the bodies in the history [length].
 
         The history ends with the given pass. The mean over the contact is weighted with the shear.
@@ -235,9 +237,9 @@ class _Increment:
 
         one  solution of a pass of the increment
         """
-        return max(self.before.moved, self.weighted(one, one.displacement))
+        return max(self.before.moved, self.shear_weighted_mean(one, one.displacement))
 
-    def weighted(self, one: _Pass, vectors: Field) -> float:
+    def shear_weighted_mean(self, one: _Pass, vectors: Field) -> float:
         """Compute the mean length of tangential vectors over the contact, weighted with the shear.
 
         The result has the unit of the vectors and is 0 without shear.
@@ -248,7 +250,7 @@ class _Increment:
         shear = self.contact.compliance.areas * np.hypot(*one.solution.shear)
         return over(float(np.sum(shear * np.hypot(*vectors))), float(np.sum(shear)))
 
-    def state(self, passes: list[_Pass]) -> PointState:
+    def end_state(self, passes: list[_Pass]) -> PointState:
         """Create the contact state at the end of the increment from its last penalty pass.
 
         At Gauss points, the tractions for the contact edge are those of the first pass with a small
@@ -294,7 +296,7 @@ class _Increment:
             dissipated_energy=energy,
             residuals=last.residuals,
             overlap=last.overlap,
-            moved=self.moved(last),
+            moved=self.largest_displacement(last),
             outer_iterations=last.outer_iterations,
             solves=last.solves,
             augmentations=len(passes) - 1,
@@ -302,7 +304,9 @@ class _Increment:
             algorithm=solution.algorithm if compliance.couples else None,
         )
 
-    def _solve(self, multiplier: Field, start: Field, motion: tuple[float | None, float]) -> _Pass:
+    def _solve_pass(
+        self, multiplier: Field, start: Field, motion: tuple[float | None, float]
+    ) -> _Pass:
         """Solve one penalty pass: the contact problem of the increment for given multipliers.
 
         The solve is repeated with a smaller tolerance of the algorithm until all residuals meet the
@@ -331,24 +335,24 @@ class _Increment:
             loads.tangential,
         )
         (q, p), (moved, approach) = (start[:2], start[2]), motion
-        at = Start(p, q, moved if moved is not None else before.motion or 0.0, approach)
+        at = InitialGuess(p, q, moved if moved is not None else before.motion or 0.0, approach)
         aim, outer_iterations, solves = 0.5 * self.tolerance, 0, 0
         for _ in range(MAX_ATTEMPTS):
-            solution = _solved(problem, at, aim)
+            solution = _solve_pressure_and_shear(problem, at, aim)
             outer_iterations, solves = (
                 outer_iterations + solution.outer_iterations,
                 solves + solution.solves,
             )
             refuse_beyond_limit(loads.tangential.load, problem.capacity(solution.pressure))
-            done = self._judged(problem, solution, multiplier, outer_iterations, solves)
+            done = self._judge_solution(problem, solution, multiplier, outer_iterations, solves)
             if done.residuals.worst <= self.tolerance:
                 return done
             moved = at.shift if solution.shift is None else solution.shift
-            at = Start(solution.pressure, solution.shear, moved, solution.approach)
+            at = InitialGuess(solution.pressure, solution.shear, moved, solution.approach)
             aim *= 0.1
         raise NotConverged("the increment", solves, done.residuals.worst, self.tolerance)
 
-    def _judged(
+    def _judge_solution(
         self,
         problem: CoupledProblem,
         solution: CoupledSolution,
@@ -375,7 +379,9 @@ class _Increment:
         gap = problem.gap + u_z - solution.approach
         # The tangential strain of the springs is not a displacement of the bodies.
         displacement = u_t - compliance.springs * solution.shear
-        residuals = self._residuals(problem, solution, gap, passed if motion is not None else None)
+        residuals = self._law_residuals(
+            problem, solution, gap, passed if motion is not None else None
+        )
         return _Pass(
             problem, solution, multiplier, displacement, gap, passed, motion, residuals,
             outer_iterations, solves,
@@ -412,7 +418,7 @@ class _Increment:
         axis, *others = np.stack(shares, axis=1)
         return np.concatenate([axis[:1], *others])
 
-    def _residuals(
+    def _law_residuals(
         self, problem: CoupledProblem, solution: CoupledSolution, g: Vector, passed: Field | None
     ) -> Residuals:
         """Compute the residuals of the contact and friction laws for a solution.
@@ -456,7 +462,9 @@ class _Increment:
         )
 
 
-def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledSolution:
+def _solve_pressure_and_shear(
+    problem: CoupledProblem, start: InitialGuess, tolerance: float
+) -> CoupledSolution:
     """Solve pressure and shear of an increment by the first of three algorithms that converges.
 
     The algorithms are alternating iteration, Newton's method and continuation. For coupled bodies
@@ -478,7 +486,7 @@ def _solved(problem: CoupledProblem, start: Start, tolerance: float) -> CoupledS
         near = solve_coupled(problem, start.pressure, start.shear, max(NEAR, tolerance))
         outer_iterations, spent = near.outer_iterations, near.solves
         if near.shift is not None:
-            at = Start(near.pressure, near.shear, near.shift, near.approach)
+            at = InitialGuess(near.pressure, near.shear, near.shift, near.approach)
             try:
                 solution = solve_by_newton(problem, at, tolerance)
                 return replace(

@@ -19,7 +19,7 @@ from fem_reference.plan import Path
 Scalar = TypeVar("Scalar", np.float64, np.bool_)
 
 
-def reported(
+def report_increment(
     contact: PointContact, state: PointState, direction: tuple[float, float], place: Place
 ) -> Increment:
     """Convert a contact state at the points of the surface to an increment of the result.
@@ -33,9 +33,9 @@ def reported(
     place      load step, and index of the increment in the load step
     """
     compliance, rings = contact.compliance, contact.rings
-    p = _shown(contact, state.pressure)
+    p = _result_field(contact, state.pressure)
     gap = np.where(state.pressure > 0, 0.0, np.maximum(state.gap, 0.0))
-    edges = _edges(contact, state)
+    edges = _contact_edges(contact, state)
     pressed = Increment(
         step=place.step,
         index=place.index,
@@ -43,7 +43,7 @@ def reported(
         radii=rings.radii,
         angles=None if contact.axisymmetric else compliance.grid.angles,
         pressure=p,
-        gap=_shown(contact, gap),
+        gap=_result_field(contact, gap),
         normal_force=state.normal_force,
         approach=state.approach,
         contact_radius=sqrt(_contact_area(contact, edges) / pi),
@@ -58,11 +58,11 @@ def reported(
     return (
         pressed
         if rings.path is Path.PRESSING
-        else _with_shear(pressed, contact, state, direction, edges)
+        else _add_shear(pressed, contact, state, direction, edges)
     )
 
 
-def _with_shear(
+def _add_shear(
     pressed: Increment,
     contact: PointContact,
     state: PointState,
@@ -83,12 +83,15 @@ def _with_shear(
     sheared = replace(
         pressed,
         status=state.status,
-        in_stick=_shown(contact, state.in_stick),
+        in_stick=_result_field(contact, state.in_stick),
         stick_radius=sqrt(_stick_area(contact, state, edges) / pi),
         dissipated_energy=state.dissipated_energy,
     )
     shear, slip = (
-        [_ring(contact, component) for component in contact.compliance.vector_on_grid(vectors)]
+        [
+            _drop_angle_axis(contact, component)
+            for component in contact.compliance.vector_on_grid(vectors)
+        ]
         for vectors in (state.shear, state.slip)
     )
     path, (x, y) = contact.rings.path, direction
@@ -113,17 +116,17 @@ def _with_shear(
     return replace(sheared, shear_circumferential=shear[1], slip_circumferential=slip[1])
 
 
-def _shown(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
+def _result_field(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
     """Convert a scalar field at the points of the surface to the shape of the result.
 
     The shape is (rings,) if the contact is axisymmetric, else (rings, angles).
 
     values  field at the points, such as the pressure (points,)
     """
-    return _ring(contact, contact.compliance.scalar_on_grid(values))
+    return _drop_angle_axis(contact, contact.compliance.scalar_on_grid(values))
 
 
-def _ring(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
+def _drop_angle_axis(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
     """Remove the axis of angles from a field of the result if the contact is axisymmetric.
 
     An axisymmetric field (rings, 1) becomes (rings,). Other fields (rings, angles) are returned
@@ -132,7 +135,7 @@ def _ring(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
     return on_grid[:, 0] if contact.axisymmetric else on_grid
 
 
-def _edges(contact: PointContact, state: PointState) -> Field:
+def _contact_edges(contact: PointContact, state: PointState) -> Field:
     """Compute the radius of the contact edge on every ray (angles,) [length].
 
     A ray is the set of points at one angle. The radius is the outer end of the last element if the

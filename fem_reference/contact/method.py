@@ -18,7 +18,7 @@ from fem_reference.compliance.angular_grid import (
 )
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.increment import advance
-from fem_reference.contact.increment_report import reported
+from fem_reference.contact.increment_report import report_increment
 from fem_reference.contact.point_contact import PointContact, point_contact
 from fem_reference.contact.point_state import PointState
 from fem_reference.fields import Increment
@@ -55,13 +55,13 @@ class ContactMethod:
         raises     NotConverged, SurfacesOverlap, GrossSliding, ContactAtZoneEdge,
                    ContactNotResolved
         """
-        contact = self._on_rings
+        contact = self._axisymmetric_contact
         if self.plan.path is Path.HARMONICS:
             loaded = bool(loads.tangential.load or loads.tangential.motion)
             if loaded or (before is not None and not before.axisymmetric):
-                contact = self._on_points
+                contact = self._angular_contact
                 if before is not None and before.axisymmetric:
-                    before = contact.lifted(before)
+                    before = contact.extend_to_points(before)
             else:
                 loads = Loads(loads.normal, STILL)
         state = advance(contact, before, loads, tolerance)
@@ -73,8 +73,8 @@ class ContactMethod:
 
         place  load step, and index of the increment in the load step
         """
-        contact = self._on_rings if state.axisymmetric else self._on_points
-        return reported(contact, state, self.plan.direction, place)
+        contact = self._axisymmetric_contact if state.axisymmetric else self._angular_contact
+        return report_increment(contact, state, self.plan.direction, place)
 
     def work_on_strain(self, before: PointState | None, state: PointState) -> float:
         """Compute the work of the shear on the imposed strain of the lower body in one increment.
@@ -85,7 +85,10 @@ class ContactMethod:
         change = state.strain - (before.strain if before else 0.0)
         if change == 0:
             return 0.0
-        compliance, shear = self._on_rings.compliance, state.shear + (before.shear if before else 0)
+        compliance, shear = (
+            self._axisymmetric_contact.compliance,
+            state.shear + (before.shear if before else 0),
+        )
         return 0.5 * change * float(np.sum(compliance.areas * compliance.stretch * shear))
 
     @property
@@ -94,10 +97,10 @@ class ContactMethod:
 
         The value of a ring is the weighted mean over its basis function.
         """
-        return self._on_rings.gap
+        return self._axisymmetric_contact.gap
 
     @cached_property
-    def _on_rings(self) -> PointContact:
+    def _axisymmetric_contact(self) -> PointContact:
         """Contact problem with one point per ring.
 
         Used for fields that do not depend on the angle.
@@ -105,7 +108,7 @@ class ContactMethod:
         return point_contact(self.model, self.plan.path, axisymmetric_grid(), self.penalty)
 
     @cached_property
-    def _on_points(self) -> PointContact:
+    def _angular_contact(self) -> PointContact:
         """Contact problem with several angles per ring.
 
         Used for coupled bodies under a tangential load.

@@ -78,7 +78,7 @@ class Equations:
         self.force, self.pressed = problem.tangential.load, problem.normal.force
         self.scale = float(np.mean(self.w))
 
-    def missed(self, at: Iterate) -> Vector:
+    def residual_vector(self, at: Iterate) -> Vector:
         """Compute the residual vector of the contact equations of an increment (3 points + 2,).
 
         The first entries are the residuals of shear (r, then θ) and pressure at the points. The
@@ -86,9 +86,9 @@ class Equations:
 
         at  iterate: tractions, rigid motion and spring compliance
         """
-        return self._equations(at)[0]
+        return self._evaluate_equations(at)[0]
 
-    def linearised(self, at: Iterate) -> tuple[Vector, Matrix, Mask]:
+    def linearise(self, at: Iterate) -> tuple[Vector, Matrix, Mask]:
         """Compute the residual vector of the contact equations and its generalised derivative.
 
         Return also the mask of the slipping points (points,). The residual has the shape (3 points
@@ -99,7 +99,7 @@ class Equations:
         at  iterate: tractions, rigid motion and spring compliance
         """
         n, K, w = self.n, self.K, self.w
-        missed, z_t, z_z, bound = self._equations(at)
+        missed, z_t, z_z, bound = self._evaluate_equations(at)
         d_t, d_z = self.d_t + at.springs * w, self.d_z + at.springs * w
         length = np.hypot(*z_t)
         in_slip = length > bound
@@ -142,7 +142,7 @@ class Equations:
             jacobian[-1, 2 * n : 3 * n] = self.w / self.scale
         return missed, jacobian, in_slip & (bound > 0)
 
-    def size(self, missed: Vector, at: Iterate) -> float:
+    def residual_norm(self, missed: Vector, at: Iterate) -> float:
         """Compute the norm of a residual vector of the contact equations [1].
 
         The norm is the sum of the pressure residuals relative to the normal load and of the shear
@@ -174,11 +174,11 @@ class Equations:
         in_slip  True for slipping points (points,)
         solves   number of linear systems solved
         """
-        _, z_t, z_z, bound = self._equations(at)
+        _, z_t, z_z, bound = self._evaluate_equations(at)
         q = into_discs(z_t, bound)
         return CoupledSolution(np.maximum(z_z, 0.0), q, at.approach, at.shift, in_slip, 0, solves)
 
-    def _equations(self, at: Iterate) -> tuple[Vector, Field, Vector, Vector]:
+    def _evaluate_equations(self, at: Iterate) -> tuple[Vector, Field, Vector, Vector]:
         """Compute the residual vector of the contact equations and its intermediate fields.
 
         The equations are p = ⟨z_z⟩ with z_z = p − w g/d_z, and q = P(z_t) with z_t = q + w s/d_t.

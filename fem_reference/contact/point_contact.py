@@ -66,7 +66,7 @@ class PointContact:
         """
         return isinstance(self.rings.edge, GaussEdge)
 
-    def untouched(self) -> PointState:
+    def state_before_contact(self) -> PointState:
         """Create the contact state before first contact: no tractions and the undeformed gap."""
         nothing = np.zeros((3, len(self.gap)))
         return PointState(
@@ -88,7 +88,7 @@ class PointContact:
             residuals=Residuals(0.0, 0.0),
         )
 
-    def lifted(self, state: PointState) -> PointState:
+    def extend_to_points(self, state: PointState) -> PointState:
         """Extend an axisymmetric contact state to several points on each ring.
 
         Used when the first tangential load on coupled bodies ends the axisymmetry. Every point

@@ -94,7 +94,7 @@ def solve_program(program: PressureProgram, guess: Mask) -> PressureSolution:
         if free.tobytes() in seen:
             break
         seen.add(free.tobytes())
-    return _descend(program, len(seen))
+    return _minimise_by_descent(program, len(seen))
 
 
 def _solve_free(program: PressureProgram, free: Mask) -> tuple[Field, float]:
@@ -119,7 +119,7 @@ def _solve_free(program: PressureProgram, free: Mask) -> tuple[Field, float]:
     return x, multiplier
 
 
-def _gradient(program: PressureProgram, x: Field, multiplier: float) -> Field:
+def _lagrangian_gradient(program: PressureProgram, x: Field, multiplier: float) -> Field:
     """Compute the gradient A x - c - λ v of the Lagrangian of a quadratic program (n,).
 
     In the normal problem the gradient is the gap times the area of each point.
@@ -143,11 +143,11 @@ def _update_free(program: PressureProgram, x: Field, multiplier: float, free: Ma
     """
     little = ROUND_OFF * np.max(np.abs(x), initial=0.0)
     noise = ROUND_OFF * (np.abs(program.matrix) @ np.abs(x) + np.abs(program.right))
-    released = _gradient(program, x, multiplier) < -noise
+    released = _lagrangian_gradient(program, x, multiplier) < -noise
     return np.asarray(np.where(free, ~(x < -little), released))
 
 
-def _descend(program: PressureProgram, spent: int) -> PressureSolution:
+def _minimise_by_descent(program: PressureProgram, spent: int) -> PressureSolution:
     """Minimise a quadratic program by the primal active-set method, from a point x > 0.
 
     Used if the primal-dual active-set method cycles. A step towards the minimiser of the free
@@ -172,6 +172,6 @@ def _descend(program: PressureProgram, spent: int) -> PressureSolution:
         pulling = _update_free(program, x, multiplier, free) & ~free
         if not np.any(pulling):
             return PressureSolution(np.maximum(x, 0.0), multiplier, free, step)
-        force = np.abs(_gradient(program, x, multiplier)) * size
+        force = np.abs(_lagrangian_gradient(program, x, multiplier)) * size
         free[np.argmax(np.where(pulling, force, -1.0))] = True
     raise NotConverged("the active set", spent + MAX_RELEASES * count, np.inf, ROUND_OFF)

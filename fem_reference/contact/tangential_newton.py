@@ -91,8 +91,8 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Tangen
         z = q - slope / d + omega * along / d
         length = np.sqrt(z[0] ** 2 + z[1] ** 2)
         moved = nearest - q
-        scale = max(_sum(problem.areas, nearest), least)
-        residual = _sum(problem.areas, moved) / scale
+        scale = max(_integrate_magnitude(problem.areas, nearest), least)
+        residual = _integrate_magnitude(problem.areas, moved) / scale
         in_slip = length > bound
         if residual <= tolerance:
             shift = omega if motion is None else motion
@@ -103,17 +103,17 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Tangen
         if residual < ENERGY_ROUND_OFF:
             q = aimed
             continue
-        q, gained = _lowest(K, slope, q, aimed)
+        q, gained = _line_minimum(K, slope, q, aimed)
         if gained > -1e-4 * np.sum(slope * moved):
             continue
         for _ in range(GRADIENT_STEPS):
             slope = (K @ q.ravel()).reshape(q.shape) - c
             nearest, _ = project(q - slope / d, bound, d, along, total)
-            q, _ = _lowest(K, slope, q, nearest)
+            q, _ = _line_minimum(K, slope, q, nearest)
     raise NotConverged("the shear", solves, residual, tolerance)
 
 
-def _sum(areas: Vector, vectors: Field) -> float:
+def _integrate_magnitude(areas: Vector, vectors: Field) -> float:
     """Compute the integral of the magnitude of the shear over the contact area [force].
 
     Used to make the residual of the tangential problem relative.
@@ -124,7 +124,7 @@ def _sum(areas: Vector, vectors: Field) -> float:
     return float(np.sum(areas * np.sqrt(vectors[0] ** 2 + vectors[1] ** 2)))
 
 
-def _lowest(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float]:
+def _line_minimum(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float]:
     """Compute the shear of least energy on the line between two shear fields.
 
     The energy is that of the tangential problem, ½ qᵀKq − cᵀq. Return the shear and the decrease of
@@ -168,7 +168,7 @@ def _newton_point(
     fixed[:, slip] = bound[slip] * n
     turning = (length[slip] - bound[slip]) * d[slip] / bound[slip]
 
-    def on_unknowns(rows: Matrix) -> Matrix:
+    def restrict_rows(rows: Matrix) -> Matrix:
         """Restrict the rows of a matrix to the unknowns of the Newton step for the shear.
 
         The unknowns are both components at sticking points, then the component perpendicular to the
@@ -181,11 +181,11 @@ def _newton_point(
         across -= rows[slip] * n[1][:, None]
         return np.concatenate([rows[sticking], across])
 
-    system = on_unknowns(np.ascontiguousarray(on_unknowns(K).T))
+    system = restrict_rows(np.ascontiguousarray(restrict_rows(K).T))
     system[np.diag_indices_from(system)] += np.concatenate([np.zeros(len(sticking)), turning])
     factor = cho_factor(system, lower=True, overwrite_a=True, check_finite=False)
     sources = np.stack([c.ravel() - K @ fixed.ravel(), problem.along.ravel()], axis=1)
-    sources = on_unknowns(sources)
+    sources = restrict_rows(sources)
     x, by_shift = cho_solve(factor, sources, check_finite=False).T
     if problem.control.load is not None:
         carried = np.sum(problem.along * fixed) + np.sum(sources[:, 1] * x)

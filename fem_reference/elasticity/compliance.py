@@ -59,7 +59,7 @@ def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
     """
     shape = (len(motion.components), section.radii.size) * 2
     matrix = remembered(
-        _identity(section, motion), shape, lambda: FactoredSection(section, motion).compliance()
+        _cache_key(section, motion), shape, lambda: FactoredSection(section, motion).compliance()
     )
     return NodalCompliance(motion, section.radii, matrix, 1)
 
@@ -94,7 +94,7 @@ def composite(
     return NodalCompliance(motion, bodies[0].radii, matrix, len(parts))
 
 
-def _identity(section: SectionMesh, motion: Motion) -> str:
+def _cache_key(section: SectionMesh, motion: Motion) -> str:
     """Compute the cache key of a compliance matrix.
 
     The key is a hash of all data that determine the matrix.

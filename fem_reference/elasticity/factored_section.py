@@ -46,10 +46,10 @@ class FactoredSection:
         self._numbering = number_unknowns(section, motion, basis, mixed)
         unknowns, components = self._numbering.order.size, len(motion.components)
         require_memory(required_bytes(len(mixed), unknowns, components, bool(mixed.any())))
-        matrix = _assembled(section, motion, basis, self._numbering)
+        matrix = _assemble_stiffness(section, motion, basis, self._numbering)
         if mixed.any():
-            matrix = _with_pressure(matrix, section, motion, basis, self._numbering)
-        prescribed = self._prescribed(basis)
+            matrix = _add_pressure_unknowns(matrix, section, motion, basis, self._numbering)
+        prescribed = self._far_displacements(basis)
         inner, loads, far, _ = condense(
             matrix, np.zeros_like(prescribed), prescribed, I=self._numbering.order
         )
@@ -102,7 +102,7 @@ class FactoredSection:
         matrix += np.outer(self._far[:, self.surface], weights)
         return (0.5 * (matrix + matrix.T)).reshape(weights.shape * 2)
 
-    def _prescribed(self, basis: Basis) -> Field:
+    def _far_displacements(self, basis: Basis) -> Field:
         """Return the prescribed displacements on the far boundary for a unit resultant load.
 
         The far boundary is the outer edge and the base of the mesh. The displacements are those of
@@ -121,7 +121,7 @@ class FactoredSection:
         return values
 
 
-def _assembled(
+def _assemble_stiffness(
     section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
     """Assemble the sparse stiffness matrix of all displacement degrees of freedom.
@@ -129,7 +129,7 @@ def _assembled(
     Entries with the value zero remain in the sparsity pattern, because fill-in needs them.
     """
     stiffness = element_stiffness(basis, section, motion.harmonic, motion.components)
-    dofs, factor = _of_elements(basis, numbering)
+    dofs, factor = _element_unknowns(basis, numbering)
     stiffness *= factor[:, :, None] * factor[:, None]
     both = (dofs[:, :, None], dofs[:, None])
     place = [np.broadcast_to(one, stiffness.shape).ravel() for one in both]
@@ -137,7 +137,7 @@ def _assembled(
     return coo_array((stiffness.ravel(), tuple(place)), shape=(size, size)).tocsr()
 
 
-def _with_pressure(
+def _add_pressure_unknowns(
     stiffness: csr_array, section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
     """Extend the stiffness matrix by the pressures p of nearly incompressible elements.
@@ -147,7 +147,7 @@ def _with_pressure(
     """
     mixed, first = dilatation(section).mixed, numbering.dofs.size
     volume = volume_strain(basis, motion.harmonic, motion.components)[mixed]
-    dofs, factor = (one[mixed, :, None] for one in _of_elements(basis, numbering))
+    dofs, factor = (one[mixed, :, None] for one in _element_unknowns(basis, numbering))
     rows = np.broadcast_to((numbering.pressure - first)[:, None], volume.shape).ravel()
     columns = np.broadcast_to(dofs, volume.shape).ravel()
     shape = (numbering.pressure.size, first)
@@ -157,7 +157,7 @@ def _with_pressure(
     return block_array([[stiffness, expansion.T], [expansion, itself]], format="csr")
 
 
-def _of_elements(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
+def _element_unknowns(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
     """Return the numbers and factors of the displacement unknowns of all elements, both (e, 9 c).
 
     A nodal displacement is its factor times one degree of freedom. The factor differs from 1 only

@@ -61,7 +61,7 @@ class TractionBasis(ABC):
         return np.asarray(weak)
 
     @abstractmethod
-    def of(self, function: Callable[[Field], Field]) -> Field:
+    def integrate(self, function: Callable[[Field], Field]) -> Field:
         """Compute the integral of f(r) φ_j(r) r dr for each basis function φ_j (n,).
 
         function  f, a function of an array of radii
@@ -74,12 +74,12 @@ class Hats(TractionBasis):
     A hat function is one at its node, zero at all others and linear in between.
     """
 
-    def of(self, function: Callable[[Field], Field]) -> Field:
+    def integrate(self, function: Callable[[Field], Field]) -> Field:
         """Compute the integral of f(r) φ_j(r) r dr for each hat function φ_j (n,).
 
         function  f, a function of an array of radii
         """
-        return _integrals(_hat_basis(self.radii), function)
+        return _integrate_with_hats(_hat_basis(self.radii), function)
 
 
 def corners_under(nodes: Field, reach: float) -> int:
@@ -108,7 +108,7 @@ def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
     products = np.zeros((len(nodes), len(radii)))
     products[: traces.N] = product.assemble(hats, traces).toarray()[outwards]
     # The sum of all quadratic trace functions is 1, so that a column sum is the integral of a hat.
-    return Hats(radii, products, products.sum(axis=0), _integrals(hats, lambda r: r))
+    return Hats(radii, products, products.sum(axis=0), _integrate_with_hats(hats, lambda r: r))
 
 
 def _hat_basis(radii: Field) -> Basis:
@@ -116,7 +116,7 @@ def _hat_basis(radii: Field) -> Basis:
     return Basis(MeshLine(radii), ElementLineP1(), intorder=ORDER)
 
 
-def _integrals(hats: Basis, function: Callable[[Field], Field]) -> Field:
+def _integrate_with_hats(hats: Basis, function: Callable[[Field], Field]) -> Field:
     """Compute the integrals ∫ f φ_j r dr of a function f(r) for all hat functions φ_j (n,)."""
     load = LinearForm(lambda hat, w: function(np.asarray(w.x[0])) * hat * w.x[0])
     return np.asarray(load.assemble(hats))

@@ -89,7 +89,7 @@ def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Ind
     points, quads  corner positions (2, k), and corner indices of the elements (4, e)
     elements       the 9 nodes of every element (e, 9)
     """
-    leaf = _leaves(points, quads)
+    leaf = _number_leaves(points, quads)
     count = int(elements.max()) + 1
     first, last = np.full(count, leaf.max()), np.zeros(count, dtype=np.int64)
     np.minimum.at(first, elements, leaf[:, None])
@@ -101,7 +101,7 @@ def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Ind
     return np.stack([height, end])
 
 
-def _leaves(points: NDArray[np.float64], quads: Indices) -> Indices:
+def _number_leaves(points: NDArray[np.float64], quads: Indices) -> Indices:
     """Divide the elements into small groups, the leaves of a binary tree, and number them (e,).
 
     The mesh is cut in two at the median position of its elements, then each half is cut, and so on.

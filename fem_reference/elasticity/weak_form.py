@@ -69,7 +69,7 @@ def element_stiffness(
     components  indices of the components in the motion: u_r (0), u_theta (1), u_z (2)
     """
     strain = _strains_of(basis, harmonic, components)
-    volume = _projected_volume(basis, strain)
+    volume = _project_volume(basis, strain)
     # An engineering shear strain g = 2 e occurs in two entries of e, so that the energy
     # 2 mu e : e contains mu g^2.
     weight = np.sqrt(shear_moduli(section)[:, None] * basis.dx)[:, None]
@@ -93,7 +93,7 @@ def volume_strain(basis: Basis, harmonic: int, components: Components) -> Field:
     harmonic    angular harmonic n
     components  indices of the components in the motion: u_r (0), u_theta (1), u_z (2)
     """
-    return _projected_volume(basis, _strains_of(basis, harmonic, components))
+    return _project_volume(basis, _strains_of(basis, harmonic, components))
 
 
 def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
@@ -105,7 +105,7 @@ def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
     points  displacement basis at whose q quadrature points the strain is evaluated
     strain  coefficients of the 3 orthonormal linear functions of each element (e, 3)
     """
-    return np.einsum("ep,epq->eq", strain, _orthonormal(basis, _linear(points)))
+    return np.einsum("ep,epq->eq", strain, _orthonormal_functions(basis, _linear_functions(points)))
 
 
 def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str, Field]:
@@ -125,7 +125,7 @@ def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str
     return found
 
 
-def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
+def _project_volume(basis: Basis, strain: dict[str, Field]) -> Field:
     """Compute the projection of volume strains of shape functions onto linear functions.
 
     The result (e, 9 c, 3) contains the coefficients of 3 orthonormal linear functions of each
@@ -134,10 +134,12 @@ def _projected_volume(basis: Basis, strain: dict[str, Field]) -> Field:
     strain  strains of the shape functions at the quadrature points, by name (e, 9 c, q)
     """
     volume = sum(strain[name] for name in NORMAL if name in strain) * basis.dx[:, None]
-    return np.asarray(volume @ _orthonormal(basis, _linear(basis)).transpose(0, 2, 1))
+    return np.asarray(
+        volume @ _orthonormal_functions(basis, _linear_functions(basis)).transpose(0, 2, 1)
+    )
 
 
-def _linear(basis: Basis) -> Field:
+def _linear_functions(basis: Basis) -> Field:
     """Evaluate the linear functions 1, r and z of each element at its quadrature points (e, 3, q).
 
     r and z are measured from the middle of the element and divided by its size. The volume strain
@@ -153,7 +155,7 @@ def _linear(basis: Basis) -> Field:
     return np.stack([np.ones_like(r), r, z], axis=1)
 
 
-def _orthonormal(basis: Basis, linear: Field) -> Field:
+def _orthonormal_functions(basis: Basis, linear: Field) -> Field:
     """Transform the linear functions 1, r and z of each element to orthonormal functions (e, 3, q).
 
     The volume strain is projected onto these functions.
@@ -161,7 +163,7 @@ def _orthonormal(basis: Basis, linear: Field) -> Field:
     basis   displacement basis whose quadrature defines the scalar product
     linear  values of 1, r and z at the q points at which the result is evaluated (e, 3, q)
     """
-    functions = _linear(basis)
+    functions = _linear_functions(basis)
     gram = (functions * basis.dx[:, None]) @ functions.transpose(0, 2, 1)
     return np.asarray(np.linalg.solve(np.linalg.cholesky(gram), linear))
 

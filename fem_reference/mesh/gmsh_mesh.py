@@ -20,7 +20,7 @@ from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.mesh.section_outline import (
     CONTACT_ZONE,
     SectionOutline,
-    graded,
+    graded_lines,
     section_outline,
 )
 
@@ -150,8 +150,8 @@ def _draw(geometry: Any, outline: SectionOutline) -> None:
     points = [[geometry.addPoint(r, z, 0.0) for r in across] for z in depths]
     rows = [[geometry.addLine(*ends) for ends in pairwise(row)] for row in points]
     columns = [[geometry.addLine(*ends) for ends in pairwise(c)] for c in zip(*points, strict=True)]
-    sides = [np.arange(round(outline.zone / h) + 1) * h, graded(*across[1:], outline.zone, h)]
-    down = [graded(top, base, 0.0, h) for top, base in outline.pieces]
+    sides = [np.arange(round(outline.zone / h) + 1) * h, graded_lines(*across[1:], outline.zone, h)]
+    down = [graded_lines(top, base, 0.0, h) for top, base in outline.pieces]
     structured = len(down) if outline.rigid_base else len(down) - 1
 
     for row in rows[: structured + 1]:

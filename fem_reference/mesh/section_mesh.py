@@ -9,7 +9,12 @@ from skfem import MeshQuad
 
 from contact_scene.body import Body
 from contact_scene.solver_errors import SolverError
-from fem_reference.mesh.section_outline import CONTACT_ZONE, SectionOutline, graded, section_outline
+from fem_reference.mesh.section_outline import (
+    CONTACT_ZONE,
+    SectionOutline,
+    graded_lines,
+    section_outline,
+)
 
 SHRINK, SHRINKS = 1 / 4, 8
 """Ratio of successive distances of mesh lines from an edge of the tractions, and number of lines.
@@ -97,7 +102,7 @@ class SectionMesh:
         finer = replace(self.outline, size=self.outline.size / 2.0)
         return SectionMesh(np.asarray(mesh.p), np.asarray(mesh.t), finer)
 
-    def towards(self, edges: NDArray[np.float64]) -> "SectionMesh":
+    def refine_towards(self, edges: NDArray[np.float64]) -> "SectionMesh":
         """Return a mesh of rectangles that is refined towards given radii and towards the surface.
 
         The radii are mesh lines. The distance of the adjacent mesh lines from a radius, and of the
@@ -146,8 +151,8 @@ def section_mesh(
     outline = section_outline(body, elements_per_radius, box, zone)
     h = outline.size
     uniform = np.arange(round(outline.zone / h) + 1) * h
-    r = np.concatenate([uniform, graded(uniform[-1], outline.box, uniform[-1], h)[1:]])
-    pieces = [graded(top, base, 0.0, h) for top, base in outline.pieces]
+    r = np.concatenate([uniform, graded_lines(uniform[-1], outline.box, uniform[-1], h)[1:]])
+    pieces = [graded_lines(top, base, 0.0, h) for top, base in outline.pieces]
     z = np.concatenate([[0.0], *(piece[1:] for piece in pieces)])
     mesh = MeshQuad.init_tensor(r, z)
     return SectionMesh(np.asarray(mesh.p), np.asarray(mesh.t), outline)

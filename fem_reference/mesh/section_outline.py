@@ -118,12 +118,13 @@ def sufficient_box(body: Body) -> float:
     x = 0.0
     if isinstance(body.material, IsotropicMaterial):
         x = sum(
-            layer.thickness * _difference(layer.material, body.material) for layer in body.layers
+            layer.thickness * _stiffness_difference(layer.material, body.material)
+            for layer in body.layers
         )
     return float(max(100.0, 300.0 * np.sqrt(x), 100.0 * x, 10.0 * thickness))
 
 
-def _difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float:
+def _stiffness_difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float:
     """Compute the relative difference of stiffness between a layer and the substrate [1].
 
     The result is the larger of the differences of the shear modulus and the plane-strain modulus.
@@ -134,7 +135,7 @@ def _difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float
     )
 
 
-def graded(start: float, end: float, origin: float, size: float) -> NDArray[np.float64]:
+def graded_lines(start: float, end: float, origin: float, size: float) -> NDArray[np.float64]:
     """Compute the coordinates of graded mesh lines between two ends, both included.
 
     Neighbouring elements grow by about the factor GROWTH with the distance from `origin`. There are

@@ -107,7 +107,7 @@ def recovery_of(section: SectionMesh) -> Recovery:
         section,
         basis,
         at,
-        _extrapolation(np.asarray(ElementQuad2().doflocs, dtype=float)),
+        _extrapolation_matrix(np.asarray(ElementQuad2().doflocs, dtype=float)),
         cells.reshape(key.shape),
         unique // count,
         unique % count,
@@ -115,7 +115,7 @@ def recovery_of(section: SectionMesh) -> Recovery:
     )
 
 
-def _extrapolation(nodes: Field) -> Field:
+def _extrapolation_matrix(nodes: Field) -> Field:
     """Return the matrix from the 2 x 2 Gauss points to the nodes of an element (9, 4).
 
     The first coordinate of the Gauss points varies slowest.

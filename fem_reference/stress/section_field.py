@@ -58,14 +58,14 @@ class SectionField:
 
         The angle is counted from the direction of the load.
         """
-        return self._sum([part.displacement for part in self.parts], (1,), theta)
+        return self._sum_motions([part.displacement for part in self.parts], (1,), theta)
 
     def stress(self, theta: float = 0.0) -> Field:
         """Compute the stress rr, tt, zz, tz, rz, rt (6, n) at the angle theta [force/length^2].
 
         The angle is counted from the direction of the load. Tension is positive.
         """
-        return self._sum([part.stress for part in self.parts], AS_SINE, theta)
+        return self._sum_motions([part.stress for part in self.parts], AS_SINE, theta)
 
     @cached_property
     def axis(self) -> Indices:
@@ -74,9 +74,9 @@ class SectionField:
         Used for the stress along the axis. At an interface the point of the upper material is
         first.
         """
-        return self._sorted(self.points[0] == 0.0, self.points[1])
+        return self._sort_points(self.points[0] == 0.0, self.points[1])
 
-    def side(self, depth: float, material: int) -> Indices:
+    def interface_points(self, depth: float, material: int) -> Indices:
         """Return the indices of the points on one side of an interface between two materials.
 
         The indices are in the order of increasing radius. The stress may jump between the two
@@ -86,9 +86,9 @@ class SectionField:
         material  index of the material on the requested side, 0 for the outermost layer
         """
         on_it = np.isclose(self.points[1], depth, rtol=SAME_DEPTH, atol=0.0)
-        return self._sorted(on_it & (self.material == material), self.points[0])
+        return self._sort_points(on_it & (self.material == material), self.points[0])
 
-    def _sorted(self, chosen: NDArray[np.bool_], along: Field) -> Indices:
+    def _sort_points(self, chosen: NDArray[np.bool_], along: Field) -> Indices:
         """Return the indices of chosen points of a section, sorted by a coordinate.
 
         Points with equal coordinates are sorted by their material.
@@ -99,7 +99,7 @@ class SectionField:
         found = np.flatnonzero(chosen)
         return found[np.lexsort((self.material[found], along[found]))]
 
-    def _sum(self, fields: list[Field], as_sine: tuple[int, ...], theta: float) -> Field:
+    def _sum_motions(self, fields: list[Field], as_sine: tuple[int, ...], theta: float) -> Field:
         """Compute displacement or stress at the angle theta as a sum over the motions of the body.
 
         fields   amplitudes of the field in every motion, such as the stress (6, n)

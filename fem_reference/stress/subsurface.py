@@ -65,11 +65,11 @@ def subsurface(
     scales = Scales(length, modulus)
     edges = tractions.edges / length
     zone = max(CONTACT_ZONE, tractions.reach / length)
-    section = _section(scales.dimensionless(body), discretisation, zone).towards(edges)
+    section = _stress_mesh(scales.dimensionless(body), discretisation, zone).refine_towards(edges)
     _refuse_incompressible(section)
     recovery = recovery_of(section)
-    points = _points_of_load(section, tractions, length)
-    found = _carrying_the_load(tractions, points, length)
+    points = _create_load_points(section, tractions, length)
+    found = _load_preserving_amplitudes(tractions, points, length)
     largest = max(float(np.max(np.abs(t))) for _, t in found)
     parts = []
     for of, amplitude in found:
@@ -78,11 +78,11 @@ def subsurface(
             forces = sign[:, None] * amplitude / modulus @ points.weighted.T
             u = FactoredSection(section, of).displacement(forces[..., None])[..., 0]
             parts.append(recovery.amplitude(of, u, scales))
-    nodes = _nodes(body, section, recovery.basis.doflocs[:, recovery.node], length)
+    nodes = _node_positions(body, section, recovery.basis.doflocs[:, recovery.node], length)
     return SectionField(nodes, recovery.material, recovery.cells, tuple(parts))
 
 
-def _nodes(body: Body, section: SectionMesh, nodes: Field, length: float) -> Field:
+def _node_positions(body: Body, section: SectionMesh, nodes: Field, length: float) -> Field:
     """Return the positions (2, n) of nodes in the unit of the scene [length].
 
     Depths of nodes on interfaces are set to the exact sums of the layer thicknesses.
@@ -96,7 +96,9 @@ def _nodes(body: Body, section: SectionMesh, nodes: Field, length: float) -> Fie
     return points
 
 
-def _section(body: Body, discretisation: FiniteElementDiscretisation, zone: float) -> SectionMesh:
+def _stress_mesh(
+    body: Body, discretisation: FiniteElementDiscretisation, zone: float
+) -> SectionMesh:
     """Create the mesh for the stress: half the elements per radius, each divided into 4 elements.
 
     The elements of a mesh made for displacements grow faster with depth. Such a mesh has a stress
@@ -134,7 +136,7 @@ class _LoadPoints:
     weighted: Field
 
 
-def _carrying_the_load(
+def _load_preserving_amplitudes(
     tractions: SurfaceTractions, points: _LoadPoints, length: float
 ) -> list[tuple[Motion, Field]]:
     """Compute traction amplitudes whose normal load is equal to that of the contact solve.
@@ -156,7 +158,7 @@ def _carrying_the_load(
     return [(of, amplitude * (load / carried)) for of, amplitude in found]
 
 
-def _points_of_load(
+def _create_load_points(
     section: SectionMesh, tractions: SurfaceTractions, length: float
 ) -> _LoadPoints:
     """Create the integration points of the surface tractions on a section.

@@ -101,11 +101,11 @@ class SurfaceTractions:
         axisymmetric pressure. The array is empty if the tractions are not `rooted` or if too few
         rings carry pressure. Used to refine the mesh for the stress.
         """
-        if not self.rooted or self._fewest < FEWEST_RINGS:
+        if not self.rooted or self._least_element_count < FEWEST_RINGS:
             return np.empty(0)
         if self.angles is None:
-            return np.repeat(self._edges, 2)
-        amplitudes = self._grid.cosines @ self._edges
+            return np.repeat(self._edge_radii, 2)
+        amplitudes = self._angular_grid.cosines @ self._edge_radii
         return np.array([np.sum(amplitudes), np.sum(amplitudes[::2]) - np.sum(amplitudes[1::2])])
 
     def amplitudes(self, radii: Field) -> list[tuple[Motion, Field]]:
@@ -120,9 +120,13 @@ class SurfaceTractions:
         shear = (self.shear_radial, self.shear_circumferential, self.shear_along_load)
         parts = [nothing if part is None else part for part in (*shear, self.pressure)]
         rays = np.stack([part.reshape(len(self.radii), -1) for part in parts])
-        values = self._rooted(radii, rays) if self.edges.size else self._linear(radii, rays)
+        values = (
+            self._interpolate_with_root(radii, rays)
+            if self.edges.size
+            else self._interpolate_linearly(radii, rays)
+        )
         if self.angles is not None:
-            motions = [motion(n) for n in range(self._grid.highest + 1)]
+            motions = [motion(n) for n in range(self._angular_grid.highest + 1)]
             return [(m, values[[0, 1, 3]][list(m.components), :, m.harmonic]) for m in motions]
         outward, around, along, pressure = values[..., 0]
         found = [(PRESSING, np.stack([outward, pressure]))]
@@ -133,16 +137,16 @@ class SurfaceTractions:
         return found
 
     @property
-    def _fewest(self) -> float:
+    def _least_element_count(self) -> float:
         """Least number of elements with pressure on any ray of the contact.
 
         A ray is the set of points at one angle. The contact edge cannot be located with too few
         elements.
         """
-        return float(np.min(np.count_nonzero(self._rays > 0, axis=0)) / self._per_element)
+        return float(np.min(np.count_nonzero(self._ray_pressures > 0, axis=0)) / self._per_element)
 
     @property
-    def _rays(self) -> Field:
+    def _ray_pressures(self) -> Field:
         """Pressure at the rings on every ray (rings, angles).
 
         An axisymmetric pressure has one angle.
@@ -150,7 +154,7 @@ class SurfaceTractions:
         return self.pressure.reshape(len(self.radii), -1)
 
     @cached_property
-    def _grid(self) -> AngularGrid:
+    def _angular_grid(self) -> AngularGrid:
         """Angular grid of the rays on which the tractions are given.
 
         The first ray is at θ = 0, or half a step away from it.
@@ -168,7 +172,7 @@ class SurfaceTractions:
         return 1 if self.radii[0] == 0.0 else POINTS_PER_EDGE
 
     @cached_property
-    def _edges(self) -> Field:
+    def _edge_radii(self) -> Field:
         """Radius of the contact edge on every ray (angles,) [length].
 
         A ray is the set of points at one angle.
@@ -176,9 +180,9 @@ class SurfaceTractions:
         edge: Edge = HatEdge(self.edge)
         if self._per_element > 1:
             edge = GaussEdge(float(self.radii[POINTS_PER_EDGE] - self.radii[0]))
-        return np.array([contact_edge(self.radii, ray, edge) for ray in self._rays.T])
+        return np.array([contact_edge(self.radii, ray, edge) for ray in self._ray_pressures.T])
 
-    def _linear(self, radii: Field, rays: Field) -> Field:
+    def _interpolate_linearly(self, radii: Field, rays: Field) -> Field:
         """Interpolate the surface tractions linearly between rings, and compute their harmonics.
 
         The result contains amplitudes of the tractions (4, radii, harmonics).
@@ -187,9 +191,9 @@ class SurfaceTractions:
         rays   q_r, q_theta, shear along the load, and pressure (4, rings, angles)
         """
         found = [[np.interp(radii, self.radii, ray) for ray in part.T] for part in rays]
-        return self._harmonics(np.swapaxes(found, 1, 2))
+        return self._transform_angles(np.swapaxes(found, 1, 2))
 
-    def _rooted(self, radii: Field, rays: Field) -> Field:
+    def _interpolate_with_root(self, radii: Field, rays: Field) -> Field:
         """Interpolate surface tractions that decrease like a square root to the contact edge.
 
         The pressure is √(1 - r²/a²) times a smooth factor, with the radius a of the contact edge.
@@ -201,28 +205,28 @@ class SurfaceTractions:
         rays   q_r, q_theta, shear along the load, and pressure (4, rings, angles)
         """
         factors = np.empty((4, len(radii), rays.shape[2]))
-        for ray, edge in enumerate(self._edges):
+        for ray, edge in enumerate(self._edge_radii):
             loaded = rays[3, :, ray] > 0
             at, pressed = self.radii[loaded], rays[3, loaded, ray]
             for part in range(3):
                 factors[part, :, ray] = np.interp(radii, at, rays[part, loaded, ray] / pressed)
             factors[3, :, ray] = _smooth_factor(radii, at, pressed, edge, self._per_element)
-        edges, fine = self._edges, None
+        edges, fine = self._edge_radii, None
         if self.angles is not None:
-            fine = end_grid(BETWEEN_RAYS * self._grid.highest)
-            cosines, sines = self._grid.modes(fine.angles)
+            fine = end_grid(BETWEEN_RAYS * self._angular_grid.highest)
+            cosines, sines = self._angular_grid.modes(fine.angles)
             modes = (cosines, sines, cosines, cosines)
-            amplitudes = self._harmonics(factors)
+            amplitudes = self._transform_angles(factors)
             factors = np.stack([f @ m for f, m in zip(amplitudes, modes, strict=True)])
-            edges = (self._grid.cosines @ self._edges) @ cosines
+            edges = (self._angular_grid.cosines @ self._edge_radii) @ cosines
         root = np.sqrt(np.maximum(1.0 - (radii[:, None] / edges) ** 2, 0.0))
         factors[3] *= root
         factors[:3] *= factors[3]
         if fine is None:
             return factors
-        return self._harmonics(factors, fine)[..., : self._grid.highest + 1]
+        return self._transform_angles(factors, fine)[..., : self._angular_grid.highest + 1]
 
-    def _harmonics(self, values: Field, grid: AngularGrid | None = None) -> Field:
+    def _transform_angles(self, values: Field, grid: AngularGrid | None = None) -> Field:
         """Transform surface tractions at several angles to amplitudes of angular harmonics.
 
         The result has the shape (4, radii, harmonics). Axisymmetric tractions are returned
@@ -233,7 +237,7 @@ class SurfaceTractions:
         """
         if self.angles is None:
             return values
-        on = grid or self._grid
+        on = grid or self._angular_grid
         transforms = (on.cosines, on.sines, on.cosines, on.cosines)
         return np.stack([f @ d.T for f, d in zip(values, transforms, strict=True)])
 

@@ -241,7 +241,7 @@ class Contact:
         found = subsurface(body, wide, pressure, shear, levels).below()[1].T[components]
         apart.append(np.max(np.abs(found - section.stress()[components][:, on_axis])))
         for side in (0, 1):
-            chosen = section.side(depth, side)
+            chosen = section.interface_points(depth, side)
             chosen = chosen[section.points[0, chosen] <= 1.5 * a]
             field = subsurface(body, wide, pressure, shear, (Depth(depth, side),)).along_x()
             spline = CubicSpline(field.x, field.stress[0, :, :, 0], axis=1)

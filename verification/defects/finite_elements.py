@@ -61,7 +61,7 @@ def _hoop_strain(whole: Any, u: Any, component: int, n: int) -> Any:
     return {k: e for k, e in right.items() if (component, k) != (1, "tt")}
 
 
-@replaces(FactoredSection, "_prescribed")
+@replaces(FactoredSection, "_far_displacements")
 def _no_far_field(_: Any, self: Any, basis: Any) -> Any:
     return np.zeros(self._numbering.size)
 
@@ -96,7 +96,7 @@ def _friction(whole: Any, self: ContactModel) -> CoulombFriction:
 @replaces(increment, "advance")
 def _forgetful(whole: Any, contact: Any, before: Any, *more: Any) -> Any:
     if before is not None:
-        first = contact.untouched()
+        first = contact.state_before_contact()
         forgotten = {
             name: getattr(first, name)
             for name in ("shear", "displacement", "slip", "motion", "dissipated_energy")

@@ -109,7 +109,7 @@ class Rings:
     @cached_property
     def undeformed(self) -> Field:
         """Gap before any load at the points (rings, angles) [length]."""
-        return self.on_grid(self.basis.of(self.model.gap) / self.basis.weights)
+        return self.on_grid(self.basis.integrate(self.model.gap) / self.basis.weights)
 
     def on_grid(self, values: Field | None) -> Field:
         """Extend values of the rings to all angles; None becomes zero."""
