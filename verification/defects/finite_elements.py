@@ -105,7 +105,7 @@ def _forgetful(whole: Any, contact: Any, before: Any, *more: Any) -> Any:
     return whole(contact, before, *more)
 
 
-@replaces(increment._Increment, "state")
+@replaces(increment._Increment, "end_state")
 def _slip_reversed(whole: Any, self: Any, passes: Any) -> Any:
     after, energy = whole(self, passes), self.before.dissipated_energy
     return replace(after, dissipated_energy=2 * energy - after.dissipated_energy)
@@ -116,7 +116,7 @@ def _soft(whole: Any, self: Any, *given: Any) -> Any:
     return 0.1 * whole(self, *given)
 
 
-@replaces(increment._Increment, "again")
+@replaces(increment._Increment, "next_pass")
 def _not_augmented(_: Any, self: Any, last: Any) -> Any:
     return last
 

@@ -479,7 +479,7 @@ def _taken_over(kind: ControlKind) -> Replacements:
     return prescribed
 
 
-@replaces(FactoredSection, "_prescribed")
+@replaces(FactoredSection, "_far_displacements")
 def _torque_far_away(whole: Any, self: FactoredSection, basis: Any) -> Any:
     return (0.5 if self.motion == TORSION else 1.0) * whole(self, basis)
 
