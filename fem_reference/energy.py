@@ -122,7 +122,9 @@ def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | No
     for coupled bodies, where particles may slip before their contact, and if the motion is
     undefined.
 
-    plan  tractions of the solve, and the load steps that are path-dependent
+    scene      contact problem with the shape of the indenter
+    plan       tractions of the solve, and the load steps that are path-dependent
+    increment  converged state whose energy is computed
     """
     if plan.path not in UNCOUPLED or any(plan.path_matters[: increment.step]):
         return None

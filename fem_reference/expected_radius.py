@@ -67,6 +67,8 @@ def expected_radius(scene: Scene) -> float:
 
     The fine elements of the mesh are laid out for this radius. Half-spaces and thick layers have
     closed forms. Contacts of bodies with other layers are solved on a coarse mesh.
+
+    scene  contact problem with its load history
     """
     guess = max(_half_space_radius(scene, ramp) for ramp in scene.load_path())
     layered = scene.body.layers or scene.indenter.layers
@@ -150,6 +152,7 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
     Friction is neglected. The load is applied in one increment. The mesh is replaced until the
     contact fits into its fine elements and is not much smaller than their zone.
 
+    ramp   linear change of the loads in the load step
     guess  contact radius for the first mesh [length]
     """
     by_force = ramp.normal.kind is ControlKind.FORCE

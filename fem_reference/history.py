@@ -110,6 +110,9 @@ class _IncrementSolver:
         """Return the gap between the undeformed surfaces at the rings of an increment [length].
 
         The array has the shape of the gap of the increment `last`: (rings,) or (rings, angles).
+
+        last  increment whose rings are used
+        tilt  not used, since this solver does not tilt the indenter
         """
         return np.array(np.broadcast_to(self.method.undeformed_gap, last.gap.T.shape).T)
 

@@ -96,9 +96,10 @@ class StepsOnRings:
 
     @property
     def most_spent(self) -> float:
-        """Work above which an increment that does not converge is not bisected any further.
+        """Return the work of the solver above which a failed increment is not bisected again.
 
-        The value 0 has no effect, because `spent` always returns 0.
+        Load stepping compares the value with `spent`. The value 0 sets no limit, because `spent`
+        returns 0 here.
         """
         return 0.0
 

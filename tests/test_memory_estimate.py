@@ -187,7 +187,7 @@ def test_what_does_not_fit_is_refused_before_it_is_begun(
     path.write_text(radial_scene(3e-6, friction=FRICTION), encoding="utf-8")
     described = read_scene_file(path).scene
     monkeypatch.setattr(memory, "available_bytes", lambda: 300 << 20)
-    monkeypatch.setattr("radial.history._solver", None)  # nothing is made
+    monkeypatch.setattr("radial.history._create_solver", None)  # nothing is made
     with pytest.raises(ResourceRefused, match=r"needs about 0\.\d GiB .* 0\.3 GiB are"):
         radial.solve(described)
 

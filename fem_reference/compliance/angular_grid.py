@@ -34,7 +34,7 @@ class AngularGrid:
     def points(self) -> int:
         """Number of points on the half circle of each ring.
 
-        The other half is its mirror image.
+        The other half is its mirror image. A ring is a circle around the axis on the surface.
         """
         return len(self.angles)
 

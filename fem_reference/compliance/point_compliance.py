@@ -154,18 +154,22 @@ class PointCompliance:
         return u[:2] * self.carries_shear, u[2]
 
     def scalar_on_grid(self, values: NDArray[Scalar]) -> NDArray[Scalar]:
-        """Convert a scalar field from points (points,) to the shape (rings, angles).
+        """Convert a scalar field at the points of the surface to the shape (rings, angles).
 
-        The value of the axis is repeated for all angles.
+        The value of the axis is repeated for all angles. Used for the fields of the result.
+
+        values  field at the points (points,)
         """
         rings, angles = self.shape
         on_grid = [np.repeat(values[:1], angles), values[1:]]
         return np.concatenate(on_grid).reshape(rings, angles)
 
     def vector_on_grid(self, values: Field) -> Field:
-        """Convert a vector field at the points (2, points) to the shape (2, rings, angles).
+        """Convert a tangential vector field at the points to the shape (2, rings, angles).
 
-        The components of the result are r and θ.
+        The components of the result are r and θ. Used for the fields of the result.
+
+        values  components at the points: x and y on the axis, else r and θ (2, points)
         """
         return self._spread_over_rings(np.stack([*values, np.zeros_like(values[0])]))[:2]
 
@@ -195,20 +199,24 @@ class PointCompliance:
         return unit
 
     def _spread_over_rings(self, values: Field) -> Field:
-        """Convert a vector field at the points (3, points) to the shape (3, rings, angles).
+        """Convert a vector field at the points to the shape (3, rings, angles).
 
         The components of the result are r, θ and z.
+
+        values  components at the points: x, y, z on the axis, else r, θ, z (3, points)
         """
         rings, angles = self.shape
         axis = np.einsum("cak,c->ak", self._axis_vectors, values[:, 0])
         return np.concatenate([axis[:, None], values[:, 1:].reshape(3, rings - 1, angles)], axis=1)
 
     def _summed_on_axis(self, weak: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Convert area-weighted displacements on rings and angles to points.
+        """Convert area-weighted displacements on rings and angles to points (3, points, …).
 
-        The shapes are (3, rings, angles, …) and (3, points, …). On the axis the values of all
+        On the axis the values of all
         angles are summed to components x, y and z. This conversion is the transpose of
         `_spread_over_rings`, so that the work of the tractions is preserved.
+
+        weak  displacements times areas, components r, θ, z (3, rings, angles, …)
         """
         axis = np.einsum("cak,ak...->c...", self._axis_vectors, weak[:, 0])
         rest = weak[:, 1:].reshape(3, -1, *weak.shape[3:])

@@ -60,7 +60,9 @@ class CoupledProblem:
     def bound(self, pressure: Vector) -> Vector:
         """Compute the friction limit µp of every point (points,) [force/length^2].
 
-        The limit is zero at points that cannot carry shear.
+        The limit is zero at points that cannot carry shear, such as a point on the axis.
+
+        pressure  p at the points (points,) [force/length^2]
         """
         carrying = np.where(self.compliance.carries_shear, pressure, 0.0)
         return self.friction.limit(carrying)

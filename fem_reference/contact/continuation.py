@@ -41,6 +41,7 @@ def solve_by_continuation(
     parameter and is reduced from a large value to zero. Used if the alternating iteration and
     Newton's method fail.
 
+    problem    compliance, gap, friction and prescribed loads of the increment
     start      initial guess of tractions and rigid motion
     tolerance  limit of the relative residual of the contact and friction laws [1]
     raises     NotConverged if no solution with soft springs is found, or if the springs do not

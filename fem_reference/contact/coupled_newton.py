@@ -80,6 +80,7 @@ def find_root(
     The equations are the contact and friction laws at all points and the prescribed loads. Springs
     between the surfaces are optional and serve the continuation.
 
+    problem    compliance, gap, friction and prescribed loads of the increment
     start      initial guess of tractions and rigid motion
     tolerance  limit of the norm of the residual [1]
     springs    compliance of the springs [length^3/force]; zero without springs
@@ -135,6 +136,8 @@ def _first_iterate(
     is the solution of the frictionless contact, because Newton's step is undefined for separated
     bodies. Prescribed motions replace those of the guess.
 
+    problem  compliance, gap, friction and prescribed loads of the increment
+    start    initial guess of tractions and rigid motion
     springs  compliance of springs between the surfaces [length^3/force]
     """
     pressure, approach, solves = start.pressure, start.approach, 0

@@ -79,7 +79,11 @@ def advance(
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
-    """Raise NothingTouches if the prescribed approach is at most the gap at all points."""
+    """Raise NothingTouches if the prescribed approach is at most the gap at all points.
+
+    contact  contact problem, with the undeformed gap of the points
+    loads    prescribed loads, of which the approach is compared
+    """
     approach, gap = loads.normal.approach, float(np.min(contact.gap))
     if approach is not None and approach <= gap:
         raise NothingTouches(

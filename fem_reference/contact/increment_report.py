@@ -131,6 +131,9 @@ def _drop_angle_axis(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray
 
     An axisymmetric field (rings, 1) becomes (rings,). Other fields (rings, angles) are returned
     unchanged.
+
+    contact  contact problem, which is axisymmetric or has several angles
+    on_grid  field on rings and angles (rings, angles)
     """
     return on_grid[:, 0] if contact.axisymmetric else on_grid
 

@@ -81,6 +81,9 @@ class ContactMethod:
 
         The work is ½ Σ w (q₀ + q₁)·r Δε over the rings [force length], with the shear q at the
         start and at the end, the change Δε of the strain, and the areas w and radii r of the rings.
+
+        before  contact state at the start of the increment; None before first contact
+        state   contact state at the end of the increment
         """
         change = state.strain - (before.strain if before else 0.0)
         if change == 0:
@@ -101,7 +104,7 @@ class ContactMethod:
 
     @cached_property
     def _axisymmetric_contact(self) -> PointContact:
-        """Contact problem with one point per ring.
+        """Contact problem with one point per ring of the surface, without loads.
 
         Used for fields that do not depend on the angle.
         """
@@ -109,7 +112,7 @@ class ContactMethod:
 
     @cached_property
     def _angular_contact(self) -> PointContact:
-        """Contact problem with several angles per ring.
+        """Contact problem with points at several angles on each ring of the surface, without loads.
 
         Used for coupled bodies under a tangential load.
         """

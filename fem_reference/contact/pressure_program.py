@@ -98,7 +98,7 @@ def solve_program(program: PressureProgram, guess: Mask) -> PressureSolution:
 
 
 def _solve_free(program: PressureProgram, free: Mask) -> tuple[Field, float]:
-    """Minimise ½ xᵀA x - cᵀx over given free components; the other components are zero.
+    """Compute the minimiser of ½ xᵀA x - cᵀx whose components outside a given set are zero.
 
     Return x (n,) and the multiplier λ of the linear condition v·x = t, or 0 without a condition.
 

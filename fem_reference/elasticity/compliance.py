@@ -97,7 +97,11 @@ def composite(
 def _cache_key(section: SectionMesh, motion: Motion) -> str:
     """Compute the cache key of a compliance matrix.
 
-    The key is a hash of all data that determine the matrix.
+    The key is a hash of all data that determine the matrix: mesh, materials, motion and source
+    code.
+
+    section  mesh of the meridional section of the body
+    motion   displacement field of one angular harmonic
     """
     outline = section.outline
     materials = [(m.young_modulus, m.poisson_ratio) for m in outline.materials]

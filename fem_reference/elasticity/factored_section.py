@@ -108,6 +108,8 @@ class FactoredSection:
         The far boundary is the outer edge and the base of the mesh. The displacements are those of
         a half-space, or zero for a rigid base or for a motion without resultant. The array has an
         entry for every degree of freedom, zero except on the far boundary.
+
+        basis  finite-element basis of one displacement component
         """
         values = np.zeros(self._numbering.size)
         outline, far_field = self.section.outline, self.motion.far_field
@@ -127,6 +129,11 @@ def _assemble_stiffness(
     """Assemble the sparse stiffness matrix of all displacement degrees of freedom.
 
     Entries with the value zero remain in the sparsity pattern, because fill-in needs them.
+
+    section    mesh with the materials of the elements
+    motion     angular harmonic and components of the displacement
+    basis      finite-element basis of one displacement component
+    numbering  degree of freedom and factor of every nodal displacement
     """
     stiffness = element_stiffness(basis, section, motion.harmonic, motion.components)
     dofs, factor = _element_unknowns(basis, numbering)
@@ -142,8 +149,14 @@ def _add_pressure_unknowns(
 ) -> csr_array:
     """Extend the stiffness matrix by the pressures p of nearly incompressible elements.
 
-    The additional equations are volume strain = p / lambda. The pressures enter the displacement
-    equations by the transposed matrix.
+    The additional equations are volume strain = p / lambda, with Lamé's constant lambda. The
+    pressures enter the displacement equations by the transposed matrix.
+
+    stiffness  stiffness matrix of the displacements alone
+    section    mesh with the materials of the elements
+    motion     angular harmonic and components of the displacement
+    basis      finite-element basis of one displacement component
+    numbering  degrees of freedom of displacements and pressures
     """
     mixed, first = dilatation(section).mixed, numbering.dofs.size
     volume = volume_strain(basis, motion.harmonic, motion.components)[mixed]
@@ -163,6 +176,9 @@ def _element_unknowns(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
     A nodal displacement is its factor times one degree of freedom. The factor differs from 1 only
     on the axis, where components are zero or depend on each other. The 9 nodes of each of the c
     components are contiguous. Used to assemble element matrices.
+
+    basis      finite-element basis of one displacement component
+    numbering  degree of freedom and factor of every nodal displacement
     """
     shape = (-1, basis.nelems)
     return (

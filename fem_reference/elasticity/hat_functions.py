@@ -112,11 +112,18 @@ def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
 
 
 def _hat_basis(radii: Field) -> Basis:
-    """Create the scikit-fem basis of hat functions with the given corner radii."""
+    """Create the scikit-fem basis of hat functions over the radius.
+
+    radii  radii of the corner nodes of the surface (n,) [length]
+    """
     return Basis(MeshLine(radii), ElementLineP1(), intorder=ORDER)
 
 
 def _integrate_with_hats(hats: Basis, function: Callable[[Field], Field]) -> Field:
-    """Compute the integrals ∫ f φ_j r dr of a function f(r) for all hat functions φ_j (n,)."""
+    """Compute the integrals ∫ f φ_j r dr of a function f(r) for all hat functions φ_j (n,).
+
+    hats      scikit-fem basis of the hat functions over the radius
+    function  f, a function of an array of radii
+    """
     load = LinearForm(lambda hat, w: function(np.asarray(w.x[0])) * hat * w.x[0])
     return np.asarray(load.assemble(hats))

@@ -63,6 +63,9 @@ def boussinesq(r: Field, z: Field, material: IsotropicMaterial) -> Field:
 
     Return the amplitudes u_r, u_theta and u_z (3, ...) at the points (r, z). Boussinesq 1885;
     Johnson, Contact Mechanics (1985), Eq. 3.18.
+
+    r, z      distance from the axis and depth of the points (...)
+    material  elastic constants of the half-space
     """
     G, nu = material.shear_modulus, material.poisson_ratio
     R = np.hypot(r, z)
@@ -76,6 +79,9 @@ def cerruti(r: Field, z: Field, material: IsotropicMaterial) -> Field:
 
     The force acts along theta = 0. Return the amplitudes u_r, u_theta and u_z (3, ...) at the
     points (r, z). Cerruti 1882; Johnson, Contact Mechanics (1985), Eq. 3.75.
+
+    r, z      distance from the axis and depth of the points (...)
+    material  elastic constants of the half-space
     """
     G, nu = material.shear_modulus, material.poisson_ratio
     R = np.hypot(r, z)
@@ -91,6 +97,9 @@ def point_torque(r: Field, z: Field, material: IsotropicMaterial) -> Field:
     Return the amplitudes u_r, u_theta and u_z (3, ...) at the points (r, z). The plane z = 0 of a
     full space under Kelvin's point couple is free of traction, so that each half carries half of
     the couple.
+
+    r, z      distance from the axis and depth of the points (...)
+    material  elastic constants of the half-space
     """
     R = np.hypot(r, z)
     u_theta = r / R**3

@@ -30,7 +30,7 @@ def contact_fraction(r: Array, start_radius: float, radius: float) -> Array:
 def extrapolate_stick_radius(
     radius: float, start_radius: float, stick_through: float, first: float, before: float
 ) -> float:
-    """Extrapolate the stick radius to the end of an increment of normal load [length].
+    """Extrapolate the stick radius to the end of an increment of the normal load [length].
 
     The increment gives only the radius of the zone that sticks throughout, which is the stick
     radius at its middle. The stick radius half an increment later is extrapolated linearly in the

@@ -61,7 +61,7 @@ class Coupling:
 
     @classmethod
     def of(cls, scene: Scene) -> Coupling:
-        """Create the surface response of the two bodies of a scene to pressure and shear."""
+        """Create the elastic response of the surfaces of a scene to pressure and shear."""
         stacks = ((stack_of(scene.body), 1.0), (stack_of(scene.indenter), -1.0))
         outer = [(stack.outer, sign) for stack, sign in stacks if not stack.is_rigid]
         return cls(

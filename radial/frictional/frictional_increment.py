@@ -67,8 +67,9 @@ class FrictionalState:
         return self.target.actuator_approach(self.end) if prescribed is None else prescribed
 
     def interpolate_nodes(self, field: Array, r: Array) -> Array:
-        """Interpolate a field linearly from the nodes of the contact to given radii (n,).
+        """Interpolate a field of this state linearly from the nodes to given radii (n,).
 
+        Used because the contacts of successive increments have different nodes along the radius.
         The field is zero outside the contact.
 
         field  values at the nodes (nodes,)

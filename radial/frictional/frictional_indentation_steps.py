@@ -202,6 +202,9 @@ class FrictionalSteps(StepsOnRings):
         this state prescribes an equal quantity. Otherwise it is 3 for a force and 2 for an
         approach, as in Hertz contact. Used for the initial guess and the first secant step of the
         contact radius.
+
+        target  prescribed normal force or approach
+        before  state of the previous contact; None before first contact
         """
         if before is not None and (before.target.force is None) == (target.force is None):
             return before.power
@@ -380,7 +383,9 @@ def _slip_direction_residual(end: FrictionalContact, friction: CoulombFriction) 
 
 
 def _contact_status(state: FrictionalState) -> ContactStatus:
-    """Return the contact status: full stick, partial slip, or no stick area left.
+    """Return the contact status of a contact with friction under a normal load.
+
+    The status is full stick, partial slip, or no stick area left.
 
     state  state at the end of the increment
     """

@@ -177,7 +177,7 @@ class Rings:
 
     @staticmethod
     def _sum_at_nodes(left: Array, right: Array) -> Array:
-        """Add the contributions of all elements at their nodes (…, n + 1).
+        """Sum integrals over elements, the intervals between nodes, at their nodes (…, n + 1).
 
         left, right  contributions of every element to its inner and to its outer node (…, n)
         """
@@ -215,7 +215,10 @@ class Rings:
 
 
 def _edge_root(x: Array) -> Array:
-    """Return √(1 - x²), the behaviour of tractions at the edge; x is r over the contact radius."""
+    """Return √(1 - x²), the factor by which tractions decrease to zero at the contact edge.
+
+    x  radii over the contact radius
+    """
     return np.asarray(np.sqrt((1 - x) * (1 + x)))
 
 
@@ -232,7 +235,9 @@ def layout_number(front: float) -> int:
 
 
 def rings_for_stick_radius(front: float, count: int) -> Rings:
-    """Return nodes over a contact that are dense at the border of the stick zone.
+    """Return the nodes along the radius of a contact, dense at the border of the stick zone.
+
+    Pressure and radial shear of a contact with friction are represented at these nodes.
 
     front  stick radius over the contact radius
     count  approximate number of rings, without those of dense regions

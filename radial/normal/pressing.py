@@ -30,7 +30,12 @@ LEAST_POWER = 0.5  # least exponent of the power law of force or approach in the
 
 
 class LoadedContact(Protocol):
-    """Protocol of a solved contact: its radius [length], load [force] and approach [length]."""
+    """Protocol of the solved contacts among which the search for the contact radius chooses.
+
+    radius    contact radius [length]
+    load      normal force [force]
+    approach  approach of the indenter [length]
+    """
 
     @property
     def radius(self) -> float: ...
@@ -61,7 +66,7 @@ class Target:
 
     @property
     def prescribed_value(self) -> float:
-        """Return the prescribed value: a normal force [force] or an approach [length]."""
+        """Return the value that is prescribed: a normal force [force] or an approach [length]."""
         value = self.approach if self.force is None else self.force
         assert value is not None
         return value
@@ -224,7 +229,9 @@ def lower_radius_estimate(bodies: Bodies, indenter: ShapedBody, target: Target) 
     modulus = bodies.stiffest
 
     def short(r: float) -> bool:
-        """Return true if a trial radius is smaller than the estimate of the contact radius.
+        """Return true if a trial radius is smaller than the lower estimate of the contact radius.
+
+        Used to double or halve the trial radius until it is near the estimate.
 
         r  trial radius [length]
         """

@@ -27,7 +27,10 @@ def cache_within_bytes(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
     """
 
     def decorate(compute: Callable[P, R]) -> Callable[P, R]:
-        """Decorate the function `compute` with a cache of its results."""
+        """Return a function that computes as a given function does and caches the results.
+
+        compute  function with hashable arguments that returns an array or a tuple of arrays
+        """
         found: OrderedDict[Hashable, Any] = OrderedDict()
 
         @wraps(compute)

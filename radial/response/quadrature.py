@@ -20,7 +20,8 @@ def unit_gauss(count: int) -> tuple[Array, Array]:
 def evaluate_legendre(coefficients: Array, t: Array) -> Array:
     """Evaluate the Legendre series Σ c_l P_l(2t - 1) at points 0 ≤ t ≤ 1.
 
-    coefficients  c_l
+    coefficients  coefficients c_0, c_1, … of the Legendre polynomials P_l
+    t             points (any shape)
     """
     return np.asarray(legendre.legval(2 * t - 1, coefficients))
 

@@ -48,7 +48,10 @@ class Waves(NamedTuple):
     @property
     @cache_within_bytes(MAX_CACHED)
     def rule(self) -> tuple[Array, Array]:
-        """Return the Gauss points κ (n,) of the wavenumbers, and their quadrature weights (n,)."""
+        """Return the points κ (n,) and weights (n,) of the quadrature over wavenumbers.
+
+        κ = k a is the wavenumber k times the contact radius a.
+        """
         last = floor(log(self.widest) / log(GROWTH))
         growing = GROWTH ** np.arange(self.first, last + 1.0)
         equal = growing[-1] + self.widest * np.arange(1.0, self.equal + 1)
@@ -128,7 +131,9 @@ def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> W
 
 
 def wave_blocks(count: int, size: int) -> Iterator[slice]:
-    """Yield slices of an array of wavenumbers that limit the memory of functions of them.
+    """Yield slices of an array of wavenumbers, for functions of them that need much memory.
+
+    The values of the functions on one slice take about 8 MiB.
 
     count  number of wavenumbers
     size   number of values of the functions for each wavenumber

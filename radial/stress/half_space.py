@@ -84,7 +84,10 @@ def _wave_integrals(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
     end, last = (part[:, 0] for part in _complex_distances(x[:, None], depth, 1 - x[:, None]))
 
     def integrate_by_parts(inside: Complex, outside: Complex) -> Array:
-        """Return an integral ∫ G~ exp(-κz) κ f dκ of the pressure, integrated by parts.
+        """Return an integral ∫ G~ exp(-κz) κ f dκ over wavenumbers κ, integrated by parts.
+
+        The pressure is the Abel transform of G, and G~ is the cosine transform of G. z is the
+        depth, and f a Bessel function of κx at the radius x.
 
         inside   factor of dG/dt at the quadrature points
         outside  factor of G(1), the boundary term at the contact edge

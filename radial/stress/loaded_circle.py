@@ -40,7 +40,7 @@ class LoadedCircle:
 
     @property
     def is_round(self) -> bool:
-        """Return true if the tractions are axisymmetric, so that `smooth` has one angle."""
+        """Return true if the tractions of the circle are axisymmetric and stored at one angle."""
         return self.smooth.shape[2] == 1
 
     @property
@@ -64,7 +64,10 @@ class LoadedCircle:
         return eta, np.tile(weights, panels) / panels * (np.pi / 2) * np.cos(angle) * eta
 
     def tractions_on_upper_body(self) -> LoadedCircle:
-        """Return the tractions on the upper body, in its coordinates with z into this body."""
+        """Return the tractions on the upper body, whose shear has the opposite sign.
+
+        The axis z points into the upper body. Used for the stress in the indenter.
+        """
         return replace(self, smooth=self.smooth * np.array([-1.0, -1.0, 1.0])[:, None, None])
 
     def interpolate_tractions(self, x: Array, y: Array) -> Array:

@@ -132,7 +132,9 @@ def _quadrature_pairs(x: Array) -> Iterator[Pairs]:
 
 
 def _unit_square_rule(first: int, second: int) -> tuple[Array, Array, Array]:
-    """Return Gauss points and weights of the unit square, as flat arrays.
+    """Return Gauss points and weights of the unit square, for integrals over pairs of elements.
+
+    The results are flat arrays: first coordinates, second coordinates and weights.
 
     first, second  number of points in each direction
     """

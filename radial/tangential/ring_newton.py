@@ -165,6 +165,8 @@ def _point_equations(
     constants. A slipping point has the friction limit along its shear direction w, and the
     linearised friction law across w. An open point has zero pressure.
 
+    laws      contact and friction laws of the increment
+    at        current iterate
     free      slipping and open points
     K         stiffness matrix: scaled tractions by scaled displacements (3 m, 3 m)
     carried   tractions by unit rigid motions, and at the iterate (3 m, 5)

@@ -182,8 +182,9 @@ class ContactPoints:
     def _harmonic_transform(self) -> Array:
         """Return the matrices that map values at the angles of a ring to amplitudes of harmonics.
 
-        The shape is (3, families × (J + 1), count): components r, θ, z, harmonics up to J of each
-        family (see `Circle`), and `count` angles.
+        The shape is (3, families × (J + 1), count): components r, θ, z, harmonics 0 … J of each
+        family, and `count` angles. In the symmetric family p and q_r are ∝ cos mθ and q_θ ∝ sin mθ.
+        A full circle also has the antisymmetric family: p and q_r ∝ sin mθ, q_θ ∝ -cos mθ.
         """
         return np.concatenate(self.circle.families(self.highest), axis=1)
 
@@ -315,7 +316,9 @@ class ContactPoints:
         return stick_area(self.radii, q, p, sticks)
 
     def interpolate_angles(self, field: Array, sense: float) -> Array:
-        """Interpolate a field to the output angles by a periodic spline in θ (n, angles).
+        """Interpolate a field from the angles of the points to the output angles (n, angles).
+
+        The interpolant on each of the n rings is a periodic spline in θ.
 
         field  values at the points (n count,)
         sense  1 for a field that is even about θ = 0, -1 for an odd field

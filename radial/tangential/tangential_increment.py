@@ -68,7 +68,7 @@ class TangentialState:
 
     @property
     def forces(self) -> tuple[float, ...]:
-        """Return the loads, prescribed or computed [force, force length].
+        """Return the loads on the indenter, prescribed or computed (4,) [force, force length].
 
         They are the tangential force along and across θ = 0, the torque and the normal force.
         """
@@ -76,7 +76,7 @@ class TangentialState:
 
     @property
     def motions(self) -> tuple[float, ...]:
-        """Return the rigid motions, prescribed or computed [length, radian].
+        """Return the rigid motions of the indenter, prescribed or computed (4,) [length, radian].
 
         They are the shifts along and across θ = 0, the twist and the approach.
         """

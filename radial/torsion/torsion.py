@@ -92,9 +92,10 @@ class Torsion:
 
     @cached_property
     def friction_limit(self) -> FrictionLimit:
-        """Return the transform N(t)/t of shear at the friction limit µp.
+        """Return the transform N(t)/t of the circumferential shear at the friction limit µp.
 
-        N(t) is the function whose Abel transform is the shear. t is a coordinate between the axis
+        N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt,
+        with the torsional modulus G and the contact radius a. t is a coordinate between the axis
         (0) and the contact edge (1).
         """
         return FrictionLimit.of(self.contact, self.friction, self.modulus)
@@ -103,7 +104,8 @@ class Torsion:
     def incipient_slip(self) -> PartialSlip:
         """Return the state of monotonic torsion at incipient slip: the whole contact still sticks.
 
-        States with a smaller twist are proportional to this state.
+        States with a smaller twist are proportional to this state. Its stick radius is the upper
+        end of the root search for a prescribed twist or torque.
         """
         return self.partial_slip(1.0)
 
@@ -111,7 +113,8 @@ class Torsion:
     def least_stick(self) -> PartialSlip:
         """Return the state of monotonic torsion with the smallest stick radius that is solved.
 
-        The state is close to gross slip.
+        The state is close to gross slip. Its stick radius is the lower end of the root search for a
+        prescribed twist or torque.
         """
         return self.partial_slip(NO_STICK)
 
@@ -276,8 +279,8 @@ class PartialSlip:
     def transform(self) -> Array:
         """Compute the sine transform ∫₀¹ N sin κt dt for the contribution of the layers (κ,).
 
-        N(t) is the function whose Abel transform is the circumferential shear. The wavenumbers κ
-        are those of `Torsion.waves`.
+        N(t) is the function whose Abel transform is the circumferential shear. The wavenumbers κ,
+        multiplied by the contact radius, are those at which the layers contribute.
         """
         places, _ = self.of.waves
         parts = [panel.sine_transform(places) for panel in (*self._disc_panels, *self.panels)]
