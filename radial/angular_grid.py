@@ -14,7 +14,7 @@ import numpy as np
 from contact_scene.array_types import Array
 
 
-class Circle(Enum):
+class RingAngles(Enum):
     """Angles at which fields on a ring are represented, chosen by the symmetry of the fields.
 
     ONE    one angle, for axisymmetric fields including torsion
@@ -34,9 +34,9 @@ class Circle(Enum):
 
         highest  highest harmonic J
         """
-        if self is Circle.ONE:
+        if self is RingAngles.ONE:
             return np.zeros(1)
-        count = highest if self is Circle.HALF else 2 * highest
+        count = highest if self is RingAngles.HALF else 2 * highest
         return np.pi * (np.arange(count) + 0.5) / highest
 
     def output_angles(self, highest: int) -> Array:
@@ -46,10 +46,10 @@ class Circle(Enum):
 
         highest  highest angular harmonic J of the fields
         """
-        count = highest + 1 if self is Circle.HALF else 2 * highest
+        count = highest + 1 if self is RingAngles.HALF else 2 * highest
         return np.pi * np.arange(count) / highest
 
-    def families(self, highest: int) -> tuple[Array, ...]:
+    def harmonic_matrices(self, highest: int) -> tuple[Array, ...]:
         """Return matrices from values at the angles of a ring to amplitudes of angular harmonics.
 
         In the symmetric family of harmonics p and q_r are ∝ cos mθ and q_θ ∝ sin mθ, in the
@@ -67,6 +67,6 @@ class Circle(Enum):
             # The cosine of the highest harmonic is zero at all these angles.
             cosines[-1], sines[-1] = 0.0, sines[-1] / 2
         alike = np.stack([cosines, sines, cosines])
-        if self is Circle.HALF:
+        if self is RingAngles.HALF:
             return (alike,)
         return alike, np.stack([sines, -cosines, sines])

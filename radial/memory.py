@@ -10,7 +10,7 @@ from __future__ import annotations
 from contact_scene import Scene
 from contact_scene.machine import available_bytes
 from contact_scene.solver_errors import ResourceRefused
-from radial.angular_grid import Circle
+from radial.angular_grid import RingAngles
 from radial.plan import Plan
 
 # The values were measured with whole runs, including the coarse solve and the figures. The layers
@@ -45,7 +45,7 @@ def estimated_bytes(scene: Scene, plan: Plan) -> int:
 
         waves = wavenumbers(scene)
     if plan.circle:
-        solved = WHOLE if plan.circle is Circle.WHOLE else PUSHED
+        solved = WHOLE if plan.circle is RingAngles.WHOLE else PUSHED
         return reported + max(solved + PER_WAVE_PUSHED * waves, DRAWN)
     if not plan.coupled:
         return libraries + PER_WAVE * waves

@@ -22,7 +22,7 @@ from contact_scene.quantities.cycles import loop_increments
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.load_path import along_one_line, first_direction
-from radial.angular_grid import Circle
+from radial.angular_grid import RingAngles
 
 # Largest ratio of shear moduli within a body. Larger ratios cause round-off in the results.
 MAX_CONTRAST = 1e8
@@ -66,7 +66,7 @@ class Plan:
     increments: tuple[int, ...]
     effects: tuple[Effect, ...]
     direction: tuple[float, float] = (1.0, 0.0)
-    circle: Circle | None = None
+    circle: RingAngles | None = None
     fineness: float = 1.0
 
     @property
@@ -75,7 +75,7 @@ class Plan:
 
         The number does not include the dense rings at contact edges.
         """
-        return round(self.fineness * (ROUND_RINGS if self.circle is Circle.ONE else RINGS))
+        return round(self.fineness * (ROUND_RINGS if self.circle is RingAngles.ONE else RINGS))
 
     @property
     def highest(self) -> int:
@@ -145,7 +145,7 @@ def plan(scene: Scene) -> Plan:
 
 def _choose_circle(
     scene: Scene, frictional: bool, twists: bool, pushed: bool, curved: bool
-) -> Circle | None:
+) -> RingAngles | None:
     """Determine the angles at which a contact with tangential load or torsion is solved on a ring.
 
     A tangential load needs half a circle, or a whole one if the load turns or acts with torsion.
@@ -158,7 +158,7 @@ def _choose_circle(
     curved      true if the tangential loads are not on one line
     """
     if pushed:
-        return Circle.WHOLE if twists or curved else Circle.HALF
+        return RingAngles.WHOLE if twists or curved else RingAngles.HALF
     if not twists:
         return None
     # The shear of torsion has a closed form if the limit is µp, and the pressure is constant from
@@ -166,10 +166,12 @@ def _choose_circle(
     proportional = scene.friction is not None and scene.friction.uniform is not None
     twisted = dropwhile(lambda ramp: not ramp.twisting.end, scene.load_path())
     changes = any(ramp.normal.start != ramp.normal.end for ramp in twisted)
-    return None if proportional and not frictional and not changes else Circle.ONE
+    return None if proportional and not frictional and not changes else RingAngles.ONE
 
 
-def _path_increments(scene: Scene, ramp: LoadRamp, circle: Circle | None, frictional: bool) -> int:
+def _path_increments(
+    scene: Scene, ramp: LoadRamp, circle: RingAngles | None, frictional: bool
+) -> int:
     """Return the number of increments that the path dependence of friction requires in a load step.
 
     Without a solve at points, a step is path-dependent if friction acts while the normal load or
@@ -185,7 +187,7 @@ def _path_increments(scene: Scene, ramp: LoadRamp, circle: Circle | None, fricti
     if circle is None:
         return PATH_INCREMENTS if frictional and (presses or ramp.strains) else 1
     start, end = ramp.tangential.start, ramp.tangential.end
-    most = PATH_INCREMENTS if circle is Circle.ONE else PUSHED_INCREMENTS
+    most = PATH_INCREMENTS if circle is RingAngles.ONE else PUSHED_INCREMENTS
     if presses or ramp.twisting.start != ramp.twisting.end:
         return most
     if start == end:
@@ -209,7 +211,7 @@ def _refuse_shape(scene: Scene) -> None:
         )
 
 
-def _refuse_friction(scene: Scene, frictional: bool, circle: Circle | None) -> None:
+def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) -> None:
     """Raise UnsupportedScene if the solver does not support the friction of a scene.
 
     The solver does not support a coefficient of friction that varies over the surface. It supports

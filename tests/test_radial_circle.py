@@ -24,7 +24,7 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding
-from radial.angular_grid import Circle
+from radial.angular_grid import RingAngles
 from radial.frictional.coupling import Coupling
 from radial.tangential.ring_compliance import ring_compliance
 from radial.tangential.ring_friction import limit_load_factor, solve_increment
@@ -88,7 +88,7 @@ def beside() -> radial.Result:
 
 
 @cache
-def points(circle: Circle) -> ContactPoints:
+def points(circle: RingAngles) -> ContactPoints:
     asked = scene()
     return create_points(Coupling.of(asked), asked.indenter, [RADIUS], 6, 4, circle, FRICTION)
 
@@ -96,14 +96,14 @@ def points(circle: Circle) -> ContactPoints:
 CALLED_FOR = {
     "pressed": ((), {}, None),
     "twisted, alike": ((twist(0.4),), ALIKE, None),
-    "twisted, then pressed": ((twist(0.4), LoadStep(normal_force=2 * LOAD)), ALIKE, Circle.ONE),
-    "twisted, coupled": ((twist(0.4),), {}, Circle.ONE),
-    "pushed": ((push(0.4, 0.0), push(-0.4, 0.0)), {}, Circle.HALF),
+    "twisted, then pressed": ((twist(0.4), LoadStep(normal_force=2 * LOAD)), ALIKE, RingAngles.ONE),
+    "twisted, coupled": ((twist(0.4),), {}, RingAngles.ONE),
+    "pushed": ((push(0.4, 0.0), push(-0.4, 0.0)), {}, RingAngles.HALF),
     "pushed, free to turn": (
-        (LoadStep(tangential_force=(0.1 * LIMIT, 0.0), torque=0.0),), {}, Circle.HALF,
+        (LoadStep(tangential_force=(0.1 * LIMIT, 0.0), torque=0.0),), {}, RingAngles.HALF,
     ),
-    "pushed and twisted": ((push(0.4, 0.0), twist(0.1)), ALIKE, Circle.WHOLE),
-    "turning": ((push(0.4, 0.0), push(0.0, 0.4)), {}, Circle.WHOLE),
+    "pushed and twisted": ((push(0.4, 0.0), twist(0.1)), ALIKE, RingAngles.WHOLE),
+    "turning": ((push(0.4, 0.0), push(0.0, 0.4)), {}, RingAngles.WHOLE),
 }  # fmt: skip
 
 
@@ -116,7 +116,7 @@ def test_angles_are_those_that_loads_call_for(name: str) -> None:
 def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image() -> None:
     asked = scene(push(0.6, 0.0), push(0.0, 0.0))
     half = rough(asked)
-    whole = rough(asked, plan=replace(half.plan, circle=Circle.WHOLE))
+    whole = rough(asked, plan=replace(half.plan, circle=RingAngles.WHOLE))
     for one, other in zip(half.increments, whole.increments, strict=True):
         for name in ("approach", "contact_radius", "tangential_shift", "dissipated_energy"):
             scale = np.max(np.abs(getattr(one, name)))
@@ -126,9 +126,9 @@ def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image() -> None:
                             atol=1e-9 * one.peak_pressure)  # fmt: skip
 
 
-@pytest.mark.parametrize("circle", Circle)
-def test_compliances_are_positive_and_the_same_both_ways(circle: Circle) -> None:
-    found = points(circle) if circle is not Circle.ONE else points(Circle.HALF).axisymmetric
+@pytest.mark.parametrize("circle", RingAngles)
+def test_compliances_are_positive_and_the_same_both_ways(circle: RingAngles) -> None:
+    found = points(circle) if circle is not RingAngles.ONE else points(RingAngles.HALF).axisymmetric
     matrix = found.compliance
     assert_allclose(matrix, matrix.T, atol=1e-14 * np.max(matrix))
     assert np.min(np.linalg.eigvalsh(matrix)) > 0
@@ -137,14 +137,20 @@ def test_compliances_are_positive_and_the_same_both_ways(circle: Circle) -> None
 def test_torsion_twists_the_surface_by_the_shear_modulus_alone() -> None:
     """Reissner and Sagoci 1944: q = 3 M r/(4π a³ √(a² - r²)) turns a disc by 3 M/(16 G a³); in the
     mean, by the work it does, so that its edge needs no hats: here 2G φ r = ∫ q, q linear."""
-    ring = points(Circle.WHOLE)
+    ring = points(RingAngles.WHOLE)
     shear = np.zeros((3, len(ring.radii), ring.count))
     shear[1] = ring.radii[:, None]
     moved = (ring.compliance @ shear.ravel()).reshape(shear.shape)
     assert np.max(np.abs(moved[[0, 2]])) < 1e-12 * np.max(moved[1])
     stiffer = Body(material=IsotropicMaterial(young_modulus=0.7, poisson_ratio=0.0))
     other = create_points(
-        Coupling.of(scene(body=stiffer)), scene().indenter, [RADIUS], 6, 4, Circle.WHOLE, FRICTION
+        Coupling.of(scene(body=stiffer)),
+        scene().indenter,
+        [RADIUS],
+        6,
+        4,
+        RingAngles.WHOLE,
+        FRICTION,
     )
     assert_allclose((other.compliance @ shear.ravel()).reshape(shear.shape), moved, rtol=1e-9,
                     atol=1e-12 * np.max(moved))  # fmt: skip
@@ -154,7 +160,7 @@ def test_torsion_twists_the_surface_by_the_shear_modulus_alone() -> None:
 
 
 def test_friction_carries_less_of_a_push_beside_torsion() -> None:
-    ring = points(Circle.WHOLE)
+    ring = points(RingAngles.WHOLE)
     r = np.repeat(ring.radii, ring.count)
     limit = np.sqrt(np.maximum(1 - (r / RADIUS) ** 2, 0.0))
     both = np.array([True, True, True])
@@ -236,7 +242,7 @@ RING_LIMIT = RING_LOAD * FRICTION
 
 
 def points_on(
-    indenter: Any, body: Body, radii: Array, count: int, circle: Circle = Circle.HALF
+    indenter: Any, body: Body, radii: Array, count: int, circle: RingAngles = RingAngles.HALF
 ) -> ContactPoints:
     """Below a paraboloid with R = 1."""
     ball = Paraboloid(radius=1.0, material=indenter)
@@ -308,10 +314,10 @@ def test_points_move_as_the_harmonics_of_their_tractions(harmonic: int, way: int
     assert_allclose(moved, exact, atol=1e-14)
 
 
-@pytest.mark.parametrize("circle", Circle)
+@pytest.mark.parametrize("circle", RingAngles)
 @pytest.mark.parametrize("rings", [1, 4, len(RADII)])
-def test_tractions_of_rings_are_those_that_move_them_so(circle: Circle, rings: int) -> None:
-    points = replace(alike().axisymmetric if circle is Circle.ONE else alike(), circle=circle)
+def test_tractions_of_rings_are_those_that_move_them_so(circle: RingAngles, rings: int) -> None:
+    points = replace(alike().axisymmetric if circle is RingAngles.ONE else alike(), circle=circle)
     size, m = len(points.areas), rings * points.count
     some = np.concatenate([way * size + np.arange(m) for way in range(3)])
     known = points.compliance[np.ix_(some, some)]

@@ -10,7 +10,7 @@ from coupled_scenes import bulk, press, scene
 from numpy.typing import NDArray
 from test_fem_edge import plane_contact
 
-from radial.angular_grid import Circle
+from radial.angular_grid import RingAngles
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.stick_border import stick_area as ring_stick_area
 from semi_analytical import plan, solve
@@ -240,9 +240,9 @@ def test_all_that_sticks_counts_and_nothing_else() -> None:
 
 def test_points_of_half_a_circle_and_of_all_of_it_stick_alike() -> None:
     half = ContactPoints(
-        RINGS, np.ones((7, 3, 3, 9, 9)), np.ones(9), np.ones(9), np.ones(9), Circle.HALF
+        RINGS, np.ones((7, 3, 3, 9, 9)), np.ones(9), np.ones(9), np.ones(9), RingAngles.HALF
     )
-    whole = replace(half, circle=Circle.WHOLE)
+    whole = replace(half, circle=RingAngles.WHOLE)
     r, angles = RINGS[:, None], half.angles
     share = np.hypot(r * np.cos(angles) + 2, r * np.sin(angles)) / 4
     bound = np.ones_like(share)

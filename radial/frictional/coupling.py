@@ -20,7 +20,7 @@ from radial.response.bodies import (
 from semi_analytical.frf.stack import Stack, stack_of
 
 
-class Response(NamedTuple):
+class RingResponse(NamedTuple):
     """Compliance matrices between rings, of both bodies [length³/force].
 
     Rows are the positions of displacements, columns the nodes of tractions (see `Rings`).
@@ -72,7 +72,7 @@ class Coupling:
             sum(sign * (1 - 2 * nu) / (2 * G) for (G, nu), sign in outer),
         )
 
-    def response(self, rings: Rings, radius: float) -> Response:
+    def response(self, rings: Rings, radius: float) -> RingResponse:
         """Compute the compliance matrices between rings of a contact.
 
         The outermost materials have closed forms or quadratures. Layers add u = ∫ k F t~ J dk, with
@@ -92,7 +92,7 @@ class Coupling:
             c11, c12, c22, _ = radius * waves.rule[1] * layer_responses(self.stacks, waves, radius)
             zz, rr = zz + (at_zeroth * c22) @ p, rr + (at_first * c11) @ q
             zr, rz = zr - (at_zeroth * c12) @ q, rz - (at_first * c12) @ p
-        return Response(zz, zr, rz, rr)
+        return RingResponse(zz, zr, rz, rr)
 
     def frictionless_displacement(self, contact: Disc, rings: Rings) -> Array:
         """Return the radial surface displacement by the pressure without friction (rows,) [length].

@@ -22,7 +22,7 @@ from contact_scene.array_types import Array
 from contact_scene.solver_errors import NotConverged
 from radial.frictional.coupling import (
     Coupling,
-    Response,
+    RingResponse,
 )
 from radial.frictional.rings import Rings
 from radial.normal.disc import (
@@ -172,7 +172,7 @@ def frictional_contact(
 
 
 def _solve_stick_and_slip(
-    response: Response, n: int, friction: CoulombFriction, smooth: Array,
+    response: RingResponse, n: int, friction: CoulombFriction, smooth: Array,
     stick_displacement: Array, guess: Signs, places: Array,
 ) -> tuple[Array, Signs]:  # fmt: skip
     """Solve for pressure change, shear and slip zone of a contact of given radius.

@@ -99,7 +99,9 @@ class Disc:
         """
         t, weights = unit_gauss(len(self.profile.abel) + len(self.layers))
         moved = self.approach - self.profile.evaluate_abel(t)
-        return float(self.bodies.modulus * self.radius * (weights @ (self.transform(t) * moved)))
+        return float(
+            self.bodies.modulus * self.radius * (weights @ (self.evaluate_abel_function(t) * moved))
+        )
 
     @property
     def edge(self) -> float:
@@ -109,10 +111,10 @@ class Disc:
         pressure is the Abel transform. The strength is 0 at a smooth edge, where the pressure ends
         with zero.
         """
-        value = float(self.transform(np.ones(1))[0])
+        value = float(self.evaluate_abel_function(np.ones(1))[0])
         return value if abs(value) > SMOOTH * self.approach else 0.0
 
-    def transform(self, t: Array) -> Array:
+    def evaluate_abel_function(self, t: Array) -> Array:
         """Evaluate the function G(t) of which the pressure is the Abel transform [length].
 
             p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
@@ -122,7 +124,7 @@ class Disc:
         changed = legendre.legval(t, all_order_coefficients(self.layers))
         return np.asarray(self.approach - self.profile.evaluate_abel(t) + changed)
 
-    def rate(self, t: Array) -> Array:
+    def abel_function_rate(self, t: Array) -> Array:
         """Evaluate dG/dt, where G is the function of which the pressure is the Abel transform.
 
             p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
@@ -188,7 +190,7 @@ class _Galerkin:
         right = -2 / pi * self.scale * (self.bases @ (self.excess * transform))
         return np.asarray(self.scale * cho_solve(self.cholesky_factor, right, check_finite=False))
 
-    def residual(self, layers: Array, transform: Array) -> float:
+    def largest_error(self, layers: Array, transform: Array) -> float:
         """Return the largest error of the contribution C of layers at check points [length].
 
         The pressure is the Abel transform of G = f + C, where f is the part without layers. The
@@ -261,7 +263,7 @@ def disc(
         else:
             depth = approach
         layers = depth * of_approach + of_profile
-        residual = method.residual(layers, depth * method.bases[0] + by_profile)
+        residual = method.largest_error(layers, depth * method.bases[0] + by_profile)
         made = Disc(bodies, shape, radius, depth, layers, residual / (abs(depth) or 1.0))
         if most or residual <= ROUND_OFF * (abs(depth) + float(np.sum(np.abs(layers)))):
             return made

@@ -41,8 +41,8 @@ def pressure(contact: Disc, x: Array) -> Array:
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + len(contact.layers))
     furthest = np.arcsinh(chord / np.where(axis, 1.0, rho))
     t = np.minimum(rho[:, None] * np.cosh(furthest[:, None] * v), 1.0)
-    total = furthest * (contact.rate(t) @ weights)
-    total[axis] = -np.inf if contact.profile.apex else weights @ (contact.rate(v) / v)
+    total = furthest * (contact.abel_function_rate(t) @ weights)
+    total[axis] = -np.inf if contact.profile.apex else weights @ (contact.abel_function_rate(v) / v)
     found[inside] = contact.bodies.modulus / (pi * contact.radius) * (contact.edge / chord - total)
     return found
 
@@ -64,9 +64,10 @@ def half_mean_pressure(contact: Disc, x: Array) -> Array:
     furthest = np.arcsinh(chord / rho)
     y = furthest * v
     further = furthest[:, 0] * (
-        (contact.rate(np.minimum(rho * np.cosh(y), 1.0)) * np.sinh(y) * np.exp(-y)) @ weights
+        (contact.abel_function_rate(np.minimum(rho * np.cosh(y), 1.0)) * np.sinh(y) * np.exp(-y))
+        @ weights
     )
-    nearer = (contact.rate(rho * v) * v) @ weights
+    nearer = (contact.abel_function_rate(rho * v) * v) @ weights
     unit = contact.bodies.modulus / (pi * contact.radius)
     found[inside] = unit * (contact.edge / (1 + chord[:, 0]) - further - nearer)
     return found
@@ -106,7 +107,7 @@ def abel_integral(contact: Disc, x: Array) -> Array:
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + len(contact.layers))
     angle = np.arcsin(np.minimum(1 / x, 1.0))
     return np.asarray(
-        angle * (contact.transform(x[:, None] * np.sin(angle[:, None] * v)) @ weights)
+        angle * (contact.evaluate_abel_function(x[:, None] * np.sin(angle[:, None] * v)) @ weights)
     )
 
 

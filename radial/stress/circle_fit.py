@@ -27,7 +27,7 @@ STEPS = 20  # of Newton's method, for the zeros of p²
 PERIOD = 4  # angles beyond a full turn that the periodic spline repeats
 
 
-class Fit(NamedTuple):
+class EdgeFit(NamedTuple):
     """Region and order of the least-squares fit of p² near the contact edge.
 
     begins       smallest radius of the fit over that of the outermost loaded ring
@@ -46,9 +46,9 @@ class Fit(NamedTuple):
     last: float = 0.965
 
 
-USUAL = Fit()
+USUAL = EdgeFit()
 # Second fit of equal quality. The difference of both is an error estimate.
-ANOTHER = Fit(begins=0.6, over=0.3, powers=3, fitted_from=0.87)
+ANOTHER = EdgeFit(begins=0.6, over=0.3, powers=3, fitted_from=0.87)
 
 
 def axisymmetric_circle(
@@ -76,7 +76,7 @@ def axisymmetric_circle(
 
 
 def fit_tangential_circle(
-    radii: Array, angles: Array, outward: Array, around: Array, p: Array, fit: Fit = USUAL
+    radii: Array, angles: Array, outward: Array, around: Array, p: Array, fit: EdgeFit = USUAL
 ) -> LoadedCircle:
     """Fit a loaded circle to the pressure and shear of a contact with tangential load.
 

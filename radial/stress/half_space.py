@@ -80,7 +80,10 @@ def _wave_integrals(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
     offset, weights = _quadrature_offsets(contact, x, depth)
     t = x[:, None] + offset
     c, R = _complex_distances(x[:, None], depth, offset)
-    by_G, by_rate = weights * contact.transform(t), weights * contact.rate(t)
+    by_G, by_rate = (
+        weights * contact.evaluate_abel_function(t),
+        weights * contact.abel_function_rate(t),
+    )
     end, last = (part[:, 0] for part in _complex_distances(x[:, None], depth, 1 - x[:, None]))
 
     def integrate_by_parts(inside: Complex, outside: Complex) -> Array:

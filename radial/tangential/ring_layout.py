@@ -9,7 +9,7 @@ import numpy as np
 from contact_scene.array_types import Array
 from contact_scene.geometry import ShapedBody
 from contact_scene.rig import Rig, compliances
-from radial.angular_grid import Circle
+from radial.angular_grid import RingAngles
 from radial.frictional.coupling import Coupling
 from radial.response.quadrature import unit_gauss
 from radial.tangential.ring_compliance import ring_compliance
@@ -59,7 +59,7 @@ def create_points(
     edges: Sequence[float],
     count: int,
     highest: int,
-    circle: Circle,
+    circle: RingAngles,
     friction: float,
     rig: Rig | None = None,
 ) -> ContactPoints:

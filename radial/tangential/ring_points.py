@@ -10,7 +10,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from contact_scene.array_types import Array
-from radial.angular_grid import Circle
+from radial.angular_grid import RingAngles
 from radial.tangential.stick_border import stick_area
 
 FINER = 16  # subdivisions of an element, to find the border of the stick zone
@@ -47,7 +47,7 @@ class ContactPoints:
     weights: Array
     arms: Array
     gap: Array
-    circle: Circle
+    circle: RingAngles
 
     @property
     def count(self) -> int:
@@ -103,11 +103,11 @@ class ContactPoints:
         nodes, nothing = len(self.weights), np.zeros_like(self.areas)
         cos, sin = np.tile(np.cos(self.angles), nodes), np.tile(np.sin(self.angles), nodes)
         found = np.zeros((3, 2 * len(nothing)))
-        if self.circle is not Circle.ONE:
+        if self.circle is not RingAngles.ONE:
             found[0] = np.concatenate([self.areas * cos, -self.areas * sin])
-        if self.circle is Circle.WHOLE:
+        if self.circle is RingAngles.WHOLE:
             found[1] = np.concatenate([self.areas * sin, self.areas * cos])
-        if self.circle is not Circle.HALF:
+        if self.circle is not RingAngles.HALF:
             found[2] = np.concatenate([nothing, self.levers])
         return found
 
@@ -186,14 +186,14 @@ class ContactPoints:
         family, and `count` angles. In the symmetric family p and q_r are ∝ cos mθ and q_θ ∝ sin mθ.
         A full circle also has the antisymmetric family: p and q_r ∝ sin mθ, q_θ ∝ -cos mθ.
         """
-        return np.concatenate(self.circle.families(self.highest), axis=1)
+        return np.concatenate(self.circle.harmonic_matrices(self.highest), axis=1)
 
     @cached_property
     def _harmonic_energies(self) -> Array:
         """Return the Galerkin matrices of all harmonics, times the norm of each harmonic.
 
         The shape is (families × (J + 1), 3, 3, n, n), with the harmonics up to J of the symmetric
-        and antisymmetric families (see `Circle`). The norm is π, or 2π for the harmonics 0 and J.
+        and antisymmetric families. The norm is π, or 2π for the harmonics 0 and J.
         """
         norms = np.full(len(self.energies), np.pi)
         norms[[0, -1]] = 2 * np.pi
@@ -222,7 +222,7 @@ class ContactPoints:
 
         Used as long as no tangential load acts.
         """
-        return replace(self, energies=self.energies[:1], circle=Circle.ONE)
+        return replace(self, energies=self.energies[:1], circle=RingAngles.ONE)
 
     def repeat_angles(self, field: Array) -> Array:
         """Repeat an axisymmetric field, known on one angle per ring, at all angles (…, n count).
@@ -257,7 +257,7 @@ class ContactPoints:
                 continue
             last = int(inside[-1])
             further = r[min(last + 1, len(r) - 1)] ** 2
-            if self.circle is Circle.ONE:
+            if self.circle is RingAngles.ONE:
                 edge = r[last] ** 2
                 if last and ray[last - 1] > ray[last]:
                     share = ray[last] ** 2 / (ray[last - 1] ** 2 - ray[last] ** 2)
@@ -301,7 +301,7 @@ class ContactPoints:
         bound  friction limit µp (n count,) [force/length²]
         """
         sticks = share.reshape(-1, self.count) < 1
-        if self.circle is Circle.ONE:
+        if self.circle is RingAngles.ONE:
             left = np.clip(np.where(np.isfinite(share), 1 - share, -1.0), -1.0, 1.0)
             parts = (np.arange(FINER) + 0.5) / FINER
             inside = (1 - parts) * left[:-1, None] + parts * left[1:, None] > 0
@@ -310,7 +310,7 @@ class ContactPoints:
             return float(np.pi * np.sum(inside * np.diff(edges**2)))
         q = shear.reshape(2, -1, self.count)
         p = bound.reshape(-1, self.count)
-        if self.circle is Circle.HALF:
+        if self.circle is RingAngles.HALF:
             q = np.concatenate([q, np.array([1, -1])[:, None, None] * q[..., ::-1]], axis=-1)
             p, sticks = (np.concatenate([field, field[:, ::-1]], axis=-1) for field in (p, sticks))
         return stick_area(self.radii, q, p, sticks)
@@ -324,7 +324,7 @@ class ContactPoints:
         sense  1 for a field that is even about θ = 0, -1 for an odd field
         """
         values, angles = field.reshape(-1, self.count), self.angles
-        if self.circle is Circle.HALF:
+        if self.circle is RingAngles.HALF:
             values = np.hstack([values, sense * values[:, ::-1]])
             angles = np.concatenate([angles, 2 * np.pi - angles[::-1]])
         values, angles = (

@@ -12,7 +12,7 @@ from contact_scene.array_types import Array
 from contact_scene.friction import sliding_friction
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
-from radial.angular_grid import Circle
+from radial.angular_grid import RingAngles
 from radial.frictional.contact_growth import (
     contact_fraction,
     extrapolate_stick_radius,
@@ -54,7 +54,7 @@ class TangentialState:
     """
 
     end: PointState
-    circle: Circle
+    circle: RingAngles
     prescribed: Loads
     radius: float
     start_radius: float
@@ -141,7 +141,7 @@ def tangential_state(
     if smooth is None:
         area = points.stick_area(end.share, end.shear, limits[1])
         stick_through = sqrt(min(area / pi, radius**2))
-    turned = points.circle is not Circle.ONE or end.motion[TORSION] != motion[TORSION]
+    turned = points.circle is not RingAngles.ONE or end.motion[TORSION] != motion[TORSION]
     stick_radius = stick_through
     if not (turned or stick_through is None or before is None or before.stick_through is None):
         stick_radius = extrapolate_stick_radius(

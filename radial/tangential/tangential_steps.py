@@ -16,7 +16,7 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import compliances, of_contact
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from contact_scene.stepping.load_stepping import Reached
-from radial.angular_grid import Circle
+from radial.angular_grid import RingAngles
 from radial.fields import Increment
 from radial.frictional.coupling import Coupling
 from radial.normal.pressing import (
@@ -121,12 +121,12 @@ class TangentialSteps(StepsOnRings):
         ends = {frictionless_radius(prescribed) for prescribed in set(targets(scene))}
         edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
 
-        def create_solver(circle: Circle) -> TangentialSteps:
+        def create_solver(circle: RingAngles) -> TangentialSteps:
             """Create the solver with rings that are dense at the contact edges found so far.
 
             circle  angles of the points on a ring
             """
-            harmonics = 0 if circle is Circle.ONE else plan.highest
+            harmonics = 0 if circle is RingAngles.ONE else plan.highest
             points = create_points(
                 both, scene.indenter, edges, count, harmonics, circle, friction.largest, scene.rig
             )
@@ -135,7 +135,7 @@ class TangentialSteps(StepsOnRings):
             )
 
         for _ in range(SETTLED):
-            edges = create_solver(Circle.ONE)._contact_radii()
+            edges = create_solver(RingAngles.ONE)._contact_radii()
         return create_solver(circle)
 
     def _contact_radii(self) -> list[float]:
@@ -245,7 +245,7 @@ class TangentialSteps(StepsOnRings):
         if before is not None and before.prescribed == loads:
             return before
         tangential = (*loads.forces[:TORSION], *loads.motions[:TORSION])
-        angular = any(tangential) or (before is not None and before.circle is not Circle.ONE)
+        angular = any(tangential) or (before is not None and before.circle is not RingAngles.ONE)
         points = self.points if angular else self.points.axisymmetric
         self._refuse_within_first(points, loads.motions[NORMAL])
         last = before.end if before else None
@@ -314,7 +314,7 @@ class TangentialSteps(StepsOnRings):
         last     output of the previous increment (not used)
         """
         state, end = reached.state, reached.state.end
-        angular = state.circle is not Circle.ONE
+        angular = state.circle is not RingAngles.ONE
         points = self.points if angular else self.points.axisymmetric
         if reached.place.index == reached.place.increments_in_step:
             self._refuse_narrow(state, reached.place.step)
@@ -379,7 +379,7 @@ class TangentialSteps(StepsOnRings):
         step   number of the load step; only the first one is checked
         """
         sticks = state.status is ContactStatus.FULL_STICK
-        if sticks and step == 1 and state.circle is Circle.ONE and coupling(self.scene)[0]:
+        if sticks and step == 1 and state.circle is RingAngles.ONE and coupling(self.scene)[0]:
             raise UnsupportedScene(
                 f"with a coefficient of friction of {self.friction.largest:g} the slip annulus at "
                 "the contact edge is narrower than a ring and cannot be resolved. Use a smaller "
@@ -401,7 +401,7 @@ class TangentialSteps(StepsOnRings):
         cos, sin, one = np.cos(angles), np.sin(angles), np.ones_like(angles)
         resultants = np.stack([[cos, -sin], [sin, cos], [0 * one, one]])
         shares = one / (2 * points.highest)
-        if points.circle is Circle.HALF:
+        if points.circle is RingAngles.HALF:
             resultants, shares = (
                 resultants[:1],
                 np.append(1.0, np.append(2 * one[2:], 1.0)) * shares,
@@ -450,7 +450,7 @@ class TangentialSteps(StepsOnRings):
         cos, sin = np.cos(points.angles), np.sin(points.angles)
         along = np.mean(q_r * cos - q_t * sin)
         # On a half circle the component across is zero by symmetry.
-        across = np.mean(q_r * sin + q_t * cos) if points.circle is Circle.WHOLE else 0.0
+        across = np.mean(q_r * sin + q_t * cos) if points.circle is RingAngles.WHOLE else 0.0
         cos, sin = np.cos(points.output_angles), np.sin(points.output_angles)
         outward[0], around[0] = along * cos + across * sin, across * cos - along * sin
         return outward, around

@@ -67,7 +67,7 @@ class FrictionLimit:
         rates = np.asarray(4 * chebyshev.chebder(slopes, axis=1), dtype=np.float64)
         return cls(slopes, rates)
 
-    def slope(self, t: Array) -> Array:
+    def evaluate_transform(self, t: Array) -> Array:
         """Evaluate the transform N/t of shear at the friction limit µp [1].
 
         N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt,
@@ -77,7 +77,7 @@ class FrictionLimit:
         """
         return _evaluate_panels(self.slopes, *_panel_positions(t))
 
-    def slope_rate(self, t: Array) -> Array:
+    def transform_rate(self, t: Array) -> Array:
         """Evaluate the derivative d(N/t)/dt of the transform of shear at the friction limit µp [1].
 
         N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt,
@@ -132,6 +132,8 @@ def _unit_limit(contact: Disc, t: Array) -> Array:
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + 2 * len(contact.layers))
     furthest = -np.log(t)[..., None]
     y = furthest * v
-    inner = -contact.rate(np.minimum(t[..., None] * np.exp(y), 1.0)) * ellipkm1(np.exp(-2 * y))
+    inner = -contact.abel_function_rate(np.minimum(t[..., None] * np.exp(y), 1.0)) * ellipkm1(
+        np.exp(-2 * y)
+    )
     found = np.sum(inner * furthest * weights, axis=-1) + contact.edge * ellipkm1(t**2)
     return np.asarray(2 * contact.bodies.modulus / pi**2 * found)

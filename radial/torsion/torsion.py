@@ -168,7 +168,7 @@ class Torsion:
         )
         mass = stick / (4 * np.arange(count) + 3)
         by_twist, alone = np.linalg.solve(matrix + np.diag(mass), right.T).T
-        edge = stick * float(self.friction_limit.slope(np.array([stick]))[0])
+        edge = stick * float(self.friction_limit.evaluate_transform(np.array([stick]))[0])
         twist = (edge + np.sum(alone)) / (4 / pi * stick - np.sum(by_twist))
         layers = twist * by_twist + alone
         return PartialSlip(self, stick, float(twist), layers, panels)
@@ -188,7 +188,7 @@ class Torsion:
         for low, width in zip(edges, np.diff(edges), strict=False):
             v, weights = unit_gauss(self.gauss_count(width))
             t = low + width * v
-            made.append(Panel(t, width * weights, t * self.friction_limit.slope(t)))
+            made.append(Panel(t, width * weights, t * self.friction_limit.evaluate_transform(t)))
         return made
 
 
@@ -331,7 +331,7 @@ class PartialSlip:
         v, weights = unit_gauss(2 * self.of.gauss_count(0.0))
         first, last = np.arccosh(np.maximum(self.stick / rho, 1.0)), np.arccosh(1 / rho)
         slipping = (last - first) * (
-            self.of.friction_limit.slope_rate(
+            self.of.friction_limit.transform_rate(
                 np.minimum(rho * np.cosh(first + (last - first) * v), 1.0)
             )
             @ weights
@@ -343,7 +343,7 @@ class PartialSlip:
             total -= first[:, 0] * (self._layers_rate(t) @ shares)
         if self.of.contact.edge:
             rim = (
-                self.of.friction_limit.slope(np.ones(1))
+                self.of.friction_limit.evaluate_transform(np.ones(1))
                 if self.stick < 1
                 else self.stick_transform(np.ones(1))
             )
@@ -381,7 +381,7 @@ class PartialSlip:
         angle = border + (pi / 2 - border) * v
         t = np.maximum(rho * np.sin(angle), AXIS)
         moved = (pi / 2 - border[:, 0]) * (
-            t * self.of.friction_limit.slope(t) * np.sin(angle) @ weights
+            t * self.of.friction_limit.evaluate_transform(t) * np.sin(angle) @ weights
         )
         if self.stick:
             angle = border * v

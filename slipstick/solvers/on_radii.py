@@ -8,7 +8,7 @@ import radial
 from contact_scene import RadialDiscretisation, Scene
 from contact_scene.stepping.checkpoint import CheckpointStore
 from radial import Plan, Result
-from radial.angular_grid import Circle
+from radial.angular_grid import RingAngles
 from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text
 
 if TYPE_CHECKING:
@@ -63,6 +63,6 @@ def _rings_text(fineness: RadialDiscretisation, plan: Plan) -> str:
     Without friction, the rings are only points of output.
     """
     if plan.circle:
-        angles = "" if plan.circle is Circle.ONE else f", times {plan.angles} angles"
+        angles = "" if plan.circle is RingAngles.ONE else f", times {plan.angles} angles"
         return f"{plan.rings} over the contact, denser at its edge{angles}"
     return f"{fineness.rings} over the largest contact, for output only"

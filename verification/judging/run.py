@@ -161,12 +161,12 @@ class RadiiRun:
         """Solve the scene on rings; raises the exceptions of `radial.solve`."""
         import radial
         from contact_scene import RadialDiscretisation
-        from radial.angular_grid import Circle
+        from radial.angular_grid import RingAngles
 
         asked = RadialDiscretisation(rings=self.rings, tolerance=self.tolerance)
         plan = radial.plan(self.scene)
         if self.at_points:
-            plan = replace(plan, circle=Circle.ONE)
+            plan = replace(plan, circle=RingAngles.ONE)
         return radial.solve(self.scene, asked, plan=replace(plan, fineness=self.fineness))
 
 

@@ -65,14 +65,14 @@ def by_radii(scene: Scene) -> str | None:
 
     The result is None for a scene that the radial solver does not support.
     """
-    from radial.angular_grid import Circle
+    from radial.angular_grid import RingAngles
     from radial.plan import plan
 
     how = {
         None: "normal load, or torsion at constant load, nearly exact",
-        Circle.ONE: "normal load and torsion together, on rings",
-        Circle.HALF: "tangential load along one line, on rings and angles",
-        Circle.WHOLE: "tangential load with changing direction or torsion, on rings and angles",
+        RingAngles.ONE: "normal load and torsion together, on rings",
+        RingAngles.HALF: "tangential load along one line, on rings and angles",
+        RingAngles.WHOLE: "tangential load with changing direction or torsion, on rings and angles",
     }
     try:
         decided = plan(scene)

@@ -324,12 +324,12 @@ def _solved(
     fineness = chosen.fineness(contents)
     decided: Any = chosen.plan(contents.scene, fineness)
     if name is SolverName.RADIAL:
-        from radial.angular_grid import Circle
+        from radial.angular_grid import RingAngles
         from radial.largest_contact import expected_radius
 
         if decided.has_shear:
             refuse_infinite(contents.scene.indenter, expected_radius(contents.scene))
-        if decided.circle is Circle.WHOLE:
+        if decided.circle is RingAngles.WHOLE:
             refuse_turned()
     with solve_progress(decided.increments) as observe:
         result = chosen.solve(contents.scene, fineness, decided, observe)
