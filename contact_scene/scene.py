@@ -70,27 +70,23 @@ class Scene(Description):
             found["map"] = getattr(self.friction.coefficient, "map", None)
         return {key: array for key, array in found.items() if array is not None}
 
-    def replace(self, *changes: str | Mapping[str, Any], **keys: Any) -> "Scene":
+    def replace(self, changes: Mapping[str, Any]) -> "Scene":
         """Return the scene with other values of some keys, checked like a scene file.
 
         Parameters
         ----------
-        *changes : mapping or str
+        changes : mapping
             Dotted keys with their values: `{"indenter.radius": "12 mm", "loading[2].increments":
-            5}`, or a text as for `--set`: `"indenter.radius=12 mm"`. Array entries count from 1.
-        **keys
-            Values of keys without dots: `friction=None`. None removes an optional key.
+            5}`. Array entries count from 1. None removes an optional key.
 
         Raises
         ------
         SceneError
             With every mistake in the changed scene.
-        TypeError
-            If a change is neither a text nor a mapping.
         """
         from contact_scene.reading.scene_file import changed_scene
 
-        return changed_scene(self, changes, keys)
+        return changed_scene(self, changes)
 
     def with_increments(self, increments: Sequence[int]) -> "Scene":
         """Return the scene with other numbers of increments.

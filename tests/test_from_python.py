@@ -148,8 +148,8 @@ def test_errors_are_stated_by_the_solver_of_the_result_and_saved(
         ({"loading[2].increments": 0}, "loading[2].increments"),
         ({"friction.coefficient": -0.1}, "friction.coefficient"),
         ({"semi_analytical.cells": [64, 64]}, "semi_analytical"),
-        ("loading[2].tangential_force=[200, 0]", "loading[2].tangential_force"),
-        ("indenter.shape=sphare", "indenter.shape"),
+        ({"loading[2].tangential_force": [200, 0]}, "loading[2].tangential_force"),
+        ({"indenter.shape": "sphare"}, "indenter.shape"),
         ({"": 1}, ""),
     ],
 )
@@ -162,10 +162,14 @@ def test_a_change_of_a_scene_is_checked(change: Any, key: str) -> None:
 def test_a_changed_scene_is_the_one_with_these_values_and_the_first_stays() -> None:
     film = slipstick.Layer(thickness=2e-5, material=STEEL)
     changed = SCENE.replace(
-        {"indenter.radius": "12 mm", "body.layers": (film,)},
-        "loading[2].increments=5",
-        {"body.layers[1].thickness": "10 um", "indenter.material.poisson_ratio": 0.2},
-        title="other",
+        {
+            "indenter.radius": "12 mm",
+            "body.layers": (film,),
+            "loading[2].increments": 5,
+            "body.layers[1].thickness": "10 um",
+            "indenter.material.poisson_ratio": 0.2,
+            "title": "other",
+        }
     )
     assert (changed.indenter.radius, changed.title) == (12e-3, "other")  # type: ignore[union-attr]
     assert changed.body.layers[0].thickness == 1e-5
@@ -173,7 +177,7 @@ def test_a_changed_scene_is_the_one_with_these_values_and_the_first_stays() -> N
     assert changed.indenter.material.poisson_ratio == 0.2  # type: ignore[union-attr]
     assert changed.loading[1].increments == 5
     assert SCENE.indenter.material == STEEL
-    assert SCENE.replace() == SCENE
+    assert SCENE.replace({}) == SCENE
     rough = slipstick.HeightMap(file=np.eye(9), spacing=1e-6, material=STEEL)  # type: ignore[arg-type]
-    mapped = SCENE.replace(indenter=rough).replace({"indenter.spacing": "2 um"})
+    mapped = SCENE.replace({"indenter": rough}).replace({"indenter.spacing": "2 um"})
     assert mapped.indenter == slipstick.HeightMap(file=np.eye(9), spacing=2e-6, material=STEEL)  # type: ignore[arg-type]

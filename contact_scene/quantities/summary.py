@@ -237,14 +237,11 @@ class RunSummary(Description):
     @field_validator("schema_version")
     @classmethod
     def _refuse_other_versions(cls, version: int) -> int:
-        if version > SUMMARY_VERSION:
+        if version != SUMMARY_VERSION:
+            other = "a newer" if version > SUMMARY_VERSION else "an earlier"
             raise ValueError(
-                f"version {version} is of a newer slipstick; this one reads {SUMMARY_VERSION}"
-            )
-        if version < SUMMARY_VERSION:
-            raise ValueError(
-                f"version {version} is of an earlier slipstick, this one reads {SUMMARY_VERSION}; "
-                "run the scene again"
+                f"version {version} is of {other} slipstick, this one reads {SUMMARY_VERSION}; run "
+                "the scene again"
             )
         return version
 

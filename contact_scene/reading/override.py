@@ -33,19 +33,20 @@ def override(document: dict[str, Any], assignment: str) -> Path:
     document unchanged if there is no such key.
     """
     key, equals, text = assignment.partition("=")
-    path, source = _path(key.strip()), origin(assignment)
-    if not equals or not path or not text.isprintable():
+    source = origin(assignment)
+    if not equals or not _path(key.strip()) or not text.isprintable():
         raise SceneError([Problem((), f"got {shown(assignment)}", _EXPECTED, file=source)])
-    document.update(_changed(document, path, _value(text.strip()), Problem(path, "", file=source)))
-    return path
+    return assign(document, key.strip(), _value(text.strip()), source)
 
 
-def assign(document: dict[str, Any], key: str, value: Any) -> None:
+def assign(document: dict[str, Any], key: str, value: Any, source: str = "") -> Path:
     """Set one key of a scene document, the nested tables of a scene file, to a Python value.
 
     document  tables by their keys, changed in place
     key       dotted key. Array entries count from 1: `loading[2].increments`
     value     new value
+    source    name of the option that sets the key, for messages
+    returns   path of the key
 
     Missing tables are created, missing array entries are not. Raises `SceneError` and leaves the
     document unchanged if there is no such key.
@@ -54,7 +55,8 @@ def assign(document: dict[str, Any], key: str, value: Any) -> None:
     if not path:
         expected = "a key such as loading[2].increments"
         raise SceneError([Problem((), f"got the key {shown(key)}", expected)])
-    document.update(_changed(document, path, value, Problem(path, "")))
+    document.update(_changed(document, path, value, Problem(path, "", file=source)))
+    return path
 
 
 def _changed(holder: Any, path: Path, value: Any, problem: Problem) -> Any:

@@ -112,27 +112,15 @@ class _Accuracy(Description):
     accuracy: AccuracyRequest
 
 
-def changed_scene(
-    scene: Scene, changes: Iterable[str | Mapping[str, Any]], keys: Mapping[str, Any]
-) -> Scene:
+def changed_scene(scene: Scene, changes: Mapping[str, Any]) -> Scene:
     """Return a scene with other values of some keys, checked like a scene file; see
     `Scene.replace`.
 
-    changes  texts `dotted.key=value`, or mappings from dotted keys to values
-    keys     values of keys without dots
+    changes  values by dotted keys
     """
     document = dict(scene)
-    for change in (*changes, keys):
-        if isinstance(change, str):
-            override(document, change)
-        elif isinstance(change, Mapping):
-            for key, value in change.items():
-                assign(document, str(key), value)
-        else:
-            raise TypeError(
-                f"got a {type(change).__name__}, expected key=value as a text, or a mapping of "
-                'keys to values such as {"indenter.radius": "12 mm"}'
-            )
+    for key, value in changes.items():
+        assign(document, key, value)
     others = SceneFile.model_fields.keys() - type(scene).model_fields.keys()
     if foreign := document.keys() & others:
         hint = "pass a discretisation to plan and solve"
