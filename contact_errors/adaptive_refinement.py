@@ -15,7 +15,7 @@ least 2.
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -189,18 +189,22 @@ class Levels:
     watching: InContext = lambda _: nullcontext()
     keeping: InContext = lambda _: nullcontext()
 
-    def first(self, *, few_increments: bool = False) -> RefinementLevel:
+    def first(self, run: Fineness | None = None) -> RefinementLevel:
         """Solve the first level: the coarsest discretisation whose cells resolve the contact.
 
         The cells are doubled up to `MAX_DOUBLINGS` times while the solver raises
         ContactNotResolved. Other errors of the solver are raised.
 
-        few_increments  true to reduce the number of increments, to measure the CPU time only
+        run  discretisation of a run whose CPU time is estimated; the level then has few increments
+             and is not finer than the run
         """
-        increments = self.solver.plan.increments
-        if few_increments:
-            increments = coarse_increments(increments)
-        fineness = Fineness(self.solver.first(), increments, self.solver.discretisation.tolerance)
+        fineness = Fineness(
+            self.solver.first(), self.solver.plan.increments, self.solver.discretisation.tolerance
+        )
+        if run is not None:
+            fineness = replace(fineness, increments=coarse_increments(fineness.increments))
+            if self.solver.work(run).unknowns < self.solver.work(fineness).unknowns:
+                return self.solved(replace(fineness, space=run.space))
         for _ in range(MAX_DOUBLINGS):
             try:
                 return self.solved(fineness)

@@ -122,14 +122,14 @@ class Solver(ABC):
 
         begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
         levels = self.levels(begin, fineness, stress=False)
+        run = Fineness(space, plan.increments, fineness.tolerance)
         try:
             with without_cache():
-                level = levels.first(few_increments=True)
+                level = levels.first(run)
         except ContactNotResolved:
             raise
         except SolverError as error:
             return "time", f"not estimated, since a coarse solve failed: {error}"
-        run = Fineness(space, plan.increments, fineness.tolerance)
         work = self.refined(scene, fineness).work(run)
         seconds = time_text(levels.estimated_seconds(level, work))
         return "time", f"{seconds} of one core, error estimates included"
