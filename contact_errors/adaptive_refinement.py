@@ -445,7 +445,7 @@ def targets_of(
       the error of the first level is overestimated by the factor `DOUBT`.
     """
     left_out = {name: why for name in request.shares() if (why := _why_left_out(name, level))}
-    for name in request.named:
+    for name in request.named_quantities:
         if name in left_out:
             raise AccuracyOutOfReach(f"{name} can have no requested accuracy: {left_out[name]}")
     shares = {name: share for name, share in request.shares().items() if name not in left_out}

@@ -32,7 +32,7 @@ from contact_scene.quantities.stated_error import (
 )
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SolverError
-from contact_scene.stepping.increment_error import with_error
+from contact_scene.stepping.increment_error import has_increment_error
 
 # Coarse solves: description, fraction of the cells along a side, and number of additional cells.
 # The edges of contact and stick zone lie at other positions within the cells of each.
@@ -253,7 +253,9 @@ class DiscretisedSolver(ABC):
             space=self.finer(fineness.space, by),
             increments=tuple(
                 ceil(by.get("increments", 1.0) * count - 1e-9) if matters else count
-                for count, matters in zip(fineness.increments, with_error(self.scene), strict=True)
+                for count, matters in zip(
+                    fineness.increments, has_increment_error(self.scene), strict=True
+                )
             ),
             tolerance=max(LEAST_TOLERANCE, fineness.tolerance / by.get("tolerance", 1.0)),
         )
@@ -287,7 +289,11 @@ def solved_run(
     solver  solver of the scene with variable discretisation
     result  result whose errors are estimated
     """
-    values, matters, features = values_of(result), with_error(result.scene), solver.features(result)
+    values, matters, features = (
+        values_of(result),
+        has_increment_error(result.scene),
+        solver.features(result),
+    )
     run = solver.fineness_of(result)
     run = replace(run, tolerance=max(run.tolerance, coarse_tolerance(features)))
     known: dict[Fineness, Solved | None] = {}

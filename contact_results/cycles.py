@@ -142,7 +142,7 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
             stress = tension.within(path) if tension else None
             found = _fretting_cycle(surface, cycle, path, stress)
             loop = loop_numbers(path, found.energy_per_cycle, result.scene.friction, surface)
-            cycles.append(fields.stored(replace(found, loop={"from_virgin": not cycles, **loop})))
+            cycles.append(fields.store(replace(found, loop={"from_virgin": not cycles, **loop})))
     return tuple(cycles)
 
 

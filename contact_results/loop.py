@@ -63,7 +63,7 @@ def loop_numbers(
     actuated = _components_along(path, "actuator_shift", along)
     Q, shift, opening = _half_range(forces), _half_range(shifts), _half_opening(forces, shifts)
     moved = shift if actuated is None else _half_range(actuated)
-    limit = friction.carried(end.normal_force) if friction else None
+    limit = friction.largest_tangential_force(end.normal_force) if friction else None
     if dissipated <= NO_SLIP * Q * shift:
         numbers["regime"] = Regime.STICK
     return numbers | {

@@ -11,13 +11,13 @@ from contact_scene import HeightMap
 from contact_scene.array_types import Field
 from contact_scene.body_pair import contact_modulus
 from contact_scene.checks.expected_contact import beyond_linear_theory
-from contact_scene.checks.plausibility import unlikely
+from contact_scene.checks.plausibility import unlikely_numbers
 from contact_scene.height_map import interpolate
 from contact_scene.quantities.cycles import load_cycles
 from contact_scene.stepping.increment_error import (
     NEAR_GROSS_SLIP,
+    has_increment_error,
     near_gross_slip,
-    with_error,
 )
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def warnings_of(result: Result) -> tuple[str, ...]:
     They concern implausible input, large strains, the path of the loads, and unresolved details.
     """
     found = (
-        *unlikely(result.scene),
+        *unlikely_numbers(result.scene),
         *beyond_linear_theory(result.scene, result.steps),
         *_warn_of_gross_slip(result),
         *_warn_of_first_cycle(result),
@@ -76,7 +76,7 @@ def _warn_of_first_cycle(result: Result) -> Iterator[str]:
     """
     path = result.scene.load_path()
     cycles = load_cycles(path)
-    if cycles and with_error(result.scene)[cycles[0].end - 1]:
+    if cycles and has_increment_error(result.scene)[cycles[0].end - 1]:
         first = cycles[0]
         yield (
             f"the load cycle of steps {first.start + 1} to {first.end} is the first one and starts "

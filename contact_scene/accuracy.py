@@ -11,7 +11,7 @@ from contact_scene.quantities.field_metadata import (
     reported,
 )
 from contact_scene.quantities.increment import State
-from contact_scene.quantities.summary import Closed
+from contact_scene.quantities.summary import ClosedCycle
 from contact_scene.reading.description import Description
 from contact_scene.reading.quantity import Share
 from contact_scene.reading.scene_error import (
@@ -35,7 +35,7 @@ BOUND = {
     name: annotation
     for name, annotation in {
         **reported(State),
-        **reported(Closed),
+        **reported(ClosedCycle),
         LARGEST_TENSION: TENSION,
     }.items()
     if annotation.physical and annotation.unit
@@ -71,7 +71,7 @@ class AccuracyRequest(_Named):
         return self
 
     @property
-    def named(self) -> tuple[str, ...]:
+    def named_quantities(self) -> tuple[str, ...]:
         """Names of the quantities with an error limit by name, in the order of the results."""
         return tuple(name for name in BOUND if getattr(self, name) is not None)
 
@@ -82,12 +82,12 @@ class AccuracyRequest(_Named):
         largest value of the scalar in the load history.
         """
         overall = {} if self.overall is None else dict.fromkeys(OVERALL, self.overall)
-        return overall | {name: getattr(self, name) for name in self.named}
+        return overall | {name: getattr(self, name) for name in self.named_quantities}
 
     @property
     def binds_stress(self) -> bool:
         """True if the request limits the error of the largest principal stress in the body."""
-        return LARGEST_TENSION in self.named
+        return LARGEST_TENSION in self.named_quantities
 
 
 def accuracy_texts(text: str) -> dict[str, Any]:

@@ -51,7 +51,7 @@ def outermost_beta(scene: Scene) -> float:
     """
     difference = total = 0.0
     for sign, body in ((1, scene.body), (-1, scene.indenter)):
-        material = _outermost(body)
+        material = _outermost_material(body)
         if isinstance(material, IsotropicMaterial):
             nu, G = material.poisson_ratio, material.shear_modulus
             difference += sign * (1 - 2 * nu) / G
@@ -64,7 +64,7 @@ def contact_modulus(scene: Scene) -> float:
 
     1/E* is the sum of (1-ν²)/E over the elastic ones of the two materials.
     """
-    outermost = map(_outermost, (scene.body, scene.indenter))
+    outermost = map(_outermost_material, (scene.body, scene.indenter))
     return 1 / sum(
         1 / material.plane_strain_modulus
         for material in outermost
@@ -72,7 +72,7 @@ def contact_modulus(scene: Scene) -> float:
     )
 
 
-def _outermost(body: Body) -> Material:
+def _outermost_material(body: Body) -> Material:
     return body.layers[0].material if body.layers else body.material
 
 

@@ -50,7 +50,7 @@ def stress_by(strain: Sequence[float], body: Body, layer: int) -> Vector:
     return np.array([*sides, 0.0, 0.0, 0.0, 2 * material.shear_modulus * xy])
 
 
-def with_strain(increment: Reported, strain: Strain | None) -> Reported:
+def add_bulk_strain(increment: Reported, strain: Strain | None) -> Reported:
     """Enter the bulk strain of the lower body at the end of an increment in its results.
 
     increment  results of the increment
@@ -63,7 +63,7 @@ def with_strain(increment: Reported, strain: Strain | None) -> Reported:
     return cast(Reported, replace(cast(Any, increment), **changes))
 
 
-def around_axis(strains: Sequence[Strain], pushed: bool) -> bool:
+def requires_bulk_strain(strains: Sequence[Strain], pushed: bool) -> bool:
     """Return true if an axisymmetric solver has to apply a bulk strain of the lower body.
 
     Such a solver can apply an equibiaxial strain only, without a tangential load or torsion. Raises

@@ -98,14 +98,6 @@ class FiniteElementDiscretisation(Description):
     tolerance: Tolerance = 1e-8
     """Limit of every dimensionless residual at the end of an increment."""
 
-    def refined(self) -> "FiniteElementDiscretisation":
-        """Return the settings of a mesh with twice the number of elements per contact radius.
-
-        Raises ValueError if the doubled number exceeds the limit of `elements_per_radius`.
-        """
-        finer = {**self.model_dump(), "elements_per_radius": 2 * self.elements_per_radius}
-        return FiniteElementDiscretisation.model_validate(finer)
-
 
 class RadialDiscretisation(Description):
     """Output points and tolerance of the radial solver, which chooses its orders and points."""

@@ -32,7 +32,7 @@ _ignored = ContextVar("_ignored", default=False)
 log = logging.getLogger(__name__)
 
 
-def remembered(
+def cached_array(
     identity: str, shape: tuple[int, ...], compute: Callable[[], NDArray[np.float64]]
 ) -> NDArray[np.float64]:
     """Return an array from the disk cache, or compute the array and store it there.
@@ -46,11 +46,11 @@ def remembered(
     if directory is None or _ignored.get():
         return compute()
     path = directory / (key + SUFFIX)
-    values = _read(path, key, shape)
+    values = _read_entry(path, key, shape)
     if values is None:
         values = compute()
         with contextlib.suppress(OSError):
-            _write(path, key, values)
+            _write_entry(path, key, values)
     return values
 
 
@@ -82,7 +82,7 @@ def cache_directory() -> Path | None:
         return None
 
 
-def _read(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.float64] | None:
+def _read_entry(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.float64] | None:
     """Read an array from its file in the disk cache.
 
     Returns None if the file is missing, unreadable or damaged, or belongs to another key.
@@ -100,7 +100,7 @@ def _read(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.float64] |
     except OSError as error:
         log.warning("%s cannot be used: %s; computed again", path, error.strerror)
         return None
-    if len(body) != size or header != _header(key, body):
+    if len(body) != size or header != _entry_header(key, body):
         what = "is damaged" if header.startswith(FIRST_LINE) else "is no array of this version"
         log.warning("%s %s; computed again", path, what)
         return None
@@ -109,7 +109,7 @@ def _read(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.float64] |
     return np.frombuffer(body, "<f8").reshape(shape).astype(np.float64)
 
 
-def _write(path: Path, key: str, values: NDArray[np.float64]) -> None:
+def _write_entry(path: Path, key: str, values: NDArray[np.float64]) -> None:
     """Store an array in the disk cache atomically, and delete the entries beyond its largest size.
 
     An array larger than a quarter of the cache is not stored.
@@ -121,21 +121,21 @@ def _write(path: Path, key: str, values: NDArray[np.float64]) -> None:
     handle, temporary = tempfile.mkstemp(suffix=SUFFIX, dir=path.parent)
     try:
         with os.fdopen(handle, "wb") as file:
-            file.write(_header(key, body))
+            file.write(_entry_header(key, body))
             file.write(body)
         os.replace(temporary, path)
     except BaseException:
         os.unlink(temporary)
         raise
-    _make_room(path)
+    _delete_old_entries(path)
 
 
-def _header(key: str, body: bytes) -> bytes:
+def _entry_header(key: str, body: bytes) -> bytes:
     """Build the header of a cache file: format, key of the entry and checksum of the numbers."""
     return FIRST_LINE + f"{key}\n{sha256(body).hexdigest()}\n".encode()
 
 
-def _make_room(newest: Path) -> None:
+def _delete_old_entries(newest: Path) -> None:
     """Delete the least recently used entries of the disk cache above its size LARGEST_CACHE.
 
     Files without the suffix of the cache remain.

@@ -89,7 +89,7 @@ class FrictionMap(Description):
             np.allclose(values, image, rtol=0.0, atol=nearly) for image in images
         )
 
-    def on(self, cells: tuple[int, int], spacing: Pair) -> "FrictionMap":
+    def on_grid(self, cells: tuple[int, int], spacing: Pair) -> "FrictionMap":
         """Interpolate the map of the coefficient of friction at the cell centres of a grid.
 
         The grid is centred on the origin of the contact.
@@ -109,13 +109,13 @@ class FrictionMap(Description):
         return FrictionMap.model_validate({"map": values, "spacing": spacing})
 
 
-def _kind(value: Any) -> str:
+def _coefficient_kind(value: Any) -> str:
     return "<mapped>" if isinstance(value, dict | FrictionMap) else "<uniform>"
 
 
 Coefficient = Annotated[
     Annotated[FrictionCoefficient, Tag("<uniform>")] | Annotated[FrictionMap, Tag("<mapped>")],
-    Discriminator(_kind),
+    Discriminator(_coefficient_kind),
 ]
 
 
@@ -134,12 +134,12 @@ class CoulombFriction(Description):
         """Coefficient µ if the friction limit is µ times the pressure with equal µ everywhere; else
         None."""
         lowest, highest = self.slope(0.0), self.slope(HIGHEST_PRESSURE)
-        if self.varying is not None or not np.array_equal(lowest, highest):
+        if self.coefficient_map is not None or not np.array_equal(lowest, highest):
             return None
         return float(lowest)
 
     @property
-    def varying(self) -> FrictionMap | None:
+    def coefficient_map(self) -> FrictionMap | None:
         """Map of the coefficient of friction; None if the coefficient is uniform."""
         mu = self.coefficient
         return mu if isinstance(mu, FrictionMap) and mu.constant is None else None
@@ -150,7 +150,7 @@ class CoulombFriction(Description):
         defined [length]; None without a map."""
         return self.coefficient.extent if isinstance(self.coefficient, FrictionMap) else None
 
-    def on(self, cells: tuple[int, int], spacing: Pair) -> "CoulombFriction":
+    def on_grid(self, cells: tuple[int, int], spacing: Pair) -> "CoulombFriction":
         """Return the friction law with its map interpolated at the cell centres of a grid.
 
         The grid is centred on the origin of the contact. A law with a uniform coefficient is
@@ -163,7 +163,7 @@ class CoulombFriction(Description):
         """
         if not isinstance(self.coefficient, FrictionMap):
             return self
-        return CoulombFriction(coefficient=self.coefficient.on(cells, spacing))
+        return CoulombFriction(coefficient=self.coefficient.on_grid(cells, spacing))
 
     @property
     def is_even(self) -> bool:
@@ -172,7 +172,7 @@ class CoulombFriction(Description):
         The four coefficients at (±x, ±y) are then equal, to round-off. A uniform coefficient is
         symmetric.
         """
-        return self.varying is None or self.varying.is_even
+        return self.coefficient_map is None or self.coefficient_map.is_even
 
     @property
     def largest(self) -> float:
@@ -207,7 +207,7 @@ class CoulombFriction(Description):
             return mu
         return mu.map.values[where] if mu.constant is None else mu.constant
 
-    def carried(self, normal_force: float) -> float | None:
+    def largest_tangential_force(self, normal_force: float) -> float | None:
         """Compute the largest tangential force that friction carries under a normal force [force].
 
         Returns None if this force depends on the distribution of the pressure.

@@ -14,7 +14,7 @@ from contact_scene.body import Body
 from contact_scene.height_map import (
     HeightUnit,
     PairOfSpacings,
-    filled,
+    fill_missing_heights,
     interpolate,
     lowest_point,
 )
@@ -341,16 +341,17 @@ class HeightMap(ShapedBody):
 
     @model_validator(mode="after")
     def _is_measured(self) -> "HeightMap":
-        if self.unmeasured > _MAX_UNMEASURED:
+        if self.unmeasured_fraction > _MAX_UNMEASURED:
+            missing = f"{self.unmeasured_fraction:.0%}"
             raise refusal(
-                f"the map {self.file} has no height at {self.unmeasured:.0%} of its points",
+                f"the map {self.file} has no height at {missing} of its points",
                 f"at most {_MAX_UNMEASURED:.0%}",
                 "cut the map to its measured area",
             )
         return self
 
     @property
-    def unmeasured(self) -> float:
+    def unmeasured_fraction(self) -> float:
         """Fraction of the points of the height map without a measured height."""
         return float(np.mean(np.isnan(self.file.values)))
 
@@ -358,12 +359,12 @@ class HeightMap(ShapedBody):
     def heights(self) -> Gap:
         """Heights of the map above the body [length], with interpolated values at points without a
         measurement."""
-        return _surface(self.file, self.height_unit, self.flip)[0]
+        return _interpolated_surface(self.file, self.height_unit, self.flip)[0]
 
     @property
     def lowest_on_rim(self) -> bool:
         """True if the point of first contact lies on the boundary of the height map."""
-        *_, place = _surface(self.file, self.height_unit, self.flip)
+        *_, place = _interpolated_surface(self.file, self.height_unit, self.flip)
         return any(at in (0.0, n - 1.0) for at, n in zip(place, self.file.shape, strict=True))
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
@@ -373,12 +374,14 @@ class HeightMap(ShapedBody):
         The lowest point is the minimum of the interpolated surface between the outermost points of
         the map. Raises ValueError if a point (x, y) lies outside the map.
         """
-        heights, lowest, dip, _ = _surface(self.file, self.height_unit, self.flip)
+        heights, lowest, dip, _ = _interpolated_surface(self.file, self.height_unit, self.flip)
         return np.asarray(interpolate(heights - lowest, self.spacing, x, y) - dip)
 
 
 @lru_cache(maxsize=2)
-def _surface(file: ArrayFile, unit: float, flip: bool) -> tuple[Gap, float, float, Pair]:
+def _interpolated_surface(
+    file: ArrayFile, unit: float, flip: bool
+) -> tuple[Gap, float, float, Pair]:
     """Evaluate the heights of a map and the minimum of their interpolated surface.
 
     file     measured values, with NaN at points without a measurement
@@ -390,7 +393,7 @@ def _surface(file: ArrayFile, unit: float, flip: bool) -> tuple[Gap, float, floa
     """
     factor = -unit if flip else unit
     heights = file.values if factor == 1.0 else factor * file.values
-    heights = filled(heights)
+    heights = fill_missing_heights(heights)
     return heights, float(np.min(heights)), *lowest_point(heights)
 
 
@@ -416,7 +419,7 @@ def nearest_shape(written: Any) -> str:
     return next(iter(get_close_matches(name, SHAPES, n=1)), "")
 
 
-def _branch(value: Any) -> str:
+def _indenter_tag(value: Any) -> str:
     """Return the tag of the indenter class that validates the indenter of a scene.
 
     A table with a misspelt shape is validated by the class of the most similar shape, so that all
@@ -435,5 +438,5 @@ Indenter = Annotated[
     | Annotated[Cone, Tag("<cone>")]
     | Annotated[FlatPunch, Tag("<flat_punch>")]
     | Annotated[HeightMap, Tag("<height_map>")],
-    Discriminator(_branch),
+    Discriminator(_indenter_tag),
 ]

@@ -44,7 +44,7 @@ def _is_name(value: Any) -> bool:
     return isinstance(value, str) and value[:1].isalpha()
 
 
-def filled(heights: NDArray[np.float64]) -> NDArray[np.float64]:
+def fill_missing_heights(heights: NDArray[np.float64]) -> NDArray[np.float64]:
     """Replace the missing heights of a map (NaN) by interpolated heights that solve Laplace's
     equation.
 
@@ -63,7 +63,7 @@ def filled(heights: NDArray[np.float64]) -> NDArray[np.float64]:
         .sum(axis=(1, 3))
         for one in (np.where(known, heights, 0.0), known)
     )
-    coarse = filled(sums / np.where(counts, counts, np.nan))
+    coarse = fill_missing_heights(sums / np.where(counts, counts, np.nan))
     found = np.where(known, heights, coarse.repeat(2, axis=0).repeat(2, axis=1)[:nx, :ny])
     i, j = np.nonzero(~known)
     around = [
@@ -103,9 +103,9 @@ def interpolate(
         For coordinates outside the cells of the map.
     """
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
-    i, s = _locate(x, heights.shape[0], spacing[0], "x")
-    j, t = _locate(y, heights.shape[1], spacing[1], "y")
-    return _convolved(_continued(_continued(heights).T).T, i, s, j, t)
+    i, s = _locate_between_points(x, heights.shape[0], spacing[0], "x")
+    j, t = _locate_between_points(y, heights.shape[1], spacing[1], "y")
+    return _evaluate_convolution(_extrapolate_rows(_extrapolate_rows(heights).T).T, i, s, j, t)
 
 
 def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, float]]:
@@ -123,14 +123,16 @@ def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, floa
     lowest, place, last = 0.0, (float(x), float(y)), len(heights) - 1
     count = max(1, _BLOCK // heights.shape[1])
     for begin in range(0, last, count):
-        rows = _with_neighbours(heights, begin, min(begin + count, last)) - heights[x, y]
+        rows = _rows_with_neighbours(heights, begin, min(begin + count, last)) - heights[x, y]
         found, at = _lowest_between(rows, lowest)
         if found < lowest:
             lowest, place = found, (begin + at[0], at[1])
     return lowest, place
 
 
-def _with_neighbours(heights: NDArray[np.float64], begin: int, end: int) -> NDArray[np.float64]:
+def _rows_with_neighbours(
+    heights: NDArray[np.float64], begin: int, end: int
+) -> NDArray[np.float64]:
     """Return a block of rows of a height map, with one more row or column on every side.
 
     The added rows and columns are those of the map; beyond the outermost points they are
@@ -140,7 +142,7 @@ def _with_neighbours(heights: NDArray[np.float64], begin: int, end: int) -> NDAr
     begin, end  first and last row of the block
     """
     first = max(begin - 3, 0)  # extrapolation takes three rows
-    padded = _continued(_continued(heights[first : end + 4]).T).T
+    padded = _extrapolate_rows(_extrapolate_rows(heights[first : end + 4]).T).T
     return np.asarray(padded[begin - first + 1 : end - first + 4, 1:-1])
 
 
@@ -167,7 +169,7 @@ def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, t
             np.minimum(np.floor(z), end - 1).astype(np.intp)
             for z, end in zip((x, y), last, strict=True)
         )
-        values = _convolved(padded, i, x - i, j, y - j).reshape(len(x), -1)
+        values = _evaluate_convolution(padded, i, x - i, j, y - j).reshape(len(x), -1)
         at = np.argmin(values, axis=1)
         best = np.argsort(values[np.arange(len(at)), at])[:_PATCHES]
         centres = np.stack([c.reshape(len(x), -1)[best, at[best]] for c in (x, y)], axis=1)
@@ -189,17 +191,17 @@ def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.floa
              (count, 2)
     """
 
-    def of_four(extreme: np.ufunc, rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    def extreme_of_four(extreme: np.ufunc, rows: NDArray[np.float64]) -> NDArray[np.float64]:
         along = reduce(extreme, (rows[k : len(rows) - 3 + k] for k in range(4))).T
         return np.asarray(reduce(extreme, (along[k : len(along) - 3 + k] for k in range(4))).T)
 
-    least, most = of_four(np.minimum, padded), of_four(np.maximum, padded)
+    least, most = extreme_of_four(np.minimum, padded), extreme_of_four(np.maximum, padded)
     bound = least - _NEGATIVE_WEIGHTS * (most - least)
     found = np.argwhere(bound < limit) + 0.5
     return np.asarray(found[np.argsort(bound[bound < limit])[:_MAX_PATCHES]])
 
 
-def _convolved(
+def _evaluate_convolution(
     padded: NDArray[np.float64],
     i: NDArray[np.intp],
     s: NDArray[np.float64],
@@ -212,7 +214,7 @@ def _convolved(
     i, j    indices of the first of the four values along each axis, in the padded map
     s, t    distances of the points from the second value, in spacings
     """
-    across, along = _weights(s), _weights(t)
+    across, along = _convolution_weights(s), _convolution_weights(t)
     result = np.zeros(np.broadcast_shapes(s.shape, t.shape))
     for k in range(4):
         for m in range(4):
@@ -235,14 +237,14 @@ def interpolate_between(
     Raises ValueError for coordinates outside the cells of the map.
     """
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
-    i, s = _locate(x, values.shape[0], spacing[0], "x")
-    j, t = _locate(y, values.shape[1], spacing[1], "y")
+    i, s = _locate_between_points(x, values.shape[0], spacing[0], "x")
+    j, t = _locate_between_points(y, values.shape[1], spacing[1], "y")
     padded = np.pad(values, 1, mode="edge")
     before, after = ((1 - t) * padded[k, j] + t * padded[k, j + 1] for k in (i, i + 1))
     return np.asarray((1 - s) * before + s * after)
 
 
-def _locate(
+def _locate_between_points(
     coordinate: NDArray[np.float64], count: int, spacing: float, axis: str
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """Determine the position of coordinates between the points of a map along one axis.
@@ -271,7 +273,7 @@ def _locate(
     return index.astype(np.intp) + 1, position - index
 
 
-def _continued(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+def _extrapolate_rows(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     """Extrapolate a map beyond its outermost rows, for cubic convolution at the boundary.
 
     Two rows are added before the first and two after the last row. The extrapolation in each column
@@ -284,7 +286,7 @@ def _continued(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.concatenate([[second, first], rows, [last, after]])
 
 
-def _weights(t: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
+def _convolution_weights(t: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
     """Compute the four weights of cubic convolution along one axis (Keys 1981).
 
     t  distance of the point from the second of the four values, in spacings, from 0 to 1

@@ -81,17 +81,17 @@ class LoadStep(Description):
     @model_validator(mode="after")
     def _names_one_control_each(self) -> "LoadStep":
         for force, displacement in CONTROLS:
-            if self._names(force) and self._names(displacement):
+            if self._prescribes(force) and self._prescribes(displacement):
                 raise refusal(f"got both {force} and {displacement}", "one of them")
-        if not any(self._names(control) for pair in CONTROLS for control in pair):
+        if not any(self._prescribes(control) for pair in CONTROLS for control in pair):
             keys = ", ".join(control for pair in CONTROLS for control in pair)
             raise refusal("the step names no load", f"at least one of {keys}")
         return self
 
-    def _names(self, key: str) -> bool:
+    def _prescribes(self, key: str) -> bool:
         return getattr(self, key) is not None
 
     @property
-    def names_normal(self) -> bool:
+    def prescribes_normal(self) -> bool:
         """True if the load step prescribes a normal force or an approach."""
-        return self._names("normal_force") or self._names("approach")
+        return self._prescribes("normal_force") or self._prescribes("approach")

@@ -36,12 +36,12 @@ def one_thread() -> Iterator[None]:
 
     Several threads sum in another order, which changes bits, and are slower for small systems.
     """
-    with _libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
+    with _threaded_libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
         yield
 
 
 @lru_cache(maxsize=1)
-def _libraries(imported: int) -> ThreadpoolController:
+def _threaded_libraries(imported: int) -> ThreadpoolController:
     """Find the loaded libraries whose threads can be limited (BLAS, OpenMP), with a cache.
 
     imported  number of imported modules, the key of the cache; a new search is needed only after an

@@ -41,11 +41,11 @@ class Rigid(Enum):
 RIGID = Rigid.RIGID
 
 
-def _kind(value: Any) -> str:
+def _material_kind(value: Any) -> str:
     return "<rigid>" if isinstance(value, str | Rigid) else "<elastic>"
 
 
 Material = Annotated[
     Annotated[IsotropicMaterial, Tag("<elastic>")] | Annotated[Rigid, Tag("<rigid>")],
-    Discriminator(_kind),
+    Discriminator(_material_kind),
 ]

@@ -37,19 +37,19 @@ def normal_form(scene: Scene) -> Scene:
         indenter = Paraboloid(
             material=indenter.material, layers=indenter.layers, radius=indenter.radii[0]
         )
-    merged = {"indenter": _merged(indenter), "body": _merged(scene.body)}
+    merged = {"indenter": _merge_equal_layers(indenter), "body": _merge_equal_layers(scene.body)}
     shears = any(any(ramp.tangential.end) or ramp.twisting.end for ramp in ramps)
     friction = scene.friction
     if friction is not None and friction.largest == 0.0 and not shears:
         friction = None
     found = scene.model_copy(update={**merged, "friction": friction})
-    unnamed = _unnamed(found, ramps)
-    steps = tuple(_without(step, unnamed) for step in scene.loading)
+    unnamed = _controls_without_effect(found, ramps)
+    steps = tuple(_replace_controls(step, unnamed) for step in scene.loading)
     found = found.model_copy(update={"loading": steps})
     return scene if found == scene else found
 
 
-def _merged(body: B) -> B:
+def _merge_equal_layers(body: B) -> B:
     """Return a body in which adjacent layers of equal material are merged into one layer.
 
     A lowest layer that has the material of the substrate becomes part of the substrate.
@@ -64,7 +64,7 @@ def _merged(body: B) -> B:
     return body.model_copy(update={"layers": tuple(layers)})
 
 
-def _unnamed(scene: Scene, ramps: tuple[LoadRamp, ...]) -> Unnamed:
+def _controls_without_effect(scene: Scene, ramps: tuple[LoadRamp, ...]) -> Unnamed:
     """Determine the controls of a scene that have no effect and are replaced by the defaults.
 
     A control prescribes a force or a displacement of one coordinate of the indenter. Such a control
@@ -95,7 +95,7 @@ def _unnamed(scene: Scene, ramps: tuple[LoadRamp, ...]) -> Unnamed:
     return found
 
 
-def _without(step: LoadStep, unnamed: Unnamed) -> LoadStep:
+def _replace_controls(step: LoadStep, unnamed: Unnamed) -> LoadStep:
     named = {k: v for k, v in unnamed.items() if getattr(step, k) is not None}
     if not named:
         return step

@@ -71,7 +71,7 @@ def prescribed_motions(rig: Rig | None) -> tuple[str, str]:
     return approach, shift
 
 
-def of_contact(increment: Reported, rig: Rig | None) -> Reported:
+def add_contact_displacements(increment: Reported, rig: Rig | None) -> Reported:
     """Add the displacements of the contact to an increment solved with springs of a test rig.
 
     Such a solve yields the displacements of the actuator. The displacement of the contact is

@@ -84,9 +84,9 @@ class Scene(Description):
         SceneError
             With every mistake in the changed scene.
         """
-        from contact_scene.reading.scene_file import changed_scene
+        from contact_scene.reading.scene_file import replace_keys
 
-        return changed_scene(self, changes)
+        return replace_keys(self, changes)
 
     def with_increments(self, increments: Sequence[int]) -> "Scene":
         """Return the scene with other numbers of increments.

@@ -23,7 +23,7 @@ from contact_scene.quantities.increment import (
     State,
 )
 from contact_scene.quantities.ring_increment import RingIncrement
-from contact_scene.quantities.summary import Closed
+from contact_scene.quantities.summary import ClosedCycle
 from contact_scene.reading.description import field_descriptions
 from contact_scene.reading.quantity import Quantity
 from contact_scene.rig import Rig
@@ -47,7 +47,7 @@ TABLES: dict[str, type[BaseModel]] = {
 }
 COLUMNS = {
     "State at the end of an increment": State,
-    "Closed load cycles": Closed,
+    "Closed load cycles": ClosedCycle,
     "Fields on cells": Increment,
     "Fields on rings": RingIncrement,
     "Residual and edge correction": Quality,

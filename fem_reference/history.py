@@ -13,14 +13,14 @@ import numpy as np
 from contact_scene import LoadRamp, Scene
 from contact_scene.array_types import Field
 from contact_scene.bulk_strain import UNSTRAINED
-from contact_scene.rig import of_contact
+from contact_scene.rig import add_contact_displacements
 from contact_scene.stepping.checkpoint import (
     Checkpoint,
     ResumePoint,
 )
 from contact_scene.stepping.load_path import ScalarControl
 from contact_scene.stepping.load_stepping import (
-    Reached,
+    ConvergedIncrement,
     resumable_increments,
 )
 from fem_reference.contact.method import ContactMethod
@@ -116,7 +116,7 @@ class _IncrementSolver:
         """
         return np.array(np.broadcast_to(self.method.undeformed_gap, last.gap.T.shape).T)
 
-    def report(self, reached: Reached[PointState], last: Increment | None) -> Increment:
+    def report(self, reached: ConvergedIncrement[PointState], last: Increment | None) -> Increment:
         """Convert a solved state to an increment of the result.
 
         The increment includes the energies and the displacements of the rig's springs.
@@ -127,7 +127,7 @@ class _IncrementSolver:
         """
         increment = self.method.increment(reached.state, reached.place)
         increment = replace(increment, halvings=reached.halvings)
-        increment = of_contact(increment, self.scene.rig)
+        increment = add_contact_displacements(increment, self.scene.rig)
         resisted = self.method.work_on_strain(reached.before, reached.state)
         return add_energies(self.scene, self.method.plan, last, increment, resisted)
 

@@ -9,7 +9,7 @@ from contact_scene.body_pair import (
     coupling,
     refuse_contrast,
 )
-from contact_scene.bulk_strain import around_axis
+from contact_scene.bulk_strain import requires_bulk_strain
 from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
 from contact_scene.normal_form import normal_form
@@ -94,7 +94,7 @@ def plan(scene: Scene) -> Plan:
     couples = couples and rough
     _refuse_loads(scene, loaded, twisted, couples)
     strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
-    strained = around_axis(strains, friction and (loaded or twisted))
+    strained = requires_bulk_strain(strains, friction and (loaded or twisted))
     path = _choose_path(friction, loaded, twisted, couples or (rough and strained))
     matters = _path_matters(ramps, path)
     return Plan(
@@ -169,7 +169,7 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
     pressing = ramp.normal.start != ramp.normal.end or ramp.strains
     if pressing or not by_force:
         return PATH_INCREMENTS
-    limit = friction.carried(ramp.normal.end) if friction is not None else None
+    limit = friction.largest_tangential_force(ramp.normal.end) if friction is not None else None
     if limit is None:
         return PATH_INCREMENTS
     start, end = ramp.tangential.start or (0.0, 0.0), ramp.tangential.end
@@ -220,7 +220,7 @@ def _refuse_shapes(scene: Scene) -> None:
             f"the indenter is not axisymmetric ({shape_text(indenter)}), and this solver requires "
             "bodies of revolution; solve it with the semi-analytical solver"
         )
-    if friction is not None and friction.varying is not None:
+    if friction is not None and friction.coefficient_map is not None:
         raise UnsupportedScene(
             "the coefficient of friction is a map, and this solver requires one number. Give one "
             "number"

@@ -10,7 +10,7 @@ from contact_scene.solver_errors import ContactAtZoneEdge
 from contact_scene.stepping.checkpoint import (
     CheckpointStore,
     ResumePoint,
-    with_checkpoints,
+    store_checkpoints,
 )
 from fem_reference.compliance.angular_grid import end_grid
 from fem_reference.contact.augmented_lagrangian import Penalty
@@ -85,7 +85,7 @@ def solve(
         history = resumable_solve(solver, discretisation.tolerance, last)
         try:
             increments = tuple(
-                with_checkpoints(
+                store_checkpoints(
                     _count_factorisations(model, history),
                     last,
                     store,

@@ -16,13 +16,13 @@ from contact_scene.array_types import Array
 from contact_scene.machine import one_thread
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.residuals import Residuals
-from contact_scene.rig import of_contact
+from contact_scene.rig import add_contact_displacements
 from contact_scene.stepping.checkpoint import (
     CheckpointStore,
-    with_checkpoints,
+    store_checkpoints,
 )
 from contact_scene.stepping.load_stepping import (
-    Reached,
+    ConvergedIncrement,
     resumable_increments,
 )
 from radial.fields import Increment, Result
@@ -91,7 +91,7 @@ def solve(
     solver = _create_solver(scene, discretisation, decided)
     last = store.last() if store else None
     history = resumable_increments(scene, decided.increments, solver, last)
-    increments = with_checkpoints(history, last, store, progress, None)
+    increments = store_checkpoints(history, last, store, progress, None)
     return Result(scene, discretisation, decided, tuple(increments))
 
 
@@ -186,7 +186,9 @@ class _FrictionlessSteps(StepsOnRings):
                 return found
         return normal_contact(self.bodies, self.scene.indenter, prescribed, self.fineness)
 
-    def report(self, reached: Reached[NormalContact], last: Increment | None) -> Increment:
+    def report(
+        self, reached: ConvergedIncrement[NormalContact], last: Increment | None
+    ) -> Increment:
         """Compute the output of an increment: pressure and gap at rings, energies and residuals.
 
         Raises UnsupportedScene if the contact area is not a disc, and NotConverged if a residual
@@ -233,4 +235,4 @@ class _FrictionlessSteps(StepsOnRings):
             pressure=p,
             gap=gap,
         )
-        return of_contact(increment, self.scene.rig)
+        return add_contact_displacements(increment, self.scene.rig)

@@ -14,7 +14,7 @@ from contact_scene.body_pair import (
     coupling,
     refuse_contrast,
 )
-from contact_scene.bulk_strain import around_axis
+from contact_scene.bulk_strain import requires_bulk_strain
 from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
 from contact_scene.normal_form import normal_form
@@ -112,7 +112,7 @@ def plan(scene: Scene) -> Plan:
     friction, ramps = scene.friction is not None, scene.load_path()
     pushed = friction and any(any(ramp.tangential.end) for ramp in ramps)
     strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
-    strained = around_axis(strains, pushed or any(ramp.twisting.end for ramp in ramps))
+    strained = requires_bulk_strain(strains, pushed or any(ramp.twisting.end for ramp in ramps))
     rough = scene.friction is not None and scene.friction.largest > 0
     frictional = rough and (couples or strained)
     curved = pushed and not along_one_line(ramps)
@@ -194,7 +194,7 @@ def _path_increments(
         return 1
     by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
     assert scene.friction is not None
-    limit = scene.friction.carried(ramp.normal.end)
+    limit = scene.friction.largest_tangential_force(ramp.normal.end)
     if not by_force or start is None or not limit:
         return most
     change = hypot(end[0] - start[0], end[1] - start[1])
@@ -222,7 +222,7 @@ def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) 
     circle      angles of a solve at points (rings × angles); None without such a solve
     """
     assert scene.friction is not None
-    if scene.friction.varying is not None:
+    if scene.friction.coefficient_map is not None:
         raise UnsupportedScene(
             "the coefficient of friction is a map, and this solver requires one number. Give one "
             f"number, or {ELSEWHERE}"

@@ -85,7 +85,7 @@ def _grid_on_window(scene: Scene, asked: SurfaceDiscretisation, window: Pair) ->
 
 
 def _scene_maps(scene: Scene) -> list[HeightMap | FrictionMap]:
-    friction = scene.friction.varying if scene.friction else None
+    friction = scene.friction.coefficient_map if scene.friction else None
     maps = (scene.indenter, friction)
     return [map_ for map_ in maps if isinstance(map_, HeightMap | FrictionMap)]
 

@@ -9,13 +9,13 @@ import numpy as np
 
 from contact_scene import LoadRamp
 from contact_scene.array_types import Field
-from contact_scene.rig import of_contact
+from contact_scene.rig import add_contact_displacements
 from contact_scene.stepping.checkpoint import (
     Checkpoint,
     ResumePoint,
 )
 from contact_scene.stepping.load_stepping import (
-    Reached,
+    ConvergedIncrement,
     resumable_increments,
 )
 from semi_analytical.edge.contact_area import covered_cells
@@ -176,7 +176,7 @@ class _Solver:
         closure = 0.0 if tilt is None else plane(self.model, tilt)
         return self.model.domain.extend(self.model.gap - closure)
 
-    def report(self, reached: Reached[State], last: Increment | None) -> Increment:
+    def report(self, reached: ConvergedIncrement[State], last: Increment | None) -> Increment:
         """Convert a converged state to an increment of the results, with changes and cost since the
         last one.
 
@@ -187,11 +187,15 @@ class _Solver:
         held = before is not None and before.target == after.target
         spreads = self.plan.coupling is not Coupling.NONE or not held
         increment = _reported_increment(self.model, last, reached, spreads=spreads)
-        return of_contact(increment, self.model.scene.rig)
+        return add_contact_displacements(increment, self.model.scene.rig)
 
 
 def _reported_increment(
-    model: ContactModel, last: Increment | None, reached: Reached[State], *, spreads: bool
+    model: ContactModel,
+    last: Increment | None,
+    reached: ConvergedIncrement[State],
+    *,
+    spreads: bool,
 ) -> Increment:
     """Convert a converged state to an increment of the results, with all fields on the full window.
 

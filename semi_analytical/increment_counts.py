@@ -260,7 +260,9 @@ class _LoadStep:
             and normal.start is not None
             and tangential.start is not None
         )
-        limit = bodies.friction.carried(min(normal.start or normal.end, normal.end))
+        limit = bodies.friction.largest_tangential_force(
+            min(normal.start or normal.end, normal.end)
+        )
         if not known or not limit or self.ramp.twisting.end != 0:
             return 1.0, 1.0
         start, end = self.start, tangential.end

@@ -92,7 +92,7 @@ class ContactModel:
         """
         friction = self.scene.friction or FRICTIONLESS
         try:
-            return friction.on(self.window.cells, self.window.spacing)
+            return friction.on_grid(self.window.cells, self.window.spacing)
         except ValueError as error:
             raise UnsupportedScene(f"coefficient of friction: {error}") from None
 

@@ -8,7 +8,7 @@ from contact_scene.normal_form import normal_form
 from contact_scene.solver_errors import ContactAtWindowEdge
 from contact_scene.stepping.checkpoint import (
     CheckpointStore,
-    with_checkpoints,
+    store_checkpoints,
 )
 from semi_analytical.default_grid import (
     discretise,
@@ -79,7 +79,7 @@ def solve(
     last = store.last() if store else None
     since = last if last and last.extent == grid else None
     history = solve_history(model, decided, tolerance, since)
-    increments = with_checkpoints(history, since, store, progress, grid)
+    increments = store_checkpoints(history, since, store, progress, grid)
     return Result(scene, grid, tolerance, decided, tuple(increments))
 
 

@@ -34,7 +34,7 @@ class NothingToCompare(ValueError):
 
 
 @dataclass(frozen=True)
-class Compared:
+class ComparedNumber:
     """Comparison of one measured number with the computed number of a run, in the unit `unit`.
 
     name                description of the number, such as "energy per cycle"
@@ -73,7 +73,7 @@ class Compared:
 
 def comparison(
     table: Mapping[str, Numbers], run: StoredRun, step: int | None = None
-) -> tuple[Compared, ...]:
+) -> tuple[ComparedNumber, ...]:
     """Compare a measured table with a stored run, and return one comparison per number.
 
     Raises NothingToCompare if the columns of the table or the run do not allow a comparison.
@@ -88,9 +88,9 @@ def comparison(
                 raise NothingToCompare("a loop is compared with the last load cycle; omit --step")
             theirs = _Loop(table[motion], table[LOAD])
             theirs.refuse_unless_one_cycle()
-            return tuple(_loops(theirs, run, motion))
+            return tuple(_compare_loops(theirs, run, motion))
     if PLACE in table and {PRESSURE, SHEAR} & table.keys():
-        return tuple(_profiles(table, run, step or len(run.summary.steps)))
+        return tuple(_compare_profiles(table, run, step or len(run.summary.steps)))
     raise NothingToCompare(
         f"got the columns {', '.join(table) or 'none'}, expected shift or actuator_shift with T (a "
         "loop), or x with p or q (a profile); write heads such as 'shift [um]' and 'T [N]'"
@@ -127,7 +127,7 @@ class _Loop:
 
         One branch, several cycles, and a loop without a range of shift are refused.
         """
-        apart = self.shift - _centre(self.shift)
+        apart = self.shift - _loop_centre(self.shift)
         length = float(np.ptp(self.shift))
         outer = np.sign(apart[np.abs(apart) > length / 4])
         cycles = np.count_nonzero(outer != np.roll(outer, 1)) / 2
@@ -147,18 +147,20 @@ class _Loop:
         the way back. The shifts of each branch are in ascending order.
         """
         begin = int(np.argmin(self.shift))
-        shift, force = (np.roll(each, -begin) - _centre(each) for each in (self.shift, self.force))
+        shift, force = (
+            np.roll(each, -begin) - _loop_centre(each) for each in (self.shift, self.force)
+        )
         turn = int(np.argmax(shift))
         back = np.arange(turn, len(shift) + 1)[::-1] % len(shift)
         return (shift[: turn + 1], force[: turn + 1]), (shift[back], force[back])
 
 
-def _centre(values: Numbers) -> float:
+def _loop_centre(values: Numbers) -> float:
     """Return the mean of the largest and the smallest value, the centre of a load loop."""
     return float(np.max(values) + np.min(values)) / 2
 
 
-def _loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compared]:
+def _compare_loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[ComparedNumber]:
     """Compare a measured loop of force over shift with the last load cycle of a run.
 
     Yields the comparisons of centre, slope and area, and then of the forces along the loop. Raises
@@ -183,16 +185,22 @@ def _loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compared]:
     along = change / np.hypot(*change) * np.sign(change[np.argmax(np.abs(change))])
     ours = _Loop(along @ moves, along @ loads)
     of_shift, of_force, of_energy = (
-        _error(end, name) for name in (motion, LOAD, "energy_per_cycle")
+        _stated_error(end, name) for name in (motion, LOAD, "energy_per_cycle")
     )
     of_slope = None
     if of_shift is not None and of_force is not None:
         parts = of_shift / np.ptp(ours.shift) + of_force / np.ptp(ours.force)
         of_slope = float(2 * parts * ours.slope)
-    yield _number("centre of shift", "m", _centre(theirs.shift), _centre(ours.shift), of_shift)
-    yield _number("centre of force", "N", _centre(theirs.force), _centre(ours.force), of_force)
-    yield _number("slope", "N/m", theirs.slope, ours.slope, of_slope)
-    yield _number("energy per cycle", "J", theirs.area, end.energy_per_cycle or 0.0, of_energy)
+    yield _compare_number(
+        "centre of shift", "m", _loop_centre(theirs.shift), _loop_centre(ours.shift), of_shift
+    )
+    yield _compare_number(
+        "centre of force", "N", _loop_centre(theirs.force), _loop_centre(ours.force), of_force
+    )
+    yield _compare_number("slope", "N/m", theirs.slope, ours.slope, of_slope)
+    yield _compare_number(
+        "energy per cycle", "J", theirs.area, end.energy_per_cycle or 0.0, of_energy
+    )
     few, many = sorted((theirs, ours), key=lambda loop: len(loop.shift))
     gaps = [
         force - np.interp(shift, *finer)
@@ -200,11 +208,13 @@ def _loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compared]:
     ]
     theirs_half, ours_half = (float(np.ptp(loop.force)) / 2 for loop in (theirs, ours))
     error = None if of_slope is None else of_slope * float(np.ptp(ours.shift)) / 2
-    gap = _rms(np.concatenate(gaps))
-    yield Compared("force along the loop", "N", theirs_half, ours_half, error, gap)
+    gap = _root_mean_square(np.concatenate(gaps))
+    yield ComparedNumber("force along the loop", "N", theirs_half, ours_half, error, gap)
 
 
-def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterator[Compared]:
+def _compare_profiles(
+    table: Mapping[str, Numbers], run: StoredRun, step: int
+) -> Iterator[ComparedNumber]:
     """Compare measured profiles of pressure and shear with those of a run.
 
     Yields the comparisons of the largest values, and of the values at the positions x of the table.
@@ -224,13 +234,13 @@ def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterat
     }
     # The relative error of tractions is that of the peak pressure; that of shear includes the
     # errors of tangential force and shift.
-    shares = [_share(end, "peak_pressure")]
+    shares = [_relative_error(end, "peak_pressure")]
     for name in (PRESSURE, SHEAR):
         if name not in table:
             continue
         field = of_run[name]
         if name == SHEAR:
-            shares += [_share(end, load) for load in (SHIFT, LOAD)]
+            shares += [_relative_error(end, load) for load in (SHIFT, LOAD)]
         if field is None:
             raise NothingToCompare("the run has no shear; leave the column out or add friction")
         ours = np.interp(table[PLACE], surface.profile_line.places, surface.along(field), 0.0, 0.0)
@@ -238,12 +248,12 @@ def _profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Iterat
         known = [share for share in shares if share is not None]
         error = sum(known) * largest[1] if len(known) == len(shares) else None
         measured, computed = largest
-        yield _number(f"largest {name}", "Pa", measured, computed, error)
-        gap = _rms(table[name] - ours)
-        yield Compared(f"{name} at the places", "Pa", measured, computed, error, gap)
+        yield _compare_number(f"largest {name}", "Pa", measured, computed, error)
+        gap = _root_mean_square(table[name] - ours)
+        yield ComparedNumber(f"{name} at the places", "Pa", measured, computed, error, gap)
 
 
-def _error(end: StepSummary, name: str) -> float | None:
+def _stated_error(end: StepSummary, name: str) -> float | None:
     """Return the stated error of a scalar at the end of a load step; None if unknown.
 
     For a vector, the larger error of its components is returned.
@@ -252,7 +262,7 @@ def _error(end: StepSummary, name: str) -> float | None:
     return None if stated is None or stated.error is None else float(np.max(stated.error))
 
 
-def _share(end: StepSummary, name: str) -> float | None:
+def _relative_error(end: StepSummary, name: str) -> float | None:
     """Return the relative error of a scalar at the end of a load step; None if unknown.
 
     The stated error is divided by the largest component of the scalar.
@@ -260,20 +270,20 @@ def _share(end: StepSummary, name: str) -> float | None:
     end   scalars at the end of a load step
     name  name of the scalar
     """
-    error, value = _error(end, name), np.max(np.abs(getattr(end, name) or 0.0))
+    error, value = _stated_error(end, name), np.max(np.abs(getattr(end, name) or 0.0))
     return error / float(value) if error and value else error
 
 
-def _number(
+def _compare_number(
     name: str, unit: str, measured: float, computed: float, error: float | None
-) -> Compared:
+) -> ComparedNumber:
     """Build the comparison of one measured and one computed number, with their difference.
 
     error  stated error of the computed number; None if unknown
     """
-    return Compared(name, unit, measured, computed, error, abs(measured - computed))
+    return ComparedNumber(name, unit, measured, computed, error, abs(measured - computed))
 
 
-def _rms(values: Numbers) -> float:
+def _root_mean_square(values: Numbers) -> float:
     """Return the root mean square of the differences between a measured and a computed curve."""
     return float(np.sqrt(np.mean(values**2)))

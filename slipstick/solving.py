@@ -76,7 +76,7 @@ def plan(
     UnsupportedScene
         The solver does not support the scene.
     """
-    chosen, solved, fineness = _resolved(scene, solver, discretisation)
+    chosen, solved, fineness = _check_arguments(scene, solver, discretisation)
     return chosen.plan(solved, fineness)
 
 
@@ -146,12 +146,12 @@ def solve(
         UnsupportedScene, NotConverged, GrossSliding, ResourceRefused and others of
         `contact_scene.solver_errors`; AccuracyOutOfReach if the requested accuracy is not met.
     """
-    chosen, solved, fineness = _resolved(scene, solver, discretisation)
+    chosen, solved, fineness = _check_arguments(scene, solver, discretisation)
     if not (progress is None or callable(progress)):
         kind = type(progress).__name__
         raise TypeError(f"progress is a {kind}, expected a function of an increment, or None")
     if isinstance(scene, SceneFile) and scene.accuracy is not None:
-        return _solved_to(scene.accuracy, chosen, solved, fineness, progress)
+        return _solve_to_accuracy(scene.accuracy, chosen, solved, fineness, progress)
     return chosen.solve(solved, fineness, chosen.plan(solved, fineness), progress)
 
 
@@ -216,7 +216,7 @@ def save(
         )
 
 
-def _solved_to(
+def _solve_to_accuracy(
     request: AccuracyRequest,
     chosen: Solver,
     scene: Scene,
@@ -240,7 +240,7 @@ def _solved_to(
     return made.level.result
 
 
-def _resolved(
+def _check_arguments(
     scene: Scene | SceneFile, solver: str, discretisation: Discretisation | None
 ) -> tuple[Solver, Scene, Discretisation]:
     """Check the arguments of `plan` and `solve`; return solver, scene and discretisation.

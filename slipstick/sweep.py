@@ -220,7 +220,7 @@ class SweepPoint:
             yield name, (value, error, "", "Pa")
 
 
-def points(
+def sweep_points(
     file: Path,
     overrides: Sequence[str],
     variations: Sequence[Variation],

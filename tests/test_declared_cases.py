@@ -24,10 +24,10 @@ from verification.judging.declared_case import (
 )
 from verification.judging.refinement_levels import (
     MIDDLE,
-    asked,
     on_cells,
     on_elements,
     part_of_side,
+    scaled_tolerance,
     with_edge_at,
 )
 from verification.judging.run import Run
@@ -128,7 +128,7 @@ def test_values_are_judged_with_the_edge_nearest_to_the_middle_of_an_element() -
 
 def test_a_figure_follows_the_mesh_by_its_order_and_a_part_of_a_side_the_side() -> None:
     coarse, fine = on_elements(BALL, (32, 64)).rungs
-    assert asked(1e-4, 2)(fine) == 1e-4
-    assert asked(1e-4, 2)(coarse) == 4e-4
+    assert scaled_tolerance(1e-4, 2)(fine) == 1e-4
+    assert scaled_tolerance(1e-4, 2)(coarse) == 4e-4
     assert part_of_side(0.1)(coarse) == 0.1 / 32
     assert part_of_side(0.1)(on_cells(BALL, (60,), window=2.0).judged) == pytest.approx(0.1 / 30)

@@ -14,7 +14,7 @@ from contact_results.key_numbers import outcome_columns
 from contact_scene.checks.expected_contact import beyond_linear_theory
 from contact_scene.quantities.increment import SCALARS
 from semi_analytical import Result, solve
-from slipstick.cli.progress import solved_in
+from slipstick.cli.progress import solve_lines
 from verification.cases import hertz, histories, indenters
 
 READ: dict[Any, tuple[str, ...]] = {
@@ -58,7 +58,7 @@ class End:
 
 def of_residuals(values: list[float]) -> str:
     increments = [SimpleNamespace(worst_residual=value) for value in values]
-    return str(dict(solved_in(SimpleNamespace(tolerance=1e-8, increments=increments), 1.0)))
+    return str(dict(solve_lines(SimpleNamespace(tolerance=1e-8, increments=increments), 1.0)))
 
 
 def of_steps(values: list[float]) -> str:

@@ -64,8 +64,8 @@ def test_the_slope_is_how_fast_the_limit_grows(friction, p) -> None:
 
 @given(UNIFORM | MAPPED, PRESSURES)
 def test_what_is_carried_in_all_is_the_sum_of_the_limit_or_not_known(friction, p) -> None:
-    carried = friction.carried(float(np.sum(p)))
-    assert (carried is None) == (friction.uniform is None) == (friction.varying is not None)
+    carried = friction.largest_tangential_force(float(np.sum(p)))
+    assert (carried is None) == (friction.uniform is None) == (friction.coefficient_map is not None)
     if carried is not None:
         assert carried == pytest.approx(float(np.sum(friction.limit(p))), rel=1e-12, abs=1e-300)
 
@@ -83,7 +83,7 @@ def test_a_coefficient_stays_at_its_place_whatever_window_and_cells(origin, cell
     x, y = (np.arange(n) - (n - 1) / 2 for n in CELLS)
     values = plane(0.5 * x[:, None] + origin[0], 2.0 * y + origin[1])
     spacing = (window[0] / cells[0], window[1] / cells[1])
-    found = mapped(values, origin=origin).on(cells, spacing).map.values
+    found = mapped(values, origin=origin).on_grid(cells, spacing).map.values
     x, y = ((np.arange(n) - (n - 1) / 2) * side for n, side in zip(cells, spacing, strict=True))
     np.testing.assert_allclose(found, plane(x[:, None], y), rtol=1e-12)
 
@@ -98,9 +98,9 @@ def test_a_map_is_even_about_the_origin_of_the_contact_alone() -> None:
 def test_beyond_its_extent_a_map_says_nothing() -> None:
     placed = mapped(np.ones(CELLS), origin=(-0.5, 1.0))
     assert placed.extent == (2.0, 8.0)
-    placed.on((8, 8), (0.25, 1.0))
+    placed.on_grid((8, 8), (0.25, 1.0))
     with pytest.raises(ValueError, match="at most"):
-        placed.on((8, 8), (0.25, 1.01 * 1.25))
+        placed.on_grid((8, 8), (0.25, 1.01 * 1.25))
     with pytest.raises(ValidationError, match="does not reach the origin"):
         mapped(np.ones(CELLS), origin=(1.5, 0.0))
 
@@ -237,7 +237,7 @@ def test_any_law_of_friction_holds_in_every_solver_which_agree(law, history) -> 
     asked = scene(*loading, coupled=coupled)
     assert asked.friction is not None
     assert asked.friction.uniform is None
-    assert asked.friction.carried(LOAD) is None
+    assert asked.friction.largest_tangential_force(LOAD) is None
     cells, rings = on_cells(asked), on_rings(asked)
     elements = {name: solve(asked) for name, solve in ELEMENTS.items()}
     assert observed(cells).violation < TOLERANCE

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from contact_scene import disk_cache
 from contact_scene.disk_cache import (
     SUFFIX,
-    remembered,
+    cached_array,
 )
 from fem_reference.elasticity import compliance
 from semi_analytical.influence import layered
@@ -36,7 +36,7 @@ def computed(identity: str = "this", shape: tuple[int, ...] = SHAPE) -> bool:
         called.append(1)
         return np.arange(np.prod(shape), dtype=float).reshape(shape)
 
-    values = remembered(identity, shape, compute)
+    values = cached_array(identity, shape, compute)
     np.testing.assert_array_equal(values, np.arange(np.prod(shape)).reshape(shape))
     values[0] = -1  # it is writable, and nobody else's
     return bool(called)

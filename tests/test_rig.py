@@ -13,7 +13,7 @@ from contact_scene import (
     RadialDiscretisation,
     Scene,
 )
-from contact_scene.checks.plausibility import unlikely
+from contact_scene.checks.plausibility import unlikely_numbers
 from contact_scene.quantities.increment import numbers
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import plan
@@ -129,8 +129,8 @@ def test_a_rig_without_springs_is_refused_and_a_very_soft_one_advised_against():
         scene(press, rig={})
     with pytest.raises(ValueError, match=r'a positive stiffness such as "50 N/um"'):
         scene(press, rig={"normal_stiffness": "5 N"})
-    assert not unlikely(loop(2e-3 * STIFFNESS, press))
-    (advice,) = unlikely(loop(5e-4 * STIFFNESS, press))
+    assert not unlikely_numbers(loop(2e-3 * STIFFNESS, press))
+    (advice,) = unlikely_numbers(loop(5e-4 * STIFFNESS, press))
     assert "prescribe tangential_force" in advice
 
 

@@ -32,7 +32,7 @@ from contact_scene.reading.scene_error import Path as KeyPath
 from contact_scene.reading.toml_file import (
     MAX_DEPTH,
     NestedTooDeep,
-    locate,
+    locate_keys,
 )
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
@@ -158,14 +158,6 @@ def test_a_mistake_is_named_with_its_line_and_key(tmp_path, line):
     assert MISTAKES[line] in str(problem)
 
 
-def test_refined_has_twice_the_elements_and_all_else():
-    coarse = FiniteElementDiscretisation(elements_per_radius=16, box=50.0, mesher="gmsh")
-    fine = coarse.refined()
-    assert fine == coarse.model_copy(update={"elements_per_radius": 32})
-    with pytest.raises(ValueError, match="from 4 to 512"):
-        FiniteElementDiscretisation(elements_per_radius=257).refined()
-
-
 # ---- Lines of keys: right for every valid document, harmless for every other.
 
 
@@ -235,7 +227,7 @@ LINES: dict[KeyPath, int] = {
 @pytest.mark.parametrize("newline", ["\n", "\r\n"])
 def test_every_form_of_key_is_found(newline: str) -> None:
     document = EXAMPLE.replace("\n", newline)
-    located = locate(document)
+    located = locate_keys(document)
     assert {path: located.get(path) for path in LINES} == LINES
     assert set(located) == paths_in(tomllib.loads(document))
 
@@ -258,9 +250,9 @@ def paths_in(value: Any, path: KeyPath = ()) -> set[KeyPath]:
 )
 def test_nesting_beyond_all_use_is_refused_with_its_line(text: str) -> None:
     with pytest.raises(NestedTooDeep, match="line 3"):
-        locate("\n\n" + text)
+        locate_keys("\n\n" + text)
     at_most = "a = " + "[" * (MAX_DEPTH - 1) + "]" * (MAX_DEPTH - 1)
-    assert locate(at_most)[("a",)] == 1
+    assert locate_keys(at_most)[("a",)] == 1
 
 
 # ---- `--set` with anything after it: a scene, or one refusal that names the option.

@@ -74,8 +74,8 @@ from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.reading.scene_file import read_scene_file
 from contact_scene.solver_errors import NotConverged
 from contact_scene.stepping.increment_error import (
+    has_increment_error,
     near_gross_slip,
-    with_error,
 )
 from fem_reference import Path as ElementPath
 from semi_analytical import SurfaceGrid, solve
@@ -270,7 +270,7 @@ MATTERS = {
 @pytest.mark.parametrize("name", MATTERS)
 def test_increments_have_no_error_in_three_proved_cases_alone(name: str) -> None:
     posed, expected = MATTERS[name]
-    assert list(with_error(posed)) == expected
+    assert list(has_increment_error(posed)) == expected
 
 
 def test_increments_of_coarse_solves() -> None:

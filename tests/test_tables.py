@@ -17,7 +17,7 @@ from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from slipstick.cli.commands import deposit
 from slipstick.tables.catalogue import TABLES
-from slipstick.tables.table import Axis, Found, Table
+from slipstick.tables.table import Axis, RowValues, Table
 from verification.closed_forms.coated_indentation import (
     LayeredSurface,
     flat_punch,
@@ -46,7 +46,7 @@ def test_the_ball_is_that_of_the_reference_within_both_uncertainties() -> None:
 
 def test_an_uncertainty_has_its_parts_with_their_signs_and_sizes() -> None:
     """2 |3 - 3.5| + 0.01 * 3 + 0.1."""
-    found = {1: Found((3.0,), 0.01, (0.1,)), 2: Found((3.5,))}
+    found = {1: RowValues((3.0,), 0.01, (0.1,)), 2: RowValues((3.5,))}
     table = Table("t", {"k": Axis("", (7.0,))}, {"q": ""}, "", "", lambda place, fine: found[fine])
     (row,) = table.rows({})
     assert row == pytest.approx({"k": 7.0, "q": 3.0, "q_uncertainty": 1.13})
@@ -199,7 +199,7 @@ def test_the_deposit_describes_every_table_and_has_the_same_bytes_again(
     found = list(deposit.datasets())
     assert [one.about["table"] for one in found] == ["punch", "onset", "changing_loads"]
     for folder in (tmp_path / "one", tmp_path / "two"):
-        deposit.write(folder, found, date(2026, 1, 2))
+        deposit.write_crate(folder, found, date(2026, 1, 2))
     files = sorted((tmp_path / "one").iterdir())
     assert len(files) == 2 * len(found) + 1
     assert [f.read_bytes() for f in files] == [

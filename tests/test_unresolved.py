@@ -35,7 +35,7 @@ from contact_scene.checks.expected_contact import (
     SMALL_STRAIN,
     beyond_linear_theory,
 )
-from contact_scene.checks.plausibility import implausible
+from contact_scene.checks.plausibility import implausible_input
 from semi_analytical import ContactNotResolved, Result, SurfaceGrid, solve, solve_discretised
 from semi_analytical.resolution import resolution
 from verification.problems import paper_scene as paper
@@ -283,13 +283,13 @@ def ball(E, R, W, coefficient=0.1, **indenter):
 @pytest.mark.parametrize("file", SCENES, ids=lambda file: file.stem)
 def test_the_shipped_scenes_are_plausible(file):
     contents = read_scene_file(file)
-    assert implausible(contents.scene, semi_analytical=contents.semi_analytical) == ()
+    assert implausible_input(contents.scene, semi_analytical=contents.semi_analytical) == ()
 
 
 @pytest.mark.parametrize("E", MATERIALS.values(), ids=MATERIALS)
 @pytest.mark.parametrize("R", [1e-6, 1e-5, 18e-3, 0.5])
 def test_real_materials_and_sizes_are_plausible(E, R):
-    assert implausible(ball(E, R, 1.0)) == ()
+    assert implausible_input(ball(E, R, 1.0)) == ()
 
 
 COATED = (
@@ -343,6 +343,6 @@ def coated(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(("change", "remark"), MISTAKES.values(), ids=MISTAKES)
 def test_a_usual_mistake_is_told(coated, change, remark):
     sound, wrong = (read_scene_file(coated, overrides) for overrides in ((), (change,)))
-    assert implausible(sound.scene) == ()
-    told = implausible(wrong.scene, semi_analytical=wrong.semi_analytical)
+    assert implausible_input(sound.scene) == ()
+    told = implausible_input(wrong.scene, semi_analytical=wrong.semi_analytical)
     assert any(remark in one for one in told), told

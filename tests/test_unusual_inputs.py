@@ -25,7 +25,7 @@ from contact_scene import (
     Sphere,
     SurfaceDiscretisation,
 )
-from contact_scene.checks.plausibility import implausible
+from contact_scene.checks.plausibility import implausible_input
 from contact_scene.quantities.stated_error import StatedErrors
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
@@ -172,7 +172,7 @@ def test_a_map_that_touches_first_at_its_rim_is_refused_at_once(
 ) -> None:
     asked = scene(PRESS, PUSH, indenter=measured(heights), friction=MU)
     told: list[object] = []
-    assert any("lies on the rim of the map" in remark for remark in implausible(asked))
+    assert any("lies on the rim of the map" in remark for remark in implausible_input(asked))
     with pytest.raises(ContactAtWindowEdge, match=r"border of the window.*Change indenter.flip"):
         slipstick.solve(asked, progress=told.append)
     assert not told
@@ -185,7 +185,7 @@ def test_a_contact_that_will_reach_the_rim_is_foreseen() -> None:
     with pytest.raises(ContactAtWindowEdge, match="under the largest load of the history"):
         slipstick.solve(scene(*steps, indenter=low), progress=told.append)
     assert not told
-    assert not any("rim" in remark for remark in implausible(scene(*steps, indenter=low)))
+    assert not any("rim" in remark for remark in implausible_input(scene(*steps, indenter=low)))
 
 
 @pytest.mark.parametrize("solver", COARSE)
@@ -267,7 +267,7 @@ def test_points_that_were_not_measured_are_never_lowest(word: str, tmp_path: Pat
     assert np.max(found.heights) <= np.nanmax(gaps)
     known = np.isfinite(gaps)
     np.testing.assert_array_equal(found.heights[known], gaps[known])
-    remarks = implausible(scene(PRESS, indenter=found))
+    remarks = implausible_input(scene(PRESS, indenter=found))
     assert any("0.079 of the points were not measured" in remark for remark in remarks)
 
 

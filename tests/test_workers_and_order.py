@@ -159,11 +159,13 @@ def test_workers_of_other_sources_are_refused(
 def test_verification_on_a_cluster_gives_the_report_of_this_machine(
     address: str, tmp_path: Path
 ) -> None:
-    from slipstick.cli.commands.verify import judged
+    from slipstick.cli.commands.verify import judge_cases
     from verification.cases.catalogue import choose
     from verification.judging.case import Level
 
     cases = choose(Level.QUICK, ("dissimilar_bodies", "fem_torsion"))
-    here, *_ = judged(cases, "QUICK", tmp_path / "here", 1, fresh=False)
-    there, *_ = judged(cases, "QUICK", tmp_path / "there", ClusterWorkers(address), fresh=False)
+    here, *_ = judge_cases(cases, "QUICK", tmp_path / "here", 1, fresh=False)
+    there, *_ = judge_cases(
+        cases, "QUICK", tmp_path / "there", ClusterWorkers(address), fresh=False
+    )
     assert there == here

@@ -124,7 +124,7 @@ class CheckpointDirectory:
             try:
                 match read_checkpoint_file(path, self._identity):
                     case (int(before), Checkpoint() as part) if before == len(increments):
-                        increments.extend(map(fields.stored, part.increments))
+                        increments.extend(map(fields.store, part.increments))
                     case _:
                         raise Unusable(f"{path} contains no checkpoint that continues the last one")
             except Unusable as error:

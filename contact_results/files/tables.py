@@ -26,7 +26,7 @@ from contact_scene.quantities.increment import (
     numbers,
 )
 from contact_scene.quantities.stated_error import StatedError
-from contact_scene.quantities.summary import OF_CYCLES, Closed
+from contact_scene.quantities.summary import OF_CYCLES, ClosedCycle
 
 if TYPE_CHECKING:
     from contact_results.surface import Increment, Result, Surface
@@ -135,7 +135,7 @@ def _cycle_cells(
     surface  surface grid of the fields
     errors   stated errors at the load step that closes the cycle, by name; empty if not computed
     """
-    fields, words, values = reported(FrettingCycle), reported(Closed), cycle.numbers
+    fields, words, values = reported(FrettingCycle), reported(ClosedCycle), cycle.numbers
     yield Column("start_step", None, "Step at whose end the cycle begins."), cycle.cycle.start
     yield Column("end_step", None, "Step at whose end the cycle closes."), cycle.cycle.end
     yield Column("regime", None, words["regime"].meaning), values["regime"].value

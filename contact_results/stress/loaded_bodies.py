@@ -279,7 +279,7 @@ def _reason_without_root(indenter: ShapedBody, friction: CoulombFriction | None)
         return "the contact ends at the rim of the indenter"
     if indenter.extent is not None or indenter.gap_exponent is None:
         return OF_HEIGHTS
-    if friction is not None and friction.varying is not None:
+    if friction is not None and friction.coefficient_map is not None:
         return OF_MAP
     return None
 

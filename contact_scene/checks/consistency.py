@@ -47,7 +47,7 @@ def inconsistencies(tables: Mapping[str, Any]) -> tuple[Problem, ...]:
     tables  valid tables of the scene file by their keys
     """
     known, loading = dict(tables), tables.get("loading")
-    if loading and loading[0].names_normal:
+    if loading and loading[0].prescribes_normal:
         known["ramps"] = load_path(loading)
     found: list[Problem] = []
     for check in _CHECKS:
@@ -127,7 +127,11 @@ def _gross_sliding(
     of the ramps suffice.
     """
     for index, ramp in enumerate(ramps):
-        limit = friction.carried(ramp.normal.end) if friction and ramp.normal.end else None
+        limit = (
+            friction.largest_tangential_force(ramp.normal.end)
+            if friction and ramp.normal.end
+            else None
+        )
         if limit is None or ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tangential.kind):
             continue
         force = math.hypot(*ramp.tangential.end)

@@ -106,7 +106,7 @@ class ExpectedContact:
         return 2 * self.modulus * self.radius
 
 
-def expected_contacts(scene: Scene) -> Iterator[ExpectedContact]:
+def estimate_contacts(scene: Scene) -> Iterator[ExpectedContact]:
     """Yield an estimate of the contact at the end of every load step.
 
     The estimate is from Hertz theory. There is none for shapes without an exponent of the gap.
@@ -164,7 +164,7 @@ def beyond_linear_theory(scene: Scene, ends: Iterable[State]) -> tuple[str, ...]
     found = [
         (strain, where, step)
         for step, end in enumerate(ends, start=1)
-        for strain, where in _strains(scene, end)
+        for strain, where in _estimate_strains(scene, end)
     ]
     if all(strain <= SMALL_STRAIN for strain, *_ in found):
         return ()
@@ -175,7 +175,7 @@ def beyond_linear_theory(scene: Scene, ends: Iterable[State]) -> tuple[str, ...]
     )
 
 
-def _strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
+def _estimate_strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
     """Estimate the strains in both bodies at the end of a load step, to an order of magnitude.
 
     The strain is the mean pressure over a modulus. For layers on rigid substrates there is also the
@@ -189,14 +189,14 @@ def _strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
     pressure = end.normal_force / end.contact_area
     bodies = {"the body": scene.body, "the indenter": scene.indenter}
     for name, body in bodies.items():
-        for material, where in _strained(body, end.contact_radius):
+        for material, where in _moduli_below_contact(body, end.contact_radius):
             yield pressure / material, f"{where} of {name}" if where else name
     if not any(isinstance(body.material, IsotropicMaterial) for body in bodies.values()):
         layers = sum(layer.thickness for body in bodies.values() for layer in body.layers)
         yield end.approach / layers, "the layers"
 
 
-def _strained(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:
+def _moduli_below_contact(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:
     """Yield the moduli of the layers and the substrate of a body to a depth of one contact radius.
 
     Used to estimate strains as mean pressure over modulus. The modulus is E/(1 - nu^2); that of a

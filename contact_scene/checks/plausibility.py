@@ -15,7 +15,7 @@ from pydantic import BaseModel
 from contact_scene.checks.expected_contact import (
     SMALL_STRAIN,
     ExpectedContact,
-    expected_contacts,
+    estimate_contacts,
 )
 from contact_scene.geometry import HeightMap
 from contact_scene.material import IsotropicMaterial
@@ -24,7 +24,7 @@ from contact_scene.reading.engineering_units import quantity
 from contact_scene.reading.quantity import WithUnit
 from contact_scene.reading.scene_error import (
     Path,
-    dotted,
+    dotted_key,
 )
 from contact_scene.rig import compliances
 from contact_scene.scene import Scene
@@ -89,17 +89,20 @@ SPRINGS = (
 _DEEP, _THIN = 20.0, 1e-4
 
 
-def implausible(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
+def implausible_input(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     """Return warnings about implausible numbers of a scene, with the probable intention.
 
     fineness  discretisation tables of the scene file, by name
 
     A dimensionless scene, with consistent numbers near 1, causes no warnings.
     """
-    return (*unlikely(scene, **fineness), *_strained(tuple(expected_contacts(scene))))
+    return (
+        *unlikely_numbers(scene, **fineness),
+        *_strain_warnings(tuple(estimate_contacts(scene))),
+    )
 
 
-def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
+def unlikely_numbers(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     """Return warnings about implausible numbers of a scene, except warnings about strains.
 
     Used for scenes with a result, since the result determines the strains better.
@@ -107,23 +110,26 @@ def unlikely(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     scene     bodies, friction and loads
     fineness  discretisation tables of the scene file, by name
     """
-    pressed = tuple(expected_contacts(scene))
-    if _without_units(scene) and not any(_strained(pressed)):
+    pressed = tuple(estimate_contacts(scene))
+    if _is_dimensionless(scene) and not any(_strain_warnings(pressed)):
         return ()
-    parts = [_numbers(scene, ()), *(_numbers(part, (name,)) for name, part in fineness.items())]
-    unusual = chain.from_iterable(map(_unusual, parts))
+    parts = [
+        _scene_numbers(scene, ()),
+        *(_scene_numbers(part, (name,)) for name, part in fineness.items()),
+    ]
+    unusual = chain.from_iterable(map(_number_warnings, parts))
     return (
         *unusual,
-        *(_of_map(scene.indenter) if isinstance(scene.indenter, HeightMap) else ()),
-        *_too_small(scene, pressed, fineness),
-        *_of_no_effect(scene, pressed),
-        *(_far(pressed) if compliances(scene.rig)[1] == 0 else ()),
-        *_soft(scene, pressed),
-        *_yielding(pressed),
+        *(_height_map_warnings(scene.indenter) if isinstance(scene.indenter, HeightMap) else ()),
+        *_size_warnings(scene, pressed, fineness),
+        *_layer_warnings(scene, pressed),
+        *(_shift_warnings(pressed) if compliances(scene.rig)[1] == 0 else ()),
+        *_spring_warnings(scene, pressed),
+        *_yield_warnings(pressed),
     )
 
 
-def _unusual(numbers: Iterator[tuple[Path, float]]) -> Iterator[str]:
+def _number_warnings(numbers: Iterator[tuple[Path, float]]) -> Iterator[str]:
     for path, value in numbers:
         usual = USUAL.get(next((part for part in reversed(path) if isinstance(part, str)), ""))
         if usual is None or not value:
@@ -137,15 +143,15 @@ def _unusual(numbers: Iterator[tuple[Path, float]]) -> Iterator[str]:
             for unit, factor in usual.meant.items()
             if usual.least <= abs(value * factor) <= usual.most and not isinstance(value, WithUnit)
         ]
-        text, limit_text = _text(value, usual), _text(limit, usual)
-        yield f"{dotted(path)}: {text} is {side} the usual {limit_text}{''.join(meant[:1])}"
+        text, limit_text = _quantity_text(value, usual), _quantity_text(limit, usual)
+        yield f"{dotted_key(path)}: {text} is {side} the usual {limit_text}{''.join(meant[:1])}"
 
 
-def _text(value: float, usual: Usual) -> str:
+def _quantity_text(value: float, usual: Usual) -> str:
     return quantity(value, usual.unit, 6) if usual.unit else f"{value:g}"
 
 
-def _numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
+def _scene_numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
     """Yield every number in a part of a scene, with the path of its key.
 
     value  model, tuple, number or array of the scene; of an array, the largest value is yielded
@@ -153,29 +159,29 @@ def _numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
     """
     if isinstance(value, BaseModel):
         for name in type(value).model_fields:
-            yield from _numbers(getattr(value, name), (*path, name))
+            yield from _scene_numbers(getattr(value, name), (*path, name))
     elif isinstance(value, tuple):
         for index, entry in enumerate(value):
-            yield from _numbers(entry, (*path, index))
+            yield from _scene_numbers(entry, (*path, index))
     elif isinstance(value, float):
         yield path, value
     elif isinstance(value, ArrayFile):
         yield path, float(np.max(value.values))
 
 
-def _without_units(scene: Scene) -> bool:
+def _is_dimensionless(scene: Scene) -> bool:
     """Determine if the numbers of a scene are dimensionless.
 
     This is assumed if all Young's moduli are below that of rubber and all radii above that of a
     ball.
     """
-    known = list(_numbers(scene, ()))
+    known = list(_scene_numbers(scene, ()))
     moduli = [value for path, value in known if path[-1] == "young_modulus"]
     radii = [value for path, value in known if {"radius", "radii"} & {*path}]
     return max(moduli) < _SOFTEST and min(radii, default=1.0) >= _LARGEST
 
 
-def _of_map(indenter: HeightMap) -> Iterator[str]:
+def _height_map_warnings(indenter: HeightMap) -> Iterator[str]:
     rows, (dx, dy) = indenter.heights, indenter.spacing
     # Row by row, without a second array of equal size.
     along_x = max(float(np.max(np.abs(b - a))) for a, b in pairwise(rows)) / dx
@@ -192,14 +198,14 @@ def _of_map(indenter: HeightMap) -> Iterator[str]:
             "Heights are positive away from the body, with flip = true towards it. Change "
             "indenter.flip if the map is inverted"
         )
-    if indenter.unmeasured:
+    if indenter.unmeasured_fraction:
         yield (
-            f"indenter.file: {indenter.unmeasured:.2g} of the points were not measured; heights "
-            "there solve Laplace's equation between their neighbours"
+            f"indenter.file: {indenter.unmeasured_fraction:.2g} of the points were not measured; "
+            "heights there solve Laplace's equation between their neighbours"
         )
 
 
-def _too_small(
+def _size_warnings(
     scene: Scene, pressed: tuple[ExpectedContact, ...], fineness: Mapping[str, BaseModel]
 ) -> Iterator[str]:
     """Warn about a window or a finite-element mesh that is smaller than the expected contact.
@@ -222,7 +228,7 @@ def _too_small(
             )
 
 
-def _of_no_effect(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+def _layer_warnings(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
     """Warn about layers so thin that they have no effect, or so thick that the material below has
     none.
 
@@ -252,7 +258,7 @@ def _of_no_effect(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterato
                 yield f"{text} it"
 
 
-def _far(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+def _shift_warnings(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
     """Warn about the first load step whose tangential shift exceeds the expected contact radius.
 
     The assumption of small displacements relative to the contact is then violated.
@@ -271,7 +277,7 @@ def _far(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
                 return
 
 
-def _soft(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+def _spring_warnings(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
     """Warn about springs of a test rig that are too soft for a prescribed displacement.
 
     With a spring much softer than the contact, a prescribed displacement of the actuator nearly
@@ -292,7 +298,7 @@ def _soft(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
             return
 
 
-def _yielding(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+def _yield_warnings(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
     """Warn about the first load step with a pressure beyond the hardness of most stiff materials.
 
     pressed  expected contacts at the ends of the load steps
@@ -316,7 +322,7 @@ def _normal_load(end: ExpectedContact) -> str:
     return f"{'normal_force' if by_force else 'approach'}: {load}"
 
 
-def _strained(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
+def _strain_warnings(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
     """Warn about the first load step with strains far beyond linear elasticity.
 
     pressed  expected contacts at the ends of the load steps

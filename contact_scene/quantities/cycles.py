@@ -46,11 +46,11 @@ def load_cycles(path: Iterable[LoadRamp]) -> tuple[LoadCycle, ...]:
     path  load ramps of all load steps
     """
     ramps = list(path)
-    scales = _scales(ramps)
+    scales = _load_scales(ramps)
     last: dict[State, int] = {}
     cycles = []
     for ramp in ramps:
-        state = _state(ramp, scales)
+        state = _rounded_loads(ramp, scales)
         start = last.get(state)
         if start is not None and start != ramp.step - 1:
             cycles.append(LoadCycle(start, ramp.step))
@@ -69,17 +69,17 @@ def loop_increments(path: Iterable[LoadRamp]) -> tuple[int, ...]:
     """
     ramps = list(path)
     within = {step for c in load_cycles(ramps) for step in range(c.start + 1, c.end + 1)}
-    return tuple(_of_loop(ramp) if ramp.step in within else 1 for ramp in ramps)
+    return tuple(_increments_of_ramp(ramp) if ramp.step in within else 1 for ramp in ramps)
 
 
-def _of_loop(ramp: LoadRamp) -> int:
+def _increments_of_ramp(ramp: LoadRamp) -> int:
     moving = [c for c in (ramp.tangential, ramp.twisting) if c.start != c.end]
     by_motion = any(control.kind is ControlKind.DISPLACEMENT for control in moving)
     by_motion = by_motion or ramp.strains
     return INCREMENTS_BY_DISPLACEMENT if by_motion else INCREMENTS_BY_FORCE if moving else 1
 
 
-def _loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
+def _end_loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
     """Yield the prescribed forces and displacements at the end of a load ramp.
 
     yields  coordinate of the indenter and kind of the control (force or displacement); its values,
@@ -92,7 +92,7 @@ def _loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
     yield (len(controls), "strain"), ramp.stretch[1] if ramp.stretch else ()
 
 
-def _scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
+def _load_scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
     """Compute the largest magnitude of each prescribed force and displacement over the load path.
 
     Used to compare the loads of two load steps with a relative tolerance. Forces and displacements
@@ -102,12 +102,12 @@ def _scales(ramps: list[LoadRamp]) -> dict[Kind, float]:
     returns  largest magnitude by coordinate and kind of the control; 0 if all values are 0
     """
     scales: dict[Kind, float] = {}
-    for kind, values in chain.from_iterable(map(_loads, ramps)):
+    for kind, values in chain.from_iterable(map(_end_loads, ramps)):
         scales[kind] = max(scales.get(kind, 0.0), *map(abs, values), 0.0)
     return scales
 
 
-def _state(ramp: LoadRamp, scales: Mapping[Kind, float]) -> State:
+def _rounded_loads(ramp: LoadRamp, scales: Mapping[Kind, float]) -> State:
     """Return the loads at the end of a load ramp in a form that is equal for equal loads.
 
     Used to find load cycles, which return to the loads of an earlier load step.
@@ -119,5 +119,5 @@ def _state(ramp: LoadRamp, scales: Mapping[Kind, float]) -> State:
     """
     return tuple(
         (kind, tuple(round(value / (scales[kind] or 1.0), DIGITS) for value in values))
-        for kind, values in _loads(ramp)
+        for kind, values in _end_loads(ramp)
     )

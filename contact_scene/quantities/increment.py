@@ -305,18 +305,18 @@ class ReportedIncrement(Counters, Quality, State, WithFields):
         values = vars(self)
         values["worst_residual"] = self.residuals.worst
         for name in SCALARS:
-            values[name] = _unsigned_zero(values[name])
+            values[name] = _remove_sign_of_zero(values[name])
 
 
 SCALARS: Mapping[str, Reported] = {**reported(State), **reported(Quality)}
 COUNTERS: Mapping[str, Reported] = reported(Counters)
 
 
-def _unsigned_zero(value: Any) -> Any:
+def _remove_sign_of_zero(value: Any) -> Any:
     """Replace -0.0 by 0.0 in a number or vector, since a sign of zero has no meaning in a
     result."""
     if isinstance(value, tuple):
-        return tuple(map(_unsigned_zero, value))
+        return tuple(map(_remove_sign_of_zero, value))
     return value if value is None or isinstance(value, int) else value + 0.0
 
 

@@ -48,7 +48,7 @@ _CONJUGATE = {
 }
 
 
-def separated(
+def separated_increment(
     last: Reported,
     ramp: LoadRamp,
     fraction: float,
@@ -66,7 +66,7 @@ def separated(
     approach  prescribed approach [length]; None for the approach of first contact
     """
     before: Any = last
-    found = {f.name: _zero(getattr(before, f.name)) for f in fields(before) if f.init}
+    found = {f.name: _zero_of_type(getattr(before, f.name)) for f in fields(before) if f.init}
     found = {name: value for name, value in found.items() if name not in _UNCHANGED}
     if before.in_stick is not None:  # a small contact may not have had its stick zone determined
         found |= {name: 0.0 for name in ("stick_area", "stick_radius") if name in found}
@@ -96,7 +96,7 @@ def separated(
     return cast(Reported, replace(before, **found))
 
 
-def virgin(increment: Reported) -> Reported:
+def virgin_increment(increment: Reported) -> Reported:
     """Return the results of bodies that have not been in contact: all values are 0.
 
     Used for separated bodies before the first contact of a load history. The position in space and
@@ -105,7 +105,7 @@ def virgin(increment: Reported) -> Reported:
     increment  results in contact, which determine the shapes of the fields
     """
     of: Any = increment
-    values = {f.name: _zero(getattr(of, f.name)) for f in fields(of) if f.init}
+    values = {f.name: _zero_of_type(getattr(of, f.name)) for f in fields(of) if f.init}
     zero = {name: value for name, value in values.items() if name not in _PLACES}
     return cast(Reported, replace(of, **zero))
 
@@ -132,7 +132,7 @@ def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
     return motions
 
 
-def since_touch(ramp: LoadRamp, apart: Any) -> LoadRamp:
+def ramp_since_separation(ramp: LoadRamp, apart: Any) -> LoadRamp:
     """Return a load ramp whose displacements are counted from their values at separation.
 
     A contact after a separation starts without memory of earlier contacts. Its solve therefore
@@ -143,19 +143,21 @@ def since_touch(ramp: LoadRamp, apart: Any) -> LoadRamp:
     """
     return replace(
         ramp,
-        tangential=_counted(ramp.tangential, apart.tangential_shift, from_zero=True),
-        twisting=_counted(ramp.twisting, apart.twist, from_zero=True),
-        tilting=_counted(ramp.tilting, apart.tilt, from_zero=False),
-        stretch=None if ramp.stretch is None else _since(ramp.stretch, apart),
+        tangential=_control_since_separation(
+            ramp.tangential, apart.tangential_shift, from_zero=True
+        ),
+        twisting=_control_since_separation(ramp.twisting, apart.twist, from_zero=True),
+        tilting=_control_since_separation(ramp.tilting, apart.tilt, from_zero=False),
+        stretch=None if ramp.stretch is None else _strain_since_separation(ramp.stretch, apart),
     )
 
 
-def _since(stretch: tuple[Strain, Strain], apart: Any) -> Any:
+def _strain_since_separation(stretch: tuple[Strain, Strain], apart: Any) -> Any:
     at_touch = (*apart.bulk_strain, apart.bulk_shear)
     return tuple(tuple(map(float, np.subtract(strain, at_touch))) for strain in stretch)
 
 
-def _counted(control: Any, motion: Any, *, from_zero: bool) -> Any:
+def _control_since_separation(control: Any, motion: Any, *, from_zero: bool) -> Any:
     if control.kind is ControlKind.FORCE or motion is None:
         return control
     ends = motion if control.start is None else control.start, control.end
@@ -163,7 +165,7 @@ def _counted(control: Any, motion: Any, *, from_zero: bool) -> Any:
     return Control(control.kind, *(plain(np.subtract(end, origin)) for end in ends))
 
 
-def continued(apart: Any, increment: Reported) -> Reported:
+def add_values_at_separation(apart: Any, increment: Reported) -> Reported:
     """Add the displacements and energies at separation to the results of a later contact.
 
     The solve of a later contact counts shift, twist, work and dissipation from the separation; the
@@ -173,27 +175,27 @@ def continued(apart: Any, increment: Reported) -> Reported:
     increment  results of the increment as solved
     """
     values = {
-        name: _added(getattr(apart, source), getattr(increment, name))
+        name: _add_values(getattr(apart, source), getattr(increment, name))
         for name, source in _CONTINUED.items()
         if hasattr(increment, name)
     }
     return cast(Reported, replace(cast(Any, increment), **values))
 
 
-def _added(first: Any, second: Any) -> Any:
+def _add_values(first: Any, second: Any) -> Any:
     if first is None or second is None:
         return None
     total = np.add(first, second)
     return total if isinstance(second, np.ndarray) else plain(total)
 
 
-def _zero(value: Any) -> Any:
+def _zero_of_type(value: Any) -> Any:
     """Return the zero of the type of a reported value, for separated bodies.
 
     The types are numbers, arrays, pairs and residuals. The result is None for other types.
     """
     if isinstance(value, Residuals):
-        return Residuals(**{name: _zero(size) for name, size in vars(value).items()})
+        return Residuals(**{name: _zero_of_type(size) for name, size in vars(value).items()})
     if isinstance(value, np.ndarray):
         return np.zeros_like(value)
     if isinstance(value, tuple):

@@ -97,7 +97,7 @@ class WithFields:
     def __getattribute__(self, name: str) -> Any:
         own = object.__getattribute__(self, "__dict__")
         if _STATE in own and name not in own:
-            state = _state(self, own)
+            state = _opened_attributes(self, own)
             if name == "__dict__":
                 return state
             value = state[name] if name in state else object.__getattribute__(self, name)
@@ -116,7 +116,7 @@ _AT_HAND = ("step", "index", "increments_in_step")
 _last_read: weakref.ref[WithFields] | None = None
 
 
-def _state(value: WithFields, own: dict[str, Any]) -> dict[str, Any]:
+def _opened_attributes(value: WithFields, own: dict[str, Any]) -> dict[str, Any]:
     global _last_read
     if _OPENED not in own:
         last = None if _last_read is None else _last_read()
@@ -140,7 +140,7 @@ class FieldStore:
         self._file: IO[bytes] | None = None
         self._known: dict[int, tuple[NDArray[Any], NDArray[Any] | StoredArray]] = {}
 
-    def stored(self, value: Value) -> Value:
+    def store(self, value: Value) -> Value:
         """Store a result of an increment; return an equivalent object that may refer to the file.
 
         Raises OSError if the file cannot grow.
@@ -150,13 +150,15 @@ class FieldStore:
         for name, array in vars(value).items():
             if isinstance(array, np.ndarray) and array.nbytes >= LEAST_STORED:
                 place = id(array)  # unique, since `_known` refers to the array
-                found = known.get(place) or self._known.get(place) or (array, self._put(array))
+                found = (
+                    known.get(place) or self._known.get(place) or (array, self._store_array(array))
+                )
                 known[place] = found
                 vars(copied)[name] = found[1]
         self._known = known
-        return copied if self._file is None else self._in_file(copied, self._file)
+        return copied if self._file is None else self._store_attributes(copied, self._file)
 
-    def _in_file(self, value: Value, file: IO[bytes]) -> Value:
+    def _store_attributes(self, value: Value, file: IO[bytes]) -> Value:
         """Write the attributes of a result to the file; return an object that refers to them.
 
         Arrays that are in the file already are not written again.
@@ -172,21 +174,21 @@ class FieldStore:
         }
         light = {name: attribute for name, attribute in state.items() if name not in arrays}
         content = pickle.dumps((light, arrays))
-        place = self._write(content)
+        place = self._append_bytes(content)
         place_only = object.__new__(type(value))
         vars(place_only).update({name: light[name] for name in _AT_HAND if name in light})
         vars(place_only)[_STATE] = _StoredState(file, place, len(content))
         return place_only
 
-    def _put(self, array: NDArray[Any]) -> NDArray[Any] | StoredArray:
+    def _store_array(self, array: NDArray[Any]) -> NDArray[Any] | StoredArray:
         if self._in_memory + array.nbytes <= MAX_IN_MEMORY:
             self._in_memory += array.nbytes
             return array
-        place = self._write(np.ascontiguousarray(array).data)
+        place = self._append_bytes(np.ascontiguousarray(array).data)
         assert self._file is not None
         return StoredArray(self._file, place, array.dtype, array.shape)
 
-    def _write(self, content: bytes | memoryview) -> int:
+    def _append_bytes(self, content: bytes | memoryview) -> int:
         """Append bytes to the temporary file, which is created if needed.
 
         returns  position of the first byte in the file

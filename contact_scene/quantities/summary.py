@@ -64,7 +64,7 @@ class Residuals(residuals.Residuals):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Closed:
+class ClosedCycle:
     """Measures of the load cycle that the end of a load step closes, and the residuals of that
     state."""
 
@@ -158,13 +158,13 @@ class Closed:
 # The numbers of a cycle, which have errors.
 OF_CYCLES = {
     name: annotation
-    for name, annotation in reported(Closed).items()
+    for name, annotation in reported(ClosedCycle).items()
     if name not in ("cycle_start", "regime", "from_virgin")
 }
 
 
 @pydantic_dataclass(frozen=True, kw_only=True, config=STRICT)
-class StepSummary(Quality, Closed, State):
+class StepSummary(Quality, ClosedCycle, State):
     """State at the end of one `[[loading]]` table.
 
     Vectors are (x, y), of the indenter relative to the body: a positive force causes a positive

@@ -36,7 +36,7 @@ class ArrayFile:
     digest: str
 
     def __str__(self) -> str:
-        return _named(self.name)
+        return _array_name(self.name)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -62,15 +62,15 @@ def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
             hint = "pass its numbers in SI, without gaps, as a plain array"
             expected = "a plain numpy array or the name of a .npy file"
             raise refusal(f"got {shown(value)}", expected, hint)
-        return _checked(value, name)
+        return _check_array(value, name)
     folder = context.get("folder")
     if isinstance(value, Path) and folder is None:
         value = str(value)
     if not isinstance(value, str) or not value:
         hint = "pass numpy.asarray(...) of it, in SI" if hasattr(value, "__array__") else ""
         raise refusal(f"got {shown(value)}", 'the name of a file such as "heights.npy"', hint)
-    path = Path(value) if folder is None else _inside(folder, value)
-    return _checked(_read(path, value), value)
+    path = Path(value) if folder is None else _path_in_folder(folder, value)
+    return _check_array(_read_array(path, value), value)
 
 
 FileKey = Annotated[
@@ -88,7 +88,7 @@ FileKey = Annotated[
 ]
 
 
-def _inside(folder: Path, name: str) -> Path:
+def _path_in_folder(folder: Path, name: str) -> Path:
     """Resolve the name of a file in or below a folder to its path.
 
     Raises a validation error for other names, and for links to other folders.
@@ -110,7 +110,7 @@ def _inside(folder: Path, name: str) -> Path:
     )
 
 
-def _read(path: Path, name: str) -> NDArray[Any]:
+def _read_array(path: Path, name: str) -> NDArray[Any]:
     """Read the array of a text file, or map the array of a `.npy` file into memory.
 
     A mapped array allocates no memory. Raises a validation error for missing, incomplete or other
@@ -127,7 +127,7 @@ def _read(path: Path, name: str) -> NDArray[Any]:
         if not path.is_file():
             raise refusal(f"there is no file {shown(name)}", expected)
         if path.suffix.lower() in (".csv", ".txt"):
-            return _text(path, name)
+            return _read_text_array(path, name)
         values = np.lib.format.open_memmap(path, mode="r")
         if path.stat().st_size > values.offset + values.nbytes:
             raise refusal(f"the file {shown(name)} is too long", "a complete .npy file")
@@ -139,7 +139,7 @@ def _read(path: Path, name: str) -> NDArray[Any]:
         raise refusal(f"cannot read {shown(name)}: {reason}", expected) from None
 
 
-def _text(path: Path, name: str) -> NDArray[Any]:
+def _read_text_array(path: Path, name: str) -> NDArray[Any]:
     """Read an array from a text file in the orientation of a top view: x to the right, y upwards.
 
     Fields are separated by semicolons, tabs, commas or spaces; lines before the first numbers are
@@ -172,11 +172,11 @@ def _text(path: Path, name: str) -> NDArray[Any]:
     return np.ascontiguousarray(values)
 
 
-def _named(name: str) -> str:
+def _array_name(name: str) -> str:
     return shown(name) if name else "in memory"
 
 
-def _checked(values: NDArray[Any], name: str) -> ArrayFile:
+def _check_array(values: NDArray[Any], name: str) -> ArrayFile:
     """Check shape and type of the array of a height map or friction map, and copy it to float64.
 
     The checks precede the copy, which allocates memory.
@@ -191,12 +191,12 @@ def _checked(values: NDArray[Any], name: str) -> ArrayFile:
     elif nx * ny > _MAX_VALUES:
         expected = f"at most {_MAX_VALUES} values in all (4096 x 4096)"
     if expected:
-        raise refusal(f"the array {_named(name)} has shape {values.shape}", expected)
+        raise refusal(f"the array {_array_name(name)} has shape {values.shape}", expected)
     if values.dtype.kind not in "fiu":
-        got = f"the array {_named(name)} holds values of type {values.dtype}"
+        got = f"the array {_array_name(name)} holds values of type {values.dtype}"
         raise refusal(got, "real numbers")
     values = np.array(values, dtype=np.float64, order="C", subok=False)
-    _refuse(np.isinf(values), values, name)
+    _refuse_values(np.isinf(values), values, name)
     values.flags.writeable = False
     digest = hashlib.sha256(repr(values.shape).encode())
     digest.update(values.data)
@@ -205,12 +205,12 @@ def _checked(values: NDArray[Any], name: str) -> ArrayFile:
 
 def refuse_missing(array: ArrayFile) -> None:
     """Raise a validation error if a value of an array is missing (NaN), with its position."""
-    _refuse(np.isnan(array.values), array.values, array.name)
+    _refuse_values(np.isnan(array.values), array.values, array.name)
 
 
-def _refuse(bad: NDArray[np.bool_], values: NDArray[np.float64], name: str) -> None:
+def _refuse_values(bad: NDArray[np.bool_], values: NDArray[np.float64], name: str) -> None:
     if np.any(bad):
         i, j = np.argwhere(bad)[0]
         raise refusal(
-            f"the array {_named(name)} holds {values[i, j]} at [{i}, {j}]", "finite numbers"
+            f"the array {_array_name(name)} holds {values[i, j]} at [{i}, {j}]", "finite numbers"
         )

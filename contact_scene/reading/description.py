@@ -47,13 +47,13 @@ def field_descriptions(model: type) -> dict[str, str]:
     found: dict[str, str] = {}
     for base in reversed(model.__mro__[:-1]):
         if not base.__module__.startswith("pydantic"):
-            found |= _docstrings(base)
+            found |= _attribute_docstrings(base)
     fields = getattr(model, "__pydantic_fields__", {})
     given = {name: field.description for name, field in fields.items() if field.description}
     return {name: text for name, text in (found | given).items() if name in fields}
 
 
-def _docstrings(model: type) -> dict[str, str]:
+def _attribute_docstrings(model: type) -> dict[str, str]:
     try:
         (definition,) = ast.parse(dedent(inspect.getsource(model))).body
     except OSError:  # made by a function, without a class statement
@@ -74,13 +74,13 @@ class DescribedSchema(GenerateJsonSchema):
     """Generator of a JSON Schema whose properties are described by `field_descriptions`."""
 
     def model_schema(self, schema: Any) -> JsonSchemaValue:
-        return _described(super().model_schema(schema), schema["cls"])
+        return _add_descriptions(super().model_schema(schema), schema["cls"])
 
     def dataclass_schema(self, schema: Any) -> JsonSchemaValue:
-        return _described(super().dataclass_schema(schema), schema["cls"])
+        return _add_descriptions(super().dataclass_schema(schema), schema["cls"])
 
 
-def _described(made: JsonSchemaValue, model: type) -> JsonSchemaValue:
+def _add_descriptions(made: JsonSchemaValue, model: type) -> JsonSchemaValue:
     for name, text in field_descriptions(model).items():
         if name in made.get("properties", {}):
             made["properties"][name]["description"] = text

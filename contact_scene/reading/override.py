@@ -16,7 +16,7 @@ from contact_scene.reading.scene_error import (
     SceneError,
     shown,
 )
-from contact_scene.reading.toml_file import locate
+from contact_scene.reading.toml_file import locate_keys
 
 _MAX_PARTS = 20  # far more than any key of a scene has
 _PART = re.compile(r"([A-Za-z0-9_-]+)((?:\[[0-9]{1,6}\])*)")
@@ -34,9 +34,9 @@ def override(document: dict[str, Any], assignment: str) -> Path:
     """
     key, equals, text = assignment.partition("=")
     source = origin(assignment)
-    if not equals or not _path(key.strip()) or not text.isprintable():
+    if not equals or not _parse_key(key.strip()) or not text.isprintable():
         raise SceneError([Problem((), f"got {shown(assignment)}", _EXPECTED, file=source)])
-    return assign(document, key.strip(), _value(text.strip()), source)
+    return assign(document, key.strip(), _parse_value(text.strip()), source)
 
 
 def assign(document: dict[str, Any], key: str, value: Any, source: str = "") -> Path:
@@ -51,15 +51,15 @@ def assign(document: dict[str, Any], key: str, value: Any, source: str = "") -> 
     Missing tables are created, missing array entries are not. Raises `SceneError` and leaves the
     document unchanged if there is no such key.
     """
-    path = _path(key)
+    path = _parse_key(key)
     if not path:
         expected = "a key such as loading[2].increments"
         raise SceneError([Problem((), f"got the key {shown(key)}", expected)])
-    document.update(_changed(document, path, value, Problem(path, "", file=source)))
+    document.update(_replace_value(document, path, value, Problem(path, "", file=source)))
     return path
 
 
-def _changed(holder: Any, path: Path, value: Any, problem: Problem) -> Any:
+def _replace_value(holder: Any, path: Path, value: Any, problem: Problem) -> Any:
     """Return a copy of a part of a scene document, with another value at a path of keys.
 
     holder   table, model or array of a scene document
@@ -76,18 +76,18 @@ def _changed(holder: Any, path: Path, value: Any, problem: Problem) -> Any:
             message = f"{part} is not a key of a table"
             raise SceneError([replace(problem, message=message, hint=hint)])
         table = dict(holder)
-        return table | {part: _changed(table.get(part, {}), path[1:], value, problem)}
+        return table | {part: _replace_value(table.get(part, {}), path[1:], value, problem)}
     if entries is None:
         raise SceneError([replace(problem, message=f"there is no array for entry {part + 1}")])
     if not 0 <= part < len(entries):
         expected = f"1 to {len(entries)}" if entries else "none: the array is empty"
         message = f"there is no entry {part + 1}"
         raise SceneError([replace(problem, message=message, expected=expected)])
-    entries[part] = _changed(entries[part], path[1:], value, problem)
+    entries[part] = _replace_value(entries[part], path[1:], value, problem)
     return entries
 
 
-def _path(key: str) -> Path:
+def _parse_key(key: str) -> Path:
     path: list[str | int] = []
     for part in key.split(".", _MAX_PARTS):
         match = _PART.fullmatch(part.strip())
@@ -98,9 +98,9 @@ def _path(key: str) -> Path:
     return tuple(path) if len(path) <= _MAX_PARTS else ()
 
 
-def _value(text: str) -> Any:
+def _parse_value(text: str) -> Any:
     try:
-        locate(f"value = {text}")  # refuses deep nesting, on which the parser would recurse
+        locate_keys(f"value = {text}")  # refuses deep nesting, on which the parser would recurse
         return tomllib.loads(f"value = {text}")["value"]
     except (ValueError, RecursionError):
         return text

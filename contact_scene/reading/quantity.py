@@ -80,7 +80,7 @@ class Quantity:
 
         Raises a validation error with the received and the expected value.
         """
-        number = self._in_si(value)
+        number = self._convert_value(value)
         if not math.isfinite(number):
             raise refusal(f"got {shown(value)}, which is not finite", self.expected)
         if not (
@@ -96,17 +96,17 @@ class Quantity:
             raise refusal(f"got {shown(value)}", bounds.rstrip())
         return type(number)(number + 0.0)  # 0.0 for -0.0
 
-    def _in_si(self, value: Any) -> float:
+    def _convert_value(self, value: Any) -> float:
         if isinstance(value, str):
-            return self._from_text(value)
+            return self._convert_text(value)
         if not is_plain(value):
-            raise refusal(f"got {shown(value)}", self.expected, self._instead_of(value))
+            raise refusal(f"got {shown(value)}", self.expected, self._hint_for(value))
         try:
             return float(value)
         except (TypeError, ValueError, OverflowError):
             raise refusal(f"got {shown(value)}", self.expected) from None
 
-    def _instead_of(self, value: Any) -> str:
+    def _hint_for(self, value: Any) -> str:
         """Return a hint for a script that passed an unsupported number, such as an object with a
         unit.
 
@@ -119,7 +119,7 @@ class Quantity:
         of_a_library = hasattr(value, "__float__") and not isinstance(value, bool)
         return "pass one plain float" if of_a_library else ""
 
-    def _from_text(self, text: str) -> float:
+    def _convert_text(self, text: str) -> float:
         match = _QUANTITY.match(text.strip())
         if not self.kind.units:
             raise refusal(f"got the text {shown(text)}", self.expected, "write it without quotes")

@@ -37,7 +37,7 @@ class Problem:
     def key(self) -> str:
         """Dotted key of the wrong value: `loading[2].normal_force` for the second step, counted
         from 1."""
-        return dotted(self.path)
+        return dotted_key(self.path)
 
     def __str__(self) -> str:
         place = printable(self.file) + ("" if self.line is None else f":{self.line}")
@@ -60,7 +60,7 @@ class SceneError(Exception):
         return "\n".join(lines + ([f"… and {left} more"] if left else []))
 
 
-def dotted(path: Path) -> str:
+def dotted_key(path: Path) -> str:
     """Convert the path of a key in a scene to text, as in `loading[2].normal_force`.
 
     path  keys, and array indices that count from 0; in the text they count from 1
@@ -70,7 +70,7 @@ def dotted(path: Path) -> str:
         if isinstance(part, int):
             text += f"[{part + 1}]"
         else:
-            bare, key = is_bare_key(part), shortened(part)
+            bare, key = is_bare_key(part), shorten_text(part)
             text += ("." if text else "") + (key if bare else f'"{printable(key)}"')
     return text
 
@@ -93,7 +93,7 @@ def shown(value: Any) -> str:
     """Convert a value to printable text of limited length for a message, in the notation of
     TOML."""
     if isinstance(value, str):
-        return '"' + printable(shortened(value)) + '"'
+        return '"' + printable(shorten_text(value)) + '"'
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int) and abs(value) >= 10**20:
@@ -115,10 +115,10 @@ def printable(text: str) -> str:
 def _shown_array(items: list[Any] | tuple[Any, ...]) -> str:
     if len(items) > 4 or any(isinstance(item, list | tuple | dict) for item in items):
         return f"an array of {len(items)}"
-    return shortened("[" + ", ".join(shown(item) for item in items) + "]", 160)
+    return shorten_text("[" + ", ".join(shown(item) for item in items) + "]", 160)
 
 
-def shortened(text: str, longest: int = _MAX_SHOWN) -> str:
+def shorten_text(text: str, longest: int = _MAX_SHOWN) -> str:
     """Cut a text to a maximum number of characters, with "…" in place of the rest."""
     return text if len(text) <= longest else text[: longest - 1] + "…"
 

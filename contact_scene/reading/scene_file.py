@@ -60,15 +60,15 @@ def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) ->
         except SceneError as error:
             found += error.problems
     try:
-        scene = _valid(SceneFile, document, {"folder": file.parent})
+        scene = _validate_tables(SceneFile, document, {"folder": file.parent})
     except SceneError as error:
-        found += [_placed(problem, str(file), lines, options) for problem in error.problems]
+        found += [_add_place(problem, str(file), lines, options) for problem in error.problems]
     if found:
         raise SceneError(sorted(found, key=lambda problem: problem.line or 0))
     return scene
 
 
-def _placed(
+def _add_place(
     problem: Problem, file: str, lines: Mapping[Key, int], options: Mapping[Key, str]
 ) -> Problem:
     """Add the place of the mistake to a problem of a scene, for the error message.
@@ -101,7 +101,7 @@ def read_accuracy(text: str, option: str) -> AccuracyRequest:
     Raises `SceneError` with every mistake.
     """
     try:
-        return _valid(_Accuracy, {"accuracy": accuracy_texts(text)}, {}).accuracy
+        return _validate_tables(_Accuracy, {"accuracy": accuracy_texts(text)}, {}).accuracy
     except SceneError as error:
         raise SceneError(replace(problem, file=option) for problem in error.problems) from None
 
@@ -112,7 +112,7 @@ class _Accuracy(Description):
     accuracy: AccuracyRequest
 
 
-def changed_scene(scene: Scene, changes: Mapping[str, Any]) -> Scene:
+def replace_keys(scene: Scene, changes: Mapping[str, Any]) -> Scene:
     """Return a scene with other values of some keys, checked like a scene file; see
     `Scene.replace`.
 
@@ -127,10 +127,10 @@ def changed_scene(scene: Scene, changes: Mapping[str, Any]) -> Scene:
         raise SceneError(
             Problem((key,), "the key is not of the scene", "", hint) for key in foreign
         )
-    return _valid(type(scene), document, {})
+    return _validate_tables(type(scene), document, {})
 
 
-def _valid(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> D:
+def _validate_tables(kind: type[D], document: dict[str, Any], context: dict[str, Any]) -> D:
     """Validate the tables of a scene file, and check their consistency with each other.
 
     kind      class of the model, such as the scene

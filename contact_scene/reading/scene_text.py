@@ -33,38 +33,38 @@ def describe(
     """
     if scene.title:
         yield "title", scene.title
-    yield "indenter", _joined(scene.indenter)
-    yield "body", _joined(scene.body)
-    yield "friction", "none" if scene.friction is None else _joined(scene.friction)
+    yield "indenter", _table_text(scene.indenter)
+    yield "body", _table_text(scene.body)
+    yield "friction", "none" if scene.friction is None else _table_text(scene.friction)
     if scene.rig is not None:
-        yield "rig", _joined(scene.rig)
+        yield "rig", _table_text(scene.rig)
     for number, step in enumerate(scene.loading[:MAX_STEPS_SHOWN], 1):
-        yield f"step {number}", _joined(step)
+        yield f"step {number}", _table_text(step)
     if len(scene.loading) > MAX_STEPS_SHOWN:
         yield "…", f"{len(scene.loading) - MAX_STEPS_SHOWN} more steps"
-    for name, text in _texts(discretisation):
+    for name, text in _key_texts(discretisation):
         yield name.replace("_", " "), text or "chosen"
     for name, field in FiniteElementDiscretisation.model_fields.items():
         if elements is not None and (value := getattr(elements, name)) != field.default:
-            yield f"elements: {name}".replace("_", " "), _text(value, _unit(field))
+            yield f"elements: {name}".replace("_", " "), _value_text(value, _unit_of_field(field))
 
 
 def shape_text(indenter: Body) -> str:
     """Describe the shape of an indenter and its parameters in words, such as "sphere, radius 18
     mm"."""
-    return _joined(indenter, Body.model_fields)
+    return _table_text(indenter, Body.model_fields)
 
 
-def _texts(model: BaseModel) -> Iterator[Line]:
+def _key_texts(model: BaseModel) -> Iterator[Line]:
     """Yield the name of each key of a table of the scene, with its value in a readable unit.
 
     The text of the value is empty for a key without a value.
     """
     for name, field in type(model).model_fields.items():
-        yield name, _text(getattr(model, name), _unit(field))
+        yield name, _value_text(getattr(model, name), _unit_of_field(field))
 
 
-def _joined(model: BaseModel, left_out: Container[str] = ()) -> str:
+def _table_text(model: BaseModel, left_out: Container[str] = ()) -> str:
     """Write a table of the scene as one text of keys and values, for the description of a scene.
 
     The shape of an indenter comes first, without its key. Keys without a value are left out.
@@ -72,13 +72,13 @@ def _joined(model: BaseModel, left_out: Container[str] = ()) -> str:
     model     table of the scene
     left_out  names of other keys to leave out
     """
-    texts = {name: text for name, text in _texts(model) if text and name not in left_out}
+    texts = {name: text for name, text in _key_texts(model) if text and name not in left_out}
     shape = [texts.pop("shape").replace("_", " ")] if "shape" in texts else []
     own = sorted(texts, key=lambda name: name in Body.model_fields)
     return ", ".join([*shape, *(f"{name.replace('_', ' ')} {texts[name]}" for name in own)])
 
 
-def _text(value: object, unit: str = "") -> str:
+def _value_text(value: object, unit: str = "") -> str:
     if value is None or value == ():
         return ""
     if isinstance(value, ArrayFile):
@@ -86,26 +86,26 @@ def _text(value: object, unit: str = "") -> str:
         points = " x ".join(map(str, value.shape))
         return f"{value} ({low:.4g} to {high:.4g} in SI units, {points} values)"
     if isinstance(value, BaseModel):
-        return f"({_joined(value)})"
+        return f"({_table_text(value)})"
     if isinstance(value, tuple):
-        texts = [_text(part, unit) for part in value]
+        texts = [_value_text(part, unit) for part in value]
         return "".join(texts) if texts[0].startswith("(") else f"({', '.join(texts)})"
     if not isinstance(value, float):
         return str(value.value if isinstance(value, Rigid) else value)
     return quantity(value, unit, 6) if unit else f"{value:.6g}"
 
 
-def _unit(field: FieldInfo) -> str:
+def _unit_of_field(field: FieldInfo) -> str:
     """Return the SI unit of a key of the scene, to write its value with a unit.
 
     The result is empty for pure numbers and for values that are not quantities.
     """
-    unit = next(_units((*field.metadata, field.annotation)), "")
+    unit = next(_quantity_units((*field.metadata, field.annotation)), "")
     return unit if unit != "1" else ""
 
 
-def _units(parts: Iterable[object]) -> Iterator[str]:
+def _quantity_units(parts: Iterable[object]) -> Iterator[str]:
     for part in parts:
         if isinstance(part, Quantity):
             yield part.kind.si
-        yield from _units(get_args(part))
+        yield from _quantity_units(get_args(part))

@@ -41,12 +41,14 @@ def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
 
     Raises `SceneError` for a file that is missing, too large or not valid.
     """
-    text = _text(file)
+    text = _read_text(file)
     try:
-        lines = locate(text)  # first, since its limits let tomllib read in linear time
+        lines = locate_keys(text)  # first, since its limits let tomllib read in linear time
         return tomllib.loads(text), lines
     except NestedTooDeep as error:
-        raise _refused(file, "nested too deep", f"at most {MAX_DEPTH} levels", error.line) from None
+        raise _file_error(
+            file, "nested too deep", f"at most {MAX_DEPTH} levels", error.line
+        ) from None
     except (ValueError, RecursionError) as error:
         place = re.search(r" \(at line (\d+), column (\d+)\)", str(error))
         line = int(place[1]) if place else text.count("\n") + 1
@@ -55,35 +57,37 @@ def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
         if (long := _LONG_NUMBER.search(text)) and "int_max_str_digits" in reason:
             line = text.count("\n", 0, long.start()) + 1
             reason = f"a whole number of more than {_MAX_DIGITS} digits"
-        raise _refused(file, f"not valid TOML: {reason}{column}", line=line) from None
+        raise _file_error(file, f"not valid TOML: {reason}{column}", line=line) from None
 
 
-def _text(file: FilePath) -> str:
+def _read_text(file: FilePath) -> str:
     try:
         if not file.is_file():
             other = "is a folder" if file.is_dir() else "is not a regular file"
             message = other if file.exists() else "there is no such file"
-            raise _refused(file, message, "a scene file (TOML)")
+            raise _file_error(file, message, "a scene file (TOML)")
         with file.open("rb") as stream:
             contents = stream.read(_MAX_SIZE + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "not a file name"
-        raise _refused(file, f"cannot be read: {reason}") from None
+        raise _file_error(file, f"cannot be read: {reason}") from None
     if len(contents) > _MAX_SIZE:
-        raise _refused(file, "is too large", f"at most {_MAX_SIZE // 10**6} MB")
+        raise _file_error(file, "is too large", f"at most {_MAX_SIZE // 10**6} MB")
     try:
         text = contents.removeprefix(b"\xef\xbb\xbf").decode("utf-8")
     except UnicodeDecodeError as error:
         line = contents.count(b"\n", 0, error.start) + 1
-        raise _refused(file, "is not text in UTF-8", line=line) from None
+        raise _file_error(file, "is not text in UTF-8", line=line) from None
     if not text.strip():
-        raise _refused(file, "is empty", "a scene (TOML)")
+        raise _file_error(file, "is empty", "a scene (TOML)")
     if sum(map(text.count, "=,[\\")) > _MAX_SIGNS:
-        raise _refused(file, "holds too many keys or escapes", f"at most {MAX_STEPS} loading steps")
+        raise _file_error(
+            file, "holds too many keys or escapes", f"at most {MAX_STEPS} loading steps"
+        )
     return text
 
 
-def _refused(
+def _file_error(
     file: FilePath, message: str, expected: str = "", line: int | None = None
 ) -> SceneError:
     return SceneError([Problem((), message, expected, file=str(file), line=line)])
@@ -98,7 +102,7 @@ class NestedTooDeep(ValueError):
         super().__init__(f"line {line}")
 
 
-def locate(document: str) -> dict[Path, int]:
+def locate_keys(document: str) -> dict[Path, int]:
     """Determine the line of every key and array entry of a valid TOML document.
 
     Lines count from 1, array entries from 0. The line of a table is that of its header, else that
@@ -111,7 +115,7 @@ def locate(document: str) -> dict[Path, int]:
     table: Path = ()  # of the last header
     open_values: list[tuple[Path, Iterator[int] | None]] = []  # arrays with indices, inline tables
     brackets, keys, value = 0, list[str](), None
-    for text, is_key, line in _tokens(document):
+    for text, is_key, line in _toml_tokens(document):
         path, indices = open_values[-1] if open_values else (table, None)
         if len(path) + len(keys) > MAX_DEPTH:
             raise NestedTooDeep(line)
@@ -119,7 +123,7 @@ def locate(document: str) -> dict[Path, int]:
             value, _ = open_values.pop()
         elif text == "\n" and not open_values:
             if brackets and keys:
-                table = _opened(keys, brackets == 2, line, lines, entries)
+                table = _open_table(keys, brackets == 2, line, lines, entries)
             brackets, keys, value = 0, [], None
         elif text == ",":
             keys, value = [], None
@@ -136,13 +140,13 @@ def locate(document: str) -> dict[Path, int]:
                     value = (*value, key)
                     lines.setdefault(value, line)
             elif value is None and is_key:
-                keys.append(_unquoted(text))
+                keys.append(_unquote_key(text))
             else:
                 brackets += text == "["
     return lines
 
 
-def _tokens(document: str) -> Iterator[tuple[str, bool, int]]:
+def _toml_tokens(document: str) -> Iterator[tuple[str, bool, int]]:
     """Yield the tokens of a TOML document: keys, values, marks and ends of lines.
 
     yields  text of the token; True if it may be a key; its line. The last token ends a line
@@ -155,7 +159,7 @@ def _tokens(document: str) -> Iterator[tuple[str, bool, int]]:
     yield "\n", False, line
 
 
-def _opened(
+def _open_table(
     keys: list[str], is_entry: bool, line: int, lines: dict[Path, int], entries: dict[Path, int]
 ) -> Path:
     """Record the line of a TOML table header `[a.b]` or `[[a.b]]`, for error messages.
@@ -180,7 +184,7 @@ def _opened(
     return table
 
 
-def _unquoted(key: str) -> str:
+def _unquote_key(key: str) -> str:
     if key[0] not in "\"'":
         return key
     try:

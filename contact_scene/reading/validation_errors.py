@@ -32,7 +32,9 @@ def problems_of(document: Mapping[str, Any], error: ValidationError) -> list[Pro
     short, and a missing key that is present under a misspelt name.
     """
     details = error.errors(include_url=False)
-    found = [_problem(document, d) for d in details if d["type"] != "too_short" or not d["input"]]
+    found = [
+        _convert_error(document, d) for d in details if d["type"] != "too_short" or not d["input"]
+    ]
     meant = {(problem.path[:-1], problem.hint) for problem in found}
     return [
         problem
@@ -42,9 +44,9 @@ def problems_of(document: Mapping[str, Any], error: ValidationError) -> list[Pro
     ]
 
 
-def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
+def _convert_error(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
     kind, location, got = detail["type"], detail["loc"], f"got {shown(detail['input'])}"
-    path = _as_written(document, detail)
+    path = _document_path(document, detail)
     context: dict[str, Any] = detail.get("ctx", {})
     if kind == "refused":
         return Problem(path, context["message"], context["expected"], context["hint"])
@@ -61,15 +63,15 @@ def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
         hint = _did_you_mean(near[0]) if near else f"the keys here are {', '.join(known)}"
         return Problem(path, "unknown key", hint=hint)
     if kind.startswith("union_tag") and not isinstance(detail["input"], dict):
-        hint = _brackets(path, detail["input"])
+        hint = _bracket_hint(path, detail["input"])
         return Problem(path, got, "a table with shape and material", hint)
     if kind.startswith("union_tag") or (kind == "literal_error" and path[-1] == "shape"):
         path = path if path[-1] == "shape" else (*path, "shape")
         return _unknown_shape(path, detail["input"])
     if kind in _NO_TABLE:
-        return Problem(path, got, _expected_table(location), _brackets(path, detail["input"]))
+        return Problem(path, got, _expected_table(location), _bracket_hint(path, detail["input"]))
     if kind in _NO_ARRAY:
-        return Problem(path, got, "an array", _brackets(path, detail["input"]))
+        return Problem(path, got, "an array", _bracket_hint(path, detail["input"]))
     if kind in ("too_short", "too_long"):
         number = context["actual_length"]
         got = f"got {number or 'no'} {'entry' if number == 1 else 'entries'}"
@@ -82,7 +84,7 @@ def _problem(document: Mapping[str, Any], detail: ErrorDetails) -> Problem:
     return Problem(path, f"{got}: {detail['msg']}")
 
 
-def _as_written(document: Mapping[str, Any], detail: ErrorDetails) -> Path:
+def _document_path(document: Mapping[str, Any], detail: ErrorDetails) -> Path:
     """Convert the location of a validation error to the path of the key in the scene document.
 
     The location contains branches of unions, which the document lacks. The path ends at the deepest
@@ -124,7 +126,7 @@ def _unknown_shape(path: Path, given: Any) -> Problem:
     return Problem(path, f"got {shown(name)}", expected, hint)
 
 
-def _brackets(path: Path, given: Any) -> str:
+def _bracket_hint(path: Path, given: Any) -> str:
     """Return a hint if single and double brackets of a table header may have been confused.
 
     path     path of the table in the scene document

@@ -28,7 +28,7 @@ class ResumePoint(Generic[S]):
     start: S | None
     last: Any = None
 
-    def within(self, before: int, count: int) -> int:
+    def completed_in_step(self, before: int, count: int) -> int:
         """Return the number of completed increments of one load step, from which a solve resumes.
 
         before  number of increments of all earlier load steps
@@ -63,7 +63,7 @@ class CheckpointStore(Protocol):
         """Store a checkpoint. Called after every increment; an implementation may skip calls."""
 
 
-def with_checkpoints(
+def store_checkpoints(
     history: Iterable[tuple[Any, ResumePoint[Any]]],
     since: Checkpoint | None,
     store: CheckpointStore | None,
@@ -90,7 +90,7 @@ def with_checkpoints(
             progress(increment)
         yield increment
     for increment, point in history:
-        increments.append(fields.stored(increment))
+        increments.append(fields.store(increment))
         if store is not None:
             store.keep(Checkpoint(tuple(increments), point, extent, tuple(sorted(settled))))
         if progress is not None:

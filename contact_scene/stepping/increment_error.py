@@ -29,7 +29,7 @@ from contact_scene.stepping.load_path import (
 NEAR_GROSS_SLIP = 0.99
 
 
-def with_error(scene: Scene) -> tuple[bool, ...]:
+def has_increment_error(scene: Scene) -> tuple[bool, ...]:
     """Determine for each load step if its end state depends on the number of increments.
 
     The result is False in three cases, which are proved:
@@ -39,7 +39,10 @@ def with_error(scene: Scene) -> tuple[bool, ...]:
     - A straight push at constant pressure of two uncoated bodies of one material with ν = 0.
     """
     ramps = scene.load_path()
-    return tuple(not _proved(scene, ramps[: number + 1]) for number in range(len(ramps)))
+    return tuple(
+        not _is_independent_of_increments(scene, ramps[: number + 1])
+        for number in range(len(ramps))
+    )
 
 
 def near_gross_slip(scene: Scene) -> tuple[bool, ...]:
@@ -50,16 +53,20 @@ def near_gross_slip(scene: Scene) -> tuple[bool, ...]:
     there depend strongly on the number of increments.
     """
     reached, found = False, []
-    for ramp, matters in zip(scene.load_path(), with_error(scene), strict=True):
+    for ramp, matters in zip(scene.load_path(), has_increment_error(scene), strict=True):
         forces = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
-        limit = scene.friction.carried(ramp.normal.end) if scene.friction and forces else None
+        limit = (
+            scene.friction.largest_tangential_force(ramp.normal.end)
+            if scene.friction and forces
+            else None
+        )
         share = hypot(*ramp.tangential.end) / limit if limit else 0.0
         reached = reached or (matters and NEAR_GROSS_SLIP < share < 1)
         found.append(reached)
     return tuple(found)
 
 
-def _proved(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
+def _is_independent_of_increments(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
     """Determine if the end state of a load history is proved to be independent of the increments.
 
     ramps  load ramps of the history up to this state
@@ -84,7 +91,7 @@ def _proved(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
         tilted = any(any(r.tilting.end) for r in ramps)
         revolved = scene.indenter.is_of_revolution and scene.friction.uniform is not None
         return not pushed and not tilted and revolved
-    return along_one_line(ramps) and _similar(scene)
+    return along_one_line(ramps) and _are_equal_without_poisson(scene)
 
 
 def _follows_force(ramp: LoadRamp) -> bool:
@@ -95,7 +102,7 @@ def _follows_force(ramp: LoadRamp) -> bool:
     return ramp.tangential.start is None or ramp.twisting.start is None
 
 
-def _similar(scene: Scene) -> bool:
+def _are_equal_without_poisson(scene: Scene) -> bool:
     """Return true if both bodies have no layers and Poisson's ratio 0.
 
     The direction of slip of a straight push is then constant, which proves that its result does not

@@ -64,11 +64,11 @@ class Control(Generic[Value]):
             begin = reached[0] if by_force else reached[1]
         if begin is None:
             raise motion_undefined()
-        value = _ramped(begin, self.end, fraction)
+        value = _interpolate_ramp(begin, self.end, fraction)
         return (value, None) if by_force else (None, value)
 
 
-def _ramped(begin: Any, end: Any, fraction: float) -> Any:
+def _interpolate_ramp(begin: Any, end: Any, fraction: float) -> Any:
     """Interpolate a force, displacement or bulk strain linearly within a load step.
 
     Tuples are interpolated component by component.
@@ -77,7 +77,7 @@ def _ramped(begin: Any, end: Any, fraction: float) -> Any:
     fraction    fraction of the load step, from 0 to 1
     """
     if isinstance(end, tuple):
-        return tuple(_ramped(*ends, fraction) for ends in zip(begin, end, strict=True))
+        return tuple(_interpolate_ramp(*ends, fraction) for ends in zip(begin, end, strict=True))
     return end if fraction == 1 or begin == end else begin + (end - begin) * fraction
 
 
@@ -110,7 +110,7 @@ class LoadRamp:
     def strain(self, fraction: float) -> Strain | None:
         """Interpolate the bulk strain of the lower body at a fraction of the load step; None
         without one."""
-        strain: Strain | None = self.stretch and _ramped(*self.stretch, fraction)
+        strain: Strain | None = self.stretch and _interpolate_ramp(*self.stretch, fraction)
         return strain
 
     @property
@@ -149,16 +149,18 @@ def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tupl
         last = replace(last, stretch=(UNSTRAINED, UNSTRAINED))
     at_rest = last
     for number, step in enumerate(loading, start=1):
-        if last is at_rest and not step.names_normal:
+        if last is at_rest and not step.prescribes_normal:
             raise ValueError("the first step names no normal load")
         last = LoadRamp(
             number,
-            _next(step.normal_force, step.approach, last.normal, last is at_rest),
-            _next(step.tangential_force, step.tangential_shift, last.tangential, last is at_rest),
-            _next(step.torque, step.twist, last.twisting, last is at_rest),
-            _next(step.moment, step.tilt, last.tilting, last is at_rest),
+            _next_control(step.normal_force, step.approach, last.normal, last is at_rest),
+            _next_control(
+                step.tangential_force, step.tangential_shift, last.tangential, last is at_rest
+            ),
+            _next_control(step.torque, step.twist, last.twisting, last is at_rest),
+            _next_control(step.moment, step.tilt, last.tilting, last is at_rest),
             step.increments,
-            _stretched(step, last, base),
+            _bulk_strain_of_step(step, last, base),
         )
         ramps.append(last)
     return tuple(ramps)
@@ -189,7 +191,7 @@ def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
     )
 
 
-def _stretched(
+def _bulk_strain_of_step(
     step: LoadStep, last: LoadRamp, base: Material | None
 ) -> tuple[Strain, Strain] | None:
     """Determine the bulk strain of the lower body at the start and end of a load step.
@@ -206,7 +208,7 @@ def _stretched(
     return start, step.bulk_strain or by_stress or start
 
 
-def _next(
+def _next_control(
     force: Value | None, displacement: Value | None, last: Control[Value], at_rest: bool
 ) -> Control[Value]:
     """Determine the control of one coordinate of the indenter in a load step.

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
 from contact_scene.array_types import Field
-from contact_scene.bulk_strain import with_strain
+from contact_scene.bulk_strain import add_bulk_strain
 from contact_scene.quantities.separation import (
-    continued,
+    add_values_at_separation,
     position,
-    separated,
-    since_touch,
-    virgin,
+    ramp_since_separation,
+    separated_increment,
+    virgin_increment,
 )
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.scene import Scene
@@ -35,7 +35,7 @@ Report = TypeVar("Report")
 
 
 @dataclass(frozen=True)
-class Place:
+class IncrementPosition:
     """Position of an increment in the load history: load step and increment, each counted from
     1."""
 
@@ -45,7 +45,7 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Reached(Generic[S]):
+class ConvergedIncrement(Generic[S]):
     """Converged solve of an increment, from which a solver creates its reported increment.
 
     place     position of the increment in the load history
@@ -55,7 +55,7 @@ class Reached(Generic[S]):
     spent     work of the solver for the increment, in its unit
     """
 
-    place: Place
+    place: IncrementPosition
     before: S | None
     state: S
     halvings: int
@@ -85,7 +85,7 @@ class Solver(Protocol[S, Report]):
         a bisection does not remedy.
         """
 
-    def report(self, reached: Reached[S], last: Report | None) -> Report:
+    def report(self, reached: ConvergedIncrement[S], last: Report | None) -> Report:
         """Create the reported increment from a converged solve.
 
         reached  converged solve
@@ -124,7 +124,7 @@ def resumable_increments(
     """
 
     def empty(
-        last: Report, ramp: LoadRamp, end: float, approach: float | None, place: Place
+        last: Report, ramp: LoadRamp, end: float, approach: float | None, place: IncrementPosition
     ) -> Report:
         """Return the reported increment of separated bodies (empty contact) at a fraction of a load
         ramp.
@@ -135,7 +135,9 @@ def resumable_increments(
         place     position of the increment in the load history
         """
         gap = solver.undeformed_gap(last, position(last, ramp, end)["tilt"])
-        return with_strain(separated(last, ramp, end, gap, vars(place), approach), ramp.strain(end))
+        return add_bulk_strain(
+            separated_increment(last, ramp, end, gap, vars(place), approach), ramp.strain(end)
+        )
 
     point: ResumePoint[S] | None = since.point if since else None
     earlier: Sequence[Any] = since.increments if since else ()
@@ -144,24 +146,26 @@ def resumable_increments(
     # `here` is the last increment of this contact, counted from its first touch.
     state, done, here = point.state if point else None, 0, point.last if point else None
     for ramp, count in zip(scene.load_path(), counts, strict=True):
-        completed = point.within(done, count) if point else 0
+        completed = point.completed_in_step(done, count) if point else 0
         start = point.start if point and 0 < completed < count else state
         done += completed
         ends = [0.0, *fractions(scene, ramp, count)]
-        counted, falls = since_touch(ramp, apart) if apart else ramp, ramp.normal.end == 0
-        untouched: list[tuple[float, float | None, Place]] = []
+        counted, falls = ramp_since_separation(ramp, apart) if apart else ramp, ramp.normal.end == 0
+        untouched: list[tuple[float, float | None, IncrementPosition]] = []
         for index in range(completed + 1, len(ends)):
-            place, end = Place(ramp.step, index, count), ends[index]
+            place, end = IncrementPosition(ramp.step, index, count), ends[index]
             done, before, begun = done + 1, state, solver.spent()
-            reached: Reached[S] | None = None
+            reached: ConvergedIncrement[S] | None = None
             approach = None
             try:
                 if not (falls and (start is None or index == count)):
                     most = begun + solver.most_spent
-                    found, halvings = _advanced(
+                    found, halvings = _solve_with_bisection(
                         solver, counted, start, before, (ends[index - 1], end), most
                     )
-                    reached = Reached(place, before, found, halvings, solver.spent() - begun)
+                    reached = ConvergedIncrement(
+                        place, before, found, halvings, solver.spent() - begun
+                    )
             except SolverError as error:
                 within = isinstance(error, NothingTouches) and index < count
                 if not (within and (falls or before is None)):
@@ -171,14 +175,16 @@ def resumable_increments(
                 approach = ramp.normal.prescribed(end, (0.0, 0.0))[1]
             if reached is not None:
                 state = reached.state
-                here = with_strain(
+                here = add_bulk_strain(
                     solver.report(reached, here if apart else last), ramp.strain(end)
                 )
                 for before_touch, approach, at in untouched:
-                    last = apart = empty(apart or virgin(here), ramp, before_touch, approach, at)
+                    last = apart = empty(
+                        apart or virgin_increment(here), ramp, before_touch, approach, at
+                    )
                     yield apart, ResumePoint(done - index + at.index, None, start)
                 untouched.clear()
-                last = continued(apart, here) if apart else here
+                last = add_values_at_separation(apart, here) if apart else here
                 yield last, ResumePoint(done, state, start, here if apart else None)
             elif last is None:
                 untouched.append((end, approach, place))
@@ -207,7 +213,7 @@ def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
     return [1 - radius for radius in radii[-2::-1]] if falls else radii[1:]
 
 
-def _advanced(
+def _solve_with_bisection(
     solver: Solver[S, Any],
     ramp: LoadRamp,
     start: S | None,
@@ -234,9 +240,9 @@ def _advanced(
     middle, limits = 0.5 * (begin + end), (most_spent, halvings_left - 1)
     half, first = None, 0  # the empty contact
     try:
-        half, first = _advanced(solver, ramp, start, before, (begin, middle), *limits)
+        half, first = _solve_with_bisection(solver, ramp, start, before, (begin, middle), *limits)
     except NothingTouches:
         if before is not None:
             raise
-    whole, second = _advanced(solver, ramp, start, half, (middle, end), *limits)
+    whole, second = _solve_with_bisection(solver, ramp, start, half, (middle, end), *limits)
     return whole, 1 + first + second

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact_scene.array_types import Field
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.stepping.load_stepping import Place
+from contact_scene.stepping.load_stepping import IncrementPosition
 from fem_reference.compliance.ring_edge import stick_area
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
@@ -20,7 +20,10 @@ Scalar = TypeVar("Scalar", np.float64, np.bool_)
 
 
 def report_increment(
-    contact: PointContact, state: PointState, direction: tuple[float, float], place: Place
+    contact: PointContact,
+    state: PointState,
+    direction: tuple[float, float],
+    place: IncrementPosition,
 ) -> Increment:
     """Convert a contact state at the points of the surface to an increment of the result.
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import ContactAtZoneEdge
-from contact_scene.stepping.load_stepping import Place
+from contact_scene.stepping.load_stepping import IncrementPosition
 from fem_reference.compliance.angular_grid import (
     AngularGrid,
     axisymmetric_grid,
@@ -68,7 +68,7 @@ class ContactMethod:
         self._refuse_contact_at_edge(contact, state)
         return state
 
-    def increment(self, state: PointState, place: Place) -> Increment:
+    def increment(self, state: PointState, place: IncrementPosition) -> Increment:
         """Convert the contact state at the end of an increment to an increment of the result.
 
         place  load step, and index of the increment in the load step

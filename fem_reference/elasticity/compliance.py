@@ -14,7 +14,7 @@ import scipy
 import skfem
 from numpy.typing import NDArray
 
-from contact_scene.disk_cache import remembered
+from contact_scene.disk_cache import cached_array
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import Motion
 from fem_reference.mesh.section_mesh import SectionMesh
@@ -58,7 +58,7 @@ def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
     motion   displacement field of one angular harmonic, such as that of normal loading or torsion
     """
     shape = (len(motion.components), section.radii.size) * 2
-    matrix = remembered(
+    matrix = cached_array(
         _cache_key(section, motion), shape, lambda: FactoredSection(section, motion).compliance()
     )
     return NodalCompliance(motion, section.radii, matrix, 1)

@@ -17,8 +17,8 @@ from contact_scene.array_types import Array
 from contact_scene.bulk_strain import UNSTRAINED
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.rig import of_contact
-from contact_scene.stepping.load_stepping import Reached
+from contact_scene.rig import add_contact_displacements
+from contact_scene.stepping.load_stepping import ConvergedIncrement
 from radial.fields import Increment
 from radial.frictional.coupling import Coupling
 from radial.frictional.frictional_increment import (
@@ -210,7 +210,9 @@ class FrictionalSteps(StepsOnRings):
             return before.power
         return 3.0 if target.approach is None else 2.0
 
-    def report(self, reached: Reached[FrictionalState], last: Increment | None) -> Increment:
+    def report(
+        self, reached: ConvergedIncrement[FrictionalState], last: Increment | None
+    ) -> Increment:
         """Compute the output of an increment: fields at the rings, energies and residuals.
 
         Raises UnsupportedScene if the contact area is not a disc, and NotConverged if a residual
@@ -277,7 +279,7 @@ class FrictionalSteps(StepsOnRings):
             slip_radial=state.slip,
             in_stick=sticks,
         )
-        return of_contact(increment, self.scene.rig)
+        return add_contact_displacements(increment, self.scene.rig)
 
     def _shear_at_rings(self, state: FrictionalState, p: Array, r: Array) -> Array:
         """Interpolate the radial shear to the output rings (n,) [force/length²].

@@ -70,7 +70,7 @@ def solve_increment(
                ContactAtZoneEdge if the contact reaches the last ring
     """
     force, W = float(np.hypot(*_prescribed_shear_loads(loads)[:2])), loads.forces[NORMAL]
-    most = None if W is None else friction.carried(W)
+    most = None if W is None else friction.largest_tangential_force(W)
     if force and most is not None and force >= most:
         raise _gross_sliding_error(force, most)
     laws = ContactLaws.of(points, friction, loads, before)

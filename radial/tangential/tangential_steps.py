@@ -13,9 +13,9 @@ from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
 from contact_scene.array_types import Array
 from contact_scene.body_pair import coupling
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.rig import compliances, of_contact
+from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
-from contact_scene.stepping.load_stepping import Reached
+from contact_scene.stepping.load_stepping import ConvergedIncrement
 from radial.angular_grid import RingAngles
 from radial.fields import Increment
 from radial.frictional.coupling import Coupling
@@ -305,7 +305,9 @@ class TangentialSteps(StepsOnRings):
                 "increments, or prescribe the normal force"
             )
 
-    def report(self, reached: Reached[TangentialState], last: Increment | None) -> Increment:
+    def report(
+        self, reached: ConvergedIncrement[TangentialState], last: Increment | None
+    ) -> Increment:
         """Compute the output of an increment: fields on rings and angles, energies and residuals.
 
         Raises NotConverged if a residual exceeds the tolerance.
@@ -366,7 +368,7 @@ class TangentialSteps(StepsOnRings):
             slip_circumferential=s_t if angular or self.twists else None,
             in_stick=(self._interpolate_scalar(points, share) < 1) & (p > 0),
         )
-        return of_contact(increment, self.scene.rig)
+        return add_contact_displacements(increment, self.scene.rig)
 
     def _refuse_narrow(self, state: TangentialState, step: int) -> None:
         """Raise UnsupportedScene if the slip annulus after normal loading is narrower than a ring.

@@ -14,7 +14,7 @@ from contact_scene.array_types import Array
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.load_stepping import (
-    Reached,
+    ConvergedIncrement,
     Solver,
 )
 from radial.fields import Increment
@@ -102,7 +102,9 @@ class TorsionSteps(StepsOnRings):
             normal_contact, path.continue_to_twist(twist), (ControlKind.DISPLACEMENT, twist)
         )
 
-    def report(self, reached: Reached[TorsionState], last: Increment | None) -> Increment:
+    def report(
+        self, reached: ConvergedIncrement[TorsionState], last: Increment | None
+    ) -> Increment:
         """Compute the output of an increment: fields at the rings, energies and residuals.
 
         Raises UnsupportedScene if slip does not begin at the edge, and NotConverged if a residual
@@ -112,7 +114,7 @@ class TorsionSteps(StepsOnRings):
         last     output of the previous increment, for the work of the loads
         """
         state, before = reached.state, reached.before
-        normal_contact = Reached(
+        normal_contact = ConvergedIncrement(
             reached.place,
             before.normal_contact if before else None,
             state.normal_contact,

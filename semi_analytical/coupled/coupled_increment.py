@@ -84,7 +84,7 @@ def solve_coupled_increment(
     if last.shift is None:
         raise motion_undefined()
     if tangential.force is not None and normal.force is not None:
-        carried = model.friction.carried(normal.force)
+        carried = model.friction.largest_tangential_force(normal.force)
         if carried is not None:
             force_reaches_limit(tangential.force, carried)
     start, shear, iterations = _initial_guess(model, before, last, normal, tangential)

@@ -1,7 +1,7 @@
 """Influence coefficients of the relative displacement of the two bodies of a scene."""
 
 from contact_scene import Body, IsotropicMaterial
-from contact_scene.disk_cache import remembered
+from contact_scene.disk_cache import cached_array
 from contact_scene.rig import Rig, compliances
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
@@ -44,6 +44,6 @@ def _body_coefficients(
     if body.layers or not isinstance(body.material, IsotropicMaterial):
         from semi_analytical.influence.layered import LayeredCoefficients
 
-        return (LayeredCoefficients(stack_of(body), spacing, offsets, remembered),)
+        return (LayeredCoefficients(stack_of(body), spacing, offsets, cached_array),)
     material = body.material
     return (HalfSpaceCoefficients(integrals, material.shear_modulus, material.poisson_ratio),)

@@ -19,7 +19,7 @@ from contact_scene.reading.scene_file import read_accuracy
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional, refuse_if
 from slipstick.cli.progress import print_level, solve_progress
-from slipstick.cli.terminal import tell
+from slipstick.cli.terminal import print_message
 from slipstick.solvers.solver import Progress, Solver
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ MostSecondsOption: TypeAlias = Annotated[
 OF_LEVEL = "checkpoint-"
 
 
-def requested_accuracy(
+def read_requested_accuracy(
     contents: SceneFile, option: str | None, most_seconds: float | None, *, error: bool
 ) -> AccuracyRequest | None:
     """Return the accuracy request of the option `--accuracy`, or else of the scene file.
@@ -79,17 +79,19 @@ def requested_accuracy(
     return request
 
 
-def leave_unless_met(accuracy: AccuracyReached | None) -> None:
+def exit_unless_met(accuracy: AccuracyReached | None) -> None:
     """Exit with code 4 if a requested accuracy was not reached.
 
     accuracy  outcome of the refinement; None for a run without a requested accuracy
     """
     if accuracy is not None and not accuracy.met:
-        tell(f"error: the accuracy was not reached: {accuracy.stopped}; the best result is stored")
+        print_message(
+            f"error: the accuracy was not reached: {accuracy.stopped}; the best result is stored"
+        )
         raise typer.Exit(ExitCode.RESOURCES_REFUSED)
 
 
-def forget_levels(output: Path) -> None:
+def remove_level_checkpoints(output: Path) -> None:
     """Remove the checkpoints of refinement levels next to an output directory.
 
     A run with a requested accuracy leaves such checkpoints if it is killed.
@@ -98,12 +100,14 @@ def forget_levels(output: Path) -> None:
     of_levels = f".{target.name}.{OF_LEVEL}*"
     left = [path for place in (target, target.parent) for path in place.glob(of_levels)]
     for path in left:
-        with provide_checkpoints(output, "", tell, path.name.removeprefix(f".{target.name}.")):
+        with provide_checkpoints(
+            output, "", print_message, path.name.removeprefix(f".{target.name}.")
+        ):
             pass
 
 
 @contextmanager
-def refined_to(
+def solve_to_accuracy(
     request: AccuracyRequest,
     solver: Solver,
     contents: SceneFile,
@@ -128,7 +132,7 @@ def refined_to(
     tried = 0
 
     @contextmanager
-    def keeping(fineness: Any) -> Iterator[CheckpointDirectory]:
+    def store_level(fineness: Any) -> Iterator[CheckpointDirectory]:
         """Yield the checkpoint store of the solve of one level.
 
         The store of the previous level is closed, which removes its checkpoint.
@@ -138,11 +142,11 @@ def refined_to(
         of_level.close()
         identity = solve_identity(contents.scene, fineness, vars(solver))
         yield of_level.enter_context(
-            provide_checkpoints(output, identity, tell, f"{OF_LEVEL}{tried}")
+            provide_checkpoints(output, identity, print_message, f"{OF_LEVEL}{tried}")
         )
 
     @contextmanager
-    def watching(fineness: Any) -> Iterator[Progress]:
+    def show_level(fineness: Any) -> Iterator[Progress]:
         """Yield a function that shows the progress of the solve of one level."""
         with solve_progress(fineness.increments) as observe:
             yield observe
@@ -150,7 +154,7 @@ def refined_to(
     fineness = solver.fineness(contents)
     most = inf if most_seconds is None else most_seconds
     levels = solver.levels(
-        contents.scene, fineness, request.binds_stress, watching, keeping, step=step
+        contents.scene, fineness, request.binds_stress, show_level, store_level, step=step
     )
     with ExitStack() as of_level:
         yield refine(levels, request, most, print_level)

@@ -25,7 +25,7 @@ class WordedCommand(TyperCommand):
         try:
             return super().parse_args(ctx, args)
         except typer.BadParameter as error:
-            error.message = _in_short(_in_our_words(error))
+            error.message = _shorten_message(_reword_message(error))
             raise
 
     def invoke(self, ctx: Any) -> Any:
@@ -33,11 +33,11 @@ class WordedCommand(TyperCommand):
         try:
             return super().invoke(ctx)
         except typer.BadParameter as error:
-            error.message = _in_short(error.message)
+            error.message = _shorten_message(error.message)
             raise
 
 
-def _in_short(message: str) -> str:
+def _shorten_message(message: str) -> str:
     """Shorten an error message above `LONGEST` characters to its start and its end."""
     left_out = len(message) - LONGEST
     if left_out <= 0:
@@ -46,7 +46,7 @@ def _in_short(message: str) -> str:
     return f"{message[:half]} ... {left_out} characters ... {message[-half:]}"
 
 
-def _in_our_words(error: typer.BadParameter) -> str:
+def _reword_message(error: typer.BadParameter) -> str:
     """Return the message of an invalid option value in the wording of slipstick.
 
     Messages of the library pydantic are reworded; other messages are unchanged.
@@ -89,7 +89,7 @@ class LazyCommand:
         return typer.main.get_command(single)
 
 
-def _commands(summaries: dict[str, str]) -> dict[str, LazyCommand]:
+def _lazy_commands(summaries: dict[str, str]) -> dict[str, LazyCommand]:
     """Return the lazy commands of the modules in `slipstick.cli.commands`, by name.
 
     summaries  lines in `--help` by name of the command
@@ -100,7 +100,7 @@ def _commands(summaries: dict[str, str]) -> dict[str, LazyCommand]:
     }
 
 
-COMMANDS = _commands(
+COMMANDS = _lazy_commands(
     {
         "example": "Print a scene file that comes with the program.",
         "check": "Validate a scene file and describe it.",
@@ -117,7 +117,7 @@ COMMANDS = _commands(
     }
 )
 MAINTAIN = "maintain"
-MAINTENANCE = _commands(
+MAINTENANCE = _lazy_commands(
     {
         "study": "Compute a study on a pool of processes and write its page.",
         "compare": "List changes since the accepted numbers, or since a report.",

@@ -56,21 +56,21 @@ SetOption: TypeAlias = Annotated[
 ]
 
 
-def odd_numbers(contents: SceneFile) -> tuple[str, ...]:
+def input_warnings(contents: SceneFile) -> tuple[str, ...]:
     """Return warnings about implausible numbers in a scene file, such as a radius of 18 m."""
-    from contact_scene.checks.plausibility import implausible
+    from contact_scene.checks.plausibility import implausible_input
 
     fineness = {name: getattr(contents, name) for name in ("semi_analytical", "fem_reference")}
-    return implausible(contents.scene, **fineness)
+    return implausible_input(contents.scene, **fineness)
 
 
-def warn_of_odd_numbers(contents: SceneFile) -> tuple[str, ...]:
+def print_input_warnings(contents: SceneFile) -> tuple[str, ...]:
     """Print warnings about implausible numbers in a scene file to stderr, and return them."""
-    from slipstick.cli.terminal import tell
+    from slipstick.cli.terminal import print_message
 
-    warnings = odd_numbers(contents)
+    warnings = input_warnings(contents)
     for warning in warnings:
-        tell(f"warning: {warning}")
+        print_message(f"warning: {warning}")
     return warnings
 
 
@@ -86,7 +86,7 @@ _OPTION = typer.Option(
 
 SolverOption: TypeAlias = Annotated[SolverName, _OPTION]
 # The option without a default, for commands that distinguish an absent option.
-AskedSolver: TypeAlias = Annotated[SolverName | None, _OPTION]
+OptionalSolver: TypeAlias = Annotated[SolverName | None, _OPTION]
 
 
 SchedulerOption: TypeAlias = Annotated[

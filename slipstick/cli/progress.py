@@ -14,7 +14,7 @@ import typer
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
 from contact_scene.quantities.increment import ReportedIncrement
 from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
-from slipstick.cli.terminal import tell
+from slipstick.cli.terminal import print_message
 from slipstick.solvers.solver import Progress
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def solve_progress(increments: Sequence[int]) -> Iterator[Progress]:
     """
     started = last_line = time.monotonic()
 
-    with replaced_line() as show:
+    with terminal_line() as show:
 
         def observe(increment: ReportedIncrement) -> None:
             nonlocal last_line
@@ -53,13 +53,13 @@ def solve_progress(increments: Sequence[int]) -> Iterator[Progress]:
                 show(text)
             elif step_ends or now - last_line >= SECONDS_BETWEEN_LINES:
                 last_line = now
-                tell(text)
+                print_message(text)
 
         yield observe
 
 
 @contextmanager
-def replaced_line() -> Iterator[Callable[[str], None] | None]:
+def terminal_line() -> Iterator[Callable[[str], None] | None]:
     """Yield a function that replaces one line of a terminal on stderr; None without a terminal.
 
     The line is cleared at the end.
@@ -74,9 +74,9 @@ def replaced_line() -> Iterator[Callable[[str], None] | None]:
 
 
 @contextmanager
-def coarse_solves_shown() -> Iterator[None]:
+def show_coarse_solves() -> Iterator[None]:
     """Show a line in a terminal during the coarse solves of an error estimate."""
-    with replaced_line() as show:
+    with terminal_line() as show:
         if show is not None:
             show("coarse solves for the error estimates")
         yield
@@ -100,10 +100,10 @@ def print_level(
     if requested:
         worst = max(requested, key=ratio)
         text = _request_text(requested[worst], reached[worst])
-        tell(f"round {number}: {worst} {text}")
+        print_message(f"round {number}: {worst} {text}")
 
 
-def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
+def solve_lines(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
     """Yield two lines about a finished solve: tolerance with residual, and increments with time.
 
     result   result of the solve
@@ -114,7 +114,7 @@ def solved_in(result: Result, seconds: float) -> Iterator[tuple[str, str]]:
     yield "increments", f"{len(result.increments)} in {seconds:.2f} s"
 
 
-def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[str, str]]:
+def error_lines(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[str, str]]:
     """Yield lines about the coarse solves of an error estimate, their time and their failures.
 
     stated   error estimates with the records of the coarse solves
@@ -128,7 +128,7 @@ def how_stated(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[st
             yield "", f"coarse solve with {solve.differs} failed: {solve.refused}"
 
 
-def how_accurate(accuracy: AccuracyReached) -> Iterator[tuple[str, str]]:
+def accuracy_lines(accuracy: AccuracyReached) -> Iterator[tuple[str, str]]:
     """Yield lines about the requested and the reached error of each scalar of a run.
 
     The last lines state scalars that the request does not apply to, and the outcome.
@@ -151,7 +151,7 @@ def _request_text(requested: float, reached: float | None) -> str:
     return f"requested {100 * requested:.3g} %, {found}"
 
 
-def run_shown(
+def run_with_progress(
     cases: Sequence[StudyCase],
     store: CaseStore,
     workers: int | Workers,
@@ -182,13 +182,13 @@ def run_shown(
         done = left.pop(end.case.name)
         computed += 0 if end.stored else done
         for warning in end.warnings:
-            tell(warning)
+            print_message(warning)
         rest = ""
         if computed and left:
             seconds = (time.monotonic() - started) * sum(left.values()) / computed
             rest = f", about {seconds:.0f} s left"
         count = f"{len(cases) - len(left)} of {len(cases)}{rest}"
-        tell(f"{text(end)} ({count})")
+        print_message(f"{text(end)} ({count})")
 
     def how_to_resume() -> str:
         stored = sum(store.path(case).exists() for case in cases)
@@ -202,7 +202,7 @@ def run_shown(
         return run_cases(cases, store, workers, observe, fresh=fresh)
 
 
-def how_it_ended(end: CaseEnd) -> str:
+def outcome_text(end: CaseEnd) -> str:
     """Return the outcome of a case as text: computed, already stored, or lost with its worker."""
     if end.lost is not None:
         return f"LOST           {end.case.name:24} {end.lost.reason}"

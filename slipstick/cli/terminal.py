@@ -21,15 +21,17 @@ def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
     pairs = list(pairs)
     width = max(len(word) for word, _ in pairs)
     for word, meaning in pairs:
-        typer.echo(f"  {typer.style(word.ljust(width), bold=True)}  {harmless(meaning)}")
+        typer.echo(
+            f"  {typer.style(word.ljust(width), bold=True)}  {escape_control_characters(meaning)}"
+        )
 
 
-def tell(text: str) -> None:
+def print_message(text: str) -> None:
     """Print a message to stderr in one line, with control characters escaped."""
-    typer.echo(harmless(text), err=True)
+    typer.echo(escape_control_characters(text), err=True)
 
 
-def harmless(text: str) -> str:
+def escape_control_characters(text: str) -> str:
     """Escape control characters in a text, so that a scene file cannot control the terminal."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
@@ -47,7 +49,7 @@ def print_table(
     headings, rows = list(columns), [list(row) for row in rows]
     width = get_terminal_size().columns if sys.stdout.isatty() else WIDE
     every = list(range(len(headings)))
-    for block in _blocks(headings, rows, width) if numbers else [every]:
+    for block in _column_blocks(headings, rows, width) if numbers else [every]:
         cells = [[row[position].split("\n") for position in block] for row in (headings, *rows)]
         typer.echo("\n".join(_table_lines(cells, width, numbers)))
 
@@ -70,7 +72,9 @@ def _table_lines(cells: list[list[list[str]]], width: int, numbers: bool) -> Ite
         wrapped = [part for line in last for part in textwrap.wrap(line, widths[-1]) or [""]]
         for line in zip_longest(*first, wrapped, fillvalue=""):
             texts = (
-                harmless(text).rjust(size) if numbers and k else harmless(text).ljust(size)
+                escape_control_characters(text).rjust(size)
+                if numbers and k
+                else escape_control_characters(text).ljust(size)
                 for k, (text, size) in enumerate(zip(line, widths, strict=True))
             )
             yield (" " + BETWEEN.join(texts)).rstrip()
@@ -79,7 +83,9 @@ def _table_lines(cells: list[list[list[str]]], width: int, numbers: bool) -> Ite
     yield ""
 
 
-def _blocks(headings: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> list[list[int]]:
+def _column_blocks(
+    headings: Sequence[str], rows: Sequence[Sequence[str]], width: int
+) -> list[list[int]]:
     """Divide the columns of a printed table into blocks that fit the width of the terminal.
 
     Returns the column indices of each block. Each block begins with the first column of the table.

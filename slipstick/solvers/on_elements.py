@@ -67,7 +67,7 @@ class OnElements(Solver):
         yield "mesh", _mesh_text(sections, fineness)
         yield "tolerance", f"{fineness.tolerance:.3g}"
         yield "increments", increments_text(plan.increments)
-        motions = _motions(plan, fineness)
+        motions = _count_harmonics(plan, fineness)
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
         yield "factorisations", f"{motions * len(sections)}, {text}"
         yield self.time(scene, fineness, fineness, plan)
@@ -101,7 +101,7 @@ def _mesh_text(sections: Iterable[SectionMesh], fineness: FiniteElementDiscretis
     return f"{fineness.elements_per_radius} elements per contact radius; " + ", ".join(parts)
 
 
-def _motions(plan: Plan, fineness: FiniteElementDiscretisation) -> int:
+def _count_harmonics(plan: Plan, fineness: FiniteElementDiscretisation) -> int:
     """Return the number of angular harmonics whose stiffness matrix a solve factorises.
 
     The command `slipstick plan` prints the number of factorisations.

@@ -28,10 +28,10 @@ from slipstick.tables.frictional import (
     FRONT,
     MODULUS,
     OF_RING,
-    scalars,
-    tractions,
+    indentation_row,
+    tractions_row,
 )
-from slipstick.tables.table import ROUND_OFF, Axis, Found, Table
+from slipstick.tables.table import ROUND_OFF, Axis, RowValues, Table
 
 LEBEDEV = (
     "Lebedev and Ufliand 1958; for layers, Perriot and Barthel 2004; by Legendre polynomials on "
@@ -69,7 +69,7 @@ FIGURE = {
 }
 
 
-def _punch(place: Sequence[float], fineness: int) -> Found:
+def _punch_row(place: Sequence[float], fineness: int) -> RowValues:
     """Compute the stiffness of a rigid flat punch on a bonded layer over that on a half-space.
 
     place     punch radius over layer thickness, and Poisson's ratio of the layer
@@ -78,10 +78,10 @@ def _punch(place: Sequence[float], fineness: int) -> Found:
     over, ratio = place
     shear = (1 - ratio) / 2  # E* = 2G/(1-ν) = 1
     layer = Bodies([Stack([(shear, ratio, 1 / over)])], 1.0)
-    return Found((disc(layer, PUNCH, 1.0, 1.0, fineness).load / 2,))
+    return RowValues((disc(layer, PUNCH, 1.0, 1.0, fineness).load / 2,))
 
 
-def _ball(place: Sequence[float], fineness: int) -> Found:
+def _ball_row(place: Sequence[float], fineness: int) -> RowValues:
     """Compute contact radius, pressure on the axis and approach of a ball on a coated half-space.
 
     The results are relative to the Hertz contact of the same force on the bare substrate.
@@ -96,10 +96,10 @@ def _ball(place: Sequence[float], fineness: int) -> Found:
     bodies = Bodies([Stack([film], base)], moduli * MODULUS)
     contact = normal_contact(bodies, BALL, Target(FORCE, None), fineness).contact
     p0 = float(pressure(contact, np.zeros(1))[0])
-    return Found((contact.radius, p0, contact.approach), abs(contact.load / FORCE - 1))
+    return RowValues((contact.radius, p0, contact.approach), abs(contact.load / FORCE - 1))
 
 
-def _torsion(place: Sequence[float], fineness: int) -> Found:
+def _torsion_row(place: Sequence[float], fineness: int) -> RowValues:
     """Compute gross-slip torque, stick radius and twist of two equal coated balls in torsion.
 
     The results are dimensionless: torque over µ W a_H, stick radius over the contact radius, and
@@ -118,7 +118,7 @@ def _torsion(place: Sequence[float], fineness: int) -> Found:
     torsion = Torsion(contact, stacks, moduli * base / 2, 1.0, fineness)
     path = TwistPath(torsion).continue_to_torque(part * torsion.gross_slip_torque)
     values = (torsion.gross_slip_torque / FORCE, path.stick, path.twist * base / 2 / FORCE)
-    return Found(values, abs(contact.load / FORCE - 1))
+    return RowValues(values, abs(contact.load / FORCE - 1))
 
 
 TABLES: Mapping[str, Table] = {
@@ -142,7 +142,7 @@ TABLES: Mapping[str, Table] = {
             "A rigid flat punch of radius a, frictionless, on a layer of thickness h that is "
             "bonded to a rigid base",
             LEBEDEV,
-            _punch,
+            _punch_row,
         ),
         Table(
             "ball",
@@ -167,7 +167,7 @@ TABLES: Mapping[str, Table] = {
             "A rigid paraboloid, frictionless, on a layer of thickness h that is bonded to a "
             "half-space; Hertz's values are those of the same force on the bare half-space",
             LEBEDEV,
-            _ball,
+            _ball_row,
         ),
         Table(
             "torsion",
@@ -183,7 +183,7 @@ TABLES: Mapping[str, Table] = {
             f"Two equal paraboloids, both with a bonded layer of thickness h, pressed and then "
             f"twisted; layers and substrates have the same ratio nu{HERTZ}",
             "Lubkin 1951; for layers by Legendre polynomials on exact frequency responses",
-            _torsion,
+            _torsion_row,
         ),
         Table(
             "pressing",
@@ -195,7 +195,7 @@ TABLES: Mapping[str, Table] = {
             },
             f"A rigid paraboloid, pressed with friction from the first contact {ON_COATING}{HERTZ}",
             COULOMB,
-            scalars,
+            indentation_row,
             f"{RUBBED}; for the stick radius plus {FRONT:g} a, the resolution of the rings",
         ),
         Table(
@@ -216,7 +216,7 @@ TABLES: Mapping[str, Table] = {
             },
             f"A rigid paraboloid, pressed with friction from the first contact {ON_COATING}{HERTZ}",
             COULOMB,
-            tractions,
+            tractions_row,
             f"{RUBBED}; plus {OF_RING:g} p_H for the rings, or near the stick radius the change "
             f"over {FRONT:g} a",
         ),

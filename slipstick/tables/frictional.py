@@ -27,7 +27,7 @@ from radial.frictional.frictional_increment import FrictionalState
 from radial.frictional.frictional_indentation_steps import FrictionalSteps
 from radial.normal.surface import pressure
 from radial.plan import PATH_INCREMENTS
-from slipstick.tables.table import Found
+from slipstick.tables.table import RowValues
 
 # Units of the Hertz contact on the substrate: a_H = p_H = δ_H = 1, E*_2 = π/2, W = 2π/3.
 BALL, MODULUS, FORCE = Paraboloid(radius=1.0, material=RIGID), pi / 2, 2 * pi / 3
@@ -38,7 +38,7 @@ NEAR_FRONT = 0.05  # distance from the stick radius, in contact radii, with addi
 OF_RING = 2e-5  # smallest discretisation error of a traction, in p_H
 
 
-def scene(place: Sequence[float]) -> Scene:
+def indentation_scene(place: Sequence[float]) -> Scene:
     """Build the scene of a table row: frictional indentation of a coated half-space.
 
     The indenter is a rigid paraboloid.
@@ -62,7 +62,9 @@ def scene(place: Sequence[float]) -> Scene:
 
 
 @lru_cache(maxsize=CACHED)
-def pressed(place: tuple[float, ...], increments: int, fineness: int) -> FrictionalState:
+def frictional_indentation(
+    place: tuple[float, ...], increments: int, fineness: int
+) -> FrictionalState:
     """Solve the frictional indentation of a coated half-space by a rigid paraboloid.
 
     Returns the state at the full normal force.
@@ -73,14 +75,14 @@ def pressed(place: tuple[float, ...], increments: int, fineness: int) -> Frictio
     increments  number of increments of the normal force
     fineness    factor of the number of rings
     """
-    contact = scene(place)
+    contact = indentation_scene(place)
     solver = FrictionalSteps.of(contact, RadialDiscretisation(), fineness)
     *_, (_, point) = resumable_increments(contact, (increments,), solver, None)
     assert point.state is not None  # in contact
     return point.state
 
 
-def scalars(place: Sequence[float], fineness: int) -> Found:
+def indentation_row(place: Sequence[float], fineness: int) -> RowValues:
     """Compute contact radius, approach and stick radius of a frictional indentation.
 
     Contact radius and approach are relative to those of Hertz's contact with the same force on the
@@ -92,13 +94,13 @@ def scalars(place: Sequence[float], fineness: int) -> Found:
               coefficient of friction
     fineness  factor of the numbers of rings and increments
     """
-    found = pressed(tuple(place), PATH_INCREMENTS * fineness, fineness)
+    found = frictional_indentation(tuple(place), PATH_INCREMENTS * fineness, fineness)
     end = found.end
     values = (end.radius, end.approach, found.front / end.radius)
-    return Found(values, abs(end.load / FORCE - 1), (0.0, 0.0, FRONT))
+    return RowValues(values, abs(end.load / FORCE - 1), (0.0, 0.0, FRONT))
 
 
-def tractions(place: Sequence[float], fineness: int) -> Found:
+def tractions_row(place: Sequence[float], fineness: int) -> RowValues:
     """Compute pressure p and q/µ at one radius of a frictional indentation.
 
     Here q is the radial shear and µ the coefficient of friction. Tractions are in units of Hertz's
@@ -111,10 +113,10 @@ def tractions(place: Sequence[float], fineness: int) -> Found:
     fineness  factor of the numbers of rings and increments
     """
     *contact, x = place
-    found = pressed(tuple(contact), PATH_INCREMENTS * fineness, fineness)
+    found = frictional_indentation(tuple(contact), PATH_INCREMENTS * fineness, fineness)
     end, friction = found.end, contact[-1]
 
-    def both(at: float) -> tuple[float, float]:
+    def tractions_at(at: float) -> tuple[float, float]:
         """Compute the pressure p and the ratio q/µ of radial shear to friction coefficient.
 
         at  radius over the contact radius
@@ -125,10 +127,10 @@ def tractions(place: Sequence[float], fineness: int) -> Found:
         )
         return float(p[0]), float(end.rings.interpolate_traction(end.shear, places)[0]) / friction
 
-    here = both(x)
+    here = tractions_at(x)
     left = [OF_RING, OF_RING]
     if abs(x - found.front / end.radius) < NEAR_FRONT:
         for off in (-FRONT, FRONT):
-            moved = both(min(max(x + off, 0.0), 1.0))
+            moved = tractions_at(min(max(x + off, 0.0), 1.0))
             left = [max(old, abs(a - b)) for old, a, b in zip(left, moved, here, strict=True)]
-    return Found(here, abs(end.load / FORCE - 1), tuple(left))
+    return RowValues(here, abs(end.load / FORCE - 1), tuple(left))

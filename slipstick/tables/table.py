@@ -36,7 +36,7 @@ class Axis:
 
 
 @dataclass(frozen=True)
-class Found:
+class RowValues:
     """Computed quantities of one row of a table of reference numbers, with their errors.
 
     values  quantities in the order of the table
@@ -68,7 +68,9 @@ class Dataset:
         The first lines begin with '#' and state provenance and meanings of the columns.
         """
         head = [f"# {key}: {text}" for key, text in {**self.about, **self.columns}.items()]
-        lines = [",".join(_digits(key, row[key]) for key in self.columns) for row in self.rows]
+        lines = [
+            ",".join(_format_value(key, row[key]) for key in self.columns) for row in self.rows
+        ]
         return "\n".join([*head, ",".join(self.columns), *lines, ""])
 
     def json(self) -> str:
@@ -96,7 +98,7 @@ class Table:
     quantities: Mapping[str, str]
     problem: str
     source: str
-    at: Callable[[Sequence[float], int], Found]
+    at: Callable[[Sequence[float], int], RowValues]
     uncertainty: str = UNCERTAINTY
 
     @property
@@ -138,7 +140,7 @@ class Table:
         return Dataset(about, self.columns, list(self.rows(chosen)))
 
 
-def _digits(column: str, value: Any) -> str:
+def _format_value(column: str, value: Any) -> str:
     """Format a value for CSV: uncertainties with 2 digits, other floats with 15 digits."""
     if not isinstance(value, float):
         return str(value)

@@ -57,8 +57,7 @@ from verification.judging.refinement_levels import (
     ELEMENT_RADIUS,
     IDENTITY,
     JUDGED_BY,
-    RefinementLevel,
-    asked,
+    SizedRun,
     because,
     cells_label,
     finest,
@@ -70,6 +69,7 @@ from verification.judging.refinement_levels import (
     on_radii,
     part_of_side,
     refinement,
+    scaled_tolerance,
 )
 from verification.judging.run import Run
 from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS, frf_matrix, worst_violation
@@ -136,8 +136,8 @@ EXACT = solved_here(COATINGS[STUDIED])
 NAMES = [f"E1/E2 = {row['E1_over_E2']:g}, h = {row['h_over_aH']:g} a_H" for row in ROWS]
 ON_128 = "accuracy target of coated bodies on 128 x 128 cells, as in coated_paraboloid"
 ON_MESHES = (
-    Within(APPROACH, asked(1e-4, 2), because(2)),
-    Within(CENTRAL_PRESSURE, asked(1e-4, 2), because(2)),
+    Within(APPROACH, scaled_tolerance(1e-4, 2), because(2)),
+    Within(CENTRAL_PRESSURE, scaled_tolerance(1e-4, 2), because(2)),
     Within(CONTACT_RADIUS, 2e-3, ELEMENT_RADIUS),
 )
 
@@ -365,9 +365,7 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
     # All on one window, so that fields of equal contacts can be compared.
     grid = paper.hertz_grid(cells)
     grids = {
-        name: ladder(
-            problem, [RefinementLevel(Run(name, problem.scene, grid, problem=name), cells)]
-        )
+        name: ladder(problem, [SizedRun(Run(name, problem.scene, grid, problem=name), cells)])
         for name, problem in problems.items()
     }
     of_hertz = (Within(APPROACH, 5e-5, ASKED), Within(PEAK_PRESSURE, 1.5e-4, ASKED))
@@ -607,7 +605,12 @@ def fem_coated(
         for name, row in zip(names, rows, strict=True)
     ]
     approach, centre, radius = ON_MESHES
-    judged_rows = (approach, centre, radius, Within(PRESSURE_WITHIN, asked(2e-3, 2), because(2)))
+    judged_rows = (
+        approach,
+        centre,
+        radius,
+        Within(PRESSURE_WITHIN, scaled_tolerance(2e-3, 2), because(2)),
+    )
     return case(
         "fem_coated",
         "Finite elements: coated bodies without friction",

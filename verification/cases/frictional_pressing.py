@@ -59,7 +59,6 @@ from verification.judging.refinement_levels import (
     JUDGED_BY,
     PENALTY,
     RefinementLevels,
-    asked,
     because,
     cells_label,
     finest,
@@ -69,6 +68,7 @@ from verification.judging.refinement_levels import (
     on_radii,
     on_springs,
     part_of_side,
+    scaled_tolerance,
 )
 from verification.judging.run import AnyRun, Run, SectionRun, per_radius
 from verification.observed.end_state import approach, contact_radius, peak_pressure, stick_radius
@@ -805,7 +805,7 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
         return (
             Within(APPROACH, 2e-4, why),
             Within(CONTACT_RADIUS, 2e-3, ELEMENT_RADIUS),
-            Within(PRESSURE, asked(2e-3, 1), because(1)),
+            Within(PRESSURE, scaled_tolerance(2e-3, 1), because(1)),
             Within(SHEAR, 1e-2, why),
             Reported(
                 STICK_PART, f"the reference has {one.stick_part:.4f}; one element is {1 / n:.4f}"

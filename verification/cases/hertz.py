@@ -36,8 +36,7 @@ from verification.judging.refinement_levels import (
     JUDGED_BY,
     MIDDLE,
     PENALTY,
-    RefinementLevel,
-    asked,
+    SizedRun,
     because,
     finest,
     levels,
@@ -48,6 +47,7 @@ from verification.judging.refinement_levels import (
     order_levels,
     part_of_side,
     refinement,
+    scaled_tolerance,
     with_edge_at,
 )
 from verification.judging.run import SOLVER_TOLERANCE, Run
@@ -237,7 +237,7 @@ UNLOADED = PointContact.under_load(PART * paper.NORMAL_FORCE, HERTZ.radius, HERT
 SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
 
 
-def on_smaller(figure: float, order: float) -> Callable[[RefinementLevel], float]:
+def on_smaller(figure: float, order: float) -> Callable[[SizedRun], float]:
     """Scale a tolerance to the number of cells or elements in the smaller contact after unloading.
 
     Returns a function from a refinement level to its tolerance.
@@ -246,10 +246,10 @@ def on_smaller(figure: float, order: float) -> Callable[[RefinementLevel], float
     order   order of convergence
     """
 
-    def allowed(rung: RefinementLevel) -> float:
+    def allowed(rung: SizedRun) -> float:
         if isinstance(rung.run, Run):
             return figure * (128 / (rung.count * SMALLER)) ** order
-        return asked(figure, order)(replace(rung, count=round(rung.count * SMALLER)))
+        return scaled_tolerance(figure, order)(replace(rung, count=round(rung.count * SMALLER)))
 
     return allowed
 
@@ -421,13 +421,13 @@ def hertz_elliptical(level: Level = Level.QUICK) -> Case:
 
 
 ON_MESHES = (
-    Within(PEAK_PRESSURE, asked(1e-4, 2), because(2)),
-    Within(APPROACH, asked(1e-4, 2), because(2)),
+    Within(PEAK_PRESSURE, scaled_tolerance(1e-4, 2), because(2)),
+    Within(APPROACH, scaled_tolerance(1e-4, 2), because(2)),
     Within(
-        CONTACT_RADIUS, asked(2e-4, 1),
+        CONTACT_RADIUS, scaled_tolerance(2e-4, 1),
         "the edge is known to 1/70 of an element; the accuracy target is 2e-3 at 64 per radius",
     ),
-    Within(PRESSURE_WITHIN, asked(2e-3, 2), because(2)),
+    Within(PRESSURE_WITHIN, scaled_tolerance(2e-3, 2), because(2)),
     Falls(
         PRESSURE_L2, 1.0,
         "at the edge hat functions do not represent a square root: an error of O(√h) on a ring "
@@ -517,12 +517,12 @@ def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
     rows = (
         Within(PEAK_PRESSURE, 2e-3, PENALTY),
         Within(
-            APPROACH, asked(1e-4, 2),
+            APPROACH, scaled_tolerance(1e-4, 2),
             "as without a penalty: an augmentation removes the contribution 1/πk of the springs; "
             f"{because(2)}",
         ),
         Within(CONTACT_RADIUS, part_of_side(0.1), "a tenth of an element: the last points ripple"),
-        Within(PRESSURE_WITHIN, asked(2e-3, 2), because(2)),
+        Within(PRESSURE_WITHIN, scaled_tolerance(2e-3, 2), because(2)),
     )  # fmt: skip
     of_springs = (
         Within(PEAK_PRESSURE, 2e-3, PENALTY, name="peak_pressure_of_springs"),

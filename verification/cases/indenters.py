@@ -30,12 +30,12 @@ from verification.judging.refinement_levels import (
     EDGE,
     IDENTITY,
     STAIRCASE,
-    asked,
     levels,
     on_cells,
     on_elements,
     part_of_side,
     refinement,
+    scaled_tolerance,
     with_edge_at,
 )
 from verification.judging.run import Run
@@ -372,13 +372,18 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
         "the exact one",
     )
     of_cone = (
-        Within(APPROACH, asked(1e-4, 2), why, name="approach_of_cone"),
+        Within(APPROACH, scaled_tolerance(1e-4, 2), why, name="approach_of_cone"),
         Within(CONTACT_RADIUS, part_of_side(0.05), "1/20 of an element", name="radius_of_cone"),
-        Within(between, asked(5e-4, 2), why),
+        Within(between, scaled_tolerance(5e-4, 2), why),
     )
     of_punch = (
-        Within(APPROACH, asked(5e-4, 1), f"{why}; {rim}", name="approach_of_punch"),
-        Within(CENTRAL_PRESSURE, asked(1e-3, 1), f"{why}; {rim}", name="central_pressure_of_punch"),
+        Within(APPROACH, scaled_tolerance(5e-4, 1), f"{why}; {rim}", name="approach_of_punch"),
+        Within(
+            CENTRAL_PRESSURE,
+            scaled_tolerance(1e-3, 1),
+            f"{why}; {rim}",
+            name="central_pressure_of_punch",
+        ),
         Falls(APPROACH, 1.0, rim),
     )
     # On meshes coarser than 22 elements per radius the second term makes 0.8 of that order.

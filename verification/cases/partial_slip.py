@@ -53,9 +53,8 @@ from verification.judging.drawings import Drawn, convergence, profile
 from verification.judging.refinement_levels import (
     SQUARE_ROOTS,
     STICK_BORDER,
-    RefinementLevel,
     RefinementLevels,
-    asked,
+    SizedRun,
     because,
     finest,
     ladder,
@@ -64,6 +63,7 @@ from verification.judging.refinement_levels import (
     on_cells,
     part_of_side,
     refinement,
+    scaled_tolerance,
 )
 from verification.judging.run import SectionRun, per_radius
 from verification.observed.ring_errors import tractions_at
@@ -474,7 +474,7 @@ def _shear_across(result: Any, step: int, problem: Problem) -> float:
 def _at_points(of: str, problem: Problem, elements: int, over: float) -> RefinementLevels:
     mesh = per_radius(elements, over * problem.radius).model_copy(update={"harmonics": 8})
     run = PointsRun(mesh_label(elements, of=of), problem.scene, mesh)
-    return ladder(problem, [RefinementLevel(run, elements)])
+    return ladder(problem, [SizedRun(run, elements)])
 
 
 def fem_harmonics(level: Level = Level.QUICK) -> Case:
@@ -495,9 +495,9 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
         row
         for stop in STOPS.items()
         for row in (
-            Within(SHIFT.at(*stop, "µW"), asked(3e-4, cusp), because(cusp)),
-            Within(shear.at(*stop, "µW"), asked(6e-3, cusp), because(cusp)),
-            Within(across.at(*stop, "µW"), asked(3e-3, 1.0), because(1.0)),
+            Within(SHIFT.at(*stop, "µW"), scaled_tolerance(3e-4, cusp), because(cusp)),
+            Within(shear.at(*stop, "µW"), scaled_tolerance(6e-3, cusp), because(cusp)),
+            Within(across.at(*stop, "µW"), scaled_tolerance(3e-3, 1.0), because(1.0)),
             Within(
                 STICK_RADIUS.at(*stop, "µW"), part_of_side(1.0),
                 "an element: stick and slip are determined ring by ring",
@@ -542,7 +542,9 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
             ("ν = 0", CATTANEO, 0.99), ("ν = 0.3", alike, 0.99), ("disc", bonded, 1.0),
         )
     )  # fmt: skip
-    of_disc = Within(replace(SHIFT, over=""), asked(5e-4, rim), because(rim), name="shift_of_disc")
+    of_disc = Within(
+        replace(SHIFT, over=""), scaled_tolerance(5e-4, rim), because(rim), name="shift_of_disc"
+    )
     return case(
         "fem_harmonics",
         "Finite elements: many harmonics",

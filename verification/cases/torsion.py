@@ -44,7 +44,6 @@ from verification.judging.declared_case import (
 from verification.judging.drawings import Drawn, convergence, profile
 from verification.judging.refinement_levels import (
     SQUARE_ROOTS,
-    asked,
     levels,
     named,
     on_cells,
@@ -53,6 +52,7 @@ from verification.judging.refinement_levels import (
     order_levels,
     part_of_side,
     refinement,
+    scaled_tolerance,
     with_edge_at,
 )
 from verification.judging.run import OVER_ANGLES
@@ -71,7 +71,7 @@ from verification.problems.paper_scene import (
     rigid_ball,
 )
 from verification.problems.problem import ROUNDING, Problem, ReferenceKind, identity
-from verification.problems.torsion import LED, OVER_TWIST, PARTS, STUCK, TO_AND_FRO, TWISTED
+from verification.problems.torsion import LED, OVER_TWIST, PARTS, STUCK, TORSION_LOOP, TWISTED
 from verification.quantities import energy_between, shear_of
 
 Field = NDArray[np.float64]
@@ -191,7 +191,7 @@ def torsion(level: Level = Level.QUICK) -> Case:
         "completely. Torsion moves the surfaces in circles and is uncoupled from the pressure, "
         "so that the closed form holds for any pair of equal bodies.",
         judged(balls, of_ball),
-        judged(named("to and fro", on_cells(TO_AND_FRO, finest)), of_loop),
+        judged(named("to and fro", on_cells(TORSION_LOOP, finest)), of_loop),
         judged(named("given twist", on_cells(LED, finest)), (of_given_twist,)),
         judged(named("stuck punch", punches), of_punch),
         charts=(
@@ -310,17 +310,17 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
         row
         for stop in PARTS.items()
         for row in (
-            Within(TWIST.at(*stop, SLIDING), asked(2e-3, 1.5), cusp),
+            Within(TWIST.at(*stop, SLIDING), scaled_tolerance(2e-3, 1.5), cusp),
             Within(
                 STICK_RADIUS.at(*stop, SLIDING), part_of_side(0.1),
                 "a tenth of an element: the edge is extrapolated from the last values",
             ),
-            Within(SHEAR_AROUND.at(*stop, SLIDING), asked(5e-3, 1.5), cusp),
+            Within(SHEAR_AROUND.at(*stop, SLIDING), scaled_tolerance(5e-3, 1.5), cusp),
         )
     )  # fmt: skip
     of_punch = (
         Within(
-            TWIST, asked(1e-3, 1), f"set by hand: 1e-3 at 64 elements per radius; {rim}",
+            TWIST, scaled_tolerance(1e-3, 1), f"set by hand: 1e-3 at 64 elements per radius; {rim}",
             name="stuck_twist",
         ),
         Falls(TWIST, 1.0, rim),
@@ -377,7 +377,7 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
         judged(on_radii(TWISTED, "ball"), [*_exact(*_at_parts(PARTS, TWIST, stick, shear))]),
         judged(on_radii(LED, "given twist"), [*_exact(TORQUE)]),
         judged(on_radii(STUCK, "stuck punch"), [*_exact(TWIST, shear)]),
-        judged(on_radii(TO_AND_FRO, "to and fro"), of_loop),
+        judged(on_radii(TORSION_LOOP, "to and fro"), of_loop),
         judged(on_radii(twisted_coated(), "coated"), [*of_coated]),
         limits=(
             "The friction limit of the coated reference uses the response of layers to pressure "
@@ -566,7 +566,7 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
         "force and reversed torque, and under a tangential force along x, then y. All histories "
         "of the coated body are compared with cells in equal increments.",
         judged(on_radii(TWISTED, "ball", at_points=True), of_ball),
-        judged(on_radii(TO_AND_FRO, "to and fro", at_points=True), of_loop),
+        judged(on_radii(TORSION_LOOP, "to and fro", at_points=True), of_loop),
         *(
             judged(on_radii(beside_cells(scene), name, laws=OVER_ANGLES), of_coated)
             for name, scene in scenes.items()

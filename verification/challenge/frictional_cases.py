@@ -67,7 +67,7 @@ from verification.problems.paper_scene import (
     pressing,
     rigid_ball,
 )
-from verification.problems.torsion import LARGEST, OVER_TWIST, PARTS, TO_AND_FRO, TWISTED
+from verification.problems.torsion import LARGEST, OVER_TWIST, PARTS, TORSION_LOOP, TWISTED
 from verification.references import load_reference
 
 # Radii at which tractions are required. Fractions of the contact radius would reveal it [length].
@@ -128,16 +128,16 @@ def torsion_loop() -> Challenge:
     """Create the challenge of a pressed ball under a torque that alternates between two limits."""
     values = [
         _twist(step, end.twist, LARGEST.twist, OVER_TWIST)
-        for step, end in enumerate(TO_AND_FRO.ends[1:], start=2)
+        for step, end in enumerate(TORSION_LOOP.ends[1:], start=2)
     ]
-    last, energy = len(TO_AND_FRO.ends), TO_AND_FRO.ends[-1].energy_per_cycle
+    last, energy = len(TORSION_LOOP.ends), TORSION_LOOP.ends[-1].energy_per_cycle
     values.append(
         AskedValue("energy_per_cycle", last, "J", "energy lost to friction between the ends of "
                    f"load steps 2 and {last}", energy, energy, "itself", uncertainty=1e-9, since=2)
     )  # fmt: skip
     return Challenge(
-        "torsion_loop", "A ball twisted to and fro", f"{TO_AND_FRO.scene.title}.",
-        TO_AND_FRO.scene, "Lubkin 1951, with Masing's rule for the reversal", tuple(values), (),
+        "torsion_loop", "A ball twisted to and fro", f"{TORSION_LOOP.scene.title}.",
+        TORSION_LOOP.scene, "Lubkin 1951, with Masing's rule for the reversal", tuple(values), (),
         SMALL,
     )  # fmt: skip
 

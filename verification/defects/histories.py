@@ -122,9 +122,9 @@ def _loss_with_coupling(whole: Any, self: Any, *given: Any) -> Any:
 @replaces(ContactModel, "friction")
 def _map_transposed(whole: Any, self: Any) -> Any:
     friction = whole(self)
-    if friction.varying is None:
+    if friction.coefficient_map is None:
         return friction
-    turned = {"map": friction.varying.map.values.T, "spacing": self.grid.spacing}
+    turned = {"map": friction.coefficient_map.map.values.T, "spacing": self.grid.spacing}
     return CoulombFriction.model_validate({"coefficient": turned})
 
 
@@ -140,7 +140,7 @@ def _work_on_elements(whole: Any, before: Any, increment: Any) -> Any:
     return None if work is None else start + 0.8 * (work - start)
 
 
-@replaces(rig, "of_contact")
+@replaces(rig, "add_contact_displacements")
 def _energy_of_springs(whole: Any, increment: Any, given: Any) -> Any:
     found, (_, along) = whole(increment, given), rig.compliances(given)
     force = increment.tangential_force
@@ -150,7 +150,7 @@ def _energy_of_springs(whole: Any, increment: Any, given: Any) -> Any:
     return replace(found, elastic_energy=stored)
 
 
-@replaces(rig, "of_contact")
+@replaces(rig, "add_contact_displacements")
 def _shift_of_actuator(whole: Any, increment: Any, given: Any) -> Any:
     return replace(whole(increment, given), tangential_shift=increment.tangential_shift)
 

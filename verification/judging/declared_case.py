@@ -31,8 +31,8 @@ from verification.judging.case import (
     Required,
 )
 from verification.judging.refinement_levels import (
-    RefinementLevel,
     RefinementLevels,
+    SizedRun,
 )
 from verification.judging.run import AnyRun
 from verification.observed.end_state import central_pressure
@@ -322,7 +322,7 @@ ENERGY_PER_CYCLE = Observable(
 )
 
 
-Allowed = float | Mapping[int, float] | Callable[[RefinementLevel], float]
+Allowed = float | Mapping[int, float] | Callable[[SizedRun], float]
 Results = Mapping[str, Any]
 Drawing = Callable[[Results], Chart]
 
@@ -503,7 +503,7 @@ def _quantities(row: Row, ladder: RefinementLevels) -> tuple[Quantity, ...]:
     )
 
 
-def _allowed(allowed: Allowed, rung: RefinementLevel) -> float:
+def _allowed(allowed: Allowed, rung: SizedRun) -> float:
     if callable(allowed):
         return allowed(rung)
     return allowed[rung.count] if isinstance(allowed, Mapping) else allowed
@@ -512,7 +512,7 @@ def _allowed(allowed: Allowed, rung: RefinementLevel) -> float:
 def _quantity(
     what: Observable,
     ladder: RefinementLevels,
-    rung: RefinementLevel,
+    rung: SizedRun,
     tolerance: Required | Derived,
     name: str = "",
 ) -> Quantity:

@@ -73,11 +73,11 @@ EXACT = 1e-10
 # Position of the contact edge in the middle of an element, as a fraction of the element.
 MIDDLE = 0.5
 # Number of elements per radius to which the accuracy targets refer.
-ASKED_AT = 64
+TOLERANCE_ELEMENTS = 64
 
 
 @dataclass(frozen=True)
-class RefinementLevel:
+class SizedRun:
     """One refinement level: a run, and the size of its discretisation.
 
     run    run of a solver
@@ -117,9 +117,9 @@ class RefinementLevels:
     """
 
     problem: Problem
-    rungs: tuple[RefinementLevel, ...]
-    judged: RefinementLevel
-    followed: tuple[RefinementLevel, ...]
+    rungs: tuple[SizedRun, ...]
+    judged: SizedRun
+    followed: tuple[SizedRun, ...]
 
     @property
     def uncorrected(self) -> bool:
@@ -133,7 +133,7 @@ class RefinementLevels:
         return tuple(rung.run for rung in (self.followed if self.uncorrected else self.rungs))
 
     @property
-    def refined(self) -> RefinementLevel:
+    def refined(self) -> SizedRun:
         """Level whose numerical error can be estimated from refinement: on cells the finest
         uncorrected one."""
         return self.followed[-1] if self.uncorrected else self.judged
@@ -143,7 +143,7 @@ class RefinementLevels:
         """Labels of the runs from which orders of convergence are computed, coarse to fine."""
         return tuple(rung.run.label for rung in self.followed)
 
-    def of(self, count: int) -> RefinementLevel:
+    def of(self, count: int) -> SizedRun:
         """Return the refinement level with the given number of cells, elements or rings.
 
         Raises KeyError if there is no such level.
@@ -152,7 +152,7 @@ class RefinementLevels:
 
 
 def ladder(
-    problem: Problem, rungs: Sequence[RefinementLevel], followed: Sequence[RefinementLevel] = ()
+    problem: Problem, rungs: Sequence[SizedRun], followed: Sequence[SizedRun] = ()
 ) -> RefinementLevels:
     """Combine refinement levels of a problem; values are judged on the last level.
 
@@ -180,12 +180,12 @@ def on_cells(
     """
     sides = window * problem.radius, window * (problem.across or problem.radius)
 
-    def rung(n: int, offset: tuple[float, float] | None) -> RefinementLevel:
+    def rung(n: int, offset: tuple[float, float] | None) -> SizedRun:
         name, grid = cells_label(n, of), SurfaceGrid((n, n), sides)
         if offset is not None:
             name += f", shifted by ({offset[0]:g}, {offset[1]:g}) cells"
             grid = ShiftedGrid((n, n), sides, offset)
-        return RefinementLevel(Run(name, problem.scene, grid, problem=of), n, window)
+        return SizedRun(Run(name, problem.scene, grid, problem=of), n, window)
 
     rungs = [rung(n, offset) for n in cells for offset in offsets or (None,)]
     corrected = plan(problem.scene, edge=BY_DEFAULT).edge != "off"
@@ -193,7 +193,7 @@ def on_cells(
     return ladder(problem, rungs, tuple(followed))
 
 
-def _uncorrected(rung: RefinementLevel) -> RefinementLevel:
+def _uncorrected(rung: SizedRun) -> SizedRun:
     assert isinstance(rung.run, Run)
     return replace(rung, run=replace(rung.run, label=f"{rung.run.label}, edge off", edge="off"))
 
@@ -221,10 +221,10 @@ def with_edge_at(
     return RefinementLevels(problem, tuple(rungs.values()), rungs[judged], followed)
 
 
-def _placed(problem: Problem, n: int, place: float, of: str) -> RefinementLevel:
+def _placed(problem: Problem, n: int, place: float, of: str) -> SizedRun:
     mesh = per_radius(n, meshed(problem.radius, n, place))
     name = mesh_label(n, place, of)
-    return RefinementLevel(SectionRun(name, problem.scene, mesh, beyond=MIDDLE, problem=of), n)
+    return SizedRun(SectionRun(name, problem.scene, mesh, beyond=MIDDLE, problem=of), n)
 
 
 def meshed(radius: float, elements: int, place: float = MIDDLE) -> float:
@@ -255,7 +255,7 @@ def on_elements(
     return ladder(
         problem,
         [
-            RefinementLevel(
+            SizedRun(
                 SectionRun(mesh_label(n, of=of), problem.scene, per_radius(n, radius), problem=of),
                 n,
             )
@@ -282,12 +282,10 @@ def on_radii(
     at_points  True if torsion is solved at points on rings although a closed form would suffice
     """
 
-    def rung(times: float) -> RefinementLevel:
+    def rung(times: float) -> SizedRun:
         label = name if times == 1 else f"{name}, {times:g} times as fine"
         scene = problem.scene
-        return RefinementLevel(
-            RadiiRun(label, scene, times, rings, EXACT, laws, at_points, name), rings
-        )
+        return SizedRun(RadiiRun(label, scene, times, rings, EXACT, laws, at_points, name), rings)
 
     rungs = {times: rung(times) for times in fineness}
     return RefinementLevels(problem, tuple(rungs.values()), rungs[1], tuple(rungs.values()))
@@ -325,7 +323,7 @@ def mesh_label(elements: int, place: float = MIDDLE, of: str = "") -> str:
     return f"{name}{elements} elements per radius{aside}"
 
 
-def asked(figure: float, order: float) -> Callable[[RefinementLevel], float]:
+def scaled_tolerance(figure: float, order: float) -> Callable[[SizedRun], float]:
     """Scale a tolerance for 64 elements per radius to other meshes by the convergence order.
 
     Returns a function from a refinement level to its tolerance.
@@ -333,10 +331,10 @@ def asked(figure: float, order: float) -> Callable[[RefinementLevel], float]:
     figure  tolerance at 64 elements per contact radius
     order   order of convergence
     """
-    return lambda rung: figure * (ASKED_AT / rung.count) ** order
+    return lambda rung: figure * (TOLERANCE_ELEMENTS / rung.count) ** order
 
 
-def part_of_side(part: float) -> Callable[[RefinementLevel], float]:
+def part_of_side(part: float) -> Callable[[SizedRun], float]:
     """Return a tolerance as a fraction of a cell or element side, over the contact radius.
 
     Returns a function from a refinement level to the tolerance.
@@ -348,7 +346,7 @@ def named(name: str, of: RefinementLevels) -> RefinementLevels:
     """Return refinement levels with another label of the judged run."""
     judged = replace(of.judged, run=replace(of.judged.run, label=name))
 
-    def renamed(rungs: tuple[RefinementLevel, ...]) -> tuple[RefinementLevel, ...]:
+    def renamed(rungs: tuple[SizedRun, ...]) -> tuple[SizedRun, ...]:
         return tuple(judged if rung == of.judged else rung for rung in rungs)
 
     return RefinementLevels(of.problem, renamed(of.rungs), judged, renamed(of.followed))
@@ -396,7 +394,7 @@ def order_levels(level: Level, per_octave: int = PER_OCTAVE) -> tuple[tuple[int,
     per_octave  number of meshes per doubling of the number of elements
     """
     steps = range(round(OCTAVES * per_octave), -1, -1)
-    many = tuple(dict.fromkeys(round(ASKED_AT / 2 ** (n / per_octave)) for n in steps))
+    many = tuple(dict.fromkeys(round(TOLERANCE_ELEMENTS / 2 ** (n / per_octave)) for n in steps))
     meshes = _LEVELS[level] if level is Level.QUICK else many
     return tuple((n, place) for n in meshes for place in PLACES)
 
@@ -413,6 +411,6 @@ def because(order: float) -> str:
     order  order of convergence by which the tolerance is scaled
     """
     return (
-        f"accuracy target of the finite elements at {ASKED_AT} per radius; on other meshes "
-        f"scaled by the order {order:g}"
+        f"accuracy target of the finite elements at {TOLERANCE_ELEMENTS} per radius; on other "
+        f"meshes scaled by the order {order:g}"
     )

@@ -68,7 +68,7 @@ def _state(
     now: Increment, before: Increment | None, result: Result, undeformed: Field, before_touch: Field
 ) -> ContactState:
     (x, y), grid, p = result.grid.coordinates(), result.grid, now.pressure
-    friction = (result.scene.friction or FRICTIONLESS).on(grid.cells, grid.spacing)
+    friction = (result.scene.friction or FRICTIONLESS).on_grid(grid.cells, grid.spacing)
     nothing = np.zeros((2, *p.shape))
     q = nothing if now.shear is None else now.shear
     slip = nothing if now.slip is None else now.slip

@@ -95,7 +95,7 @@ def _loop() -> tuple[Twisted, ...]:
     return Twisted(reached), Twisted(back), Twisted(-reached), Twisted(reached, energy)
 
 
-TO_AND_FRO = _problem(
+TORSION_LOOP = _problem(
     "Ball in torsion to and fro",
     _loop(),
     *map(torque_step, (AMPLITUDE, 0.0, -AMPLITUDE, AMPLITUDE)),

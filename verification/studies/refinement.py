@@ -34,7 +34,7 @@ from contact_scene import Scene, SceneFile, read_scene_file
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.solver_errors import SolverError
-from contact_scene.stepping.increment_error import with_error
+from contact_scene.stepping.increment_error import has_increment_error
 from fem_reference import Method
 from verification.convergence.observed_order import (
     ORDER_WIDTH,
@@ -570,7 +570,7 @@ def increments_study(path: Path, overrides: Sequence[str], step: int | None, sol
     Raises SceneError and CannotRefine.
     """
     scene = StudiedScene.of(path, overrides, step, solver)
-    matters = with_error(scene.read().scene)
+    matters = has_increment_error(scene.read().scene)
 
     def levels(settings: Settings) -> tuple[SceneLevel, ...]:
         if not any(matters):

@@ -14,7 +14,7 @@ from contact_results.number_text import Uncertainty, number_text
 from contact_scene import read_scene_file
 from contact_scene.reading.engineering_units import engineering_unit
 from slipstick.against import NothingToCompare, comparison
-from slipstick.cli.options import AskedSolver, SetOption, optional, refuse_with_run
+from slipstick.cli.options import OptionalSolver, SetOption, optional, refuse_with_run
 from slipstick.cli.terminal import print_table
 from slipstick.solvers.names import SolverName
 from slipstick.solving import save, solve, stated_errors
@@ -47,7 +47,7 @@ def against(
         ),
     ] = None,
     overrides: SetOption = None,
-    solver: AskedSolver = None,
+    solver: OptionalSolver = None,
 ) -> None:
     """Compare a run with a measured loop or profile.
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.options import SceneArgument, SetOption, odd_numbers
+from slipstick.cli.options import SceneArgument, SetOption, input_warnings
 
 
 def check(
@@ -29,16 +29,16 @@ def check(
     except SceneError as error:
         if not as_json:
             raise
-        problems = [{"key": p.key, **_without_path(asdict(p))} for p in error.problems]
+        problems = [{"key": p.key, **_remove_path(asdict(p))} for p in error.problems]
         typer.echo(json.dumps({"valid": False, "problems": problems}, indent=2))
         raise typer.Exit(ExitCode.INVALID) from None
-    warnings = odd_numbers(contents)
+    warnings = input_warnings(contents)
     if as_json:
         typer.echo(json.dumps({"valid": True, "problems": [], "warnings": warnings}, indent=2))
         return
 
     from contact_scene.reading.scene_text import describe
-    from slipstick.cli.terminal import print_pairs, tell
+    from slipstick.cli.terminal import print_message, print_pairs
 
     typer.echo(f"{scene}: valid")
     print_pairs(describe(contents.scene, contents.semi_analytical, contents.fem_reference))
@@ -48,9 +48,9 @@ def check(
             [("accuracy", ", ".join(f"{name} {100 * share:.3g} %" for name, share in shares))]
         )
     for warning in warnings:
-        tell(f"warning: {warning}")
+        print_message(f"warning: {warning}")
 
 
-def _without_path(problem: dict[str, object]) -> dict[str, object]:
+def _remove_path(problem: dict[str, object]) -> dict[str, object]:
     """Return the data of a mistake in a scene file without the key "path", for JSON output."""
     return {name: value for name, value in problem.items() if name != "path"}

@@ -59,7 +59,7 @@ def compare(
     the tolerance if the error grew by less than 50 %. The baselines are those of the report's
     level.
     """
-    measured, recorded = read_report(report), _baselines(baseline)
+    measured, recorded = read_report(report), _read_baselines(baseline)
     if not chosen:
         refuse_if_not_whole(measured, recorded)
     outcome = compared(measured, recorded)
@@ -94,7 +94,7 @@ def exit_code_of(report: Report) -> ExitCode:
     return ExitCode.BASELINE_DRIFT if unknown else ExitCode.PASS
 
 
-def _baselines(place: Path | None) -> dict[str, Baseline]:
+def _read_baselines(place: Path | None) -> dict[str, Baseline]:
     """Read the accepted numbers from a folder of baselines, or from another report.
 
     place  folder of baselines, or path of a report; None for the baselines of slipstick

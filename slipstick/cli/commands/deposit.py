@@ -42,7 +42,7 @@ def deposit(
     if output.exists():
         raise typer.BadParameter(f"'{output}' exists; give a new directory")
     try:
-        write(output, datasets(), date.date())
+        write_crate(output, datasets(), date.date())
     except ModuleNotFoundError as error:
         raise typer.BadParameter(f"{error}; install it with pip install '.[deposit]'") from error
     typer.echo(f"{output}: {len(list(output.iterdir()))} files")
@@ -52,11 +52,11 @@ def datasets() -> Iterator[Dataset]:
     """Yield all tables of reference numbers for the deposit, computed or read from stored files."""
     digest = source_digest("radial")
     for table in TABLES.values():
-        yield _traced(table.dataset({}), "radial solver", _command(table), digest)
-    yield from recorded()
+        yield _add_provenance(table.dataset({}), "radial solver", _row_command(table), digest)
+    yield from stored_datasets()
 
 
-def _command(table: Table) -> Callable[[Mapping[str, Any]], str]:
+def _row_command(table: Table) -> Callable[[Mapping[str, Any]], str]:
     """Return a function that writes the command line of a table row, for its provenance.
 
     table  table of reference numbers
@@ -66,7 +66,7 @@ def _command(table: Table) -> Callable[[Mapping[str, Any]], str]:
     )
 
 
-def _traced(
+def _add_provenance(
     found: Dataset, method: str, command: Callable[[Mapping[str, Any]], str], digest: str
 ) -> Dataset:
     """Add the provenance of each row to a table of reference numbers, in three columns.
@@ -84,14 +84,14 @@ def _traced(
     return replace(found, columns={**found.columns, **TRACE}, rows=rows)
 
 
-def recorded() -> Iterator[Dataset]:
+def stored_datasets() -> Iterator[Dataset]:
     """Yield two reference tables of stored numbers, which are not computed again.
 
     The tables are the onset of gross slip, and the paths of changing loads.
     """
     onset = load_reference("gross_slip_onset")
     about = onset["about"]
-    yield _traced(
+    yield _add_provenance(
         Dataset(about, onset["columns"], onset["rows"]),
         "limits of the semi-analytical and the radial solver",
         lambda _: str(about["command"]),
@@ -124,7 +124,7 @@ def recorded() -> Iterator[Dataset]:
         "value_uncertainty": "standard uncertainty of the value, absolute",
         "unit": "SI unit of value and uncertainty",
     }
-    yield _traced(
+    yield _add_provenance(
         Dataset(about, columns, rows),
         "radial solver in the limit of fine increments",
         lambda row: f"slipstick challenge export {row['case']} --output path",
@@ -132,7 +132,7 @@ def recorded() -> Iterator[Dataset]:
     )
 
 
-def write(folder: Path, found: Iterable[Dataset], published: Date) -> None:
+def write_crate(folder: Path, found: Iterable[Dataset], published: Date) -> None:
     """Write tables as CSV and JSON with the metadata of an RO-Crate.
 
     Raises ImportError without the library rocrate.

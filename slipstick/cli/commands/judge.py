@@ -88,7 +88,7 @@ def judge(
     FILE.py is executed: judge only code that you trust.
     """
     if names_a_solver(answers):
-        found = _solved(answers, case, levels, grade, strict)
+        found = _judge_function(answers, case, levels, grade, strict)
     elif case is not None:
         raise typer.BadParameter("--case applies to functions only; omit it for a folder")
     else:
@@ -107,7 +107,7 @@ def judge(
         raise typer.Exit(code)
 
 
-def _solved(
+def _judge_function(
     name: str, case: str | None, levels: int, grade: GradeName | None, strict: bool
 ) -> Judgement:
     """Call a Python function that solves a challenge, and judge its answers.

@@ -11,7 +11,7 @@ from slipstick.cli.options import (
     SetOption,
     SolverOption,
     optional,
-    warn_of_odd_numbers,
+    print_input_warnings,
 )
 from slipstick.cli.terminal import print_pairs, print_table
 from slipstick.solvers.names import SolverName
@@ -45,7 +45,7 @@ def plan(
     cost of each accuracy is estimated by a coarse solve with all increments.
     """
     contents = read_scene_file(scene, overrides or ())
-    warn_of_odd_numbers(contents)
+    print_input_warnings(contents)
     chosen = solver.solver
     fineness = chosen.fineness(contents)
     decided = chosen.plan(contents.scene, fineness)
@@ -54,13 +54,13 @@ def plan(
     print_pairs(chosen.work(contents.scene, fineness, decided))
     if reasons := chosen.reasons(decided):
         print_table(("step", "increments", "why"), reasons)
-    if solver is not SolverName.RADIAL and (how := by_radii(contents.scene)):
+    if solver is not SolverName.RADIAL and (how := radial_method(contents.scene)):
         print_pairs([("radial", f"--solver radial can solve this: {how}")])
     if accuracy:
         _print_prices(accuracy, chosen, contents)
 
 
-def by_radii(scene: Scene) -> str | None:
+def radial_method(scene: Scene) -> str | None:
     """Describe in words by which solution method the radial solver can solve a scene.
 
     The result is None for a scene that the radial solver does not support.

@@ -9,17 +9,17 @@ import typer
 from slipstick.cli.accuracy_option import (
     AccuracyOption,
     MostSecondsOption,
-    forget_levels,
-    leave_unless_met,
-    refined_to,
-    requested_accuracy,
+    exit_unless_met,
+    read_requested_accuracy,
+    remove_level_checkpoints,
+    solve_to_accuracy,
 )
 from slipstick.cli.options import (
     OutputOption,
     SceneArgument,
     SetOption,
     SolverOption,
-    warn_of_odd_numbers,
+    print_input_warnings,
 )
 from slipstick.solvers.names import SolverName
 
@@ -88,21 +88,21 @@ def run(
     from contact_results.directory.stop_signals import NOTHING_KEPT, cleaned_up_when_stopped
     from contact_results.directory.timing import Stopwatch, write_timing
     from contact_scene import read_scene_file
-    from slipstick.cli.terminal import tell
+    from slipstick.cli.terminal import print_message
 
     stopwatch = Stopwatch()
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
-        request = requested_accuracy(contents, accuracy, most_seconds, error=error)
-        printed = warn_of_odd_numbers(contents)
+        request = read_requested_accuracy(contents, accuracy, most_seconds, error=error)
+        printed = print_input_warnings(contents)
     with stopwatch.phase("import"):
         chosen = solver.solver
-        from slipstick.cli.progress import coarse_solves_shown, solve_progress
+        from slipstick.cli.progress import show_coarse_solves, solve_progress
     fineness = chosen.fineness(contents)
     identity = solve_identity(contents.scene, fineness, solver)
     with (
         cleaned_up_when_stopped(kept=lambda: NOTHING_KEPT),
-        provide_checkpoints(output, identity, tell) as store,
+        provide_checkpoints(output, identity, print_message) as store,
         ExitStack() as until_written,
         run_directory(output, overwrite=overwrite) as staging,
     ):
@@ -111,7 +111,7 @@ def run(
         with stopwatch.phase("solve"):
             if request is not None:
                 refined = until_written.enter_context(
-                    refined_to(request, chosen, contents, output, most_seconds)
+                    solve_to_accuracy(request, chosen, contents, output, most_seconds)
                 )
                 result, stated = refined.level.result, refined.level.stated
                 reached = refined.accuracy
@@ -119,7 +119,7 @@ def run(
                 with solve_progress(decided.increments) as observe:
                     result = chosen.solve(contents.scene, fineness, decided, observe, store)
         if error and stated is None:
-            with stopwatch.phase("error"), coarse_solves_shown():
+            with stopwatch.phase("error"), show_coarse_solves():
                 stated = chosen.errors(result)
         with stopwatch.phase("write"):
             from contact_results.result_files import write_result
@@ -136,15 +136,15 @@ def run(
     from contact_results.result_warnings import warnings_of
 
     if request is None:
-        forget_levels(output)
+        remove_level_checkpoints(output)
     _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds, cycles)
     for warning in warnings_of(result):
         if warning not in printed:
-            tell(f"warning: {warning}")
+            print_message(f"warning: {warning}")
     if not error:
         typer.echo("  no errors, because of --no-error")
     typer.echo(f"results in {output}")
-    leave_unless_met(reached)
+    exit_unless_met(reached)
 
 
 def _print_outcome(
@@ -163,12 +163,12 @@ def _print_outcome(
     cycles   columns of the table of load cycles; empty without cycles
     """
     from contact_results.key_numbers import outcome_columns
-    from slipstick.cli.progress import how_accurate, how_stated, solved_in
+    from slipstick.cli.progress import accuracy_lines, error_lines, solve_lines
     from slipstick.cli.terminal import print_pairs, print_table
 
-    stated_in = () if stated is None else how_stated(stated, seconds.get("error"))
-    accurate = () if reached is None else how_accurate(reached)
-    solved = solved_in(result, seconds["solve"])
+    stated_in = () if stated is None else error_lines(stated, seconds.get("error"))
+    accurate = () if reached is None else accuracy_lines(reached)
+    solved = solve_lines(result, seconds["solve"])
     print_pairs([*solver.layout(result), *solved, *stated_in, *accurate])
     columns = outcome_columns(result.steps, stated.steps if stated else None)
     for table in (columns, *([cycles] if cycles else ())):

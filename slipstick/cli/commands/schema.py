@@ -24,10 +24,10 @@ def schema(
     ] = SchemaOf.SCENE,
 ) -> None:
     """Print the JSON Schema of a scene file, a summary or a report."""
-    typer.echo(json.dumps(_document(of), indent=2))
+    typer.echo(json.dumps(_schema_document(of), indent=2))
 
 
-def _document(of: SchemaOf) -> dict[str, Any]:
+def _schema_document(of: SchemaOf) -> dict[str, Any]:
     """Return the JSON Schema of a file format of slipstick."""
     if of is SchemaOf.SCENE:
         from contact_scene import scene_schema

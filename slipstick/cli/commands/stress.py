@@ -38,21 +38,21 @@ from semi_analytical.stress.depths import levels_of
 from slipstick.cli.accuracy_option import (
     AccuracyOption,
     MostSecondsOption,
-    leave_unless_met,
-    refined_to,
-    requested_accuracy,
+    exit_unless_met,
+    read_requested_accuracy,
+    solve_to_accuracy,
 )
 from slipstick.cli.options import (
-    AskedSolver,
+    OptionalSolver,
     OutputOption,
     SetOption,
     optional,
+    print_input_warnings,
     refuse_if,
     refuse_with_run,
-    warn_of_odd_numbers,
 )
-from slipstick.cli.progress import coarse_solves_shown, how_accurate, solve_progress
-from slipstick.cli.terminal import print_pairs, print_table, tell
+from slipstick.cli.progress import accuracy_lines, show_coarse_solves, solve_progress
+from slipstick.cli.terminal import print_message, print_pairs, print_table
 from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
@@ -129,7 +129,7 @@ def stress(
     accuracy: AccuracyOption = None,
     most_seconds: MostSecondsOption = None,
     overrides: SetOption = None,
-    solver: AskedSolver = None,
+    solver: OptionalSolver = None,
 ) -> None:
     """Compute the stress in layers and substrate.
 
@@ -142,7 +142,7 @@ def stress(
     With --at, DIR receives stress_history.csv and .png instead.
     """
     refuse_files_above(output)
-    chosen_depths = None if depths is None else [_length(text) for text in depths.split(",")]
+    chosen_depths = None if depths is None else [_parse_length(text) for text in depths.split(",")]
     chosen = solver or SolverName.SEMI_ANALYTICAL
     contents = request = reached = None
     if source.is_dir():
@@ -173,8 +173,8 @@ def stress(
         if contents is None:
             state = state_of_run(source, step)
         else:
-            warn_of_odd_numbers(contents)
-            request = requested_accuracy(contents, accuracy, most_seconds, error=error)
+            print_input_warnings(contents)
+            request = read_requested_accuracy(contents, accuracy, most_seconds, error=error)
             of_stress, steps = request and request.binds_stress, len(contents.scene.loading)
             refuse_if(
                 (
@@ -195,11 +195,13 @@ def stress(
             )
             stated: StatedErrors | None
             if request is None:
-                result, stated = _solved(contents, chosen, error)
+                result, stated = _solve_scene(contents, chosen, error)
             else:
                 output.parent.mkdir(parents=True, exist_ok=True)
                 refined = until_written.enter_context(
-                    refined_to(request, chosen.solver, contents, output, most_seconds, step=step)
+                    solve_to_accuracy(
+                        request, chosen.solver, contents, output, most_seconds, step=step
+                    )
                 )
                 result, stated = refined.level.result, refined.level.stated
                 reached = refined.accuracy
@@ -207,7 +209,7 @@ def stress(
         which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
         if not body.deforms:
             raise typer.BadParameter(f"the {which} is rigid and has no stress")
-        field = _below(state, chosen_depths, indenter=indenter, volume=volume)
+        field = _stress_field(state, chosen_depths, indenter=indenter, volume=volume)
         found = extremes(field, body)
         errors = stress_errors(state, field, found, indenter=indenter) if error else None
         write_stress(
@@ -221,7 +223,7 @@ def stress(
             accuracy=reached,
         )
     if reached is not None:
-        print_pairs(how_accurate(reached))
+        print_pairs(accuracy_lines(reached))
     columns = maxima_columns(found, errors)
     print_table(columns, list(zip(*columns.values(), strict=True)), numbers=True)
     edge: Any = field.how.get("edge")
@@ -234,7 +236,7 @@ def stress(
     elif not on_disc and state.by_increments is None:
         typer.echo("  errors without that of increments, which the run does not state")
     typer.echo(f"results in {output}")
-    leave_unless_met(reached)
+    exit_unless_met(reached)
 
 
 def _write_points(
@@ -266,20 +268,20 @@ def _write_points(
     if contents is None:
         states: Any = states_of_run(source) if history else [state_of_run(source, step)]
     else:
-        result, _ = _solved(contents, chosen, error=False)
+        result, _ = _solve_scene(contents, chosen, error=False)
         states = states_of_result(result) if history else [state_of_result(result, step)]
     for state in states:
         number, index, state = state if history else (state.step, None, state)
         if state is None:
             continue
         title, body = state.title, (state.indenter if indenter else state.body)
-        x, y, levels = _points_of(at, body)
+        x, y, levels = _parse_points(at, body)
         try:
             found = stress_at(state, x, y, levels, indenter=indenter)
             made.append(StressIncrement(number, index, *found))
         except UnsupportedScene as error:  # a contact too small for rings
             left_out = error
-            tell(f"step {number}, increment {index} is left out: {error}")
+            print_message(f"step {number}, increment {index} is left out: {error}")
     if not made:
         raise left_out
     title = f"{title or 'Stress'}: {'indenter' if indenter else 'body'}"
@@ -287,7 +289,7 @@ def _write_points(
     typer.echo(f"results in {output}")
 
 
-def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
+def _parse_points(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
     """Read the points of the option `--at`: coordinates x and y (n,), and the depth levels.
 
     A point at an interface gives two points, one on each side.
@@ -302,18 +304,20 @@ def _points_of(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
         parts = [part.strip() for part in text.split(",")]
         if len(parts) != 3:
             raise typer.BadParameter(f"got --at {text}, expected X,Y,Z such as '0.3 mm,0,20 um'")
-        x, y = (_length(part, "--at") for part in parts[:2])
+        x, y = (_parse_length(part, "--at") for part in parts[:2])
         try:
             if parts[2].startswith("interface") and parts[2] not in sides:
                 raise ValueError(f"expected {' or '.join(sides) or 'a depth: there is no layer'}")
-            levels = sides.get(parts[2]) or levels_of(stack_of(body), [_length(parts[2], "--at")])
+            levels = sides.get(parts[2]) or levels_of(
+                stack_of(body), [_parse_length(parts[2], "--at")]
+            )
         except ValueError as error:
             raise typer.BadParameter(f"--at {text}: {error}") from None
         found += [(x, y, level) for level in levels]
     return np.array([p[0] for p in found]), np.array([p[1] for p in found]), [p[2] for p in found]
 
 
-def _solved(
+def _solve_scene(
     contents: SceneFile, name: SolverName, error: bool
 ) -> tuple[Result, StatedErrors | None]:
     """Solve the scene of a scene file, and estimate the errors of its scalars.
@@ -335,7 +339,7 @@ def _solved(
         result = chosen.solve(contents.scene, fineness, decided, observe)
     if not error:
         return result, None
-    with coarse_solves_shown():
+    with show_coarse_solves():
         return result, chosen.errors(result)
 
 
@@ -365,7 +369,7 @@ def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volum
     )
 
 
-def _below(
+def _stress_field(
     state: LoadedBodies, depths: list[float] | None, *, indenter: bool, volume: bool
 ) -> StressField:
     """Compute the stress field in a body below the contact, for the command `slipstick stress`.
@@ -392,7 +396,7 @@ def _below(
         raise typer.BadParameter(f"--depths: {error}") from None
 
 
-def _length(text: str, option: str = "--depths") -> float:
+def _parse_length(text: str, option: str = "--depths") -> float:
     """Convert the text of a length to metres; raises BadParameter.
 
     The text is a number in metres, or a number with a unit, such as "20 um".

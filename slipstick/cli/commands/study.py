@@ -20,7 +20,7 @@ from slipstick.cli.options import (
     refuse_unknown,
     workers_at,
 )
-from slipstick.cli.progress import how_it_ended, run_shown
+from slipstick.cli.progress import outcome_text, run_with_progress
 from slipstick.cli.terminal import print_table
 from slipstick.solvers.names import SolverName
 from verification.judging.case import Level
@@ -139,7 +139,7 @@ def study(
         words += [word for v in values if v is not None for word in (option, str(v))]
     directory = output or Path("out") / where
     pool = workers_at(scheduler, workers)
-    record = _studied(chosen, settings, shlex.join(words), directory, pool)
+    record = _compute_study(chosen, settings, shlex.join(words), directory, pool)
     for lost in record.lost:
         typer.echo(f"LOST {lost.name}: {lost.reason}")
     for statement in record.conclusion.statements:
@@ -151,7 +151,7 @@ def study(
         raise typer.Exit(ExitCode.ACCURACY)
 
 
-def _studied(
+def _compute_study(
     study: Study, settings: Settings, command: str, directory: Path, workers: int | Workers
 ) -> StudyRecord:
     """Compute the cases of a verification study, draw its conclusions, and write its page.
@@ -167,7 +167,7 @@ def _studied(
         cases = study.cases(settings)
         set_aside(directory)
         store = CaseStore(directory / CASES)
-        ends = run_shown(cases, store, workers, how_it_ended)
+        ends = run_with_progress(cases, store, workers, outcome_text)
         records = {end.case.name: end.record for end in ends if isinstance(end.record, CaseRecord)}
         seconds = {name: record.seconds for name, record in records.items()}
         record = StudyRecord(

@@ -15,7 +15,7 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.run_lock import in_sole_use
 from contact_results.number_text import Uncertainty, number_text
 from contact_scene import read_scene_file
-from slipstick.cli.commands.plan import by_radii
+from slipstick.cli.commands.plan import radial_method
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import (
     OutputOption,
@@ -26,10 +26,10 @@ from slipstick.cli.options import (
     refuse_unknown,
     workers_at,
 )
-from slipstick.cli.progress import how_it_ended, run_shown
-from slipstick.cli.terminal import print_pairs, print_table, tell
+from slipstick.cli.progress import outcome_text, run_with_progress
+from slipstick.cli.terminal import print_message, print_pairs, print_table
 from slipstick.solvers.names import SolverName
-from slipstick.sweep import SweepError, Variation, points, quantities
+from slipstick.sweep import SweepError, Variation, quantities, sweep_points
 from slipstick.sweep_chart import (
     MAX_KEYS,
     PERCENTILES,
@@ -85,7 +85,9 @@ def sweep(
     try:
         variations = [Variation.of(text) for text in vary]
         names = tuple(name.strip() for name in get.split(","))
-        made = points(scene, overrides or (), variations, names, solver.value, with_error=error)
+        made = sweep_points(
+            scene, overrides or (), variations, names, solver.value, with_error=error
+        )
     except SweepError as refused:
         raise typer.BadParameter(str(refused)) from None
     valid = next(point for point in made if not point.invalid)
@@ -93,29 +95,29 @@ def sweep(
     listing = "slipstick maintain schema summary"
     refuse_unknown("quantity", names, quantities(first.body), listing)
     print_pairs([("points", str(len(made))), ("solver", solver.value)])
-    if solver is not SolverName.RADIAL and (how := by_radii(first)):
+    if solver is not SolverName.RADIAL and (how := radial_method(first)):
         print_pairs([("radial", f"--solver radial can solve this: {how}")])
     output.mkdir(parents=True, exist_ok=True)
     with in_sole_use(output):
         store, cases = CaseStore(output / CASES), {point.name: point for point in made}
         pool = workers_at(scheduler, workers)
-        ends = run_shown(tuple(cases.values()), store, pool, how_it_ended)
+        ends = run_with_progress(tuple(cases.values()), store, pool, outcome_text)
         found = {end.case.name: end.record for end in ends if isinstance(end.record, CaseRecord)}
         lost = {
             end.lost.name: cases[end.lost.name].record(end.lost.reason) for end in ends if end.lost
         }
         records = [(found | lost)[point.name] for point in made]
         title = first.title or scene.name
-        _write(records, variations, names, output, title)
+        _write_table_and_chart(records, variations, names, output, title)
     typer.echo(f"results in {output}")
     if missing := sum(bool(record.words["refused"]) for record in records):
-        tell(
+        print_message(
             f"{missing} of {len(records)} points have no result; see the column refused of {TABLE}"
         )
         raise typer.Exit(ExitCode.NOT_CONVERGED)
 
 
-def _write(
+def _write_table_and_chart(
     records: Sequence[CaseRecord],
     variations: Sequence[Variation],
     names: Sequence[str],
@@ -144,7 +146,9 @@ def _write(
     if len(spaced) < len(variations):
         _print_percentiles(spaced, swept)
     if len(spaced) > MAX_KEYS:
-        tell(f"no chart: got {len(spaced)} spaced keys, expected at most {MAX_KEYS}; see {TABLE}")
+        print_message(
+            f"no chart: got {len(spaced)} spaced keys, expected at most {MAX_KEYS}; see {TABLE}"
+        )
     else:
         write_sweep_chart(spaced, swept, directory / CHART, title)
 

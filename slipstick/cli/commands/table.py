@@ -37,22 +37,22 @@ def table(
     from slipstick.tables.catalogue import TABLES
 
     if name is None:
-        _list(TABLES)
+        _print_tables(TABLES)
         return
     refuse_unknown("table", [name], TABLES, "slipstick table")
     chosen = TABLES[name]
-    found = chosen.dataset(_values(chosen, over or ()))
+    found = chosen.dataset(_parse_values(chosen, over or ()))
     typer.echo(found.json() if as_json else found.csv(), nl=False)
 
 
-def _list(tables: Mapping[str, Table]) -> None:
+def _print_tables(tables: Mapping[str, Table]) -> None:
     """Print names, parameters and problems of all tables of reference numbers."""
     for name, one in tables.items():
         typer.echo(f"{name}: {', '.join(one.quantities)} over {', '.join(one.axes)}")
         typer.echo(f"  {one.problem}.")
 
 
-def _values(chosen: Table, given: Sequence[str]) -> dict[str, list[float]]:
+def _parse_values(chosen: Table, given: Sequence[str]) -> dict[str, list[float]]:
     """Read the parameter values of the option `--over`, by parameter name; raises BadParameter.
 
     chosen  table whose parameters are allowed

@@ -18,7 +18,7 @@ from slipstick.cli.options import (
     refuse_unknown,
     workers_at,
 )
-from slipstick.cli.progress import how_it_ended, run_shown
+from slipstick.cli.progress import outcome_text, run_with_progress
 from slipstick.cli.terminal import print_table
 from verification.cases.catalogue import CASES as KNOWN
 from verification.cases.catalogue import CaseToJudge, JudgedCase, choose, lost
@@ -105,13 +105,13 @@ def verify(
     pool = workers_at(scheduler, workers or cores())
     if len(cases) == 1 and workers is None and scheduler is None and is_one_thread():
         pool = ThisProcess()  # records depend on the number of threads
-    report = _verified(cases, level, names or [], directory, pool, places, fresh=fresh)
+    report = _run_and_report(cases, level, names or [], directory, pool, places, fresh=fresh)
     _print_outcome(report, directory)
     if report.status is Status.FAIL:
         raise typer.Exit(ExitCode.ACCURACY)
 
 
-def _verified(
+def _run_and_report(
     cases: tuple[Case, ...],
     level: LevelName,
     names: list[str],
@@ -135,13 +135,13 @@ def _verified(
         optional_places = () if names else PLACES  # a report of chosen cases has no studies
         try:
             studies = stored_records(
-                *((optional_places, _left_out) if places is None else (places,))
+                *((optional_places, _warn_of_omission) if places is None else (places,))
             )
         except ValueError as error:
             typer.echo(f"error: {error}", err=True)
             raise typer.Exit(ExitCode.INVALID) from None
         set_aside_report(directory)
-        outcomes, seconds = judged(cases, level.name, directory, workers, fresh=fresh)
+        outcomes, seconds = judge_cases(cases, level.name, directory, workers, fresh=fresh)
         pictures: tuple[Picture, ...] = ()
         if not names:
             from verification.showcase import showcase  # imports matplotlib
@@ -163,7 +163,7 @@ def _verified(
     return report
 
 
-def judged(
+def judge_cases(
     cases: tuple[Case, ...], level: str, directory: Path, workers: int | Workers, *, fresh: bool
 ) -> tuple[tuple[CaseOutcome, ...], dict[str, float]]:
     """Run the cases of a verification on a pool of processes, and return their outcomes.
@@ -181,7 +181,7 @@ def judged(
     refuse_if_unwritable(directory / CASES)
     store = CaseStore(directory / CASES, JudgedCase)
     solves = {case.name: max(1, len(case.runs)) for case in cases}
-    ends = run_shown(requested, store, workers, _verdict, solves, fresh=fresh)
+    ends = run_with_progress(requested, store, workers, _case_line, solves, fresh=fresh)
     outcomes: list[CaseOutcome] = []
     seconds: dict[str, float] = {}
     for case, end in zip(cases, ends, strict=True):
@@ -193,13 +193,13 @@ def judged(
     return held_to(outcomes, tolerances), seconds
 
 
-def _verdict(end: CaseEnd) -> str:
+def _case_line(end: CaseEnd) -> str:
     """Return the line that is printed when a case of the verification has ended.
 
     The line states status, name, number of verdicts and solves, and seconds.
     """
     if not isinstance(end.record, JudgedCase):
-        return how_it_ended(end)
+        return outcome_text(end)
     outcome, seconds = end.record.outcome, f"{end.record.seconds:6.1f} s"
     took = "already there" if end.stored else seconds
     return (
@@ -208,7 +208,7 @@ def _verdict(end: CaseEnd) -> str:
     )
 
 
-def _left_out(problem: str) -> None:
+def _warn_of_omission(problem: str) -> None:
     """Print a warning about a stored study that the verification report omits.
 
     problem  text about the record of the study, which is damaged or of another version

@@ -31,7 +31,7 @@ from contact_scene.quantities.stated_error import (
     StatedError,
     StatedErrors,
 )
-from contact_scene.stepping.increment_error import with_error
+from contact_scene.stepping.increment_error import has_increment_error
 from verification.closed_forms.cattaneo_mindlin import CycledContact, PartialSlip
 from verification.closed_forms.elliptical_contact import EllipticalContact
 from verification.closed_forms.huber_stress import (
@@ -435,7 +435,7 @@ def refined(rng: Rng, posed: Posed) -> KnownScene:
 
     The effect of more increments is added. It is computed on the cells that are judged.
     """
-    matters = with_error(posed.scene)
+    matters = has_increment_error(posed.scene)
     counts = semi_analytical.plan(posed.scene).increments
     fine, less = (_Level.of(posed, times, counts) for times in FINER)
     base, cut = less, [less] * len(MANY)

@@ -263,7 +263,7 @@ def _mean(friction: float | FrictionMap, cell: StabilityCell, grid: SurfaceGrid)
         return friction
     x, y = grid.coordinates()
     p = np.sqrt(np.maximum(1 - (x**2 + y**2) / cell.length**2, 0.0))
-    coefficients = friction.on(grid.cells, grid.spacing).map.values
+    coefficients = friction.on_grid(grid.cells, grid.spacing).map.values
     return float(SURELY * np.sum(coefficients * p) / np.sum(p))
 
 
