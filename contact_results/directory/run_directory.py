@@ -95,29 +95,12 @@ def _staging_directory(target: Path) -> Iterator[Path]:
         with cleaned_up_when_stopped(clean):
             yield staging
     except OSError as error:
-        _add_file_name(error, staging, target)
+        name = error.filename  # None if the disk is full
+        if name is None or Path(os.fsdecode(name)).parent == staging:
+            error.filename, error.filename2 = str(target), None
         raise
     finally:
         clean()
-
-
-def _add_file_name(error: OSError, staging: Path, target: Path) -> None:
-    """Add the name of the file to a write error, with the path in `target`.
-
-    The system omits the name if the disk is full. The file that was changed last is then named.
-
-    staging  hidden directory in which the files are written
-    """
-    if error.filename is None:
-        written = [
-            (path.stat().st_mtime_ns, path.stat().st_size, path) for path in staging.iterdir()
-        ]
-        name = max(written)[2].name if written else ""
-    else:
-        path = Path(os.fsdecode(error.filename))
-        name = path.name if path.parent == staging else ""
-    if name:
-        error.filename, error.filename2 = str(target / name), None
 
 
 def refuse_files_above(target: Path) -> None:

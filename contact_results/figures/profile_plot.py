@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -24,8 +23,7 @@ if TYPE_CHECKING:
 MARGIN = 1.15  # half length of the line, relative to the extent of the contact
 
 
-@dataclass(frozen=True, eq=False)
-class Component:
+class Curves(NamedTuple):
     """Curves of one traction component along the line of the profiles, one per load step.
 
     name   label of the axis
@@ -36,18 +34,6 @@ class Component:
     name: str
     lines: dict[int, Field]
     unit: EngineeringUnit
-
-    def draw(self, ax: Any, x: Field) -> None:
-        """Draw one curve for every load step.
-
-        ax  axes of matplotlib
-        x   coordinates along the line in the unit of the figure (n,)
-        """
-        for number, (step, values) in enumerate(self.lines.items()):
-            ax.plot(x, values / self.unit.size, label=f"step {step}", **style.line_style(number))
-        ax.axhline(0.0, color="black", linewidth=0.5)
-        ax.set_ylabel(self.unit.labelled(self.name))
-        style.legend_beside(ax)
 
 
 def profile_plot(result: Result, surface: Surface) -> Figure:
@@ -62,13 +48,18 @@ def profile_plot(result: Result, surface: Surface) -> Figure:
     axes = figure.subplots(1 + len(shears), 1, sharex=True, squeeze=False)[:, 0]
     length = _line_axis(axes[-1], result, surface)
     x = surface.profile_line.places / length.size
-    _pressure_curves(surface, steps).draw(axes[0], x)
-    axes[0].set_ylim(bottom=0.0)
     limit = (result.scene.friction or FRICTIONLESS).limit(_pressure_field(steps[-1], surface))
-    for ax, shear in zip(axes[1:], shears, strict=True):
-        bound = surface.along(limit) / shear.unit.size
-        ax.fill_between(x, -bound, bound, color=style.GREY, alpha=0.2, linewidth=0, label="± µp")
-        shear.draw(ax, x)
+    for ax, curves in zip(axes, (_pressure_curves(surface, steps), *shears), strict=True):
+        if ax is not axes[0]:
+            bound = surface.along(limit) / curves.unit.size
+            band = {"color": style.GREY, "alpha": 0.2, "linewidth": 0, "label": "± µp"}
+            ax.fill_between(x, -bound, bound, **band)
+        for number, (step, values) in enumerate(curves.lines.items()):
+            ax.plot(x, values / curves.unit.size, label=f"step {step}", **style.line_style(number))
+        ax.axhline(0.0, color="black", linewidth=0.5)
+        ax.set_ylabel(curves.unit.labelled(curves.name))
+        style.legend_beside(ax)
+    axes[0].set_ylim(bottom=0.0)
     return figure
 
 
@@ -96,14 +87,14 @@ def draw_end(ax: Any, result: Result, surface: Surface) -> None:
     style.legend_above(ax)
 
 
-def _pressure_curves(surface: Surface, steps: Sequence[Increment]) -> Component:
+def _pressure_curves(surface: Surface, steps: Sequence[Increment]) -> Curves:
     """Return the profiles of the pressure along the line, at the ends of the given load steps."""
     lines = {step.step: surface.along(_pressure_field(step, surface)) for step in steps}
     unit = engineering_unit(max(step.peak_pressure for step in steps), "Pa")
-    return Component("pressure p", lines, unit)
+    return Curves("pressure p", lines, unit)
 
 
-def _shear_curves(surface: Surface, steps: Sequence[Increment]) -> list[Component]:
+def _shear_curves(surface: Surface, steps: Sequence[Increment]) -> list[Curves]:
     """Return the profiles of the shear components along and across the line.
 
     Components that are round-off at the ends of all given load steps are omitted.
@@ -113,7 +104,7 @@ def _shear_curves(surface: Surface, steps: Sequence[Increment]) -> list[Componen
     sizes = [np.max(np.abs(vector), axis=1) for vector in lines.values()]
     largest = np.max([(0.0, 0.0), *sizes], axis=0).tolist()
     return [
-        Component(
+        Curves(
             f"shear $q_{{{surface.profile_line.components[k]}}}$",
             {step: vector[k] for step, vector in lines.items()},
             engineering_unit(largest[k], "Pa"),
