@@ -33,8 +33,8 @@ from contact_errors.error_formula import (
     UNKNOWN,
     SolvedRun,
     Values,
+    characteristic_size,
     largest_so_far,
-    scale,
 )
 from contact_errors.stress_errors import largest_stresses
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
@@ -136,7 +136,7 @@ class RefinementLevel:
         reached = {name: self.reached(name) for name in shares}
         return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
 
-    def needed(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
+    def needed_factors(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
         """Compute the refinement factor of each discretisation parameter that a request needs.
 
         The parameters are cells, increments, tolerance and others. The factors follow from the
@@ -272,8 +272,8 @@ class Levels:
         """
         if first.meets(shares):
             return first.fineness
-        needed = first.needed(shares, believed=1.0)
-        return self.solver.refined(first.fineness, bounded(needed, first.part, FURTHEST))
+        needed = first.needed_factors(shares, believed=1.0)
+        return self.solver.refined(first.fineness, limit_factors(needed, first.part, FURTHEST))
 
     def beyond_limit(self, fineness: Fineness) -> str | None:
         """Return a message if a discretisation exceeds the solver's limit of cells, elements or
@@ -301,7 +301,7 @@ class Levels:
         )
 
 
-def bounded(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinement:
+def limit_factors(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinement:
     """Limit the refinement factors of the discretisation parameters from one level to the next.
 
     If no other parameter than cells and increments is refined, and by a factor below
@@ -375,7 +375,7 @@ def refine(
             estimated(rounds, shares, reached)
         if level.meets(shares):
             break
-        by = bounded(level.needed(shares), level.part)
+        by = limit_factors(level.needed_factors(shares), level.part)
         following = levels.solver.refined(level.fineness, by)
         seconds = levels.estimated_seconds(level, levels.solver.work(following))
         shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
@@ -468,5 +468,5 @@ def _why_left_out(name: str, level: RefinementLevel) -> str:
         return "the results of this scene by this solver do not contain it"
     if name == "peak_pressure" and any(features.infinite for features in level.run.features):
         return "its exact value is infinite"
-    natural = max(scale(name, step) for step in level.run.values)
+    natural = max(characteristic_size(name, step) for step in level.run.values)
     return "it is zero throughout" if level.largest(name) <= ROUND_OFF * natural else ""

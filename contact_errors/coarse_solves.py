@@ -167,7 +167,7 @@ class DiscretisedSolver(ABC):
         more    number of cells that are added to this fraction
         """
 
-    def of_mesh(self, base: Any, result: Any) -> Iterable[CoarseSolve]:
+    def mesh_coarse_solves(self, base: Any, result: Any) -> Iterable[CoarseSolve]:
         """Return the coarse solves that change a mesh parameter other than the number of elements.
 
         Such parameters are the size of the meshed section, the overlap of the penalty method and
@@ -219,7 +219,7 @@ class DiscretisedSolver(ABC):
         """
         return [result.tolerance] * len(result.steps)
 
-    def neglected(self, result: Any) -> Mapping[str, float]:
+    def neglected_errors(self, result: Any) -> Mapping[str, float]:
         """Return the relative errors of scalars, by name, due to effects that the solver neglects.
 
         An example is the roughness that the cells do not resolve. By default there are none.
@@ -313,7 +313,7 @@ def solved_run(
             try:
                 found = solver.solve(coarse)
                 known[coarse] = found, values_of(found)
-                made.append(record.model_copy(update=_spent(found)))
+                made.append(record.model_copy(update=_solver_work(found)))
             except SolverError as error:
                 known[coarse] = None
                 made.append(record.model_copy(update={"refused": str(error)}))
@@ -328,7 +328,7 @@ def solved_run(
     comparisons: list[Comparison] = []
 
     effects: list[Effect] = []
-    recuts = dict.fromkeys(recounted(run.increments, matters)) if any(matters) else ()
+    recuts = dict.fromkeys(coarse_increment_counts(run.increments, matters)) if any(matters) else ()
     for few in (solver.few(replace(run, space=space), result) for space in spaces if recuts):
         if first := solved(f"few {solver.cells}", few):
             others: list[tuple[Sequence[int], Sequence[Values]]] = []
@@ -342,20 +342,24 @@ def solved_run(
                     if sum(counts) < sum(run.increments):
                         run, effects = replace(run, increments=counts), [(first[1], other[1])]
             if len(others) > 1:
-                comparisons.append(with_limit(first[1], few.increments, others, matters))
+                comparisons.append(compare_with_limit(first[1], few.increments, others, matters))
             break
 
     changes: dict[str, Any] | None = None
     for (text, *_), space in zip(solver.shares, spaces, strict=True):
-        found = solved(text.format(solver.cells), replace(run, space=changed(space, changes)))
+        found = solved(
+            text.format(solver.cells), replace(run, space=change_parameters(space, changes))
+        )
         if not found:
             continue
         sides = zip(solver.sides(found[0]), solver.sides(result), strict=True)
-        compare(solver.part, values, added(found[1], effects), min(b / a for b, a in sides))
-        for coarse in solver.of_mesh(space, result) if changes is None else ():
+        compare(solver.part, values, add_effects(found[1], effects), min(b / a for b, a in sides))
+        for coarse in solver.mesh_coarse_solves(space, result) if changes is None else ():
             required[coarse.part] = [True] * len(values)
             further = {**(changes or {}), coarse.key: coarse.value}
-            if other := solved(coarse.differs, replace(run, space=changed(space, further))):
+            if other := solved(
+                coarse.differs, replace(run, space=change_parameters(space, further))
+            ):
                 compare(coarse.part, found[1], other[1], coarse.ratio)
                 effects.append((found[1], other[1]))
                 found, changes = other, further
@@ -367,7 +371,7 @@ def solved_run(
         features=features,
         comparisons=comparisons,
         required=required,
-        neglected=solver.neglected(result),
+        neglected=solver.neglected_errors(result),
     ), tuple(made)
 
 
@@ -384,7 +388,7 @@ def coarse_tolerance(features: Sequence[Features]) -> float:
     return NEGLIGIBLE / PER_TOLERANCE * (2 / most) ** 2
 
 
-def changed(space: Any, changes: Mapping[str, Any] | None) -> Any:
+def change_parameters(space: Any, changes: Mapping[str, Any] | None) -> Any:
     """Change some mesh parameters of a finite-element solve, for a coarse solve.
 
     space    mesh parameters, which are copied
@@ -393,7 +397,7 @@ def changed(space: Any, changes: Mapping[str, Any] | None) -> Any:
     return space.model_copy(update=changes) if changes else space
 
 
-def added(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[Values]:
+def add_effects(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[Values]:
     """Correct the scalars of a coarse solve by measured effects of other discretisation parameters.
 
     An effect is the difference between a finer and a coarser solve. After the correction, the
@@ -411,7 +415,7 @@ def added(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[Values
     return found
 
 
-def with_limit(
+def compare_with_limit(
     values: Sequence[Values],
     increments: Sequence[int],
     others: Sequence[tuple[Sequence[int], Sequence[Values]]],
@@ -439,7 +443,7 @@ def with_limit(
     return Comparison("increments", values, limit, factors)
 
 
-def at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Features]:
+def features_at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Features]:
     """Return the sizes of contact, stick zone and layers in cells at the end of each load step.
 
     A load step that ends without contact receives the sizes of the previous step.
@@ -469,7 +473,7 @@ def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
     return per_length * end.stick_radius, annulus
 
 
-def _spent(found: Any) -> Mapping[str, int]:
+def _solver_work(found: Any) -> Mapping[str, int]:
     """Sum the iterations and the convolutions of all increments of a solve, for its record.
 
     Numbers that the solver does not count are absent.
@@ -484,7 +488,9 @@ def _spent(found: Any) -> Mapping[str, int]:
     }
 
 
-def recounted(counts: Sequence[int], matters: Sequence[bool]) -> list[tuple[int, ...]]:
+def coarse_increment_counts(
+    counts: Sequence[int], matters: Sequence[bool]
+) -> list[tuple[int, ...]]:
     """Choose the numbers of increments of the two coarse solves that measure the increment error.
 
     Load steps without an increment error, whose result does not depend on the increments, keep
@@ -494,7 +500,7 @@ def recounted(counts: Sequence[int], matters: Sequence[bool]) -> list[tuple[int,
     matters  for each load step, true if it has an increment error
     """
     both = [
-        _pair(count) if matter else (count, count)
+        _other_increment_counts(count) if matter else (count, count)
         for count, matter in zip(counts, matters, strict=True)
     ]
     return [tuple(pair[level] for pair in both) for level in (0, 1)]
@@ -520,7 +526,7 @@ def ratios(
     return tuple(found)
 
 
-def _pair(count: int) -> tuple[int, int]:
+def _other_increment_counts(count: int) -> tuple[int, int]:
     """Choose two other numbers of increments for a load step, to measure its increment error.
 
     The numbers are smaller than the given number for a step with many increments, and larger for a

@@ -188,7 +188,7 @@ def values_of(result: Any) -> tuple[Values, ...]:
     )
 
 
-def prescribed(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
+def prescribed_scalars(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
     """Return the names of the scalars that a load step prescribes, which therefore have no error.
 
     With a spring of a test rig, the prescribed displacement is that of the actuator.
@@ -213,7 +213,7 @@ def prescribed(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
     )
 
 
-def scale(name: str, values: Values) -> float:
+def characteristic_size(name: str, values: Values) -> float:
     """Return the characteristic magnitude of a scalar at the end of a load step, in its unit.
 
     The magnitude is composed of approach, normal force, contact radius and peak pressure; for
@@ -321,13 +321,15 @@ class SolvedRun:
         """Yield the stated errors of all scalars, by name, at the end of each load step."""
         before: dict[str, dict[Part, Numbers]] = {}
         for step, ramp in enumerate(self.scene.load_path()):
-            exact = prescribed(ramp, self.scene.rig)
+            exact = prescribed_scalars(ramp, self.scene.rig)
             yield {
-                name: EXACT if name in exact else self._error(step, name, before)
+                name: EXACT if name in exact else self._estimate_error(step, name, before)
                 for name in self.values[step]
             }
 
-    def _error(self, step: int, name: str, before: dict[str, dict[Part, Numbers]]) -> StatedError:
+    def _estimate_error(
+        self, step: int, name: str, before: dict[str, dict[Part, Numbers]]
+    ) -> StatedError:
         """Compute the stated error of one scalar at the end of a load step, with its status.
 
         Without a required part, the error is unknown. Otherwise the status is "not converged" in
@@ -344,8 +346,8 @@ class SolvedRun:
         apart = not np.any(self.values[step]["contact_area"])
         if not np.any(value) and (apart or name in STICK_EDGE):
             return EXACT if apart or features.slides else UNKNOWN
-        largest = self._largest[step][name]
-        parts = self._parts(step, name, largest)
+        largest = self._largest_so_far[step][name]
+        parts = self._error_parts(step, name, largest)
         if parts is None:
             return UNKNOWN
         floor = parts["tolerance"]
@@ -356,11 +358,11 @@ class SolvedRun:
         parts = {part: np.maximum(size, last.get(part, 0.0)) for part, size in parts.items()}
         before[name] = parts
         small = np.all(sum(parts.values()) <= LARGEST_SHARE * largest + parts["tolerance"])
-        nearly = name in OF_SLIP and self._nearly[step]
+        nearly = name in OF_SLIP and self._near_gross_slip[step]
         return stated(parts, bool(small and not nearly and features.resolve(name)))
 
     @cached_property
-    def _largest(self) -> Sequence[Values]:
+    def _largest_so_far(self) -> Sequence[Values]:
         """For each load step, largest absolute value of each scalar from the start of the history.
 
         Errors are compared with this value, because a scalar may pass through zero.
@@ -368,7 +370,7 @@ class SolvedRun:
         return largest_so_far(self.values)
 
     @cached_property
-    def _nearly(self) -> Sequence[bool]:
+    def _near_gross_slip(self) -> Sequence[bool]:
         """For each load step, true if the tangential force has come close to the friction limit.
 
         The limit may have been approached in this or in an earlier load step. Errors of shift, slip
@@ -385,7 +387,7 @@ class SolvedRun:
         """
         return min(features.order(name) for features in self.features)
 
-    def _parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
+    def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
         """Compute all parts of the error of a scalar at the end of a load step, by their cause.
 
         The causes are cells, increments, tolerance and others. The result is None if a required
@@ -405,7 +407,7 @@ class SolvedRun:
                 parts[comparison.part] = np.maximum(parts.get(comparison.part, 0.0), size)
         if any(needs[step] and part not in parts for part, needs in self.required.items()):
             return None
-        size = np.maximum(largest, scale(name, self.values[step]))
+        size = np.maximum(largest, characteristic_size(name, self.values[step]))
         parts["tolerance"] = PER_TOLERANCE * self.tolerance[step] * size
         if left := features.left.get(name):
             parts["tolerance"] = parts["tolerance"] + left * largest
@@ -439,14 +441,14 @@ def stated(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
     """
     status = ErrorStatus.ESTIMATED if converged else ErrorStatus.NOT_CONVERGED
     total = np.sum(list(parts.values()), axis=0)
-    amounts = {part: _amount(size, len(total)) for part, size in parts.items()}
-    return StatedError(error=_amount(total, len(total)), parts=amounts, status=status)
+    amounts = {part: _error_amount(size, len(total)) for part, size in parts.items()}
+    return StatedError(error=_error_amount(total, len(total)), parts=amounts, status=status)
 
 
 UNKNOWN = StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED)
 
 
-def _amount(size: Numbers, count: int) -> Amount:
+def _error_amount(size: Numbers, count: int) -> Amount:
     """Convert an error to the form of a stated error: a float, or two floats for a vector.
 
     size   error of the components, (1,) or (count,)

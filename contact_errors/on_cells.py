@@ -17,7 +17,7 @@ from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
     Refinement,
-    at_ends,
+    features_at_ends,
 )
 from contact_errors.cost_estimate import Work, work_on_cells
 from contact_errors.error_formula import PEAK, Features, has_cusp, is_singular
@@ -103,7 +103,7 @@ class CellSolver(DiscretisedSolver):
         plan = plan if fineness.edges else replace(plan, edge="off")
         fitted = self.discretisation.window is None and self.scene.indenter.extent is None
         for _ in range(MAX_ENLARGEMENTS if fitted else 0):
-            cells, (hx, hy) = scaled(grids[-1].cells, ROOM), grids[-1].spacing
+            cells, (hx, hy) = scale_cells(grids[-1].cells, ROOM), grids[-1].spacing
             grids.append(SurfaceGrid(cells, (cells[0] * hx, cells[1] * hy)))
         return solve_within(self.scene, grids, fineness.tolerance, progress, plan, store)
 
@@ -141,7 +141,7 @@ class CellSolver(DiscretisedSolver):
     def shown(self, space: SurfaceGrid) -> Mapping[str, Any]:
         return {"cells": space.cells}
 
-    def neglected(self, result: Result) -> Mapping[str, float]:
+    def neglected_errors(self, result: Result) -> Mapping[str, float]:
         return {PEAK: HIGHEST * unresolved_pressure(result)}
 
     def features(self, result: Result) -> Sequence[Features]:
@@ -170,19 +170,19 @@ class CellSolver(DiscretisedSolver):
                 sharp=is_singular(indenter),
                 infinite=is_singular(indenter),
                 cusp=coupled or has_cusp(indenter),
-                peak_by_edge=ridge or _to_edge(end) < cells.contact / 2,
+                peak_by_edge=ridge or _distance_of_peak_to_edge(end) < cells.contact / 2,
                 slides=sliding and not hides,
-                left={} if report is None else _left(report),
+                left={} if report is None else _remaining_edge_errors(report),
             )
 
-        return at_ends(result, at)
+        return features_at_ends(result, at)
 
     def first(self) -> SurfaceGrid:
         grid = semi_analytical.discretise(self.scene, self.discretisation)
-        return SurfaceGrid(scaled(grid.cells, FIRST_CELLS / min(grid.cells)), grid.window)
+        return SurfaceGrid(scale_cells(grid.cells, FIRST_CELLS / min(grid.cells)), grid.window)
 
     def finer(self, space: SurfaceGrid, by: Refinement) -> SurfaceGrid:
-        return SurfaceGrid(scaled(space.cells, by.get(self.part, 1.0)), space.window)
+        return SurfaceGrid(scale_cells(space.cells, by.get(self.part, 1.0)), space.window)
 
     def work(self, fineness: Fineness) -> Work:
         return work_on_cells(fineness.space.cells, fineness.increments, self.plan.shear)
@@ -197,7 +197,7 @@ class CellSolver(DiscretisedSolver):
         return max(run, memory.LIBRARIES + stress)
 
 
-def _left(report: EdgeReport) -> Mapping[str, float]:
+def _remaining_edge_errors(report: EdgeReport) -> Mapping[str, float]:
     """Return the relative errors of scalars, by name, that the edge correction has not removed.
 
     The edge correction computes the pressure at the contact edge with sub-cell resolution, by an
@@ -211,7 +211,7 @@ def _left(report: EdgeReport) -> Mapping[str, float]:
     return {**motions, **radii, **stick, PEAK: report.peak}
 
 
-def _to_edge(end: Increment) -> float:
+def _distance_of_peak_to_edge(end: Increment) -> float:
     """Return the distance in cells between the largest pressure and the edge of the contact.
 
     Used to detect a pressure maximum near the edge, which converges with a lower order.
@@ -236,7 +236,7 @@ def _may_hide_stick(end: Increment) -> bool:
     return bool(2 * slip[i, j] <= np.max(around))
 
 
-def scaled(cells: tuple[int, int], factor: float) -> tuple[int, int]:
+def scale_cells(cells: tuple[int, int], factor: float) -> tuple[int, int]:
     """Multiply the numbers of cells of a grid along x and y, for a finer or a larger grid.
 
     The results are increased to even numbers whose halves have no prime factor above 5, for which

@@ -16,7 +16,7 @@ from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
     Refinement,
-    at_ends,
+    features_at_ends,
     slip_zone,
 )
 from contact_errors.cost_estimate import Work, work_on_elements
@@ -83,11 +83,11 @@ class ElementSolver(DiscretisedSolver):
         store     checkpoint store of the solve, or None
         """
         scene = self.scene.with_increments(fineness.increments)
-        mesh = _with(fineness.space, tolerance=fineness.tolerance)
+        mesh = _replace_settings(fineness.space, tolerance=fineness.tolerance)
         try:
             return fem_reference.solve(scene, mesh, self.method, progress, store)
         except SurfacesOverlap:
-            looser = _with(mesh, overlap=LARGEST_OVERLAP)
+            looser = _replace_settings(mesh, overlap=LARGEST_OVERLAP)
             return fem_reference.solve(scene, looser, self.method, progress)
 
     def space_of(self, result: Result) -> FiniteElementDiscretisation:
@@ -109,9 +109,11 @@ class ElementSolver(DiscretisedSolver):
             # The edge of the contact lies in the middle of an element.
             largest = max(increment.contact_radius for increment in result.increments)
             radius = largest * count / (count + 0.5)
-        return _with(mesh, elements_per_radius=count, contact_radius=radius)
+        return _replace_settings(mesh, elements_per_radius=count, contact_radius=radius)
 
-    def of_mesh(self, base: FiniteElementDiscretisation, result: Result) -> Iterator[CoarseSolve]:
+    def mesh_coarse_solves(
+        self, base: FiniteElementDiscretisation, result: Result
+    ) -> Iterator[CoarseSolve]:
         """Yield the coarse solves that change overlap, harmonics or size of the meshed section.
 
         Each of them measures the error that one of these parameters causes. The overlap applies to
@@ -139,9 +141,9 @@ class ElementSolver(DiscretisedSolver):
         return {"elements_per_radius": space.elements_per_radius}
 
     def features(self, result: Result) -> Sequence[Features]:
-        return at_ends(result, lambda end: self._resolved(result, end))
+        return features_at_ends(result, lambda end: self._measure_features(result, end))
 
-    def _resolved(self, result: Result, end: Increment) -> Features:
+    def _measure_features(self, result: Result, end: Increment) -> Features:
         """Measure contact, stick zone and layers in half elements at the end of a load step.
 
         The sizes decide if the mesh resolves the contact. Half elements are counted, because linear
@@ -166,7 +168,7 @@ class ElementSolver(DiscretisedSolver):
             slides=end.status is ContactStatus.GROSS_SLIDING,
         )
 
-    def neglected(self, result: Result) -> Mapping[str, float]:
+    def neglected_errors(self, result: Result) -> Mapping[str, float]:
         """Return relative errors of tangential scalars due to neglected slip across the load.
 
         The solution path with shear along the load only (Path.SHEARING) neglects this slip. In
@@ -184,12 +186,12 @@ class ElementSolver(DiscretisedSolver):
         return dict.fromkeys(ACROSS, (nu / (4 - 2 * nu)) ** 2 / 2)
 
     def first(self) -> FiniteElementDiscretisation:
-        return _with(self.discretisation, elements_per_radius=FIRST_ELEMENTS)
+        return _replace_settings(self.discretisation, elements_per_radius=FIRST_ELEMENTS)
 
     def finer(
         self, space: FiniteElementDiscretisation, by: Refinement
     ) -> FiniteElementDiscretisation:
-        finer = _with(
+        finer = _replace_settings(
             space,
             elements_per_radius=ceil(by.get(self.part, 1.0) * space.elements_per_radius - 1e-9),
             harmonics=min(MAX_HARMONICS, ceil(by.get("harmonics", 1.0) * space.harmonics)),
@@ -198,7 +200,7 @@ class ElementSolver(DiscretisedSolver):
         if "section" not in by:
             return finer
         box = max(section.outline.box for section in sections_of(self.scene, space))
-        return _with(finer, box=min(LARGEST_BOX, box * by["section"]))
+        return _replace_settings(finer, box=min(LARGEST_BOX, box * by["section"]))
 
     def work(self, fineness: Fineness) -> Work:
         harmonics = fineness.space.harmonics if self.plan.path is Path.HARMONICS else 1
@@ -208,11 +210,13 @@ class ElementSolver(DiscretisedSolver):
     def memory(self, fineness: Fineness) -> int:
         several = self.plan.path in (Path.TWISTING, Path.SHEARING, Path.HARMONICS)
         count = min(MAX_ELEMENTS, fineness.space.elements_per_radius)
-        mesh = _with(fineness.space, elements_per_radius=count)
+        mesh = _replace_settings(fineness.space, elements_per_radius=count)
         elements = max(each.quads.shape[1] for each in sections_of(self.scene, mesh))
         return largest_bytes(elements, several)
 
 
-def _with(mesh: FiniteElementDiscretisation, **update: object) -> FiniteElementDiscretisation:
+def _replace_settings(
+    mesh: FiniteElementDiscretisation, **update: object
+) -> FiniteElementDiscretisation:
     """Return a copy of the settings of a finite-element solve with some values replaced."""
     return mesh.model_copy(update=update)

@@ -15,7 +15,7 @@ from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
     Refinement,
-    at_ends,
+    features_at_ends,
     slip_zone,
 )
 from contact_errors.cost_estimate import Work, work_on_rings
@@ -110,9 +110,9 @@ class RingSolver(DiscretisedSolver):
         return [max(step.worst_residual, PRECISION) for step in result.steps]
 
     def features(self, result: Result) -> Sequence[Features]:
-        return at_ends(result, lambda end: self._resolved(result, end))
+        return features_at_ends(result, lambda end: self._measure_features(result, end))
 
-    def _resolved(self, result: Result, end: Increment) -> Features:
+    def _measure_features(self, result: Result, end: Increment) -> Features:
         """Measure the sizes of contact and stick zone in half rings at the end of a load step.
 
         The sizes decide if the rings resolve the contact. The contact radius is divided by the

@@ -81,7 +81,7 @@ def largest_stresses(
     state = state_of_result(result, step, errors)  # type: ignore[arg-type]
     if not state.body.deforms:
         return {}
-    field = _field(state)
+    field = _compute_stress_field(state)
     largest: dict[str, Extreme] = {}
     for each in sorted(extremes(field, state.body), key=lambda extreme: extreme.value):
         words = each.region.split()
@@ -123,13 +123,15 @@ def stress_at(
             stress_at_cells(one, x, y, levels, indenter=indenter)
             for one in (state, on_wide_cells(state, 0), on_wide_cells(state, 1))
         )
-        near = here.depth < NEAR * _side(state)
-        growth = np.where(near, _growth(ROOT), _growth(SMOOTH))
+        near = here.depth < NEAR * _traction_cell_width(state)
+        growth = np.where(near, _error_divisor(ROOT), _error_divisor(SMOOTH))
     apart = [np.max(np.abs(here.stress - other.stress), axis=0) for other in others]
     return here, np.max(apart, axis=0) / growth
 
 
-def _field(state: LoadedBodies, *, indenter: bool = False, depths: Any = None) -> StressField:
+def _compute_stress_field(
+    state: LoadedBodies, *, indenter: bool = False, depths: Any = None
+) -> StressField:
     """Compute the stress field in a body from the surface tractions of any solver.
 
     state     bodies and surface tractions
@@ -158,7 +160,7 @@ def stress_errors(
     indenter  true for the indenter, false for the lower body
     """
     if state.pressed is not None:
-        return _on_disc(state, found, indenter)
+        return _stress_errors_on_disc(state, found, indenter)
     depths = np.unique(field.points.depth).tolist()
     sampled = depths[::2] if len(depths) > 2 else depths
     part: Part = "elements" if state.on_rings else "cells"
@@ -166,9 +168,12 @@ def stress_errors(
         two = [on_half_the_elements(state, every) for every in (1, 2)]
     else:
         two = [on_wide_cells(state, shift) for shift in (0, 1)]
-    body, near = state.indenter if indenter else state.body, NEAR * _side(state)
-    here = _places(field, body, near)
-    there = [_places(_field(one, indenter=indenter, depths=sampled), body, near) for one in two]
+    body, near = state.indenter if indenter else state.body, NEAR * _traction_cell_width(state)
+    here = _largest_by_place(field, body, near)
+    there = [
+        _largest_by_place(_compute_stress_field(one, indenter=indenter, depths=sampled), body, near)
+        for one in two
+    ]
     # The largest stress adjacent to a fitted contact edge converges with a higher order.
     fitted = bool(field.how.get("edges")) if field.edge is None else field.edge.determined
     errors, measures = [], field.points.measures
@@ -182,13 +187,13 @@ def stress_errors(
                 continue
             order = SMOOTH if not at_edge else EDGE if fitted else ROOT
             others = [each[at_edge].get((extreme.region, extreme.measure), 0.0) for each in there]
-            error = max(abs(value - other) for other in others) / _growth(order)
+            error = max(abs(value - other) for other in others) / _error_divisor(order)
             if not shallow:
                 error += _between_levels(field.points, measures[extreme.measure], extreme)
             if at_edge and field.edge is not None and extreme.region in AT_SURFACE:
-                error = max(error, field.edge.apart / _growth(ROOT))
+                error = max(error, field.edge.apart / _error_divisor(ROOT))
             if at_edge and tension and not fitted:
-                cells = max((state.contact_radius or 0.0) / _side(state), 2.0)
+                cells = max((state.contact_radius or 0.0) / _traction_cell_width(state), 2.0)
                 error = max(error, value / (sqrt(cells) - 1))
                 unresolved = value + error > extreme.value
             largest = max(largest, value + error - extreme.value)
@@ -200,7 +205,9 @@ def stress_errors(
     return tuple(errors)
 
 
-def _places(field: StressField, body: Body, near: float) -> Mapping[bool, Mapping[Key, float]]:
+def _largest_by_place(
+    field: StressField, body: Body, near: float
+) -> Mapping[bool, Mapping[Key, float]]:
     """Find the largest stresses near the surface and, separately, those below.
 
     There is one value for each region of the body and each stress measure. Points near the surface
@@ -247,7 +254,7 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
     return float(slope**2 / (-2 * bend)) if bend < 0 else 0.0
 
 
-def _growth(order: float) -> float:
+def _error_divisor(order: float) -> float:
     """Return the divisor that converts the difference of a coarse and a fine stress to an error.
 
     The divisor is r^(0.6 p) - 1 for the coarsening factor r = 2. The safety factor 0.6 reduces the
@@ -258,7 +265,7 @@ def _growth(order: float) -> float:
     return float(COARSE ** (BELIEVED * order) - 1)
 
 
-def _side(state: LoadedBodies) -> float:
+def _traction_cell_width(state: LoadedBodies) -> float:
     """Return the width of a traction cell along x, or the mean width of a traction ring [length].
 
     Used to express depths and contact radii in cells.
@@ -319,7 +326,7 @@ def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
     )
 
 
-def _on_disc(
+def _stress_errors_on_disc(
     state: LoadedBodies, found: Sequence[Extreme], indenter: bool
 ) -> tuple[StatedError, ...]:
     """Estimate the errors of the largest stresses below the tractions of the radial solver.
@@ -343,11 +350,11 @@ def _on_disc(
             parts: dict[Part, Field] = {"quadrature": np.array([size + PRECISION * abs(e.value)])}
             if sheared and state.by_increments:
                 parts["increments"] = np.array([state.by_increments * abs(e.value)])
-            errors[_place(e)] = stated(parts, not e.at_window_edge)
-    return tuple(errors.get(_place(e), UNKNOWN) for e in found)
+            errors[_maximum_key(e)] = stated(parts, not e.at_window_edge)
+    return tuple(errors.get(_maximum_key(e), UNKNOWN) for e in found)
 
 
-def _place(e: Extreme) -> tuple[str, float, float, float, float]:
+def _maximum_key(e: Extreme) -> tuple[str, float, float, float, float]:
     """Return measure, value and position of a largest stress, as the key of its error.
 
     The largest stress of a body is also the largest stress of one of its layers or of the

@@ -41,13 +41,13 @@ from contact_errors.adaptive_refinement import (
     Levels,
     Refined,
     RefinementLevel,
-    bounded,
+    limit_factors,
     price,
     refine,
 )
 from contact_errors.coarse_solves import Fineness
 from contact_errors.error_formula import BELIEVED, Features, SolvedRun
-from contact_errors.on_cells import CellSolver, scaled
+from contact_errors.on_cells import CellSolver, scale_cells
 from contact_errors.on_elements import ElementSolver
 from contact_errors.on_radii import RingSolver
 from contact_errors.stress_errors import largest_stresses
@@ -346,7 +346,7 @@ def level_of(parts: dict[str, float], status=ErrorStatus.ESTIMATED) -> Refinemen
 
 @given(st.floats(1e-6, 0.5), st.floats(1e-6, 1e-1))
 def test_cells_grow_until_a_power_law_meets_what_was_asked(error: float, share: float) -> None:
-    by = level_of({"cells": 2 * error}).needed({"approach": share})
+    by = level_of({"cells": 2 * error}).needed_factors({"approach": share})
     left = error / by.get("cells", 1.0) ** (2 * BELIEVED)
     assert left == pytest.approx(min(error, share / SPARE))
     assert "increments" not in by
@@ -356,16 +356,16 @@ def test_a_worked_example_of_refinement() -> None:
     """Of 2: cells 4 %, increments 2 %, section 0.5 %; each is allowed 1/1.15/3 % = 0.2899 %:
     (4/0.2899)^(1/1.2) = 8.91, (2/0.2899)^(1/0.6) = 25.0, (0.5/0.2899)^(1/1.2) = 1.575."""
     parts = {"cells": 0.08, "increments": 0.04, "section": 0.01}
-    by = level_of(parts).needed({"approach": 0.01})
+    by = level_of(parts).needed_factors({"approach": 0.01})
     assert by == pytest.approx({"cells": 8.908, "increments": 25.01, "section": 1.575}, rel=1e-3)
-    assert bounded(by, "cells") == by | {"cells": 4.0, "increments": 4.0}
+    assert limit_factors(by, "cells") == by | {"cells": 4.0, "increments": 4.0}
 
 
 def test_a_number_that_has_not_converged_doubles_the_cells() -> None:
     level = level_of({"cells": 1e-9}, ErrorStatus.NOT_CONVERGED)
     assert not level.meets({"approach": 0.1})
-    assert level.needed({"approach": 0.1}) == {"cells": 2}
-    assert bounded({}, "cells")["cells"] > 1
+    assert level.needed_factors({"approach": 0.1}) == {"cells": 2}
+    assert limit_factors({}, "cells")["cells"] > 1
 
 
 def test_a_request_is_met_where_every_number_of_every_step_meets_it() -> None:
@@ -384,7 +384,7 @@ def test_a_request_is_met_where_every_number_of_every_step_meets_it() -> None:
 
 @given(st.floats(1, 16000))
 def test_cells_are_even_and_smooth(least: float) -> None:
-    number, _ = scaled((1, 1), least)
+    number, _ = scale_cells((1, 1), least)
     assert number % 2 == 0
     assert least - 1e-6 <= number <= 1.2 * least + 2
     for prime in (2, 3, 5, 7):

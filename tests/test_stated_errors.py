@@ -31,14 +31,14 @@ import contact_errors
 import slipstick as package
 from contact_errors import coarse_solves
 from contact_errors import stress_errors as stress_errors_module
-from contact_errors.coarse_solves import Fineness, added, ratios, recounted
+from contact_errors.coarse_solves import Fineness, add_effects, coarse_increment_counts, ratios
 from contact_errors.error_formula import (
     PHYSICAL,
     Comparison,
     Features,
     SolvedRun,
+    characteristic_size,
     largest_so_far,
-    scale,
     stated,
     values_of,
 )
@@ -152,7 +152,7 @@ def test_a_size_is_made_of_those_with_its_unit(name, expected) -> None:
     sizes = {"approach": 2.0, "normal_force": 3.0, "contact_radius": 5.0}
     values = {key: np.array([size]) for key, size in sizes.items()}
     others = {"contact_area": np.zeros(1), "peak_pressure": np.zeros(1)}
-    assert scale(name, values | others) == pytest.approx(expected)
+    assert characteristic_size(name, values | others) == pytest.approx(expected)
 
 
 def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None:
@@ -163,7 +163,7 @@ def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None
     elements = ElementSolver(rings.scene, FiniteElementDiscretisation())
     ratio = rings.scene.body.elastic_materials[0].poisson_ratio
     left = 1 - np.cos(ratio / (4 - 2 * ratio))  # of Mindlin's slip across the load
-    assert elements.neglected(cast("Any", inclined))["stick_radius"] == pytest.approx(
+    assert elements.neglected_errors(cast("Any", inclined))["stick_radius"] == pytest.approx(
         left, rel=0.01
     )
 
@@ -275,12 +275,12 @@ def test_increments_have_no_error_in_three_proved_cases_alone(name: str) -> None
 
 def test_increments_of_coarse_solves() -> None:
     counts, matters = (1, 2, 5, 8, 40), (False, True, True, True, True)
-    few, fewer = recounted(counts, matters)
+    few, fewer = coarse_increment_counts(counts, matters)
     assert (few, fewer) == ((1, 32, 32, 4, 20), (1, 8, 8, 4, 10))
     # A step that inherits a state takes the ratio nearest to 1 so far.
     assert ratios(counts, few, matters) == (1.0, 1 / 16, 5 / 32, 2.0, 2.0)
     of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
-    assert added([{"approach": np.array([1.0])}], [(of_many, of_few)]) == [{"approach": 2.0}]
+    assert add_effects([{"approach": np.array([1.0])}], [(of_many, of_few)]) == [{"approach": 2.0}]
 
 
 def test_a_push_near_gross_slip_is_marked() -> None:

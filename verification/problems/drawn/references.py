@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 import radial
 import semi_analytical
-from contact_errors.error_formula import AT_EDGES, Values, prescribed, values_of
+from contact_errors.error_formula import AT_EDGES, Values, prescribed_scalars, values_of
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_cells import stress_on_cells
@@ -154,7 +154,7 @@ class Posed:
             shared = name == ENERGY and closes(self.forces)
             endless = name == PEAK and infinite
             still = name in LED and not any(sizes[:step])
-            given = name in prescribed(path[step - 1], None)
+            given = name in prescribed_scalars(path[step - 1], None)
             absent = truth.reference.value == 0
             if not (absent or repeated or shared or endless or still or given or value in seen):
                 kept.append(truth)
