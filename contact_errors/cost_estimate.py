@@ -17,8 +17,8 @@ from math import ceil
 from typing import NamedTuple
 
 EXPONENT = 1.1
-# Unknowns whose work equals the overhead of an operation. The scenes of `tests/cost_record.json`
-# fit 9000 to 27 000 on cells, and 600 to 2900 by elements.
+# Unknowns whose work equals the overhead of an operation. Measured on the scenes of
+# `tests/test_cost_estimate.py`: 9000 to 27 000 on cells, 600 to 2900 by elements.
 CELL_OVERHEAD, ELEMENT_OVERHEAD = 128.0**2, 32.0**2
 # The factorisations of a finite-element solve take as long as this number of increments.
 SET_UP_INCREMENTS = 50

@@ -25,7 +25,7 @@ from contact_errors.error_formula import (
     PER_TOLERANCE,
     Features,
     Values,
-    scale,
+    characteristic_size,
     values_of,
 )
 from contact_errors.on_cells import CellSolver
@@ -225,7 +225,7 @@ class SceneLevel:
                     parameters={"quantity": name, "of": stem},
                     measures={
                         LARGEST: max(np.max(np.abs(step[stem])) for step in steps if stem in step),
-                        NATURAL: scale(stem, steps[-1]),
+                        NATURAL: characteristic_size(stem, steps[-1]),
                         ORDER: features.order(stem),
                         FLOOR: PER_TOLERANCE * result.tolerance + features.left.get(stem, 0.0),
                     },
