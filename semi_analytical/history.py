@@ -221,7 +221,7 @@ def _reported_increment(
         contact_area=_contact_cells(model, state) * cell,
         peak_pressure=float(np.max(p)),
         elastic_energy=state.energy.elastic,
-        input_work=state.energy.transferred,
+        input_work=state.energy.stored_and_dissipated,
         unresolved_work=state.energy.left_open,
         energy_imbalance=state.energy.imbalance(before.energy if before else NOTHING_YET),
         residuals=residuals_of(model, state),

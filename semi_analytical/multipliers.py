@@ -17,7 +17,7 @@ from contact_scene.array_types import Vector
 MAX_SWEEPS = 100
 
 
-class Shifted(Protocol):
+class ProjectedTraction(Protocol):
     """Interface of the projected traction for one value of the multipliers of the prescribed
     forces.
 
@@ -32,7 +32,7 @@ class Shifted(Protocol):
         The defect is the gradient of the dual function.
         """
 
-    def settled(self, multiplier: Vector) -> bool:
+    def has_prescribed_forces(self, multiplier: Vector) -> bool:
         """Return True if the forces of the traction have the prescribed values up to rounding
         errors.
 
@@ -44,7 +44,7 @@ class Shifted(Protocol):
         first order."""
 
 
-Point = TypeVar("Point", bound=Shifted)
+Point = TypeVar("Point", bound=ProjectedTraction)
 
 
 def find_multiplier(
@@ -60,7 +60,7 @@ def find_multiplier(
     """
     shifted = shifted_by(multiplier)
     for _ in range(MAX_SWEEPS):
-        if shifted.settled(multiplier):
+        if shifted.has_prescribed_forces(multiplier):
             break
         step = shifted.newton_step()
         steepest = -float(np.sum(shifted.defect * step))

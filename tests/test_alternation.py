@@ -13,7 +13,7 @@ from semi_analytical.coupled.alternating_iteration import solve_coupled
 from semi_analytical.coupled.coupled_problem import CoupledProblem
 from semi_analytical.coupled.generalised_derivative import (
     Natural,
-    Point,
+    NewtonPoint,
     Zones,
 )
 from semi_analytical.coupled.globalisation import solve_together
@@ -252,7 +252,7 @@ def test_a_step_near_the_solution_squares_the_error(seed, saturation, rng):
     def left(size):
         t = exact + size * direction * (exact[2] > 0)
         t[2] = problem.normal_load.admissible(t[2])
-        at = Point(t, problem.together(t), solution.approach, solution.motion)
+        at = NewtonPoint(t, problem.together(t), solution.approach, solution.motion)
         zones = Zones.from_natural_map(Natural.evaluate(at, problem), problem)
         increment = LinearisedIncrement(problem, zones)
         base, _ = evaluate_point(problem, increment.admissible(t), solution.motion)

@@ -249,8 +249,8 @@ def test_without_a_sum_every_cell_is_projected_alone(problem):
 def test_a_force_and_the_shift_that_it_leads_to_have_the_same_shear(rng):
     y, bound = rng.standard_normal((2, 5, 4)), rng.random((5, 4))
     total, gamma, unknown = np.sum(bound) * np.array([0.4, -0.5]), 3.0, np.zeros(2)
-    q, shift = ShearSum(total).nearest(y, bound, gamma, unknown)
-    led, same = FixedShift(shift).nearest(y, bound, gamma, unknown)
+    q, shift = ShearSum(total).project_trial(y, bound, gamma, unknown)
+    led, same = FixedShift(shift).project_trial(y, bound, gamma, unknown)
     np.testing.assert_allclose(led, q, rtol=0, atol=100 * ROUND_OFF)
     np.testing.assert_array_equal(same, shift)
 

@@ -175,8 +175,8 @@ def _coupled_problem(
         friction_limit=partial(model.friction_limit, first=box.first),
         friction_slope=partial(model.friction_slope, first=box.first),
         target=target[(..., *box.slices)],
-        normal_load=normal.on(model, box),
-        tangential_load=tangential.on(
+        normal_load=normal.as_load(model, box),
+        tangential_load=tangential.as_load(
             model.grid.cell_area, rotation, model.domain, model.springs[1]
         ),
         self_compliance=model.self_compliance,
@@ -212,7 +212,7 @@ class _Trial:
         u = model.operator(cells).together(np.concatenate([q, p[None]]))
         u_t, u_z = u[:2], u[2]
         gap = self.normal.gap(model)
-        load = self.normal.on(model, Box.whole(cells))
+        load = self.normal.as_load(model, Box.whole(cells))
         g = np.where(np.isfinite(gap), gap, np.inf) + u_z - load.closure(solution.closing)
         overlap = load.overlap(solution.closing, gap, np.isfinite(gap))
         approach, tilt = self.normal.reached(model, solution.closing)

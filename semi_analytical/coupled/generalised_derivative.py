@@ -40,7 +40,7 @@ MAX_SLIP_COMPLIANCE = 1e6
 
 
 @dataclass(frozen=True)
-class Point:
+class NewtonPoint:
     """Iterate of Newton's method for a coupled increment.
 
     tractions      shear and pressure (q_x, q_y, p), shape (3, nx, ny) [force/length^2]
@@ -89,7 +89,7 @@ class Natural:
     shear_error: float
 
     @classmethod
-    def evaluate(cls, point: Point, problem: CoupledProblem) -> "Natural":
+    def evaluate(cls, point: NewtonPoint, problem: CoupledProblem) -> "Natural":
         """Evaluate the natural map of contact and friction at an iterate.
 
         The tangential load must be below the friction limit.

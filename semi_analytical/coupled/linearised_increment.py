@@ -14,7 +14,7 @@ from contact_scene.solver_errors import NotConverged
 from semi_analytical.coupled.coupled_problem import CoupledProblem
 from semi_analytical.coupled.generalised_derivative import (
     Natural,
-    Point,
+    NewtonPoint,
     Tractions,
     Zones,
 )
@@ -112,12 +112,14 @@ class LinearisedIncrement:
         carriers = self._carriers[: len(self._shifts)]
         forces = np.array([load.forces(zones.field(carrier)[:2]) for carrier in carriers])
         forces = forces.reshape(len(carriers), len(carriers))
-        weights = np.linalg.pinv(forces.T, rcond=UNDETERMINED) @ (load.given - load.forces(t[:2]))
+        weights = np.linalg.pinv(forces.T, rcond=UNDETERMINED) @ (
+            load.prescribed_forces - load.forces(t[:2])
+        )
         t[:2] += zones.field(np.einsum("i,ik->k", weights, carriers))[:2]
         t[:2] = load.admissible(t[:2], bound)
         return t
 
-    def residual(self, base: Point, natural: Natural) -> Vector:
+    def residual(self, base: NewtonPoint, natural: Natural) -> Vector:
         """Compute the residual of the linearised contact and friction equations, one row per free
         unknown.
 

@@ -12,7 +12,7 @@ from contact_scene.solver_errors import NotConverged
 from semi_analytical.coupled.coupled_problem import CoupledProblem
 from semi_analytical.coupled.generalised_derivative import (
     Natural,
-    Point,
+    NewtonPoint,
     Tractions,
     Zones,
 )
@@ -97,7 +97,7 @@ class NewtonIterate:
 
 def evaluate_point(
     problem: CoupledProblem, tractions: Tractions, motion: Vector
-) -> tuple[Point, Motion]:
+) -> tuple[NewtonPoint, Motion]:
     """Compute displacements and rigid normal motion for given tractions of a coupled increment.
 
     Return the iterate, and the rigid normal motion that closes its gap on average.
@@ -108,10 +108,10 @@ def evaluate_point(
     u, load = problem.together(tractions), problem.normal_load
     gap = np.where(np.isfinite(problem.gap), problem.gap, 0.0)
     closing = load.motion(tractions[2], gap + u[2])
-    return Point(tractions, u, load.closure(closing), motion), closing
+    return NewtonPoint(tractions, u, load.closure(closing), motion), closing
 
 
-def natural_map(problem: CoupledProblem, point: Point) -> Natural:
+def natural_map(problem: CoupledProblem, point: NewtonPoint) -> Natural:
     """Evaluate the contact and friction conditions at an iterate, written as a natural map.
 
     The natural map yields zones, residuals and slip of the iterate.
@@ -130,8 +130,8 @@ def natural_map(problem: CoupledProblem, point: Point) -> Natural:
 
 
 def _line_search(
-    problem: CoupledProblem, base: Point, step: Step, merit: float
-) -> tuple[Point, Natural]:
+    problem: CoupledProblem, base: NewtonPoint, step: Step, merit: float
+) -> tuple[NewtonPoint, Natural]:
     """Return the first iterate of a backtracking line search with sufficient decrease of the merit.
 
     Without sufficient decrease the iterate of lowest merit is returned. Displacements are linear in
@@ -140,9 +140,9 @@ def _line_search(
     base, step  iterate before the Newton step, and the step
     merit       merit of the iterate before the step
     """
-    lowest: tuple[Point, Natural] | None = None
+    lowest: tuple[NewtonPoint, Natural] | None = None
     for factor in STEP_FACTORS:
-        point = Point(
+        point = NewtonPoint(
             base.tractions + factor * step.tractions,
             base.displacements + factor * step.displacements,
             base.closure + factor * step.closure,

@@ -94,7 +94,7 @@ class Within:
         none = np.zeros(0, dtype=int)
         return cls(np.zeros((2, *cells)), none, none, np.zeros((0, PARTS, PARTS)))
 
-    def extended(self, domain: ReducedDomain) -> Within:
+    def extend_to_window(self, domain: ReducedDomain) -> Within:
         """Extend the variation of a traction that is even about the mirror planes to the full
         window.
 

@@ -55,7 +55,7 @@ class Quadratic:
             *(self.f_xx / dx**2, self.f_xy / (dx * dy), self.f_yy / dy**2),
         )
 
-    def at(self, dx: Field, dy: Field) -> Field:
+    def evaluate(self, dx: Field, dy: Field) -> Field:
         """Evaluate the quadratics at offsets from their places.
 
         dx, dy  offsets in cells; further axes come first
@@ -73,7 +73,7 @@ class Quadratic:
             *np.broadcast_arrays(
                 x,
                 y,
-                self.at(dx, dy),
+                self.evaluate(dx, dy),
                 self.f_x + self.f_xx * dx + self.f_xy * dy,
                 self.f_y + self.f_xy * dx + self.f_yy * dy,
                 self.f_xx,

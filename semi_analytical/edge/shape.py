@@ -57,7 +57,7 @@ class EdgeShape:
     domain: ReducedDomain = WINDOW
 
     @cached_property
-    def nearest(self) -> Indices:
+    def nearest_cells(self) -> Indices:
         """Indices (2, nx, ny) of the cell of the contact or stick region that is nearest to each
         cell."""
         found = distance_transform_edt(self.depth == 0, return_distances=False, return_indices=True)
@@ -78,7 +78,7 @@ class EdgeShape:
         y), shape (n,)."""
         last = np.array(self.means.shape) - 1
         i, j = (np.clip(np.rint(at), 0, n).astype(int) for at, n in zip((x, y), last, strict=True))
-        return self.nearest[:, i, j]
+        return self.nearest_cells[:, i, j]
 
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
         """Expand φ about places near the edge of the region, by local fits.

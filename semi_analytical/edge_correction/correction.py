@@ -123,7 +123,7 @@ class EdgeCorrection:
         domain = edge.domain
         limit = Within.from_subcells(
             domain.restrict(bound), edge.i, edge.j, parts, domain
-        ).extended(domain)
+        ).extend_to_window(domain)
         if not np.any(solved.in_stick):
             return sliding_shear(self._operators, bound, limit, solved)
         assert before is not None

@@ -268,7 +268,7 @@ class _Problem:
         contact, outer = edge.region[box], np.where(edge.outer, edge.means, 0.0)[box]
         edge_displacement = self.edge_displacement(p, edge)
         gap = np.where(contact, (self.gap + edge_displacement)[box], 0.0)  # removes infinite gaps
-        load = self.state.target.on(self.model, self.box).less(outer)
+        load = self.state.target.as_load(self.model, self.box).less(outer)
         inner = load.admissible(np.where(contact, p[box], 0.0))
         u = operator.normal(inner + outer)
         residual = u + gap - load.closure(load.motion(inner, u + gap))
@@ -308,7 +308,7 @@ class _Problem:
         edge = last.edge
         target, extend = self.state.target, self.model.domain.extend
         approach, tilt = target.reached(self.model, solved.motion)
-        load = target.on(self.model, Box.whole(self.gap.shape))
+        load = target.as_load(self.model, Box.whole(self.gap.shape))
         u = solved.edge_displacement + self.model.operator(self.gap.shape).normal(solved.pressure)
         gap = np.maximum(self.gap + u - load.closure(solved.motion), 0.0)
         gap[edge.region] = 0.0

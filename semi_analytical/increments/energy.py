@@ -110,7 +110,7 @@ class Energy:
     largest: float = 0.0
 
     @property
-    def transferred(self) -> float | None:
+    def stored_and_dissipated(self) -> float | None:
         """Energy stored in the bodies plus energy dissipated since the start [force length]."""
         return None if self.dissipated is None else self.elastic + self.dissipated
 
@@ -118,9 +118,9 @@ class Energy:
     def left_open(self) -> float | None:
         """Input work minus the energy stored and dissipated [force length]; None where
         undefined."""
-        if self.input_work is None or self.transferred is None:
+        if self.input_work is None or self.stored_and_dissipated is None:
             return None
-        return self.input_work - self.transferred
+        return self.input_work - self.stored_and_dissipated
 
     def imbalance(self, before: Energy) -> float | None:
         """Compute the relative residual of the energy balance of one increment [1].

@@ -53,7 +53,7 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
         raise GrossSliding(f"torque {torque:.6g} N m on a contact without friction")
     from semi_analytical.tangential.torsion import ShearMoments
 
-    held = load.on(model.grid.cell_area, model.rotation, model.domain)
+    held = load.as_load(model.grid.cell_area, model.rotation, model.domain)
     assert isinstance(held, ShearMoments)
     if not held.exhausts(bound):
         return

@@ -97,7 +97,7 @@ class NormalTarget:
         """
         return 0.0 if self.tilt is None else float(np.min(model.gap - plane(model, self.tilt)))
 
-    def on(self, model: ContactModel, box: Box) -> NormalLoad:
+    def as_load(self, model: ContactModel, box: Box) -> NormalLoad:
         """Convert the prescribed normal load to a load object of the normal solver, on a box of
         cells.
 
@@ -149,7 +149,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
     box = box_around(start > 0, MARGIN, model.domain)
     whole = Box.whole(gap.shape)
     allowed = np.isfinite(gap)
-    load = target.on(model, whole)
+    load = target.as_load(model, whole)
     aim, residual = tolerance, np.inf
     for _ in range(MAX_ATTEMPTS):
         operator = model.operator(box.shape)
@@ -157,7 +157,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
             operator.normal,
             operator.precondition,
             gap[box.slices],
-            target.on(model, box),
+            target.as_load(model, box),
             start[box.slices],
             0.5 * aim,
         )
@@ -188,7 +188,7 @@ def nested_initial_guess(model: ContactModel, target: NormalTarget) -> tuple[Fie
     coarse = model.coarse
     if coarse is None or not _makes_contact(coarse, target):
         gap = target.gap(model)
-        load = target.on(model, Box.whole(gap.shape))
+        load = target.as_load(model, Box.whole(gap.shape))
         return bearing_pressure(gap, load, model.bearing_modulus, model.grid.cell_area), 0
     pressure, iterations = rough_initial_guess(coarse, target)
     return np.where(np.isfinite(model.gap), refine_field(pressure), 0.0), iterations
@@ -207,7 +207,7 @@ def rough_initial_guess(model: ContactModel, target: NormalTarget) -> tuple[Fiel
         operator.normal,
         operator.precondition,
         gap,
-        target.on(model, Box.whole(gap.shape)),
+        target.as_load(model, Box.whole(gap.shape)),
         start,
         COARSE_TOLERANCE,
     )
@@ -218,7 +218,7 @@ def _makes_contact(model: ContactModel, target: NormalTarget) -> bool:
     """Return True if the prescribed normal load brings at least one cell of the grid into
     contact."""
     gap = target.gap(model)
-    load = target.on(model, Box.whole(gap.shape))
+    load = target.as_load(model, Box.whole(gap.shape))
     return load.touches(gap)
 
 

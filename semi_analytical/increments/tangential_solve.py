@@ -39,7 +39,7 @@ class TangentialTarget:
         """True if torsion acts: a torque or a twist is prescribed."""
         return self.torque is not None or self.twist is not None
 
-    def on(
+    def as_load(
         self,
         cell_area: float,
         rotation: VectorField | None,
@@ -98,7 +98,7 @@ def shear(
         operator.shear_inverse,
         bound[box.slices],
         target[inside],
-        load.on(model.grid.cell_area, rotation, model.domain, model.springs[1]),
+        load.as_load(model.grid.cell_area, rotation, model.domain, model.springs[1]),
         Point(start.shear[inside], start.displacement[inside]),
         motion,
         model.self_compliance,

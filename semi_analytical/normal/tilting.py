@@ -169,7 +169,7 @@ class PressureMoments:
         shifted, multiplier = find_multiplier(
             lambda m: _ShiftedPressure(m, p, weight, shapes, sums), np.zeros(len(sums))
         )
-        return shifted.p if shifted.settled(multiplier) else None
+        return shifted.p if shifted.has_prescribed_forces(multiplier) else None
 
     def projection(self, inside: Field) -> Projection:
         """Return the projection of pressure changes that preserves the prescribed sum and moments.
@@ -236,7 +236,7 @@ class _ShiftedPressure:
         self._shapes, self._sums = shapes, sums
         self.defect = np.array([np.sum(self.p * shape) for shape in shapes]) - sums
 
-    def settled(self, multiplier: Vector) -> bool:
+    def has_prescribed_forces(self, multiplier: Vector) -> bool:
         """Return True if the pressure has the prescribed force and moments up to rounding errors.
 
         multiplier  not used

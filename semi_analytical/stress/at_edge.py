@@ -197,7 +197,7 @@ def _stress_by_subcells(
         pairs.append((seen_from + start, seen))
     observer, cell = np.concatenate(pairs, axis=1)
     at = part_centres(count)
-    forces = edged.parts(count) * (spacing[0] * spacing[1] / count**2)
+    forces = edged.subcell_deviations(count) * (spacing[0] * spacing[1] / count**2)
     stress = np.zeros((6, len(x)))
     at_once = max(1, SEEN // count**2)
     for start in range(0, len(observer), at_once):

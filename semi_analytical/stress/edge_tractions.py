@@ -51,7 +51,7 @@ class EdgedTractions:
         """Compute the ratio of shear to pressure (2, n) at positions (n,) by linear fits."""
         return _slip_at(self.shape, self.ratio, self.ratio_weight, x, y)
 
-    def parts(self, count: int) -> Field:
+    def subcell_deviations(self, count: int) -> Field:
         """Compute the traction of each subcell minus the uniform traction of its cell.
 
         The shape is (3, k, count, count) for k cells along the edge. The sum of `cells` and the
@@ -127,4 +127,4 @@ def _slip_at(shape: EdgeShape, ratio: Field, weight: Field, x: Field, y: Field) 
         return np.zeros((2, len(x)))
     i, j = shape.nearest_to(x, y)
     fits = (fit_about(one, weight, i, j, shape.stencil, degree=1) for one in ratio)
-    return np.stack([fit.quadratic.at(x - i, y - j) for fit in fits])
+    return np.stack([fit.quadratic.evaluate(x - i, y - j) for fit in fits])

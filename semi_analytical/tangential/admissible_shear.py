@@ -38,7 +38,7 @@ class TangentialLoad(Protocol):
         """
         return everywhere(motion)
 
-    def nearest(
+    def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
         """Project a trial shear on the admissible shears, and find the rigid motion of the
@@ -67,7 +67,7 @@ class TangentialLoad(Protocol):
         return ()
 
     @property
-    def given(self) -> Vector:
+    def prescribed_forces(self) -> Vector:
         """Prescribed tangential forces and torque, divided by the cell area.
 
         The order is that of `free_motions`: one force per rigid motion that is free.
@@ -109,7 +109,7 @@ class ShearSum(TangentialLoad):
     total: Vector
     summed: tuple[bool, bool] = (True, True)
 
-    def nearest(
+    def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
         """Project a trial shear on the shears with the prescribed tangential force.
@@ -135,7 +135,7 @@ class ShearSum(TangentialLoad):
         return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2)[list(self.summed)])
 
     @property
-    def given(self) -> Vector:
+    def prescribed_forces(self) -> Vector:
         """Prescribed sum of the shear over the cells, for the components x and y with a
         resultant."""
         return self.total[list(self.summed)]
@@ -169,7 +169,7 @@ class FixedShift(TangentialLoad):
 
     shift: Vector
 
-    def nearest(
+    def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
         """Project the trial shear y + γ shift on the friction discs |q| <= bound, cell by cell.
@@ -220,7 +220,7 @@ class SprungShift(FixedShift):
         ny)."""
         return np.asarray(self.compliance * np.sum(q, axis=(1, 2)) * self.summed)
 
-    def nearest(
+    def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
         """Project a trial shear on the shears that are in equilibrium with the spring of the test
@@ -302,11 +302,11 @@ def natural_shear(
     if isinstance(load, SprungShift):
         extension = load.extension(q)
         y = q + gamma * (apart + everywhere(extension))
-        projected, reached = load.nearest(y, bound, gamma, load.shift - extension)
+        projected, reached = load.project_trial(y, bound, gamma, load.shift - extension)
         z, motion = y + gamma * everywhere(reached), load.shift
         slipped = apart + everywhere(motion)
     else:
-        projected, motion = load.nearest(q + gamma * apart, bound, gamma, motion)
+        projected, motion = load.project_trial(q + gamma * apart, bound, gamma, motion)
         slipped = apart + load.rigid(motion)
         z = q + gamma * slipped
     error = float(np.sum(magnitude(projected - q)) / np.sum(bound))
@@ -390,7 +390,7 @@ class ProjectedShear:
         self.q = z * self.scale
         self.capacity = float(np.sum(bound))
 
-    def settled(self, multiplier: Vector) -> bool:
+    def has_prescribed_forces(self, multiplier: Vector) -> bool:
         """Return True if the forces of the projected shear equal the prescribed ones up to rounding
         errors.
 

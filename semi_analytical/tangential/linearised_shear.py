@@ -78,7 +78,7 @@ class LinearisedShear:
         bound  friction limit µp (nx, ny)
         """
         near = self._zones.sliding_shear + self._zones.free(q)
-        self._correct_forces(self._load.given - self._load.forces(near), near)
+        self._correct_forces(self._load.prescribed_forces - self._load.forces(near), near)
         return self._load.admissible(near, bound)
 
     def solve_in_zones(self, base: Point, slipped: VectorField, depth: float) -> tuple[Point, int]:

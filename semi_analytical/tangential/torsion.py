@@ -67,7 +67,7 @@ class ShearMoments:
         return (*(np.broadcast_to(everywhere(e), turn.shape) for e in np.eye(2)), turn)
 
     @cached_property
-    def given(self) -> Vector:
+    def prescribed_forces(self) -> Vector:
         """Prescribed tangential force and torque (k,) of the unit motions `units`, divided by the
         cell area."""
         torque = self.torque / self.reach
@@ -90,7 +90,7 @@ class ShearMoments:
         """Compute the tangential displacement by shift and twist (2, nx, ny) [length]."""
         return everywhere(motion[:2]) + motion[2] * self.rotation
 
-    def nearest(
+    def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
         """Project a trial shear on the shears with the prescribed torque and tangential force or
@@ -120,14 +120,14 @@ class ShearMoments:
 
         The projection also has the prescribed tangential force, if one is prescribed.
         """
-        return self._project(q, bound, np.zeros(len(self.given)))[0]
+        return self._project(q, bound, np.zeros(len(self.prescribed_forces)))[0]
 
     def _project(self, y: VectorField, bound: Field, guess: Vector) -> tuple[VectorField, Vector]:
         loaded, units = self._loaded_cells(bound)
         of_loaded, limit = y[:, loaded], bound[loaded]
 
         shifted, multiplier = find_multiplier(
-            lambda m: _ShiftedMoments(m, of_loaded, limit, units, self.given), guess
+            lambda m: _ShiftedMoments(m, of_loaded, limit, units, self.prescribed_forces), guess
         )
         q = np.zeros_like(y)
         q[:, loaded] = shifted.q
@@ -145,7 +145,7 @@ class ShearMoments:
         """Return True if the prescribed forces are at or above the friction limit."""
         if not np.any(bound):
             return True
-        return bool(np.any(self.given)) and self.limit(bound)[0] <= 1 + AT_LIMIT
+        return bool(np.any(self.prescribed_forces)) and self.limit(bound)[0] <= 1 + AT_LIMIT
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
         """Return the shear (2, nx, ny) in gross slip under torque and force, and the given motion
@@ -156,7 +156,7 @@ class ShearMoments:
         bound   friction limit µp (nx, ny)
         motion  rigid motion, which gross slip under force control does not determine
         """
-        if not np.any(bound) or not np.any(self.given):
+        if not np.any(bound) or not np.any(self.prescribed_forces):
             return np.zeros((2, *bound.shape)), motion
         loaded, units = self._loaded_cells(bound)
         speed = np.tensordot(self.limit(bound)[1], units, 1)
@@ -176,8 +176,8 @@ class ShearMoments:
         """
         loaded, units = self._loaded_cells(bound)
         limit = bound[loaded]
-        start = self.given / np.sum(self.given**2)
-        across = np.linalg.svd(self.given[None, :])[2][1:]
+        start = self.prescribed_forces / np.sum(self.prescribed_forces**2)
+        across = np.linalg.svd(self.prescribed_forces[None, :])[2][1:]
         if len(across) == 0:
             return float(limit @ magnitude(np.tensordot(start, units, 1))), start
 
