@@ -24,7 +24,7 @@ from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
     Refinement,
-    solved_run,
+    compare_with_coarse_solves,
 )
 from contact_errors.cost_estimate import Work, coarse_increments, estimated_run_seconds
 from contact_errors.error_formula import (
@@ -113,7 +113,7 @@ class RefinementLevel:
         """
         return (step[name] for step in self.stated.steps if name in step)
 
-    def reached(self, name: str) -> float | None:
+    def reached_error(self, name: str) -> float | None:
         """Compute the relative error of one scalar: its largest error over its largest value.
 
         Error and value are the largest at the ends of all load steps. The result is None if any of
@@ -133,7 +133,7 @@ class RefinementLevel:
 
         shares  requested relative error by name of the scalar
         """
-        reached = {name: self.reached(name) for name in shares}
+        reached = {name: self.reached_error(name) for name in shares}
         return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
 
     def needed_factors(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
@@ -149,7 +149,7 @@ class RefinementLevel:
         """
         factors: dict[Part, float] = {}
         for name, share in shares.items():
-            of_cells = self.run.order(name)
+            of_cells = self.run.convergence_order(name)
             for error in self.errors(name):
                 parts = {p: float(np.max(s)) / self.largest(name) for p, s in error.parts.items()}
                 allowed = share / SPARE / max(1, sum(size > 0 for size in parts.values()))
@@ -189,7 +189,7 @@ class Levels:
     watching: InContext = lambda _: nullcontext()
     keeping: InContext = lambda _: nullcontext()
 
-    def first(self, run: Fineness | None = None) -> RefinementLevel:
+    def solve_first_level(self, run: Fineness | None = None) -> RefinementLevel:
         """Solve the first level: the coarsest discretisation whose cells resolve the contact.
 
         The cells are doubled up to `MAX_DOUBLINGS` times while the solver raises
@@ -199,20 +199,22 @@ class Levels:
              and is not finer than the run
         """
         fineness = Fineness(
-            self.solver.first(), self.solver.plan.increments, self.solver.discretisation.tolerance
+            self.solver.first_space(),
+            self.solver.plan.increments,
+            self.solver.discretisation.tolerance,
         )
         if run is not None:
             fineness = replace(fineness, increments=coarse_increments(fineness.increments))
             if self.solver.work(run).unknowns < self.solver.work(fineness).unknowns:
-                return self.solved(replace(fineness, space=run.space))
+                return self.solve_level(replace(fineness, space=run.space))
         for _ in range(MAX_DOUBLINGS):
             try:
-                return self.solved(fineness)
+                return self.solve_level(fineness)
             except ContactNotResolved:
-                fineness = self.solver.refined(fineness, {self.solver.part: UNCONVERGED})
-        return self.solved(fineness)
+                fineness = self.solver.refine_fineness(fineness, {self.solver.part: UNCONVERGED})
+        return self.solve_level(fineness)
 
-    def solved(self, fineness: Fineness) -> RefinementLevel:
+    def solve_level(self, fineness: Fineness) -> RefinementLevel:
         """Solve the scene with one discretisation, and estimate the errors by coarse solves.
 
         If `stress_at` is set, the largest tensile stress of the body is added to the scalars of
@@ -224,7 +226,7 @@ class Levels:
         with self.keeping(fineness) as store, self.watching(fineness) as progress:
             result = self.solver.solve(fineness, progress, store)
         solved_processor = time.process_time()
-        run, coarse = solved_run(self.solver, result)
+        run, coarse = compare_with_coarse_solves(self.solver, result)
         values, errors = list(run.values), list(run.errors())
         if self.stress_at is not None:
             at, stated = self.stress_at - 1, StatedErrors(tuple(errors), coarse)
@@ -261,7 +263,7 @@ class Levels:
         return AccuracySettings(
             increments=fineness.increments,
             tolerance=fineness.tolerance,
-            **self.solver.shown(fineness.space),
+            **self.solver.record_entry(fineness.space),
         )
 
     def last(self, first: RefinementLevel, shares: Mapping[str, float]) -> Fineness:
@@ -273,7 +275,9 @@ class Levels:
         if first.meets(shares):
             return first.fineness
         needed = first.needed_factors(shares, believed=1.0)
-        return self.solver.refined(first.fineness, limit_factors(needed, first.part, FURTHEST))
+        return self.solver.refine_fineness(
+            first.fineness, limit_factors(needed, first.part, FURTHEST)
+        )
 
     def beyond_limit(self, fineness: Fineness) -> str | None:
         """Return a message if a discretisation exceeds the solver's limit of cells, elements or
@@ -281,7 +285,7 @@ class Levels:
 
         fineness  grid or mesh, increments and tolerance
         """
-        ((name, size),) = self.solver.shown(fineness.space).items()
+        ((name, size),) = self.solver.record_entry(fineness.space).items()
         if np.max(size) <= self.solver.most:
             return None
         return f"a level with {name} = {size} exceeds the limit {self.solver.most:g}"
@@ -291,7 +295,7 @@ class Levels:
 
         fineness  grid or mesh, increments and tolerance
         """
-        ((name, size),) = self.solver.shown(fineness.space).items()
+        ((name, size),) = self.solver.record_entry(fineness.space).items()
         needed, available = self.solver.memory(fineness), available_bytes()
         if needed <= available:
             return None
@@ -365,18 +369,18 @@ def refine(
     estimated     function that is called after each level with its number, the requested errors and
                   the reached errors
     """
-    level = levels.first()
+    level = levels.solve_first_level()
     shares, left_out, _ = targets_of(request, level, levels)
     spent, rounds, stopped = 0.0, 0, None
     while stopped is None:
         spent, rounds = spent + level.seconds, rounds + 1
-        reached = {name: level.reached(name) for name in shares}
+        reached = {name: level.reached_error(name) for name in shares}
         if estimated is not None:
             estimated(rounds, shares, reached)
         if level.meets(shares):
             break
         by = limit_factors(level.needed_factors(shares), level.part)
-        following = levels.solver.refined(level.fineness, by)
+        following = levels.solver.refine_fineness(level.fineness, by)
         seconds = levels.estimated_seconds(level, levels.solver.work(following))
         shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
         stopped = levels.beyond_limit(following) or levels.beyond_memory(following)
@@ -389,7 +393,7 @@ def refine(
             )
         if stopped is None:
             try:
-                level = levels.solved(following)
+                level = levels.solve_level(following)
             except SolverError as error:
                 stopped = f"the next round has no answer: {error}"
     accuracy = AccuracyReached(

@@ -1,10 +1,10 @@
 """Coarse solves of a contact result for its error estimate: one procedure for all solvers.
 
 `DiscretisedSolver` is the interface of a solver whose discretisation parameters can be coarsened,
-for error estimates, or refined, for a requested accuracy. `solved_run` runs the coarse solves of a
-result. To save time, coarse solves have a looser tolerance than the result, where its effect on the
-compared differences is negligible. They also have fewer increments, where the effect of the
-increments is known from a separate comparison.
+for error estimates, or refined, for a requested accuracy. `compare_with_coarse_solves` runs the
+coarse solves of a result. To save time, coarse solves have a looser tolerance than the result,
+where its effect on the compared differences is negligible. They also have fewer increments, where
+the effect of the increments is known from a separate comparison.
 """
 
 from abc import ABC, abstractmethod
@@ -124,7 +124,7 @@ class DiscretisedSolver(ABC):
 
         The errors are computed from coarse solves of the scene.
         """
-        run, coarse = solved_run(cls.of(result), result)
+        run, coarse = compare_with_coarse_solves(cls.of(result), result)
         return StatedErrors(tuple(run.errors()), coarse)
 
     @property
@@ -190,7 +190,7 @@ class DiscretisedSolver(ABC):
         return coarse
 
     @abstractmethod
-    def sides(self, result: Any) -> tuple[float, ...]:
+    def cell_sides(self, result: Any) -> tuple[float, ...]:
         """Return the side lengths of a cell, element or ring of a result.
 
         There is one length for each direction of refinement. The ratio of the lengths of two solves
@@ -198,7 +198,7 @@ class DiscretisedSolver(ABC):
         """
 
     @abstractmethod
-    def shown(self, space: Any) -> Mapping[str, Any]:
+    def record_entry(self, space: Any) -> Mapping[str, Any]:
         """Return the entry for records that describes a spatial discretisation.
 
         The entry has one name and value, such as cells: (64, 64) or elements_per_radius: 16.
@@ -229,18 +229,18 @@ class DiscretisedSolver(ABC):
     # ---- refinement
 
     @abstractmethod
-    def first(self) -> Any:
+    def first_space(self) -> Any:
         """Return the grid, mesh or ring factor of the first and coarsest refinement level."""
 
     @abstractmethod
-    def finer(self, space: Any, by: Refinement) -> Any:
+    def refine_space(self, space: Any, by: Refinement) -> Any:
         """Refine a grid, mesh or ring factor for the next refinement level.
 
         space  grid, mesh or ring factor of the present level
         by     least refinement factor of each discretisation parameter
         """
 
-    def refined(self, fineness: Fineness, by: Refinement) -> Fineness:
+    def refine_fineness(self, fineness: Fineness, by: Refinement) -> Fineness:
         """Refine all discretisation parameters for the next refinement level.
 
         Load steps without an increment error keep their number of increments.
@@ -250,7 +250,7 @@ class DiscretisedSolver(ABC):
         """
         return replace(
             fineness,
-            space=self.finer(fineness.space, by),
+            space=self.refine_space(fineness.space, by),
             increments=tuple(
                 ceil(by.get("increments", 1.0) * count - 1e-9) if matters else count
                 for count, matters in zip(
@@ -269,7 +269,7 @@ class DiscretisedSolver(ABC):
         """Estimate the peak memory of a solve [byte]."""
 
 
-def solved_run(
+def compare_with_coarse_solves(
     solver: DiscretisedSolver, result: Any
 ) -> tuple[SolvedRun, tuple[CoarseSolveRecord, ...]]:
     """Run the coarse solves of a result, and collect the comparisons for its error estimate.
@@ -308,7 +308,7 @@ def solved_run(
         coarse   grid or mesh, increments and tolerance
         """
         if coarse not in known:
-            shown, increments = solver.shown(coarse.space), coarse.increments
+            shown, increments = solver.record_entry(coarse.space), coarse.increments
             record = CoarseSolveRecord(differs=differs, increments=increments, **shown)
             try:
                 found = solver.solve(coarse)
@@ -352,7 +352,7 @@ def solved_run(
         )
         if not found:
             continue
-        sides = zip(solver.sides(found[0]), solver.sides(result), strict=True)
+        sides = zip(solver.cell_sides(found[0]), solver.cell_sides(result), strict=True)
         compare(solver.part, values, add_effects(found[1], effects), min(b / a for b, a in sides))
         for coarse in solver.mesh_coarse_solves(space, result) if changes is None else ():
             required[coarse.part] = [True] * len(values)

@@ -122,7 +122,7 @@ class Features:
     slides: bool = False
     left: Mapping[str, float] = field(default_factory=dict)
 
-    def order(self, name: str) -> float:
+    def convergence_order(self, name: str) -> float:
         """Return the theoretical convergence order p of a scalar in the cell size h: error ~ h^p.
 
         The order is 2 for means of smooth fields, 1 for values at an edge of the contact or stick
@@ -359,7 +359,7 @@ class SolvedRun:
         before[name] = parts
         small = np.all(sum(parts.values()) <= LARGEST_SHARE * largest + parts["tolerance"])
         nearly = name in OF_SLIP and self._near_gross_slip[step]
-        return stated(parts, bool(small and not nearly and features.resolve(name)))
+        return build_stated_error(parts, bool(small and not nearly and features.resolve(name)))
 
     @cached_property
     def _largest_so_far(self) -> Sequence[Values]:
@@ -378,14 +378,14 @@ class SolvedRun:
         """
         return near_gross_slip(self.scene)
 
-    def order(self, name: str) -> float:
+    def convergence_order(self, name: str) -> float:
         """Return the smallest convergence order of a scalar in the cell size over all load steps.
 
         Used to compute the refinement factor of the cells that a requested accuracy requires.
 
         name  name of the scalar
         """
-        return min(features.order(name) for features in self.features)
+        return min(features.convergence_order(name) for features in self.features)
 
     def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
         """Compute all parts of the error of a scalar at the end of a load step, by their cause.
@@ -402,7 +402,7 @@ class SolvedRun:
             return None
         parts: dict[Part, Numbers] = {}
         for comparison in self.comparisons:
-            size = comparison.part_of(step, name, features.order(name))
+            size = comparison.part_of(step, name, features.convergence_order(name))
             if size is not None:
                 parts[comparison.part] = np.maximum(parts.get(comparison.part, 0.0), size)
         if any(needs[step] and part not in parts for part, needs in self.required.items()):
@@ -433,7 +433,7 @@ def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
     return tuple(found)
 
 
-def stated(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
+def build_stated_error(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
     """Build the stated error of a scalar as the sum of its parts, with its status.
 
     parts      size of the error by cause, such as cells and increments, in the unit of the scalar

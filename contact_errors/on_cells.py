@@ -135,10 +135,10 @@ class CellSolver(DiscretisedSolver):
         few = self.coarser(result, min(PER_RADIUS / max(most, 1.0), 1 / 2), 0)
         return replace(coarse, space=few, edges=False)
 
-    def sides(self, result: Result) -> tuple[float, ...]:
+    def cell_sides(self, result: Result) -> tuple[float, ...]:
         return result.grid.spacing
 
-    def shown(self, space: SurfaceGrid) -> Mapping[str, Any]:
+    def record_entry(self, space: SurfaceGrid) -> Mapping[str, Any]:
         return {"cells": space.cells}
 
     def neglected_errors(self, result: Result) -> Mapping[str, float]:
@@ -177,11 +177,11 @@ class CellSolver(DiscretisedSolver):
 
         return features_at_ends(result, at)
 
-    def first(self) -> SurfaceGrid:
+    def first_space(self) -> SurfaceGrid:
         grid = semi_analytical.discretise(self.scene, self.discretisation)
         return SurfaceGrid(scale_cells(grid.cells, FIRST_CELLS / min(grid.cells)), grid.window)
 
-    def finer(self, space: SurfaceGrid, by: Refinement) -> SurfaceGrid:
+    def refine_space(self, space: SurfaceGrid, by: Refinement) -> SurfaceGrid:
         return SurfaceGrid(scale_cells(space.cells, by.get(self.part, 1.0)), space.window)
 
     def work(self, fineness: Fineness) -> Work:

@@ -134,10 +134,10 @@ class ElementSolver(DiscretisedSolver):
         if (small := max(SMALLEST_BOX, box / 4)) <= box / 2:
             yield CoarseSolve("section", "smaller section", "box", small, box / small)
 
-    def sides(self, result: Result) -> tuple[float, ...]:
+    def cell_sides(self, result: Result) -> tuple[float, ...]:
         return (result.radius / result.discretisation.elements_per_radius,)
 
-    def shown(self, space: FiniteElementDiscretisation) -> Mapping[str, Any]:
+    def record_entry(self, space: FiniteElementDiscretisation) -> Mapping[str, Any]:
         return {"elements_per_radius": space.elements_per_radius}
 
     def features(self, result: Result) -> Sequence[Features]:
@@ -152,7 +152,7 @@ class ElementSolver(DiscretisedSolver):
         result  result of the finite-element solver
         end     state at the end of the load step
         """
-        indenter, (side,) = self.scene.indenter, self.sides(result)
+        indenter, (side,) = self.scene.indenter, self.cell_sides(result)
         thinnest = min(self.scene.body.thinnest, indenter.thinnest)
         per_length = LINEAR / side
         stick, annulus = slip_zone(end, per_length)
@@ -185,10 +185,10 @@ class ElementSolver(DiscretisedSolver):
         nu = 0.5 if layered else max(ratios)
         return dict.fromkeys(ACROSS, (nu / (4 - 2 * nu)) ** 2 / 2)
 
-    def first(self) -> FiniteElementDiscretisation:
+    def first_space(self) -> FiniteElementDiscretisation:
         return _replace_settings(self.discretisation, elements_per_radius=FIRST_ELEMENTS)
 
-    def finer(
+    def refine_space(
         self, space: FiniteElementDiscretisation, by: Refinement
     ) -> FiniteElementDiscretisation:
         finer = _replace_settings(

@@ -72,7 +72,7 @@ class RingSolver(DiscretisedSolver):
         return self.chosen_plan or radial.plan(self.scene)
 
     @property
-    def counted(self) -> bool:
+    def depends_on_rings(self) -> bool:
         """True if the accuracy of the radial solver depends on its number of rings.
 
         The accuracy of the other solves, such as those without friction, depends on the numbers of
@@ -98,12 +98,12 @@ class RingSolver(DiscretisedSolver):
         share   fraction of the rings of the result
         more    without effect
         """
-        return result.plan.fineness * (share if self.counted else 2.0)
+        return result.plan.fineness * (share if self.depends_on_rings else 2.0)
 
-    def sides(self, result: Result) -> tuple[float, ...]:
+    def cell_sides(self, result: Result) -> tuple[float, ...]:
         return (1 / result.plan.fineness,)
 
-    def shown(self, space: float) -> Mapping[str, Any]:
+    def record_entry(self, space: float) -> Mapping[str, Any]:
         return {"ring_factor": space}
 
     def residuals(self, result: Result) -> Sequence[float]:
@@ -127,26 +127,26 @@ class RingSolver(DiscretisedSolver):
         within = end.radii[end.radii <= end.contact_radius]
         widest = float(np.max(np.diff([0.0, *within, end.contact_radius])))
         side = end.contact_radius / (len(within) or 1)
-        stick, annulus = slip_zone(end, LINEAR / side) if self.counted else (None, None)
+        stick, annulus = slip_zone(end, LINEAR / side) if self.depends_on_rings else (None, None)
         return Features(
-            contact=LINEAR * end.contact_radius / widest if self.counted else np.inf,
+            contact=LINEAR * end.contact_radius / widest if self.depends_on_rings else np.inf,
             stick=stick,
             annulus=annulus,
             fitted=not plan.circle,
             stick_fitted=not plan.circle,
             # Values at rings are biased, so that all scalars converge with the first order.
-            sharp=self.counted and (plan.circle is None or indenter.rim is not None),
+            sharp=self.depends_on_rings and (plan.circle is None or indenter.rim is not None),
             infinite=is_singular(indenter),
             cusp=plan.coupled,
             slides=end.status is ContactStatus.GROSS_SLIDING,
         )
 
-    def first(self) -> float:
-        return FIRST_FINENESS if self.counted else 1.0
+    def first_space(self) -> float:
+        return FIRST_FINENESS if self.depends_on_rings else 1.0
 
-    def finer(self, space: float, by: Refinement) -> float:
+    def refine_space(self, space: float, by: Refinement) -> float:
         rings = by.get(self.part, 1.0) * space
-        return rings if self.counted else float(np.ceil(rings))
+        return rings if self.depends_on_rings else float(np.ceil(rings))
 
     def work(self, fineness: Fineness) -> Work:
         return work_on_rings(fineness.increments, fineness.space)

@@ -33,7 +33,7 @@ from contact_errors.error_formula import (
     ROOT,
     SMOOTH,
     UNKNOWN,
-    stated,
+    build_stated_error,
 )
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_at_cells, stress_on_cells
@@ -201,7 +201,9 @@ def stress_errors(
         if state.by_increments:
             parts["increments"] = np.array([state.by_increments * abs(extreme.value)])
         small = largest <= LARGEST_SHARE * abs(extreme.value)
-        errors.append(stated(parts, small and not unresolved and not extreme.at_window_edge))
+        errors.append(
+            build_stated_error(parts, small and not unresolved and not extreme.at_window_edge)
+        )
     return tuple(errors)
 
 
@@ -350,7 +352,7 @@ def _stress_errors_on_disc(
             parts: dict[Part, Field] = {"quadrature": np.array([size + PRECISION * abs(e.value)])}
             if sheared and state.by_increments:
                 parts["increments"] = np.array([state.by_increments * abs(e.value)])
-            errors[_maximum_key(e)] = stated(parts, not e.at_window_edge)
+            errors[_maximum_key(e)] = build_stated_error(parts, not e.at_window_edge)
     return tuple(errors.get(_maximum_key(e), UNKNOWN) for e in found)
 
 

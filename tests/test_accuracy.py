@@ -196,8 +196,8 @@ def test_numbers_are_as_accurate_as_requested(
 def test_other_parameters_of_a_mesh_are_refined_by_their_factors() -> None:
     asked = FiniteElementDiscretisation()
     solver = ElementSolver(scene(PRESS), asked, method=Method.PENALTY)
-    box = solver.finer(asked, {"section": 1.0}).box
-    finer = solver.finer(asked, {"section": 2.0, "penalty": 10.0, "harmonics": 1.5})
+    box = solver.refine_space(asked, {"section": 1.0}).box
+    finer = solver.refine_space(asked, {"section": 2.0, "penalty": 10.0, "harmonics": 1.5})
     assert finer.box == pytest.approx(2 * box)
     assert finer.overlap == pytest.approx(asked.overlap / 10)
     assert finer.harmonics == 1.5 * asked.harmonics
@@ -285,14 +285,14 @@ def test_a_limit_of_memory_keeps_the_best_result(monkeypatch: pytest.MonkeyPatch
 
 
 @pytest.mark.parametrize(
-    "judge", [refine, lambda levels, asked: price(levels, levels.first(), asked)]
+    "judge", [refine, lambda levels, asked: price(levels, levels.solve_first_level(), asked)]
 )
 def test_a_last_level_beyond_the_memory_is_refused_by_run_and_plan(
     judge: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The last level needs little more memory than the first, and one byte less is available."""
     levels, asked = on_cells(scene(PRESS), edge="off"), request("approach 0.05%")
-    needed = price(levels, first := levels.first(), asked)
+    needed = price(levels, first := levels.solve_first_level(), asked)
     assert first.fineness.space.cells < needed.settings.cells
     monkeypatch.setattr(adaptive_refinement, "available_bytes", lambda: needed.memory - 1)
     with pytest.raises(AccuracyOutOfReach, match=r"no grid can meet the request.*GiB"):
@@ -339,7 +339,7 @@ def test_a_request_is_met_where_every_number_of_every_step_meets_it() -> None:
     steps = (*fine.stated.steps, *rough.stated.steps)
     for order in (steps, steps[::-1]):
         level = replace(fine, values=[*fine.values] * 2, stated=StatedErrors(order, ()))
-        assert level.reached("approach") == 0.25
+        assert level.reached_error("approach") == 0.25
         assert not level.meets({"approach": 0.1})
     both = {"approach": steps[0]["approach"], "twist": steps[1]["approach"]}
     values = [dict.fromkeys(both, np.array([2.0]))]
@@ -488,7 +488,7 @@ def test_a_run_without_accuracy_leaves_nothing_of_a_killed_one_with_it(tmp_path:
 
 def test_the_price_of_less_error_is_more_of_everything() -> None:
     levels = on_cells(scene(PRESS, push(0.6)))
-    first = levels.first()
+    first = levels.solve_first_level()
     found = [price(levels, first, request(share)) for share in ("0.2%", "0.03%", FINER)]
     for low, high in pairwise(found):
         assert low.settings.cells < high.settings.cells

@@ -125,7 +125,7 @@ class Solver(ABC):
         run = Fineness(space, plan.increments, fineness.tolerance)
         try:
             with without_cache():
-                level = levels.first(run)
+                level = levels.solve_first_level(run)
         except ContactNotResolved:
             raise
         except SolverError as error:

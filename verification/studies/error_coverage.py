@@ -270,7 +270,7 @@ class LimitedLevels(Levels):
     most: float = np.inf
 
     def beyond_limit(self, fineness: Fineness) -> str | None:
-        sizes = self.solver.shown(fineness.space).values()
+        sizes = self.solver.record_entry(fineness.space).values()
         if np.prod([*sizes]) * sum(fineness.increments) > self.most:
             return "the next level takes more work than the study allows"
         return super().beyond_limit(fineness)

@@ -206,7 +206,7 @@ class SceneLevel:
         of: type[DiscretisedSolver] = CellSolver if self.scene.on_cells else ElementSolver
         solver = of.of(result)
         work = "convolutions" if self.scene.on_cells else "iterations"
-        features, side = solver.features(result)[-1], max(solver.sides(result))
+        features, side = solver.features(result)[-1], max(solver.cell_sides(result))
         ends = list(_scalars(steps[-1]))
         return CaseRecord(
             parameters=parameters | {"size": self.size or side},
@@ -226,7 +226,7 @@ class SceneLevel:
                     measures={
                         LARGEST: max(np.max(np.abs(step[stem])) for step in steps if stem in step),
                         NATURAL: characteristic_size(stem, steps[-1]),
-                        ORDER: features.order(stem),
+                        ORDER: features.convergence_order(stem),
                         FLOOR: PER_TOLERANCE * result.tolerance + features.left.get(stem, 0.0),
                     },
                     words={"small": unresolved(features, stem)},

@@ -92,7 +92,7 @@ def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None
     stress = any(request.binds_stress for request in requests)
     levels = solver.levels(contents.scene, solver.fineness(contents), stress)
     with without_cache():
-        first = levels.first()
+        first = levels.solve_first_level()
     rows, refused = [], []
     for item, request in zip(items, requests, strict=True):
         try:
