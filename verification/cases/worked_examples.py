@@ -88,19 +88,6 @@ def _verdict() -> Verdict:
     return judge_quantity(quantity, Case("by_hand", "", "", runs, (quantity,)), known)
 
 
-def _allowed() -> float:
-    verdict = _verdict()
-    return verdict.allowed * verdict.scale
-
-
-def _printed_tolerance() -> float:
-    return _number_in(failure_text(_verdict()))
-
-
-def _printed_uncertainty() -> float:
-    return _number_in(uncertainty_text(_verdict()))
-
-
 def _number_in(text: str) -> float:
     found = re.search(r"± ([\d.e-]+)", text)
     return float(found[1]) if found else float("nan")
@@ -122,25 +109,13 @@ def _errors() -> list[float]:
     return [h**2 * np.exp(EPSILON * x) for h, x in zip(LEVELS, (1, -2, 1), strict=True)]
 
 
-def _order_interval() -> float:
-    return observed_order(LEVELS, _errors()).half_width
-
-
-def _order_margin() -> float:
-    return observed_order(LEVELS, _errors()).margin
-
-
-def _reach() -> float:
-    return error_line(LEVELS, _errors()).reach
-
-
 _EXAMPLES: tuple[tuple[str, str, Callable[[], float], float, Required], ...] = (
-    ("derived_tolerance", "tolerance U = 2 √(c² + s² + u_ref²), s² = 14 ε²", _allowed, U,
-     TO_ROUNDING),
+    ("derived_tolerance", "tolerance U = 2 √(c² + s² + u_ref²), s² = 14 ε²",
+     lambda: _verdict().allowed * _verdict().scale, U, TO_ROUNDING),
     ("printed_tolerance", "tolerance, as printed in the text of a failed verdict",
-     _printed_tolerance, U, PRINTED),
+     lambda: _number_in(failure_text(_verdict())), U, PRINTED),
     ("printed_uncertainty", "uncertainty of the reference over the scale, as printed",
-     _printed_uncertainty, OF_REFERENCE / 2, PRINTED),
+     lambda: _number_in(uncertainty_text(_verdict())), OF_REFERENCE / 2, PRINTED),
     ("limit", "limit of four levels on a line, with the deviation ε", partial(_limit, 0), LIMIT,
      TO_ROUNDING),
     # The two finest levels alone have the limit a + 8 ε. Of the fit, s² = 14 ε²/2, times the
@@ -148,9 +123,11 @@ _EXAMPLES: tuple[tuple[str, str, Callable[[], float], float, Required], ...] = (
     ("uncertainty_of_the_limit", "standard uncertainty of the limit: √(7 · 256/115 + 8²) ε",
      partial(_limit, 1), EPSILON * hypot(sqrt(7 * 256 / 115), 8), TO_ROUNDING),
     ("interval_of_the_order", "half-width of the order's 95 % interval: t √(6 ε² / 2 ln²2)",
-     _order_interval, STUDENT * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
+     lambda: observed_order(LEVELS, _errors()).half_width,
+     STUDENT * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
     ("margin_of_the_order", "one-sided 95 % margin of the order: t₁ √(6 ε² / 2 ln²2)",
-     _order_margin, ONE_SIDED * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
+     lambda: observed_order(LEVELS, _errors()).margin,
+     ONE_SIDED * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
     ("interval_of_the_line", "half-width of the line's 95 % band in its middle: t √(6 ε² / 3)",
-     _reach, STUDENT * EPSILON * sqrt(2), TO_ROUNDING),
+     lambda: error_line(LEVELS, _errors()).reach, STUDENT * EPSILON * sqrt(2), TO_ROUNDING),
 )  # fmt: skip

@@ -386,12 +386,6 @@ def _turns(rng: Generator) -> float:
     return apart(frf_matrix(body, m, n), Q @ frf_matrix(body, *k) @ Q.T)
 
 
-def _isotropic(rng: Generator) -> float:
-    body, (m, n) = stack(rng), wave_vector(rng)
-    F = frf_matrix(body, m, n)
-    return apart(frf_matrix(body, n, m), F[np.ix_([1, 0, 2], [1, 0, 2])])
-
-
 def _scales(rng: Generator) -> float:
     body, (m, n) = stack(rng), wave_vector(rng)
     length, stiffness = decades(rng, -3, 3), decades(rng, -3, 3)
@@ -422,13 +416,6 @@ def _nothing_inserted(rng: Generator) -> float:
     # Thinner than rounding: at most max(G)/min(G) alpha h = 1e6 * 1e4 * 1e-28.
     films = [*body.layers[:place], (*half_space(rng), 1e-28), *body.layers[place:]]
     return apart(frf_matrix(Stack(films, body.base), *k), frf_matrix(body, *k))
-
-
-def _work(rng: Generator) -> float:
-    F = frf_matrix(stack(rng), *wave_vector(rng))
-    t = rng.normal(size=(3, 2)) @ [1, 1j]
-    work = (t.conj() @ F @ t).real / (np.abs(F).max() * np.linalg.norm(t) ** 2)
-    return max(0.0, -float(work))
 
 
 def _symmetric_operator(rng: Generator) -> float:
@@ -469,15 +456,6 @@ def _identical(rng: Generator) -> float:
     return apart(composite_frf_matrix(body, body, *k), twice)
 
 
-def _halved(rng: Generator) -> float:
-    G, nu = half_space(rng)
-    k = wave_vector(rng)
-    soft = frf_matrix(Stack((), HalfSpace(G / 2, nu)), *k)
-    soft[:2, 2] = soft[2, :2] = 0
-    body = Stack((), HalfSpace(G, nu))
-    return apart(composite_frf_matrix(body, body, *k), soft)
-
-
 SYMMETRY_LAWS = (
     Law("hermitian", "P1", "F is Hermitian (Betti's reciprocity)", _hermitian),
     Law("real", "P2", "real tractions give real displacements: F(-m, -n) = conj F(m, n)", _real),
@@ -485,20 +463,17 @@ SYMMETRY_LAWS = (
         _parity),
     Law("positive_definite", "P4", "strain energy is positive: all eigenvalues of F are > 0",
         _positive),
-    Law("rotation", "P5", "F(Qk) = Q F(k) Qᵀ for rotations and reflections of the axes", _turns),
-    Law("isotropy", "P6", "exchanging x and y exchanges the entries", _isotropic),
+    Law("rotation", "P5", "F(Qk) = Q F(k) Qᵀ for rotations and reflections of the axes; P6, the "
+        "exchange of x and y, is one of them", _turns),
     Law("scaling", "P7", "lengths and moduli scale out: α G F depends on α h and ratios", _scales),
     Law("homogeneous", "P8", "layers of the substrate's material have no effect", _homogeneous),
     Law("cutting", "P11", "the division of a layer into layers of its material has no effect",
     _cut, 1e-11),
     Law("no_thickness", "P11", "a layer of any material with vanishing thickness has no effect",
         _nothing_inserted),
-    Law("energy", "P19", "any traction does positive work", _work),
     Law("discrete_symmetry", "P19", "the matrix of influence coefficients of all three "
     "components is symmetric and positive, on cells no wider than the total thickness of the "
     "layers",
         _symmetric_operator, 1e-11, 40),
     Law("identical_bodies", "P20", "two identical bodies do not couple", _identical),
-    Law("half_stiffness", "P20", "two identical half-spaces have the response of one uncoupled "
-    "half-space of half the stiffness", _halved),
 )  # fmt: skip
