@@ -259,7 +259,7 @@ def unlike_ratios(film: float, substrate: float) -> Problem:
     body = Body(material=material, layers=(Layer(thickness=thickness, material=film_material),))
     of_film, of_substrate = (modulus / (2 * (1 + ratio)) for ratio in (film, substrate))
     stack = Stack([Film(of_film, film, thickness)], HalfSpace(of_substrate, substrate))
-    surface = LayeredSurface(partial(_normal, stack), 2 * of_film / (1 - film), thickness)
+    surface = LayeredSurface(partial(_normal_response, stack), 2 * of_film / (1 - film), thickness)
     exact = paraboloid_under(paper.NORMAL_FORCE, surface, paper.RADIUS)
     scene = pressed(
         f"Rigid ball on a coating, ν = {film:g} on ν = {substrate:g}", rigid_ball(), body
@@ -267,7 +267,7 @@ def unlike_ratios(film: float, substrate: float) -> Problem:
     return _semi_closed(scene, exact)
 
 
-def _normal(stack: Stack, k: Field) -> Field:
+def _normal_response(stack: Stack, k: Field) -> Field:
     """Compute the normal surface displacement per unit pressure of a layered body at wavenumbers
     k."""
     return np.asarray(scalars(stack, k).c22)
@@ -527,7 +527,9 @@ def stiffness(depth: float, shear_modulus: float, poisson_ratio: float) -> float
     """
     stack = Stack([Film(shear_modulus, poisson_ratio, depth)], HalfSpace(1.0, 0.3))
     contact_modulus = 2 * shear_modulus / (1 - poisson_ratio)
-    return flat_punch(LayeredSurface(partial(_normal, stack), contact_modulus, depth), 1.0).load
+    return flat_punch(
+        LayeredSurface(partial(_normal_response, stack), contact_modulus, depth), 1.0
+    ).load
 
 
 def film_stiffness(level: Level = Level.QUICK) -> Case:
@@ -700,7 +702,7 @@ FREQUENCY_RESPONSE = (
 )
 
 
-def _stack(row: Mapping[str, Any]) -> Stack:
+def _reference_stack(row: Mapping[str, Any]) -> Stack:
     base = None if row["base"] == "rigid" else (row["base"]["G"], row["base"]["nu"])
     return Stack([(film["G"], film["nu"], film["h"]) for film in row["layers_top_down"]], base)
 
@@ -713,12 +715,12 @@ def _frf_errors(number: int) -> tuple[float, float]:
     """
     row = FRF_ROWS[number]
     c11, c12, c22, csh = (float(row[key]) for key in ("C11", "C12", "C22", "Csh"))
-    got = np.array(scalars(_stack(row), np.hypot(row["m"], row["n"])))
+    got = np.array(scalars(_reference_stack(row), np.hypot(row["m"], row["n"])))
     scale = np.array([c11, np.sqrt(c11 * c22), c22, csh])
     F = {key: float(value) for key, value in row["F"].items()}
     xz, yz = 1j * F["im_xz"], 1j * F["im_yz"]
     expected = np.array([[F["xx"], F["xy"], xz], [F["xy"], F["yy"], yz], [-xz, -yz, F["zz"]]])
-    difference = frf_matrix(_stack(row), row["m"], row["n"]) - expected
+    difference = frf_matrix(_reference_stack(row), row["m"], row["n"]) - expected
     return (
         float(np.max(np.abs(got - (c11, c12, c22, csh)) / scale)),
         float(np.abs(difference).max() / np.abs(expected).max()),
@@ -730,13 +732,13 @@ def _worst_frf_error(kind: int) -> float:
 
 
 @cache
-def _coefficients(G1: float, nu1: float, base: tuple[float, float], d: float) -> Any:
+def _influence_coefficients(G1: float, nu1: float, base: tuple[float, float], d: float) -> Any:
     return LayeredCoefficients(Stack([(G1, nu1, 1.0)], base), (d, d), (101, 8))
 
 
 def _coefficient_error(row: Mapping[str, Any]) -> float:
     """Compute the largest relative error of the influence coefficients of one reference row."""
-    K = _coefficients(row["G1"], row["nu1"], (row["G2"], row["nu2"]), row["d"])
+    K = _influence_coefficients(row["G1"], row["nu1"], (row["G2"], row["nu2"]), row["d"])
     i, j = round(row["x"] / row["d"]), round(row["y"] / row["d"])
     errors = [
         abs((np.sign(j) if j and name == "xy" else 1) * K[name][i, abs(j)] - expected)

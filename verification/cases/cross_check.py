@@ -112,7 +112,7 @@ class Contact:
     @property
     def runs(self) -> tuple[AnyRun, AnyRun, AnyRun]:
         """Runs of the contact on cells, on finite elements, and by the radial solver."""
-        scene = self._scene
+        scene = self._coated_scene
         mesh = FiniteElementDiscretisation(
             elements_per_radius=self.elements,
             contact_radius=self.radius,
@@ -130,7 +130,7 @@ class Contact:
         )
 
     @property
-    def _scene(self) -> Scene:
+    def _coated_scene(self) -> Scene:
         push: tuple[LoadStep, ...] = ()
         if self.harmonics:
             push = tuple(paper.tangential_step(part, 6) for part in PARTS)
@@ -220,7 +220,7 @@ class Contact:
         1.5 contact radii. The stress by elements takes the tractions of the result on a separate
         mesh; the stress by cells takes a window of 1.5 times the width.
         """
-        a, body = self.radius, self._scene.body
+        a, body = self.radius, self._coated_scene.body
         depth, end, grid = body.layers[0].thickness, one.steps[-1], one.grid
         mesh = FiniteElementDiscretisation(elements_per_radius=32)
         section = section_field(body, SurfaceTractions.of(other.steps[-1]), mesh)
@@ -483,7 +483,7 @@ class Load:
     load: float
 
 
-def _parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, ...]:
+def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, ...]:
     """Create the judged force and tractions of one recorded scene, for finite elements and cells.
 
     The prescribed approach, over that of Hertz theory, and the increments are those of the record.
@@ -514,10 +514,10 @@ def _parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, 
     force = replace(NORMAL_FORCE, meaning="force at this approach")
     rows = [
         (problem, Within(force, 2 * math.hypot(problem.uncertainty, FORCE), OURS)),
-        _traction(problem, of, "pressure", 1.0, "p_H", pressure_at),
+        _traction_row(problem, of, "pressure", 1.0, "p_H", pressure_at),
     ]
     if friction:
-        rows.append(_traction(problem, of, "shear", friction, "µp_H", shear_at))
+        rows.append(_traction_row(problem, of, "shear", friction, "µp_H", shear_at))
     return tuple(
         judged(replace(ladder, problem=answer), (within,))
         for ladder in (
@@ -527,7 +527,7 @@ def _parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, 
     )  # fmt: skip
 
 
-def _traction(
+def _traction_row(
     problem: Problem, of: Recorded, name: str, part: float, unit: str, read: Reader
 ) -> tuple[Problem, Within]:
     """Create the row that judges a recorded traction, and the problem with the uncertainty of the
@@ -565,7 +565,11 @@ def external_codes(level: Level = Level.QUICK) -> Case:
         "stiff as its base and as thick as the Hertz radius, without friction and with µ = 0.1. "
         "The results of CalculiX for these scenes, with its own elements and contact, are "
         "stored: see docs/studies/calculix.md.",
-        *(part for key, name in NAMES.items() for part in _parts(name, recorded(key), *sizes)),
+        *(
+            part
+            for key, name in NAMES.items()
+            for part in _recorded_parts(name, recorded(key), *sizes)
+        ),
         limits=(
             "In CalculiX the ball has a hundred times the radius and a hundredth of the force, "
             "because CalculiX measures the gap on the deformed surface, unlike linear theory.",

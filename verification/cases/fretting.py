@@ -144,7 +144,7 @@ def loading_history_chart(result: Result) -> Chart:
     marked = [
         (time[number], force[number], name)
         for name, step, part in STATES
-        for number in [_number_of(result, step, part)]
+        for number in [_increment_number(result, step, part)]
     ]
     panel = Panel(
         x_label="time / τ",
@@ -180,7 +180,9 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
     panels = []
     for step, branch in BRANCHES.items():
         names = [(name, part) for name, s, part in STATES if s == step]
-        states = [(n, result.increments[_number_of(result, step, part)]) for n, part in names]
+        states = [
+            (n, result.increments[_increment_number(result, step, part)]) for n, part in names
+        ]
         grey = [
             curve(
                 "closed form" if n == 0 else "",
@@ -211,7 +213,7 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
     )
 
 
-def _number_of(result: Result, step: int, part: float) -> int:
+def _increment_number(result: Result, step: int, part: float) -> int:
     """Return the index of the increment of a load step whose tangential force is nearest to part ·
     µW."""
     distances = [
@@ -248,11 +250,11 @@ def shear_allowed(rung: SizedRun) -> float:
     return REQUIRED_SHEAR.get(rung.count, REQUIRED_SHEAR[128] * (128 / rung.count) ** 1.5)
 
 
-def _slip_amplitude(result: Any, *_: Any) -> float:
+def _largest_slip_amplitude(result: Any, *_: Any) -> float:
     return float(np.max(loop.loop_cycle(result).slip_amplitude))
 
 
-def _of_cycle() -> tuple[Row, ...]:
+def _cycle_rows() -> tuple[Row, ...]:
     """Return the rows of quantities of a fretting cycle that are judged on every grid."""
     ruiz = "Ruiz, Boddington and Chen 1984, on Mindlin and Deresiewicz 1953"
     imbalance = error_norm(
@@ -265,7 +267,7 @@ def _of_cycle() -> tuple[Row, ...]:
     )
     amplitude = Observable(
         "slip_amplitude", "half the range of slip in the cycle, maximum over the contact", "m",
-        _slip_amplitude,
+        _largest_slip_amplitude,
         lambda exact: float(exact.cycled.slip_amplitude(HERTZ.contact_radius)),
     )  # fmt: skip
     amplitude_error = error_norm(
@@ -353,7 +355,7 @@ def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter
         "locked in, so that the case judges the effect of the whole history. Judged are also the "
         "results for fretting: slip amplitude, Ruiz's parameters, and the balance of work, "
         "stored and dissipated energy.",
-        judged(grids, _of_cycle()),
+        judged(grids, _cycle_rows()),
         judged(named(f"{wide.levels[0]}, window 3 a", wide), (on_wide_window,)),
         charts=(
             lambda results: hysteresis_chart(

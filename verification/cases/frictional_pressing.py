@@ -152,12 +152,12 @@ def at_centres(cells: tuple[int, int], field: Field) -> Field:
 
     cells  numbers of the other cells along x and y
     """
-    along_x = _weights(cells[0], field.shape[-2])
-    along_y = _weights(cells[1], field.shape[-1])
+    along_x = _interpolation_weights(cells[0], field.shape[-2])
+    along_y = _interpolation_weights(cells[1], field.shape[-1])
     return np.asarray(along_x @ field @ along_y.T)
 
 
-def _weights(to: int, of: int) -> Field:
+def _interpolation_weights(to: int, of: int) -> Field:
     """Compute the weights (to, of) of linear interpolation between cell centres of two divisions.
 
     A unit length is divided into `of` cells with known values and into `to` cells of the result.
@@ -180,7 +180,7 @@ STICK_PART = Observable(
 )  # fmt: skip
 
 
-def _profiles(
+def _profile_drawings(
     of: RefinementLevels, one: Indentation, name: str, by: str, *drawn: str
 ) -> list[Drawing]:
     """Return functions that draw pressure or shear over the radius, together with the reference.
@@ -257,7 +257,9 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
         charts=tuple(
             draw
             for one, grid in grids.items()
-            for draw in _profiles(grid, one, "frictional_indentation", "cells", "pressure", "shear")
+            for draw in _profile_drawings(
+                grid, one, "frictional_indentation", "cells", "pressure", "shear"
+            )
         ),
         limits=(
             f"{STRONG.name} needs {MANY} increments for an error of the shear within 1e-2. With "
@@ -782,7 +784,7 @@ def spence_example(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
 
 
-def _on_mesh(one: Indentation, elements: int, increments: int) -> RefinementLevels:
+def _mesh_level(one: Indentation, elements: int, increments: int) -> RefinementLevels:
     """Create the finite element level of a tabulated indentation, with a given number of
     increments.
 
@@ -797,7 +799,7 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
     elements."""
     n, many, why = finest(level), 60, "accuracy target of the finite elements"
     meshes = {
-        one: _on_mesh(one, n, increments)
+        one: _mesh_level(one, n, increments)
         for one, increments in {WEAK: FEW, STRONG: many, COATED: FEW}.items()
     }
 
@@ -823,7 +825,9 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
         charts=tuple(
             draw
             for one, mesh in meshes.items()
-            for draw in _profiles(mesh, one, "fem_indentation", "finite elements", "outward shear")
+            for draw in _profile_drawings(
+                mesh, one, "fem_indentation", "finite elements", "outward shear"
+            )
         ),
         limits=(
             f"The shear is judged where the increments allow: {FEW} for µ = 0.1, {many} for "
@@ -916,7 +920,9 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
         ),
     )  # fmt: skip
     meshes = {
-        one: on_springs(_on_mesh(one, finest(level), FEW), f"{one.name}, {FEW} increments, penalty")
+        one: on_springs(
+            _mesh_level(one, finest(level), FEW), f"{one.name}, {FEW} increments, penalty"
+        )
         for one in (WEAK, STRONG, COATED)
     }
     return case(
@@ -931,7 +937,9 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
         charts=tuple(
             draw
             for one, mesh in meshes.items()
-            for draw in _profiles(mesh, one, "fem_penalty_indentation", "springs", "outward shear")
+            for draw in _profile_drawings(
+                mesh, one, "fem_penalty_indentation", "springs", "outward shear"
+            )
         ),
         limits=(
             f"The shear is that of {FEW} increments, whose error is included in the judged "
@@ -951,7 +959,7 @@ class Goodman:
     stick_part: float
 
 
-def _goodman(title: str, nu: float, ratio: float, increments: int) -> Problem:
+def _goodman_problem(title: str, nu: float, ratio: float, increments: int) -> Problem:
     """Create the problem of a rigid ball pressed with friction on a body of weak coupling.
 
     nu     Poisson ratio of the half-space; its Dundurs constant β is small
@@ -1044,7 +1052,7 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
         ),
         *(
             judged(
-                on_radii(_goodman(title, nu, ratio, increments), title, rings=rings),
+                on_radii(_goodman_problem(title, nu, ratio, increments), title, rings=rings),
                 (of_goodman,),
             )
             for ratio in (0.5, 1.0)

@@ -141,7 +141,9 @@ def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
 ARC = SphereContact.under_load(paper.NORMAL_FORCE, paper.RADIUS, paper.CONTACT_MODULUS)
 
 
-def _beyond(what: Observable, words: str, hertz: float, exact: float, more: str = "") -> Reported:
+def _beyond_hertz_row(
+    what: Observable, words: str, hertz: float, exact: float, more: str = ""
+) -> Reported:
     """Create a row that reports the relative difference of an observable from its value by Hertz
     theory.
 
@@ -191,8 +193,8 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
             "required of the paraboloid at 256 x 256",
         ),
         Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), "as for the paraboloid"),
-        _beyond(APPROACH, "approach", HERTZ.approach, ARC.approach),
-        _beyond(
+        _beyond_hertz_row(APPROACH, "approach", HERTZ.approach, ARC.approach),
+        _beyond_hertz_row(
             PEAK_PRESSURE, "peak pressure", HERTZ.peak_pressure, ARC.peak_pressure,
             "; the largest cell value is low by h²/4a²",
         ),

@@ -88,7 +88,7 @@ def turned(loading: tuple[LoadStep, ...], degrees: float) -> tuple[LoadStep, ...
     return tuple(one(step) for step in loading)
 
 
-def _shift(end: Any) -> Field:
+def _shift_of(end: Any) -> Field:
     """Return the tangential shift of an increment (2,); zero if the increment has none."""
     shift = end.tangential_shift
     return np.zeros(2) if shift is None else np.asarray(shift)
@@ -117,27 +117,29 @@ def same_fields(
             float(np.sum(np.abs(a.pressure - field(b.pressure))) / total),
             float(np.sum(np.abs(shear_of(a) - vector(shear_of(b)))) / total),
             abs(a.approach / b.approach - 1),
-            float(np.max(np.abs(_shift(a) - turn(_shift(b))))) / b.approach,
+            float(np.max(np.abs(_shift_of(a) - turn(_shift_of(b))))) / b.approach,
         )
 
     return worst(*map(apart, one.increments, other.increments))
 
 
-def _by_quarter(field: Field) -> Field:
+def _rotate_field_quarter(field: Field) -> Field:
     """Rotate a scalar field on square cells by a right angle from x towards y."""
     return np.asarray(field.T[::-1])
 
 
-def _quarter_of_shear(q: Field) -> Field:
-    return np.stack([-_by_quarter(q[1]), _by_quarter(q[0])])
+def _rotate_shear_quarter(q: Field) -> Field:
+    return np.stack([-_rotate_field_quarter(q[1]), _rotate_field_quarter(q[0])])
 
 
-def _quarter_of_shift(shift: Field) -> Field:
+def _rotate_shift_quarter(shift: Field) -> Field:
     return np.array([-shift[1], shift[0]])
 
 
 as_it_is = partial(same_fields, np.asarray, np.asarray, np.asarray)
-after_quarter = partial(same_fields, _by_quarter, _quarter_of_shear, _quarter_of_shift)
+after_quarter = partial(
+    same_fields, _rotate_field_quarter, _rotate_shear_quarter, _rotate_shift_quarter
+)
 
 
 def motion_apart(degrees: float, one: Any, other: Any) -> float:
@@ -150,7 +152,7 @@ def motion_apart(degrees: float, one: Any, other: Any) -> float:
     """
     c, s = cos(radians(degrees)), sin(radians(degrees))
     turn = np.array([[c, -s], [s, c]])
-    found, expected = (np.array([_shift(i) for i in r.increments]) for r in (one, other))
+    found, expected = (np.array([_shift_of(i) for i in r.increments]) for r in (one, other))
     shift = np.max(np.hypot(*(found.T - turn @ expected.T))) / np.max(np.hypot(*expected.T))
     lost, energy = (
         np.array([i.dissipated_energy for i in result.increments], dtype=float)
@@ -159,7 +161,9 @@ def motion_apart(degrees: float, one: Any, other: Any) -> float:
     return worst(shift, np.max(np.abs(lost - energy)) / np.max(energy))
 
 
-def _isotropic(one: Run, other: Run, degrees: float, allowed: float, cells: int) -> Comparison:
+def _rotation_comparison(
+    one: Run, other: Run, degrees: float, allowed: float, cells: int
+) -> Comparison:
     """Create the comparison of a history with its rotation by an angle that is no symmetry of the
     grid.
 
@@ -226,7 +230,7 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
                 (quarter.label, straight.label), after_quarter, EXACT,
                 TURNS_INTO_ITSELF + ANSWERED, ISOTROPIC,
             ),
-            _isotropic(oblique, straight, 30.0, 3e-4, 64),
+            _rotation_comparison(oblique, straight, 30.0, 3e-4, 64),
         ),
         limits=("Small residuals show that the equations are solved, not that the equations are "
         "correct.",),
@@ -302,7 +306,7 @@ class MotionControlled:
 
     def difference(self, result: semi_analytical.Result) -> float:
         """Compute the larger of Σ|Δp|/Σp and Σ|Δq|/Σp between both solves, over all increments."""
-        repeated = self._repeated(result)
+        repeated = self._repeated_solve(result)
         if repeated is None:
             return math.inf
         return worst(
@@ -316,7 +320,7 @@ class MotionControlled:
     def violation(self, result: semi_analytical.Result) -> float:
         """Compute the largest violation of a law of contact or friction in the repeated solve
         [1]."""
-        repeated = self._repeated(result)
+        repeated = self._repeated_solve(result)
         if repeated is None:
             return math.inf
         violation, imbalance, *_ = observed(repeated)
@@ -324,18 +328,18 @@ class MotionControlled:
 
     def iterations(self, result: semi_analytical.Result) -> float:
         """Return the number of iterations of the repeated solve, over all increments."""
-        repeated = self._repeated(result)
+        repeated = self._repeated_solve(result)
         return (
             math.inf if repeated is None else float(sum(i.iterations for i in repeated.increments))
         )
 
-    def _repeated(self, result: semi_analytical.Result) -> semi_analytical.Result | None:
+    def _repeated_solve(self, result: semi_analytical.Result) -> semi_analytical.Result | None:
         if self._solved is None or self._solved[0] is not result:
             self._solved = result, solved_by_motion(result)
         return self._solved[1]
 
 
-def _pair(vector: Field) -> tuple[float, float]:
+def _as_pair(vector: Field) -> tuple[float, float]:
     return float(vector[0]), float(vector[1])
 
 
@@ -345,7 +349,7 @@ def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result |
     steps = tuple(
         LoadStep(
             approach=i.approach,
-            tangential_shift=None if i.step == PRESSED else _pair(_shift(i)),
+            tangential_shift=None if i.step == PRESSED else _as_pair(_shift_of(i)),
             increments=1,
         )
         for i in result.increments
@@ -438,7 +442,7 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
                     (bare, runs[2], runs[0]), (filmed, films[1], films[0]),
                 )
             ),
-            _isotropic(runs[1], runs[0], 30.0, 5e-3, 32),
+            _rotation_comparison(runs[1], runs[0], 30.0, 5e-3, 32),
             *(
                 Comparison(
                     f"{name}_{'pushed' if step == PUSHED else 'back'}",
@@ -466,7 +470,7 @@ MU, PART = 0.2, 0.6  # friction of the ball on a film, and part of µW that push
 PUSH = LoadStep(tangential_force=(PART * MU * NORMAL_FORCE, 0.0), increments=2)
 
 
-def _patchy(grid: SurfaceGrid) -> Field:
+def _patchy_friction(grid: SurfaceGrid) -> Field:
     """Return a friction coefficient field on a grid that varies in x and y and vanishes in
     patches."""
     x, y = (c / HERTZ.contact_radius for c in grid.coordinates())
@@ -474,7 +478,7 @@ def _patchy(grid: SurfaceGrid) -> Field:
     return np.asarray(np.maximum(MU * (1.2 + 0.9 * waves), 0.0))
 
 
-def _in_mirror(q: Field) -> Field:
+def _mirror_shear(q: Field) -> Field:
     """Mirror a shear field (2, nx, ny) at the plane x = 0."""
     return np.stack([-q[0][::-1], q[1][::-1]])
 
@@ -486,7 +490,7 @@ def in_mirror(one: Any, other: Any) -> float:
         total = np.sum(b.pressure)
         return worst(
             float(np.sum(np.abs(a.pressure - b.pressure[::-1])) / total),
-            float(np.sum(np.abs(shear_of(a) - _in_mirror(shear_of(b)))) / total),
+            float(np.sum(np.abs(shear_of(a) - _mirror_shear(shear_of(b)))) / total),
         )
 
     return worst(*map(apart, one.increments, other.increments))
@@ -512,7 +516,7 @@ def same_surface(level: Level = Level.QUICK) -> Case:
     width, longer = 2 * 1.2 * HERTZ.contact_radius, 4 / 3
     square = SurfaceGrid((cells, cells), (width, width))
     hard = FILMED.layers[0].material
-    patches = _patchy(square)
+    patches = _patchy_friction(square)
     heights: Any = np.asarray(rigid_ball().initial_gap(*square.coordinates()))
 
     def run(label: str, what: str, grid: SurfaceGrid = square, **other: Any) -> Run:
@@ -686,11 +690,11 @@ class BodyPair:
         return pressed(self.name, ball, self.lower, *loading, friction=MU)
 
 
-def _turned_half(q: Field) -> Field:
+def _rotate_shear_half(q: Field) -> Field:
     return np.asarray(q[:, ::-1, ::-1])
 
 
-after_half = partial(same_fields, lambda p: p[::-1, ::-1], _turned_half, np.asarray)
+after_half = partial(same_fields, lambda p: p[::-1, ::-1], _rotate_shear_half, np.asarray)
 
 
 def on_rings_apart(one: Any, other: Any) -> float:
@@ -783,7 +787,7 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
 
 
-def _vector(increment: Any, name: str) -> Field:
+def _load_vector(increment: Any, name: str) -> Field:
     value = getattr(increment, name)
     return np.atleast_1d(np.asarray(0.0 if value is None else value, dtype=float))
 
@@ -801,18 +805,18 @@ def off_the_way(scene: Scene, result: Any) -> float:
         inside = [increment for increment in result.increments if increment.step == number]
         if not inside:
             return float("nan")
-        values = np.array([_vector(increment, name) for increment in inside])
+        values = np.array([_load_vector(increment, name) for increment in inside])
         named = np.atleast_1d(np.asarray(getattr(step, name), dtype=float))
         way = np.arange(1, len(inside) + 1) / len(inside)
         before = [increment for increment in result.increments if increment.step < number]
-        start = _vector(before[-1], name) if before else 0.0 * named
+        start = _load_vector(before[-1], name) if before else 0.0 * named
         straight = start + (way if before else way**3)[:, None] * (named - start)
         scale = np.max(np.abs([start, named]))
         off = worst(off, float(np.max(np.abs(values - straight)) / scale))
     return off
 
 
-def _off_hertz(result: Any) -> float:
+def _hertz_force_error(result: Any) -> float:
     def off(increment: Any) -> float:
         at = PointContact.at_approach(increment.approach, HERTZ.radius, HERTZ.contact_modulus)
         return abs(increment.normal_force / at.load - 1)
@@ -908,7 +912,7 @@ def led_histories(level: Level = Level.QUICK) -> Case:
             *(
                 Quantity(
                     "force_at_approach", "largest relative difference of the force from Hertz's at "
-                    "the approach of any increment", "", run.label, _off_hertz,
+                    "the approach of any increment", "", run.label, _hertz_force_error,
                     closed_form(0.0, "Hertz 1882; Johnson 1985, ch. 4", 1.0),
                     Required(
                         # Of the smallest contact at the quick level, of 7 cells or elements.

@@ -128,7 +128,7 @@ ECCENTRICITY = (0.18 * PUNCH_RADIUS, 0.24 * PUNCH_RADIUS)
 TILTED = TiltedPunch(PUNCH_RADIUS, paper.CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
 
 
-def _component(name: str, axis: int, result: Any, *_: Any) -> float:
+def _vector_component(name: str, axis: int, result: Any, *_: Any) -> float:
     """Return a component of a vector quantity at the end of the last step; NaN if it is missing.
 
     name  name of the quantity
@@ -138,7 +138,7 @@ def _component(name: str, axis: int, result: Any, *_: Any) -> float:
     return float("nan") if vector is None else float(vector[axis])
 
 
-def _slope(axis: int, exact: Any) -> float:
+def _exact_slope(axis: int, exact: Any) -> float:
     return float(exact.tilt[axis])
 
 
@@ -153,7 +153,7 @@ def _inner_error(result: Any, step: int, problem: Problem) -> float:
     return float(np.max(np.abs(result.steps[step].pressure[inside] / exact - 1)))
 
 
-def _stiffnesses(one: Any, other: Any) -> float:
+def _stiffness_difference(one: Any, other: Any) -> float:
     """Compute the largest relative difference of normal and tilting stiffnesses of two final
     states."""
 
@@ -196,7 +196,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
                 # The slope along an axis is a rotation about the other one.
                 Observable(
                     f"tilt_{axis}", f"slope along {axis}", "rad",
-                    partial(_component, "tilt", 1 - along), partial(_slope, along),
+                    partial(_vector_component, "tilt", 1 - along), partial(_exact_slope, along),
                     scalar=("tilt", 1 - along),
                 ),
                 part_of_side(1.5),
@@ -229,7 +229,8 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
             Comparison(
                 "both_controls", "prescribed moment against prescribed tilt, by the stiffnesses: "
                 "load over approach and moment over tilt", (finest.label, "given tilt"),
-                _stiffnesses, 1e-6, "the whole face is in contact: the response is linear to the "
+                _stiffness_difference, 1e-6,
+                "the whole face is in contact: the response is linear to the "
                 "tolerance of the solver", "linearity of a contact that does not change",
             ),
         ),
@@ -241,7 +242,7 @@ MOVED = (8, 5)  # cells between the tip and the force, along x and y
 ROLLED = "an identity of the discrete equations: the error is the tolerance of the solver"
 
 
-def _moved_apart(beside: Result, centred: Result) -> float:
+def _shifted_field_difference(beside: Result, centred: Result) -> float:
     """Compute the largest difference of tractions between an eccentric and a centred ball.
 
     The tractions of the centred ball are shifted by whole cells.
@@ -294,7 +295,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
     ) -> Quantity:
         reference = Reference(value, ReferenceKind.IDENTITY, source, ROUNDING * abs(value))
         return Quantity(
-            name, meaning, unit, run, partial(_component, *scalar), reference,
+            name, meaning, unit, run, partial(_vector_component, *scalar), reference,
             Required(1e-6, ROLLED), scalar=(*scalar, -1),
         )  # fmt: skip
 
@@ -324,7 +325,8 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
                 Comparison(
                     f"fields{suffix}", "largest difference of pressure and shear, shifted, over "
                     "the largest pressure and the largest friction limit",
-                    (f"beside{suffix}", f"centred{suffix}"), _moved_apart, 1e-5, ROLLED, source,
+                    (f"beside{suffix}", f"centred{suffix}"), _shifted_field_difference, 1e-5,
+                    ROLLED, source,
                 )
                 for suffix in ("", ", unlike bodies")
             ),
@@ -344,7 +346,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
 
 
-def _between(result: Any, step: int, problem: Problem) -> float:
+def _mid_pressure_error(result: Any, step: int, problem: Problem) -> float:
     """Compute the largest relative pressure error of finite elements away from apex and edge.
 
     The rings lie between 0.2 and 0.8 of the contact radius.
@@ -368,7 +370,7 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
     between = error_norm(
         "pressure_of_cone",
         "largest error of the pressure over its exact value, from 0.2 to 0.8 of the radius",
-        _between,
+        _mid_pressure_error,
         "the exact one",
     )
     of_cone = (

@@ -113,7 +113,7 @@ class PointsRun(SectionRun):
             for grid in (end_grid, mid_grid)
         )
         means = (_with_mean_stick(*pair) for pair in zip(own, between, strict=True))
-        increments = tuple(_counted(model, means))
+        increments = tuple(_count_factorizations(model, means))
         return Result(scene, discretisation, model.sections, radius, decided, increments)
 
 
@@ -127,7 +127,9 @@ def _with_vector_law(decided: Plan) -> Plan:
     return replace(decided, path=Path.HARMONICS, effects=effects)
 
 
-def _counted(model: ContactModel, increments: Iterator[Increment]) -> Iterator[Increment]:
+def _count_factorizations(
+    model: ContactModel, increments: Iterator[Increment]
+) -> Iterator[Increment]:
     """Yield the increments with their numbers of sparse factorisations on both sets of points.
 
     The number is counted as in `fem_reference.solve` and does not depend on the cache of matrices.
@@ -164,7 +166,7 @@ SLIP = error_norm(
 )  # fmt: skip
 
 
-def _of_stop(step: int, part: float) -> tuple[Row, ...]:
+def _stop_rows(step: int, part: float) -> tuple[Row, ...]:
     """Return the rows of quantities of the ball that are judged at the end of a tangential load
     step.
 
@@ -228,7 +230,7 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
         "0.3, 0.6, 0.9 and 0.99 of µW. The slip of the closed form opposes its traction "
         "everywhere only for ν = 0, so that it is the exact solution of Coulomb's vector law "
         "only there.",
-        judged(grids, (*(row for stop in STOPS.items() for row in _of_stop(*stop)), energy)),
+        judged(grids, (*(row for stop in STOPS.items() for row in _stop_rows(*stop)), energy)),
         judged(followed, (order,)),
         *(judged(one, means) for one in shifted),
         charts=(
@@ -403,7 +405,10 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
             for part in (0.99, 0.999, 0.9999)
         ),
         *(
-            judged(named(f"{name}, sliding", on_cells(_sliding(material), (cells,))), of_sliding)
+            judged(
+                named(f"{name}, sliding", on_cells(_sliding_problem(material), (cells,))),
+                of_sliding,
+            )
             for name, material in materials.items()
         ),
         limits=("Under force control at µW the shift is undefined; there is no such case.",),
@@ -411,7 +416,7 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
     )
 
 
-def _sliding(material: IsotropicMaterial) -> Problem:
+def _sliding_problem(material: IsotropicMaterial) -> Problem:
     """Create the problem of a ball that is shifted beyond the onset of gross slip."""
     beyond, at_sliding = 5.0, paper.partial_slip(material, 0.0).sliding_shift
     scene = paper.frictional(
@@ -471,7 +476,7 @@ def _shear_across(result: Any, step: int, problem: Problem) -> float:
     return float(np.max(np.abs(q_y)) / problem.scale(OVER_LIMIT))
 
 
-def _at_points(of: str, problem: Problem, elements: int, over: float) -> RefinementLevels:
+def _points_level(of: str, problem: Problem, elements: int, over: float) -> RefinementLevels:
     mesh = per_radius(elements, over * problem.radius).model_copy(update={"harmonics": 8})
     run = PointsRun(mesh_label(elements, of=of), problem.scene, mesh)
     return ladder(problem, [SizedRun(run, elements)])
@@ -537,7 +542,7 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
     elements = min(finest(level), 64)
     alike = sheared("Two alike bodies of steel, sheared", PARTS, STEEL)
     exact, steel, disc = (
-        _at_points(of, problem, elements, over)
+        _points_level(of, problem, elements, over)
         for of, problem, over in (
             ("ν = 0", CATTANEO, 0.99), ("ν = 0.3", alike, 0.99), ("disc", bonded, 1.0),
         )

@@ -172,7 +172,7 @@ class Sprung:
         return Sprung(self.state.loaded_to(brentq(missed, -FRICTION_LIMIT, FRICTION_LIMIT)))
 
 
-def _sprung() -> Problem:
+def _spring_loop_problem() -> Problem:
     states = [Sprung(TangentialHistory(paper.partial_slip(NU_ZERO, 0.0)))]
     steps = []
     for step, part in AT_ENDS.items():
@@ -197,7 +197,7 @@ FORCE = number(
 )  # fmt: skip
 
 
-def _worked(result: Any, step: int, _: Problem) -> float:
+def _work_at_contact(result: Any, step: int, _: Problem) -> float:
     """Compute the stored and dissipated energy since indentation, over µW times the sliding shift
     [1]."""
     start, end = result.steps[0], result.steps[step]
@@ -205,14 +205,14 @@ def _worked(result: Any, step: int, _: Problem) -> float:
     return float((spent[1] - spent[0]) / (FRICTION_LIMIT * SLIDING_SHIFT))
 
 
-def _stored() -> Observable:
+def _work_observable() -> Observable:
     """Create the observable of the work that the tangential force does on the contact.
 
     The work on the spring is excluded.
     """
     return Observable(
         "work_at_contact", "work of T on the contact until the end, over µW and its shift", "",
-        _worked, _exact_work,
+        _work_at_contact, _exact_work,
     )  # fmt: skip
 
 
@@ -234,7 +234,7 @@ def once_lost(loaded: PartialSlip) -> float:
     return float(loaded.dissipated_energy / (FRICTION_LIMIT * SLIDING_SHIFT))
 
 
-def _of_loop(name: str) -> Observable:
+def _loop_observable(name: str) -> Observable:
     """Create the observable of a number of the fretting loop that fretting tests report.
 
     name  name of the number, such as "loop_opening"
@@ -262,7 +262,7 @@ def _of_loop(name: str) -> Observable:
 def series_spring(level: Level = Level.QUICK) -> Case:
     """Create the verification case of a fretting loop with a rig of finite stiffness, by all
     solvers."""
-    problem = _sprung()
+    problem = _spring_loop_problem()
     why = "set by hand: the error of 64 x 64 cells, 16 elements or 24 rings for a loop of 0.87 "
     "µW"
     rows: tuple[Row, ...] = (
@@ -273,11 +273,11 @@ def series_spring(level: Level = Level.QUICK) -> Case:
         ),
     )
     loops = tuple(
-        Within(_of_loop(name), 5e-3, why)
+        Within(_loop_observable(name), 5e-3, why)
         for name in ("loop_opening", "energy_ratio", "energy_friction", "gross_slip_share")
     )
     works = Within(
-        _stored(),
+        _work_observable(),
         1e-2,
         f"{why}; the energy of the spring, which is not included, is "
         "as large as that of the contact",
@@ -402,7 +402,7 @@ class Strained:
     dissipated_energy: float
 
 
-def _coated() -> Problem:
+def _coated_strain_problem() -> Problem:
     """Create the problem of a frictionless coated contact that is pressed and then strained.
 
     The strain does not change the pressure.
@@ -426,7 +426,7 @@ def _coated() -> Problem:
     )
 
 
-def _added(layer: int) -> Observable:
+def _added_stress(layer: int) -> Observable:
     """Create the observable of the change of σ_xx on the axis that a bulk strain causes.
 
     layer  0 for the layer, 1 for the base
@@ -487,9 +487,9 @@ def strained_ball(level: Level = Level.QUICK) -> Case:
         judged(springs, rows(1.5e-3)),
         judged(on_radii(problem, "rings"), rows(4e-4)),
         judged(
-            on_cells(_coated(), (32,), of="coated"),
+            on_cells(_coated_strain_problem(), (32,), of="coated"),
             [
-                Within(_added(layer), 1e-9, "exact: the pressure does not change")
+                Within(_added_stress(layer), 1e-9, "exact: the pressure does not change")
                 for layer in (0, 1)
             ],
         ),

@@ -73,13 +73,13 @@ STIFFER = IsotropicMaterial(young_modulus=840e9, poisson_ratio=0.2)
 FILMED = Body(material=STEEL, layers=(Layer(thickness=0.5 * A, material=STIFFER),))
 
 
-def _largest(error: Any) -> float:
+def _largest_over_peak(error: Any) -> float:
     """Compute the largest magnitude of stress errors, over the peak pressure p₀."""
     return float(np.max(np.abs(error)) / P0)
 
 
 @cache
-def _tractions(cells: int) -> tuple[Field, Field]:
+def _hertz_tractions(cells: int) -> tuple[Field, Field]:
     """Return the Hertz pressure at the cell centres of a grid, and the shear of gross slip along
     x."""
     x, y = hertz_grid(cells).coordinates()
@@ -88,8 +88,8 @@ def _tractions(cells: int) -> tuple[Field, Field]:
 
 
 @cache
-def _section(cells: int, sliding: bool) -> SubsurfaceField:
-    p, q = _tractions(cells)
+def _stress_section(cells: int, sliding: bool) -> SubsurfaceField:
+    p, q = _hertz_tractions(cells)
     depths = [float(d) for d in np.concatenate([AXIS, OFF_AXIS]) * A]
     body = Body(material=STEEL)
     return subsurface_section(body, hertz_grid(cells), p, q if sliding else None, depths)
@@ -102,7 +102,9 @@ def _axis_errors(cells: int) -> Field:
     The depths are those of AXIS.
     """
     exact = axis_stress(AXIS * A, A, P0, NU)
-    still, sliding = (_section(cells, slides).below()[1][: len(AXIS)] for slides in (False, True))
+    still, sliding = (
+        _stress_section(cells, slides).below()[1][: len(AXIS)] for slides in (False, True)
+    )
     shear = sliding_axis_shear(AXIS * A, A, SLIDING * P0)
     return np.stack(
         (still[:, ZZ] - exact.axial, still[:, XX] - exact.radial, sliding[:, XZ] - shear), axis=1
@@ -110,22 +112,24 @@ def _axis_errors(cells: int) -> Field:
 
 
 def _off_axis_error() -> float:
-    field = _section(256, False)
+    field = _stress_section(256, False)
     exact = huber_stress(field.x, OFF_AXIS[:, None] * A, A, P0, NU)
     stress = field.stress[len(AXIS) :, ..., 0]
-    return _largest((stress[:, ZZ] - exact.axial, stress[:, YY] - exact.hoop))
+    return _largest_over_peak((stress[:, ZZ] - exact.axial, stress[:, YY] - exact.hoop))
 
 
-def _error_below() -> float:
+def _sliding_stress_error() -> float:
     """Compute the largest error of all stress components at every 16th cell, at two depths, over
     p₀."""
     depths = np.array((0.5, 1.0)) * A
-    found = subsurface(Body(material=STEEL), hertz_grid(256), *_tractions(256), depths.tolist())
+    found = subsurface(
+        Body(material=STEEL), hertz_grid(256), *_hertz_tractions(256), depths.tolist()
+    )
     some = slice(8, None, 16)
     X, Y = (at.ravel() for at in np.meshgrid(found.x[some], found.y[some], indexing="ij"))
     return worst(
         *(
-            _largest(
+            _largest_over_peak(
                 stress.reshape(6, -1)
                 - hamilton_stress(X, Y, np.full_like(X, depth), A, P0, SLIDING * P0, NU)
             )
@@ -135,16 +139,16 @@ def _error_below() -> float:
 
 
 @cache
-def _filmed() -> SubsurfaceField:
+def _coated_stress() -> SubsurfaceField:
     """Compute the stress of a coated body on both sides of its interface and at the surface."""
     ((above, below),) = interfaces(FILMED)
-    return subsurface(FILMED, hertz_grid(64), *_tractions(64), [above, below, 0.0])
+    return subsurface(FILMED, hertz_grid(64), *_hertz_tractions(64), [above, below, 0.0])
 
 
-def _continuity() -> float:
-    field = _filmed()
+def _interface_jump() -> float:
+    field = _coated_stress()
     u = field.displacement
-    jump = _largest((field.stress[0] - field.stress[1])[[ZZ, YZ, XZ]])
+    jump = _largest_over_peak((field.stress[0] - field.stress[1])[[ZZ, YZ, XZ]])
     return worst(jump, np.max(np.abs(u[0] - u[1])) / np.max(np.abs(u)))
 
 
@@ -154,17 +158,19 @@ def _in_plane_jump() -> float:
     The reference follows from the in-plane strains and σ_zz below the interface, which are
     continuous.
     """
-    above, below = _filmed().stress[:2]
+    above, below = _coated_stress().stress[:2]
     xx, yy, zz = below[XX], below[YY], below[ZZ]
     E, nu = STEEL.young_modulus, NU
     e_xx, e_yy = (xx - nu * (yy + zz)) / E, (yy - nu * (xx + zz)) / E
     E, nu = STIFFER.young_modulus, STIFFER.poisson_ratio
-    return _largest(above[XX] - (E / (1 - nu**2) * (e_xx + nu * e_yy) + nu / (1 - nu) * zz))
+    return _largest_over_peak(
+        above[XX] - (E / (1 - nu**2) * (e_xx + nu * e_yy) + nu / (1 - nu) * zz)
+    )
 
 
-def _surface() -> float:
-    (p, q), stress = _tractions(64), _filmed().stress[2]
-    return _largest((stress[ZZ] + p, stress[XZ] + q[0], stress[YZ] + q[1]))
+def _surface_traction_error() -> float:
+    (p, q), stress = _hertz_tractions(64), _coated_stress().stress[2]
+    return _largest_over_peak((stress[ZZ] + p, stress[XZ] + q[0], stress[YZ] + q[1]))
 
 
 def subsurface_stress(level: Level = Level.QUICK) -> Case:
@@ -172,22 +178,22 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
     coating."""
     closed: tuple[tuple[str, str, str, Callable[[], float]], ...] = (
         ("hertz_axis", "largest error of σ_zz and σ_xx on the axis, over p₀",
-         "Huber 1904; Johnson 1985, ch. 3.4", lambda: _largest(_axis_errors(256)[:, :2])),
+         "Huber 1904; Johnson 1985, ch. 3.4", lambda: _largest_over_peak(_axis_errors(256)[:, :2])),
         ("sliding_axis", "largest error of τ_xz on the axis, over p₀",
-         "Hamilton 1983, on the axis", lambda: _largest(_axis_errors(256)[:, 2])),
+         "Hamilton 1983, on the axis", lambda: _largest_over_peak(_axis_errors(256)[:, 2])),
         ("hertz_off_axis", "largest error of σ_zz and σ_yy in the plane y = 0 at depths from 0.2 "
          "a, over p₀", "Huber 1904", _off_axis_error),
         ("sliding_below", "largest error of the six stress components below pressure and shear, "
         "at depths of 0.5 a and a over the whole window, over p₀", "Hamilton 1983",
-         _error_below),
+         _sliding_stress_error),
     )  # fmt: skip
     laws: tuple[tuple[str, str, str, Callable[[], float], str], ...] = (
         ("interface_continuity", "largest jump of σ_zz, σ_xz, σ_yz over p₀ and of u over its "
-         "largest value", "displacement and traction are continuous", _continuity, "1"),
+         "largest value", "displacement and traction are continuous", _interface_jump, "1"),
         ("in_plane_jump", "σ_xx above minus the value that the strains below require, over p₀",
          "in-plane strains are continuous", _in_plane_jump, "p₀"),
         ("surface_tractions", "σ_zz, σ_xz at z = 0 against the tractions, over p₀",
-         "the boundary condition", _surface, "p₀"),
+         "the boundary condition", _surface_traction_error, "p₀"),
     )  # fmt: skip
     required = "required of subsurface stress by the project's accuracy targets"
     return case(
@@ -226,14 +232,14 @@ BY_RAYS = "rays over the pressure of `paraboloid_under`, and the layer by its Ha
 MOST = FRICTION * P0
 
 
-def _grid(cells: int) -> ShiftedGrid:
+def _shifted_hertz_grid(cells: int) -> ShiftedGrid:
     """Create a grid that is shifted by a fraction of a cell, so that the contact edge cuts cells
     differently."""
     of = hertz_grid(cells)
     return ShiftedGrid(of.cells, of.window, (0.31, 0.17))
 
 
-def _sliding(body: Body, grid: SurfaceGrid, pressure: Field) -> NearEdge:
+def _sliding_edge_stress(body: Body, grid: SurfaceGrid, pressure: Field) -> NearEdge:
     """Compute the stress near the contact edge of a ball in gross slip along x.
 
     pressure  pressure on the cells of the grid [force/length²]
@@ -242,11 +248,11 @@ def _sliding(body: Body, grid: SurfaceGrid, pressure: Field) -> NearEdge:
     return near_edge(stack_of(body), grid, pressure, shear)
 
 
-def _tension(body: Body, indenter: Paraboloid, cells: int) -> float:
+def _trailing_edge_tension_on_cells(body: Body, indenter: Paraboloid, cells: int) -> float:
     """Compute the largest tensile stress at the edge of a sliding contact under 1 kN, over p₀."""
-    grid = _grid(cells)
+    grid = _shifted_hertz_grid(cells)
     result = semi_analytical.solve(pressed("Sliding", indenter, body), grid, 1e-8)
-    found = _sliding(body, grid, result.steps[-1].pressure)
+    found = _sliding_edge_stress(body, grid, result.steps[-1].pressure)
     return float(np.max(principal_stresses(found.stress())[0])) / P0
 
 
@@ -256,7 +262,7 @@ def _exact_edge() -> NearEdge:
 
     The means are computed with 16 Gauss points per side of a cell.
     """
-    grid = _grid(128)
+    grid = _shifted_hertz_grid(128)
     x, y = grid.coordinates()
     nodes, weights = (half / 2 for half in np.polynomial.legendre.leggauss(16))
     dx, dy = grid.spacing
@@ -265,10 +271,10 @@ def _exact_edge() -> NearEdge:
         for s, weight in zip(nodes, weights, strict=True)
         for t, other in zip(nodes, weights, strict=True)
     )
-    return _sliding(Body(material=STEEL), grid, np.asarray(means))
+    return _sliding_edge_stress(Body(material=STEEL), grid, np.asarray(means))
 
 
-def _line_error() -> float:
+def _edge_line_error() -> float:
     """Compute the largest stress error at 32 positions within four cells of either contact edge,
     over p₀.
 
@@ -278,7 +284,7 @@ def _line_error() -> float:
     beside = (np.arange(32) / 32 - 0.5 + 1 / 64) * 8 * found.grid.spacing[0]
     x = np.concatenate([-A + beside, A + beside])
     exact = stress_by_hertz_pressure(x, A, P0, NU) + stress_by_hertz_shear(x, A, MOST, NU)
-    return _largest(found.at(x, np.zeros_like(x))[0] - exact)
+    return _largest_over_peak(found.at(x, np.zeros_like(x))[0] - exact)
 
 
 def _near_edge() -> tuple[NearEdge, Field, Field, NDArray[np.bool_]]:
@@ -302,7 +308,9 @@ def _surface_error() -> float:
     xx = exact.radial * c * c + exact.hoop * s * s
     yy = exact.radial * s * s + exact.hoop * c * c
     xy = (exact.radial - exact.hoop) * c * s
-    return _largest(stress.stress[0][:, near] - np.stack([xx, yy, exact.axial, 0 * r, 0 * r, xy]))
+    return _largest_over_peak(
+        stress.stress[0][:, near] - np.stack([xx, yy, exact.axial, 0 * r, 0 * r, xy])
+    )
 
 
 def _error_a_cell_below() -> float:
@@ -312,7 +320,7 @@ def _error_a_cell_below() -> float:
     depth, cells = found.grid.spacing[0], found.tractions.cells
     field = found.corrected(subsurface(found.stack, found.grid, cells[2], cells[:2], (depth,)))
     exact = hamilton_stress(x, y, depth, A, P0, MOST, NU)
-    return _largest(field.stress[0][:, near] - exact)
+    return _largest_over_peak(field.stress[0][:, near] - exact)
 
 
 def edge_stress(level: Level = Level.QUICK) -> Case:
@@ -328,7 +336,7 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
     # Zero is as uncertain as the form behind it: rounding, or one integral.
     fitted: tuple[tuple[str, str, Reference, Callable[[], float]], ...] = (
         ("line", "largest error of σ_xx(x, 0) within 4 cells of either edge, over p₀",
-         closed_form(0.0, "Hamilton and Goodman 1966; Cerruti", 1.0), _line_error),
+         closed_form(0.0, "Hamilton and Goodman 1966; Cerruti", 1.0), _edge_line_error),
         ("below", "largest error of all components a cell below, within 3 cells of the edge, over "
          "p₀", Reference(0.0, ReferenceKind.SEMI_CLOSED, "Hamilton 1983, as one integral", 1e-10),
          _error_a_cell_below),
@@ -347,7 +355,10 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
                 Check(
                     f"trailing_edge_{cells}", "σ₁ on the trailing edge over p₀", "",
                     f"{cells}x{cells}",
-                    partial(_tension, Body(material=STEEL), paper.paraboloid(STEEL), cells),
+                    partial(
+                        _trailing_edge_tension_on_cells, Body(material=STEEL),
+                        paper.paraboloid(STEEL), cells,
+                    ),
                     closed_form(exact, hamilton), Required(allowed, required), exact, "its value",
                 )
                 for cells, allowed in ((128, 5e-3), (256, 2e-3))
@@ -363,7 +374,10 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
                 Check(
                     f"coated_{ratio:g}_{thickness:g}", "σ₁ on the trailing edge over Hertz's p₀",
                     "", "128x128",
-                    partial(_tension, coated(film(ratio, thickness)), rigid_ball(), 128),
+                    partial(
+                        _trailing_edge_tension_on_cells, coated(film(ratio, thickness)),
+                        rigid_ball(), 128,
+                    ),
                     Reference(value, ReferenceKind.SEMI_CLOSED, BY_RAYS, 1e-6),
                     Required(1e-2, required), value, "its value",
                 )
@@ -383,11 +397,11 @@ STUCK = paper.partial_slip(STEEL, 0.6 * paper.FRICTION_LIMIT).stick_radius / A
 CARRIED = 0.4  # in contact radii: the depth of the plane that carries the torque
 
 
-def _below(result: Any) -> RadialBody:
+def _stress_below(result: Any) -> RadialBody:
     return RadialBody.from_state(state_of_result(result, None), indenter=False)
 
 
-def _points(body: RadialBody, depth: float, x: Field, y: Field) -> StressPoints:
+def _stress_at_points(body: RadialBody, depth: float, x: Field, y: Field) -> StressPoints:
     """Compute the stress of a result of the radial solver at given points.
 
     depth  depth in contact radii
@@ -396,7 +410,7 @@ def _points(body: RadialBody, depth: float, x: Field, y: Field) -> StressPoints:
     return body.stress_points((Depth(depth * A, 0),), A * x, A * y)
 
 
-def _pushed_error(depth: float, result: Any, *_: Any) -> float:
+def _partial_slip_stress_error(depth: float, result: Any, *_: Any) -> float:
     """Compute the largest stress error of a contact in partial slip on lines along the load, over
     p₀.
 
@@ -407,16 +421,18 @@ def _pushed_error(depth: float, result: Any, *_: Any) -> float:
     x, y = (part.ravel() for part in np.meshgrid(np.linspace(-1.5, 1.5, 31), (0.0, 0.4, 0.8)))
     exact = hamilton_stress(x, y, depth, 1.0, P0, MOST, NU)
     exact -= hamilton_stress(x, y, depth, STUCK, 0.0, STUCK * MOST, NU)
-    return _largest(_points(_below(result), depth, x, y).stress[:, 0] - exact)
+    return _largest_over_peak(
+        _stress_at_points(_stress_below(result), depth, x, y).stress[:, 0] - exact
+    )
 
 
 def _error_of_tension(result: Any, *_: Any) -> float:
     edge = np.array([-1.0])
     exact = stress_by_hertz_pressure(edge, 1.0, P0, NU) + stress_by_hertz_shear(edge, 1.0, MOST, NU)
     exact -= stress_by_hertz_shear(edge, STUCK, STUCK * MOST, NU)
-    body = _below(result)
+    body = _stress_below(result)
     place = np.array([body.centre - body.parts.radius]) / A
-    found = _points(body, 0.0, place, 0 * place).principal[0]
+    found = _stress_at_points(body, 0.0, place, 0 * place).principal[0]
     return abs(float(found[0, 0] / exact[0]) - 1)
 
 
@@ -428,7 +444,7 @@ def _error_of_torque(result: Any, *_: Any) -> float:
     nodes, weights = np.polynomial.legendre.leggauss(120)
     t = (1 + nodes) / 2
     r, area = t / (1 - t), weights / 2 / (1 - t) ** 2
-    stress = _points(_below(result), CARRIED, r, 0 * r).stress[3, 0]
+    stress = _stress_at_points(_stress_below(result), CARRIED, r, 0 * r).stress[3, 0]
     return abs(-float(2 * np.pi * A**3 * (stress * r * r) @ area) / result.steps[-1].torque - 1)
 
 
@@ -461,7 +477,7 @@ def radial_stress(level: Level = Level.QUICK) -> Case:
                 error_norm(
                     f"below_{depth:g}",
                     f"largest error of all components {depth:g} a below the surface",
-                    partial(_pushed_error, depth), "p₀",
+                    partial(_partial_slip_stress_error, depth), "p₀",
                 ),
                 5e-3, "set by hand: the error of 24 rings at the front of the shear",
             )

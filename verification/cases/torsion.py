@@ -216,12 +216,12 @@ BODY = Body(material=BASE, layers=LAYERS)
 BALL = Paraboloid(radius=paper.RADIUS, material=BASE, layers=LAYERS)
 
 
-def _compliance(k: Field) -> Field:
+def _torsional_compliance(k: Field) -> Field:
     """Compute the torsional compliance of two coated balls at wavenumbers k."""
     return 2 * one_layer(k, LAYERS[0].thickness, COATING.shear_modulus, BASE.shear_modulus)
 
 
-def _limit(r: Field) -> Field:
+def _friction_limit(r: Field) -> Field:
     """Compute the friction limit µp of two coated balls at distance r from the axis
     [force/length²]."""
     return FRICTION * exact_contact(BODY, BALL).pressure(r)
@@ -232,11 +232,13 @@ def twisted_coated() -> Problem:
     """Create the problem of two coated balls under a normal force and a torque that grows in
     steps."""
     normal = exact_contact(BODY, BALL)
-    surface = TorsionalSurface(_compliance, COATING.shear_modulus / 2, LAYERS[0].thickness)
+    surface = TorsionalSurface(
+        _torsional_compliance, COATING.shear_modulus / 2, LAYERS[0].thickness
+    )
     a = normal.contact_radius
-    sliding = CoatedTorsion(surface, a, _limit, 0.5 * a).sliding_torque
+    sliding = CoatedTorsion(surface, a, _friction_limit, 0.5 * a).sliding_torque
     ends = [
-        CoatedTorsion.under_torque(part * sliding, surface, a, _limit)
+        CoatedTorsion.under_torque(part * sliding, surface, a, _friction_limit)
         for part in COATED_PARTS.values()
     ]
     turning = (LoadStep(torque=end.torque, increments=1) for end in ends)
@@ -345,11 +347,13 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
 
 
-def _exact(*observables: Observable, error: float = ROUNDING) -> Iterator[Within]:
+def _exact_rows(*observables: Observable, error: float = ROUNDING) -> Iterator[Within]:
     return (Within(w, 2 * error, "twice the uncertainty of the reference") for w in observables)
 
 
-def _at_parts(parts: dict[int, float], *observables: Observable) -> tuple[Observable, ...]:
+def _observables_at_parts(
+    parts: dict[int, float], *observables: Observable
+) -> tuple[Observable, ...]:
     return tuple(what.at(*stop, SLIDING) for what in observables for stop in parts.items())
 
 
@@ -363,9 +367,11 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
         "µp_H, or the shear at half the radius of the punch",
     )  # fmt: skip
     stick = replace(STICK_RADIUS, over="")
-    of_coated = _exact(*_at_parts(COATED_PARTS, TWIST, stick), error=SEMI_CLOSED_ERROR)
+    of_coated = _exact_rows(
+        *_observables_at_parts(COATED_PARTS, TWIST, stick), error=SEMI_CLOSED_ERROR
+    )
     # Of the area under the virgin curve 1e-10 is uncertain, and the energy is half as large.
-    of_loop = (*_exact(*LOOP_TWISTS), *_exact(ENERGY_PER_CYCLE, error=2e-10))
+    of_loop = (*_exact_rows(*LOOP_TWISTS), *_exact_rows(ENERGY_PER_CYCLE, error=2e-10))
     parts = ", ".join(f"{part:g}" for part in PARTS.values())
     return case(
         "radial_torsion",
@@ -374,9 +380,12 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
         "prescribed twist, and by a loop; a flat punch sticks completely; coated balls are those "
         "of torsion_coated. The radial solver follows reversals by Masing's rule and computes "
         "energies without increments.",
-        judged(on_radii(TWISTED, "ball"), [*_exact(*_at_parts(PARTS, TWIST, stick, shear))]),
-        judged(on_radii(LED, "given twist"), [*_exact(TORQUE)]),
-        judged(on_radii(STUCK, "stuck punch"), [*_exact(TWIST, shear)]),
+        judged(
+            on_radii(TWISTED, "ball"),
+            [*_exact_rows(*_observables_at_parts(PARTS, TWIST, stick, shear))],
+        ),
+        judged(on_radii(LED, "given twist"), [*_exact_rows(TORQUE)]),
+        judged(on_radii(STUCK, "stuck punch"), [*_exact_rows(TWIST, shear)]),
         judged(on_radii(TORSION_LOOP, "to and fro"), of_loop),
         judged(on_radii(twisted_coated(), "coated"), [*of_coated]),
         limits=(
@@ -393,17 +402,17 @@ MOTIONS = ("tangential_shift", "twist")
 TURNING = ((0.6, 0.0), (0.0, 0.6))
 
 
-def _twist(share: float, increments: int, **more: Any) -> LoadStep:
+def _torque_step(share: float, increments: int, **more: Any) -> LoadStep:
     return LoadStep(torque=share * TURN, increments=increments, **more)
 
 
-def _push(x: float, y: float, increments: int) -> LoadStep:
+def _force_step(x: float, y: float, increments: int) -> LoadStep:
     return LoadStep(
         tangential_force=(x * FRICTION_LIMIT, y * FRICTION_LIMIT), increments=increments
     )
 
 
-def _scene(title: str, *steps: LoadStep) -> Scene:
+def _coated_ball_scene(title: str, *steps: LoadStep) -> Scene:
     """Create the scene of a rigid ball that is pressed on a coating with friction, then loaded
     further.
 
@@ -416,7 +425,7 @@ def _scene(title: str, *steps: LoadStep) -> Scene:
 
 
 @cache
-def _on_cells(scene: Scene, cells: int) -> Any:
+def _solve_on_cells(scene: Scene, cells: int) -> Any:
     """Solve a scene on cells × cells cells by the semi-analytical solver with its default edge
     correction."""
     return solve_discretised(scene, SurfaceDiscretisation(cells=(cells, cells)))
@@ -468,26 +477,30 @@ def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
     return worst(*shares)
 
 
-def _quarter(vector: Any) -> tuple[float, float]:
+def _rotate_quarter(vector: Any) -> tuple[float, float]:
     """Rotate a plane vector by a right angle from x towards y."""
     x, y = vector
     return -y, x
 
 
-def _turned() -> float:
+def _rotated_shift_error() -> float:
     """Compute the relative difference of the shift after a rotation of the scene by a right angle.
 
     The solves take half the rings and eight angles, so that the rotation shifts the points by two
     angles.
     """
-    here = _scene("pushed along x, then y", *(_push(*push, 2) for push in TURNING))
-    scene = _scene("pushed along y, then -x", *(_push(*_quarter(push), 2) for push in TURNING))
+    here = _coated_ball_scene(
+        "pushed along x, then y", *(_force_step(*push, 2) for push in TURNING)
+    )
+    scene = _coated_ball_scene(
+        "pushed along y, then -x", *(_force_step(*_rotate_quarter(push), 2) for push in TURNING)
+    )
     plan = replace(radial.plan(here), fineness=0.5)
     one, other = (
         np.asarray(radial.solve(asked, plan=plan).steps[-1].tangential_shift)
         for asked in (here, scene)
     )
-    return float(hypot(*np.subtract(_quarter(one), other)) / hypot(*_quarter(one)))
+    return float(hypot(*np.subtract(_rotate_quarter(one), other)) / hypot(*_rotate_quarter(one)))
 
 
 def radial_turning(level: Level = Level.QUICK) -> Case:
@@ -498,17 +511,17 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
     """
     cells = {Level.QUICK: 64, Level.STANDARD: 96, Level.FULL: 192}[level]
     scenes = {
-        "torsion": _scene(
-            "Ball twisted on a coating", _twist(0.5, 6), _twist(-0.2, 6),
-            _twist(0.2, 4, normal_force=1.2 * paper.NORMAL_FORCE),
+        "torsion": _coated_ball_scene(
+            "Ball twisted on a coating", _torque_step(0.5, 6), _torque_step(-0.2, 6),
+            _torque_step(0.2, 4, normal_force=1.2 * paper.NORMAL_FORCE),
         ),
-        "beside": _scene(
+        "beside": _coated_ball_scene(
             "Ball twisted and pushed on a coating",
-            _twist(0.4, 4), _push(0.5, 0.0, 4), _twist(-0.1, 4),
+            _torque_step(0.4, 4), _force_step(0.5, 0.0, 4), _torque_step(-0.1, 4),
         ),
-        "turning": _scene(
+        "turning": _coated_ball_scene(
             "Ball on a coating pushed along x, then y",
-            _push(*TURNING[0], 4), _push(*TURNING[1], 6),
+            _force_step(*TURNING[0], 4), _force_step(*TURNING[1], 6),
         ),
     }  # fmt: skip
     of_twist = "accuracy target of the rings at any number of increments"
@@ -553,8 +566,8 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
 
     def beside_cells(scene: Scene) -> Problem:
         return Problem(
-            scene, (lambda: _on_cells(scene, cells),), HERTZ.contact_radius, f"{cells}² cells",
-            ReferenceKind.OTHER_SOLVER,
+            scene, (lambda: _solve_on_cells(scene, cells),), HERTZ.contact_radius,
+            f"{cells}² cells", ReferenceKind.OTHER_SOLVER,
         )  # fmt: skip
 
     return case(
@@ -574,7 +587,7 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
         checks=(
             Check(
                 "turned", "difference of the shift after a quarter turn", "", "the radial solver",
-                _turned, identity(0.0, "a rotated scene has rotated results"),
+                _rotated_shift_error, identity(0.0, "a rotated scene has rotated results"),
                 Required(1e-10, "points are mapped to points"), 1.0, "the shift",
             ),
         ),

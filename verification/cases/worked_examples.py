@@ -70,7 +70,7 @@ def worked_examples(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
 
 
-def _verdict() -> Verdict:
+def _judge_example() -> Verdict:
     """Judge the value of an example, whose error is 2 U on a scale of 2 (U: expanded
     uncertainty)."""
     rungs = [
@@ -88,12 +88,12 @@ def _verdict() -> Verdict:
     return judge_quantity(quantity, Case("by_hand", "", "", runs, (quantity,)), known)
 
 
-def _number_in(text: str) -> float:
+def _printed_number(text: str) -> float:
     found = re.search(r"± ([\d.e-]+)", text)
     return float(found[1]) if found else float("nan")
 
 
-def _limit(part: int) -> float:
+def _extrapolate_example(part: int) -> float:
     """Return the extrapolated value (part 0) or its uncertainty (part 1) with a fourth level h = 8.
 
     The fourth value lies on the line a + c h.
@@ -103,7 +103,7 @@ def _limit(part: int) -> float:
     return richardson(h, f, 1.0)[part]
 
 
-def _errors() -> list[float]:
+def _example_errors() -> list[float]:
     """Return the errors h² e^(x ε) of an example, with x = (1, -2, 1) orthogonal to any line over
     log h."""
     return [h**2 * np.exp(EPSILON * x) for h, x in zip(LEVELS, (1, -2, 1), strict=True)]
@@ -111,23 +111,23 @@ def _errors() -> list[float]:
 
 _EXAMPLES: tuple[tuple[str, str, Callable[[], float], float, Required], ...] = (
     ("derived_tolerance", "tolerance U = 2 √(c² + s² + u_ref²), s² = 14 ε²",
-     lambda: _verdict().allowed * _verdict().scale, U, TO_ROUNDING),
+     lambda: _judge_example().allowed * _judge_example().scale, U, TO_ROUNDING),
     ("printed_tolerance", "tolerance, as printed in the text of a failed verdict",
-     lambda: _number_in(failure_text(_verdict())), U, PRINTED),
+     lambda: _printed_number(failure_text(_judge_example())), U, PRINTED),
     ("printed_uncertainty", "uncertainty of the reference over the scale, as printed",
-     lambda: _number_in(uncertainty_text(_verdict())), OF_REFERENCE / 2, PRINTED),
-    ("limit", "limit of four levels on a line, with the deviation ε", partial(_limit, 0), LIMIT,
-     TO_ROUNDING),
+     lambda: _printed_number(uncertainty_text(_judge_example())), OF_REFERENCE / 2, PRINTED),
+    ("limit", "limit of four levels on a line, with the deviation ε",
+     partial(_extrapolate_example, 0), LIMIT, TO_ROUNDING),
     # The two finest levels alone have the limit a + 8 ε. Of the fit, s² = 14 ε²/2, times the
     # element of the inverse of [[Σ1/h², Σ1/h], [Σ1/h, 4]] = [[85/64, 15/8], [15/8, 4]].
     ("uncertainty_of_the_limit", "standard uncertainty of the limit: √(7 · 256/115 + 8²) ε",
-     partial(_limit, 1), EPSILON * hypot(sqrt(7 * 256 / 115), 8), TO_ROUNDING),
+     partial(_extrapolate_example, 1), EPSILON * hypot(sqrt(7 * 256 / 115), 8), TO_ROUNDING),
     ("interval_of_the_order", "half-width of the order's 95 % interval: t √(6 ε² / 2 ln²2)",
-     lambda: observed_order(LEVELS, _errors()).half_width,
+     lambda: observed_order(LEVELS, _example_errors()).half_width,
      STUDENT * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
     ("margin_of_the_order", "one-sided 95 % margin of the order: t₁ √(6 ε² / 2 ln²2)",
-     lambda: observed_order(LEVELS, _errors()).margin,
+     lambda: observed_order(LEVELS, _example_errors()).margin,
      ONE_SIDED * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
     ("interval_of_the_line", "half-width of the line's 95 % band in its middle: t √(6 ε² / 3)",
-     lambda: error_line(LEVELS, _errors()).reach, STUDENT * EPSILON * sqrt(2), TO_ROUNDING),
+     lambda: error_line(LEVELS, _example_errors()).reach, STUDENT * EPSILON * sqrt(2), TO_ROUNDING),
 )  # fmt: skip

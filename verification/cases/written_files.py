@@ -44,7 +44,7 @@ TORQUE = 5e-3
 PUSH, ASIDE = 50.0, 20.0
 
 
-def _pushed(along: float) -> LoadStep:
+def _push_step(along: float) -> LoadStep:
     return LoadStep(tangential_force=(along, ASIDE), increments=2)
 
 
@@ -59,10 +59,10 @@ SCENE = Scene(
             moment=(ARM * NORMAL_FORCE, ACROSS * NORMAL_FORCE),
             increments=2,
         ),
-        _pushed(PUSH),
+        _push_step(PUSH),
         LoadStep(torque=TORQUE, increments=2),
-        _pushed(-PUSH),
-        _pushed(PUSH),
+        _push_step(-PUSH),
+        _push_step(PUSH),
     ),
 )
 # A stiff layer bends: on its underside stress is far from that of the base below it.
@@ -104,21 +104,21 @@ def written_files(level: Level = Level.QUICK) -> Case:
         runs=(),
         quantities=(),
         checks=(
-            _check(
+            _file_check(
                 "loads", "largest difference of normal force, tangential force, torque and "
                 "moments in the table from the sums of the tractions, over the largest of each",
                 loads, 10 * SOLVER_TOLERANCE, "equilibrium, met to the tolerance of the solver",
             ),
-            _check(
+            _file_check(
                 "columns", "largest difference of a column of the table from the data set of "
                 "this name, over its largest value",
                 columns, 1e-15, "the same numbers, written twice",
             ),
-            _check(
+            _file_check(
                 "place_of_f1", "relative difference of Ruiz's first parameter at the tabulated "
                 "position from its largest value", place_of_f1, 1e-12, "the same cell",
             ),
-            _check(
+            _file_check(
                 "sides_of_an_interface", "largest excess of the stress on a side of the "
                 "interface over that of the adjacent layer or base",
                 sides_of_an_interface, 1e-12, "a maximum over a part is at most that over the "
@@ -133,7 +133,7 @@ def written_files(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
 
 
-def _check(
+def _file_check(
     name: str, meaning: str, measure: Callable[[], float], allowed: float, because: str
 ) -> Check:
     return Check(
@@ -143,7 +143,7 @@ def _check(
 
 
 @cache
-def _written() -> _Written:
+def _written_result() -> _Written:
     grid = paper.square_grid(CELLS, MARGIN * HERTZ.contact_radius)
     result = semi_analytical.solve(SCENE, grid, SOLVER_TOLERANCE)
     with TemporaryDirectory() as name:
@@ -151,21 +151,25 @@ def _written() -> _Written:
         write_result(result, directory, figures="none", all_fields=True)
         with h5py.File(directory / FIELDS) as file:
             arrays = {
-                f"increments/{key}": np.array(value) for key, value in _of(file, "increments")
+                f"increments/{key}": np.array(value)
+                for key, value in _group_items(file, "increments")
             }
             arrays |= {
-                f"last_cycle/{key}": np.array(value) for key, value in _of(file, "last_cycle")
+                f"last_cycle/{key}": np.array(value)
+                for key, value in _group_items(file, "last_cycle")
             }
             arrays |= {axis: np.array(file[axis]) for axis in "xy"}
-        return _Written(_rows(directory / INCREMENTS), _rows(directory / CYCLES)[-1], arrays)
+        return _Written(
+            _table_rows(directory / INCREMENTS), _table_rows(directory / CYCLES)[-1], arrays
+        )
 
 
-def _of(file: h5py.File, group: str) -> Any:
+def _group_items(file: h5py.File, group: str) -> Any:
     found: Any = file[group]
     return found.items()
 
 
-def _rows(path: Path) -> list[dict[str, str]]:
+def _table_rows(path: Path) -> list[dict[str, str]]:
     with path.open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
@@ -173,7 +177,7 @@ def _rows(path: Path) -> list[dict[str, str]]:
 def loads() -> float:
     """Compute the largest relative difference of the written loads from the sums of the
     tractions."""
-    found = _written()
+    found = _written_result()
     x, y = found.arrays["x"], found.arrays["y"]
     area = (x[1] - x[0]) * (y[1] - y[0])
     p = found.arrays["increments/pressure"]
@@ -189,7 +193,7 @@ def loads() -> float:
         "torque": summed(X * q_y - Y * q_x),
         "moment": summed(p * Y, p * X),
     }
-    return worst(*(_apart(found.column(name), total) for name, total in sums.items()))
+    return worst(*(_relative_difference(found.column(name), total) for name, total in sums.items()))
 
 
 def columns() -> float:
@@ -197,7 +201,7 @@ def columns() -> float:
 
     All scalars are compared that are stored in both the table and the arrays.
     """
-    found = _written()
+    found = _written_result()
     there = [name for name in SCALARS if f"increments/{name}" in found.arrays]
     apart = []
     for name in there:
@@ -205,17 +209,17 @@ def columns() -> float:
         stored = found.arrays[f"increments/{name}"].reshape(tabulated.shape).astype(float)
         if not np.array_equal(np.isnan(tabulated), np.isnan(stored)):
             return float("nan")
-        apart.append(_apart(np.nan_to_num(tabulated), np.nan_to_num(stored)))
+        apart.append(_relative_difference(np.nan_to_num(tabulated), np.nan_to_num(stored)))
     return worst(*apart)
 
 
-def _apart(tabulated: Field, stored: Field) -> float:
+def _relative_difference(tabulated: Field, stored: Field) -> float:
     return float(np.max(np.abs(tabulated - stored)) / (np.max(np.abs(stored)) or 1.0))
 
 
 def place_of_f1() -> float:
     """Compute the relative difference of Ruiz's F1 at the tabulated position from its maximum."""
-    found = _written()
+    found = _written_result()
     field = found.arrays["last_cycle/ruiz_f1"]
     cell = tuple(
         int(np.argmin(np.abs(found.arrays[axis] - float(found.cycle[f"ruiz_f1_{axis} [m]"]))))
@@ -225,7 +229,7 @@ def place_of_f1() -> float:
 
 
 @cache
-def _extremes() -> dict[tuple[str, str], Extreme]:
+def _stress_extremes() -> dict[tuple[str, str], Extreme]:
     grid = paper.square_grid(COARSE, MARGIN * HERTZ.contact_radius)
     state = state_of_result(semi_analytical.solve(COATED, grid, SOLVER_TOLERANCE), 1)
     depth = COATED.body.layers[0].thickness
@@ -239,7 +243,7 @@ def sides_of_an_interface() -> float:
 
     The depth of the interface is compared with the thickness of the layer, too.
     """
-    found, excess = _extremes(), [0.0]
+    found, excess = _stress_extremes(), [0.0]
     depth = COATED.body.layers[0].thickness
     for whole, side in (("layer 1", "above"), ("base", "below")):
         for (region, measure), extreme in found.items():

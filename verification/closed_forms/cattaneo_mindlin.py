@@ -170,7 +170,7 @@ class Superposition:
     @property
     def shift(self) -> float:
         """Tangential shift of the indenter, µ (E*/G*) times the difference in approach [length]."""
-        return self._signed * self.modulus_ratio * (self.full.approach - self.stick.approach)
+        return self._signed_state * self.modulus_ratio * (self.full.approach - self.stick.approach)
 
     def shear(self, *position: ArrayLike) -> NDArray[np.float64]:
         """Compute the shear on the lower body at a position (r) or (x, y) [force/length²].
@@ -178,7 +178,7 @@ class Superposition:
         Both pressures are infinite at an apex; evaluate the shear at a distance from the apex.
         """
         return np.asarray(
-            self._signed * (self.full.pressure(*position) - self.stick.pressure(*position))
+            self._signed_state * (self.full.pressure(*position) - self.stick.pressure(*position))
         )
 
     def slip(self, *position: ArrayLike) -> NDArray[np.float64]:
@@ -189,10 +189,10 @@ class Superposition:
         scaled by µ E*/G*.
         """
         opened = self.stick.gap(*position) - self.full.gap(*position)
-        return np.asarray(-self._signed * self.modulus_ratio * opened)
+        return np.asarray(-self._signed_state * self.modulus_ratio * opened)
 
     @property
-    def _signed(self) -> float:
+    def _signed_state(self) -> float:
         return copysign(self.friction_coefficient, self.tangential_force)
 
 
@@ -268,9 +268,9 @@ class TangentialHistory:
             closing = points[-2] if len(points) > 1 else -points[0]
             if (force < closing) if rising else (force > closing):
                 break
-            lost += self._lost(points, closing) - self._lost(points, here)
+            lost += self._lost_energy(points, closing) - self._lost_energy(points, here)
             points, here = points[:-2], closing
-        lost += self._lost(points, force) - self._lost(points, here)
+        lost += self._lost_energy(points, force) - self._lost_energy(points, here)
         return TangentialHistory(self.virgin, points, force, lost)
 
     @property
@@ -313,7 +313,7 @@ class TangentialHistory:
             branches.append((2.0, replace(self.virgin, tangential_force=(end - start) / 2)))
         return branches
 
-    def _lost(self, points: tuple[float, ...], force: float) -> float:
+    def _lost_energy(self, points: tuple[float, ...], force: float) -> float:
         """Compute the energy dissipated on the branch from the last reversal to a force
         [force*length].
 
@@ -377,7 +377,7 @@ class CycledContact:
     @property
     def largest_f1(self) -> float:
         """Largest first Ruiz parameter τ δ on the surface [force/length]."""
-        return float(np.max(self._f1(self._radii())))
+        return float(np.max(self._f1(self._stick_radii())))
 
     @property
     def largest_f2(self) -> float:
@@ -385,13 +385,13 @@ class CycledContact:
 
         At a given r the tensile stress is largest on the line through the centre along the force.
         """
-        r = self._radii()
+        r = self._stick_radii()
         return float(np.max(np.maximum(self.surface_tension(r), 0.0) * self._f1(r)))
 
     def _f1(self, r: Values) -> Values:
         return self.largest_shear(r) * self.slip_amplitude(r)
 
-    def _radii(self) -> Values:
+    def _stick_radii(self) -> Values:
         """Return radii between the stick zone and the contact edge, dense near the edge
         [length]."""
         a, c = self.end.contact_radius, self.end.stick_radius

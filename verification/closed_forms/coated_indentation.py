@@ -86,19 +86,19 @@ class LayeredIndentation:
         outside."""
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         chord = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
-        smooth = chebyshev.chebval(2 * np.minimum(rho / a, 1) ** 2 - 1, self._smooth)
+        smooth = chebyshev.chebval(2 * np.minimum(rho / a, 1) ** 2 - 1, self._smooth_response)
         if np.isfinite(self.radius):
             return np.asarray(chord * smooth)
         return np.asarray(np.divide(smooth, chord, out=np.zeros_like(rho), where=chord > 0))
 
     @cached_property
-    def _smooth(self) -> Array:
+    def _smooth_response(self) -> Array:
         """Chebyshev coefficients of the pressure without its root at the edge, in the variable
         2r²/a² - 1.
 
         The expanded function is p/√(a²-r²) for a paraboloid, and p √(a²-r²) for a flat punch.
         """
-        count = _order(self.contact_radius, self.surface.thickness)
+        count = _quadrature_order(self.contact_radius, self.surface.thickness)
         x = chebyshev.chebpts1(count)
         a = self.contact_radius
         r, chord = a * np.sqrt((1 + x) / 2), a * np.sqrt((1 - x) / 2)
@@ -114,7 +114,7 @@ class LayeredIndentation:
         chord  √(a²-r²) [length]
         """
         v, weights = unit_gauss(
-            PRESSURE_ORDER + _order(self.contact_radius, self.surface.thickness)
+            PRESSURE_ORDER + _quadrature_order(self.contact_radius, self.surface.thickness)
         )
         # s² = r² + u² removes the root.
         s = np.hypot(r[:, None], chord[:, None] * v)
@@ -140,7 +140,7 @@ class LayeredIndentation:
 def flat_punch(surface: LayeredSurface, contact_radius: float) -> LayeredIndentation:
     """Solve the contact of a flat punch at unit approach; its load is then the contact
     stiffness."""
-    return _solved(surface, contact_radius, np.inf)
+    return _solve_fredholm(surface, contact_radius, np.inf)
 
 
 def paraboloid(surface: LayeredSurface, radius: float, contact_radius: float) -> LayeredIndentation:
@@ -149,7 +149,7 @@ def paraboloid(surface: LayeredSurface, radius: float, contact_radius: float) ->
     radius          radius of curvature of the paraboloid [length]
     contact_radius  a [length]
     """
-    return _solved(surface, contact_radius, radius)
+    return _solve_fredholm(surface, contact_radius, radius)
 
 
 def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> LayeredIndentation:
@@ -171,10 +171,10 @@ def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> Lay
     return paraboloid(surface, radius, hertz * float(np.exp(scale)))
 
 
-def _solved(surface: LayeredSurface, a: float, radius: float) -> LayeredIndentation:
+def _solve_fredholm(surface: LayeredSurface, a: float, radius: float) -> LayeredIndentation:
     k, weight = _wavenumbers(a, surface.thickness)
     weighted = weight * surface.excess(k)
-    s, weights = unit_gauss(_order(a, surface.thickness))
+    s, weights = unit_gauss(_quadrature_order(a, surface.thickness))
     s, weights = a * s, a * weights
     E = surface.contact_modulus
     cosines = np.cos(np.outer(s, k))
@@ -196,7 +196,7 @@ def _solved(surface: LayeredSurface, a: float, radius: float) -> LayeredIndentat
     return LayeredIndentation(surface, a, radius, approach, load, transform, k)
 
 
-def _order(a: float, thickness: float) -> int:
+def _quadrature_order(a: float, thickness: float) -> int:
     """Return the number of Gauss nodes in 0 < r < a that resolves the scale of the layer
     thickness."""
     return 50 + int(4 * a / thickness)

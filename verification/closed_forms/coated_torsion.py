@@ -130,20 +130,20 @@ class CoatedTorsion:
     @property
     def twist(self) -> float:
         """Relative rotation φ of the two bodies [radian]."""
-        return self._solved[0]
+        return self._solve_fredholm[0]
 
     @property
     def torque(self) -> float:
         """Torque 4π ∫ h s ds of the contact, with h the Abel transform of the shear
         [force*length]."""
-        s, weights = self._nodes
+        s, weights = self._quadrature_nodes
         return float(4 * pi * np.sum(weights * self.transform * s))
 
     @property
     def transform(self) -> Array:
         """Abel transform h of the shear at the nodes, in the stick disc and then in the annulus
         [force/length]."""
-        return self._solved[1]
+        return self._solve_fredholm[1]
 
     def displacement(self, r: Array) -> Array:
         """Compute the circumferential surface displacement at radii 0 < r <= c of the stick disc
@@ -153,13 +153,17 @@ class CoatedTorsion:
         dk = s/(r√(r²-s²)) for s < r, and 0 beyond.
         """
         k, weight = self._wavenumbers
-        v, weights = unit_gauss(self._order)
+        v, weights = unit_gauss(self._quadrature_order)
         inside = r[:, None] * np.sin(pi / 2 * v)
-        half_space = pi / 2 * np.sum(weights * np.sin(pi / 2 * v) * self._h(inside), axis=1)
+        half_space = (
+            pi
+            / 2
+            * np.sum(weights * np.sin(pi / 2 * v) * self._solve_abel_transform(inside), axis=1)
+        )
         layers = j1(np.outer(r, k)) @ (weight * self._spectrum)
         return np.asarray((half_space + layers) / self.surface.torsional_modulus)
 
-    def _h(self, s: Array) -> Array:
+    def _solve_abel_transform(self, s: Array) -> Array:
         """Evaluate the Abel transform h of the shear at positions s in the stick disc
         [force/length]."""
         k, weight = self._wavenumbers
@@ -172,23 +176,23 @@ class CoatedTorsion:
         """Effect (X - 1) q~ of the layers on the Hankel transform of the shear, at the
         wavenumbers."""
         k, _ = self._wavenumbers
-        s, weights = self._nodes
+        s, weights = self._quadrature_nodes
         transform = np.sin(np.outer(k, s)) @ (weights * self.transform)
         return np.asarray(self.surface.excess(k) * transform)
 
     @cached_property
-    def _solved(self) -> tuple[float, Array]:
+    def _solve_fredholm(self) -> tuple[float, Array]:
         """Twist φ and Abel transform h of the shear at the nodes.
 
         The integral equation is solved once for unit twist and once for the shear of the annulus
         alone. Continuity of h at the edge of the stick disc determines φ.
         """
         G, c = self.surface.torsional_modulus, self.stick_radius
-        s, weights = self._nodes
-        order = self._order
+        s, weights = self._quadrature_nodes
+        order = self._quadrature_order
         stick, slip = slice(order), slice(order, None)
         annulus = self._sliding_transform(s[slip])
-        kernel = self._kernel(np.append(s[stick], c), s) * weights
+        kernel = self._fredholm_kernel(np.append(s[stick], c), s) * weights
         right = np.column_stack([4 / pi * G * np.append(s[stick], c), -kernel[:, slip] @ annulus])
         h = np.linalg.solve(np.eye(order) + kernel[stick, stick], right[stick])
         by_twist, by_annulus = right[-1] - kernel[-1, stick] @ h
@@ -196,7 +200,7 @@ class CoatedTorsion:
         twist = float((edge - by_annulus) / by_twist)
         return twist, np.append(twist * h[:, 0] + h[:, 1], annulus)
 
-    def _kernel(self, s: Array, t: Array) -> Array:
+    def _fredholm_kernel(self, s: Array, t: Array) -> Array:
         """Compute the kernel K(s, t) of the integral equation, caused by the layers."""
         k, weight = self._wavenumbers
         weighted = weight * self.surface.excess(k)
@@ -214,16 +218,16 @@ class CoatedTorsion:
         return np.asarray(s * (integrand @ weights))
 
     @property
-    def _order(self) -> int:
+    def _quadrature_order(self) -> int:
         """Number of nodes in the stick disc and in the annulus that resolves the layer
         thickness."""
         return ORDER + int(4 * self.contact_radius / self.surface.thickness)
 
     @cached_property
-    def _nodes(self) -> tuple[Array, Array]:
+    def _quadrature_nodes(self) -> tuple[Array, Array]:
         """Gauss nodes and weights in the stick disc and then in the slip annulus [length]."""
         a, c = self.contact_radius, self.stick_radius
-        v, weights = unit_gauss(self._order)
+        v, weights = unit_gauss(self._quadrature_order)
         return np.append(c * v, c + (a - c) * v), np.append(c * weights, (a - c) * weights)
 
     @cached_property

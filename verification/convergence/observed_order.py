@@ -143,18 +143,18 @@ def refined_value(sizes: Sequence[float], values: Sequence[float], expected: flo
     h = np.asarray(sizes, dtype=float)[finest_first]
     f = np.asarray(values, dtype=float)[finest_first]
     h /= h[0]
-    observed = _fitted_order(h, f, expected)
+    observed = _fit_order(h, f, expected)
     limit, uncertainty = richardson(h, f, expected)
     if observed is not None:
         other = _line(h, f, observed.order, expected).limit
         uncertainty = float(np.hypot(uncertainty, limit - other))
-    stride = _stride(h, reach=2)
+    stride = _triplet_stride(h, reach=2)
     finest, before = (slice(k, k + 2 * stride + 1, stride) for k in (0, 1))
     triplets = _triplet_order(h[finest], f[finest]), _triplet_order(h[before], f[before])
     return RefinedValue(observed, triplets, limit, uncertainty)
 
 
-def _stride(h: Vector, reach: int) -> int:
+def _triplet_stride(h: Vector, reach: int) -> int:
     """Return the number of levels between members of a triplet, so that sizes differ by a factor
     near 2.
 
@@ -196,7 +196,7 @@ def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order
 
 
 @dataclass(frozen=True)
-class _Line:
+class _FittedLine:
     """Result of the least-squares fit of f(h) = limit + coefficient h^p to values on several
     levels.
 
@@ -208,7 +208,7 @@ class _Line:
     squares: float
 
 
-def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _Line:
+def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _FittedLine:
     """Fit f(h) = limit + coefficient h^p by least squares with weights h^-w.
 
     The scatter is assumed to fall with h like the error. Without weights the coarsest level would
@@ -221,7 +221,7 @@ def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _Line:
     matrix = np.column_stack([weight, weight * h**order])
     (limit, coefficient), *_ = np.linalg.lstsq(matrix, weight * f, rcond=None)
     left = weight * (f - limit - coefficient * h**order)
-    return _Line(float(limit), float(coefficient), float(np.sum(left**2)))
+    return _FittedLine(float(limit), float(coefficient), float(np.sum(left**2)))
 
 
 def richardson(h: Vector, f: Vector, order: float) -> tuple[float, float]:
@@ -241,7 +241,7 @@ def richardson(h: Vector, f: Vector, order: float) -> tuple[float, float]:
     return fit.limit, float(np.hypot(np.sqrt(scatter), fit.limit - two_finest))
 
 
-def _fitted_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None:
+def _fit_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None:
     """Fit the order p of f(h) = f0 + C h^p by least squares; return it with its 95 % interval.
 
     The interval follows from the linearised model. The result is None if all values are equal, or

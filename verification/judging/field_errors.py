@@ -28,7 +28,7 @@ Field = NDArray[np.float64]
 AT_EDGE = 0.1
 
 
-def _exact(result: Any, end: Any, exact: Callable[..., Field], problem: Problem) -> Field:
+def _exact_on_cells(result: Any, end: Any, exact: Callable[..., Field], problem: Problem) -> Field:
     """Evaluate an exact field (nx, ny) on the cells of a result, for comparison with the computed
     field.
 
@@ -52,7 +52,7 @@ def pressure_l1(result: Any, step: int, problem: Problem) -> float:
     [1]."""
     end = result.steps[step]
     return norms.relative_l1(
-        end.pressure, _exact(result, end, problem.ends[step].pressure, problem)
+        end.pressure, _exact_on_cells(result, end, problem.ends[step].pressure, problem)
     )
 
 
@@ -64,7 +64,7 @@ def pressure_l2(result: Any, step: int, problem: Problem) -> float:
     """
     end, exact = result.steps[step], problem.ends[step].pressure
     if hasattr(result, "grid"):
-        return norms.relative_l2(end.pressure, _exact(result, end, exact, problem))
+        return norms.relative_l2(end.pressure, _exact_on_cells(result, end, exact, problem))
     return ring_errors.relative_l2(end, end.pressure, exact, problem.radius)
 
 
@@ -88,7 +88,7 @@ def shear_error(result: Any, step: int, problem: Problem) -> float:
     """
     end, exact = result.steps[step], problem.ends[step].shear
     if hasattr(result, "grid"):
-        known = _exact(result, end, exact, problem)
+        known = _exact_on_cells(result, end, exact, problem)
         return norms.shear_error(shear_of(end), known, FRICTION * end.pressure)
     along = end.shear_along_load
     return ring_errors.relative_l1(end, along, exact, problem.radius) / FRICTION

@@ -70,7 +70,7 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
         judge_worst(
             case, violated, VIOLATION, "largest violation of a law of contact and friction in any "
             "increment of the {runs} run(s); it is in this one"
-            + _excluded("slip", found, results),
+            + _exclusion_text("slip", found, results),
             "gap, overlap, friction, slip against shear, forces, moments and energy lost, found "
             "again in the fields",
             WITHIN, lambda run: run.laws,
@@ -78,7 +78,7 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
         judge_worst(
             case, missing, IMBALANCE, "largest part of the energy that any increment cannot "
             "account for of the {runs} run(s); it is in this one{where}"
-            + _excluded("energy", found, results),
+            + _exclusion_text("energy", found, results),
             "first law: work put in is stored, dissipated or left open by the increment",
             f"residuals within the tolerance move the energy by a few times as much; {WITHIN}",
             lambda run: run.energy,
@@ -87,7 +87,7 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
     )  # fmt: skip
 
 
-def _excluded(what: str, found: Mapping[str, Observed], results: Mapping[str, Any]) -> str:
+def _exclusion_text(what: str, found: Mapping[str, Observed], results: Mapping[str, Any]) -> str:
     """Describe the number of increments in which slip or energy is not fully compared, with the
     reasons.
 
@@ -129,10 +129,10 @@ def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
         name=case.name,
         title=case.title,
         problem=case.problem,
-        scenes=_scenes(case, results),
+        scenes=_describe_scenes(case, results),
         runs=tuple(_run_record(r, case, results[r.label]) for r in case.runs if r.label in results),
-        verdicts=(*failures, *_verdicts(case, results)),
-        findings=tuple(_measure(f, results) for f in case.findings if f.run in results),
+        verdicts=(*failures, *_judge_case(case, results)),
+        findings=tuple(_measure_finding(f, results) for f in case.findings if f.run in results),
         charts=case.charts(results) if case.charts and not failures else (),
         limits=case.limits,
         equations=case.equations,
@@ -152,13 +152,13 @@ def stated_errors(case: Case, results: Mapping[str, Any]) -> dict[str, StatedErr
     """
     judged = {q.run for q in case.quantities if q.scalar is not None} & results.keys()
     return {
-        run.label: _stated(run, results[run.label])
+        run.label: _solver_errors(run, results[run.label])
         for run in case.runs
         if run.label in judged and (not isinstance(run, Run) or run.edge == BY_DEFAULT)
     }
 
 
-def _stated(run: AnyRun, result: Any) -> StatedErrors:
+def _solver_errors(run: AnyRun, result: Any) -> StatedErrors:
     if isinstance(run, Run):
         from contact_errors.on_cells import CellSolver
 
@@ -190,8 +190,8 @@ def error_of(quantity: Quantity, errors: StatedErrors | None) -> float | None:
     return float(np.ravel(found.error)[component])
 
 
-def _verdicts(case: Case, results: Results) -> tuple[Verdict, ...]:
-    measured = [q for q in case.quantities if _needs(q) <= results.keys()]
+def _judge_case(case: Case, results: Results) -> tuple[Verdict, ...]:
+    measured = [q for q in case.quantities if _required_runs(q) <= results.keys()]
     stated = stated_errors(case, results)
     studied = [study for study in case.orders if set(study.levels) <= results.keys()]
     return (
@@ -203,13 +203,13 @@ def _verdicts(case: Case, results: Results) -> tuple[Verdict, ...]:
     )
 
 
-def _needs(quantity: Quantity) -> set[str]:
+def _required_runs(quantity: Quantity) -> set[str]:
     """Return the labels of all runs that the verdict on a quantity requires."""
     levels = quantity.tolerance.levels if isinstance(quantity.tolerance, Derived) else ()
     return {quantity.run, *levels}
 
 
-def _measure(finding: Finding, results: Results) -> FindingRecord:
+def _measure_finding(finding: Finding, results: Results) -> FindingRecord:
     return FindingRecord(
         name=finding.name,
         run=finding.run,
@@ -231,7 +231,7 @@ def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:
         rings=run.rings if isinstance(run, RadiiRun) else None,
         method=run.method if isinstance(run, SectionRun) else None,
         problem=run.problem,
-        planned=_planned(run, case),
+        planned=_planned_run(run, case),
         tolerance=run.tolerance,
         increments=len(result.increments),
         iterations=sum(increment.iterations for increment in result.increments),
@@ -242,7 +242,7 @@ def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:
     )
 
 
-def _planned(run: AnyRun, case: Case) -> str | None:
+def _planned_run(run: AnyRun, case: Case) -> str | None:
     """Return the label of the run that differs from this run only in following the plan of its
     scene.
 
@@ -254,7 +254,7 @@ def _planned(run: AnyRun, case: Case) -> str | None:
     return next((one.label for one in same), None)
 
 
-def _scenes(case: Case, results: Results) -> tuple[SceneRecord, ...]:
+def _describe_scenes(case: Case, results: Results) -> tuple[SceneRecord, ...]:
     """Describe each scene of a case once, with the effects that the plan of the solver switches
     on."""
     records: dict[Scene, SceneRecord] = {}

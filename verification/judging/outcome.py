@@ -273,14 +273,14 @@ def _contradiction(verdict: Verdict) -> str:
     allows = verdict.allowed > 0 or (verdict.allowed == 0 and verdict.tolerance_kind == "derived")
     if not (verdict.scale > 0 and allows and math.isfinite(verdict.allowed * verdict.scale)):
         return f"it allows {verdict.allowed:g} of {verdict.scale:g}; both are positive, and finite"
-    if not _is_error(verdict):
+    if not _error_is_consistent(verdict):
         return (
             f"its error is {verdict.error}, but its value is {verdict.value}, its reference "
             f"{verdict.reference} and its scale {verdict.scale}"
         )
-    if verdict.covered is not _covered(verdict):
+    if verdict.covered is not _error_is_covered(verdict):
         return f"it is covered: {verdict.covered}, but it states {verdict.stated_error}"
-    status = _status_of(verdict)
+    status = _status_by_numbers(verdict)
     if verdict.status is not status:
         return (
             f"its status is {verdict.status}, but an error of {verdict.error} where "
@@ -289,21 +289,21 @@ def _contradiction(verdict: Verdict) -> str:
     return ""
 
 
-def _is_error(verdict: Verdict) -> bool:
+def _error_is_consistent(verdict: Verdict) -> bool:
     if verdict.value is None or verdict.error is None:
         return verdict.value is verdict.error
     error = abs(verdict.value - verdict.reference) / verdict.scale
     return math.isclose(verdict.error, error, rel_tol=SAME_BUT_FOR_ROUNDING)
 
 
-def _covered(verdict: Verdict) -> bool | None:
+def _error_is_covered(verdict: Verdict) -> bool | None:
     if verdict.stated_error is None or verdict.value is None:
         return None
     known = verdict.stated_error + (verdict.reference_uncertainty or 0.0)
     return abs(verdict.value - verdict.reference) <= known
 
 
-def _status_of(verdict: Verdict) -> Status:
+def _status_by_numbers(verdict: Verdict) -> Status:
     if verdict.error is None:
         return Status.FAIL
     if verdict.interval is not None and verdict.margin is not None:

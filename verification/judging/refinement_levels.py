@@ -189,11 +189,11 @@ def on_cells(
 
     rungs = [rung(n, offset) for n in cells for offset in offsets or (None,)]
     corrected = plan(problem.scene, edge=BY_DEFAULT).edge != "off"
-    followed = map(_uncorrected, rungs) if corrected and len(rungs) > 1 else rungs
+    followed = map(_without_edge_correction, rungs) if corrected and len(rungs) > 1 else rungs
     return ladder(problem, rungs, tuple(followed))
 
 
-def _uncorrected(rung: SizedRun) -> SizedRun:
+def _without_edge_correction(rung: SizedRun) -> SizedRun:
     assert isinstance(rung.run, Run)
     return replace(rung, run=replace(rung.run, label=f"{rung.run.label}, edge off", edge="off"))
 
@@ -215,13 +215,13 @@ def with_edge_at(
     of        name of the problem within its case, with which the labels begin
     """
     meshes = tuple(dict.fromkeys((*((n, MIDDLE) for n in elements), *studied)))
-    rungs = {mesh: _placed(problem, *mesh, of) for mesh in meshes}
+    rungs = {mesh: _mesh_with_edge(problem, *mesh, of) for mesh in meshes}
     judged = max(meshes, key=lambda mesh: (mesh[0], -abs(mesh[1] - MIDDLE)))
     followed = tuple(rungs[mesh] for mesh in studied or meshes)
     return RefinementLevels(problem, tuple(rungs.values()), rungs[judged], followed)
 
 
-def _placed(problem: Problem, n: int, place: float, of: str) -> SizedRun:
+def _mesh_with_edge(problem: Problem, n: int, place: float, of: str) -> SizedRun:
     mesh = per_radius(n, meshed(problem.radius, n, place))
     name = mesh_label(n, place, of)
     return SizedRun(SectionRun(name, problem.scene, mesh, beyond=MIDDLE, problem=of), n)

@@ -54,14 +54,14 @@ def judge_quantity(
     """
     tolerance = quantity.tolerance
     if isinstance(tolerance, Derived):
-        u = expanded_uncertainty(quantity, tolerance, case, results) / _scale(quantity)
+        u = expanded_uncertainty(quantity, tolerance, case, results) / _error_scale(quantity)
         kind, allowed = "derived", min(tolerance.cap, u)
     else:
         kind, allowed = "required", tolerance.allowed
     value = quantity.measure(results[quantity.run])
     known = None if stated is None else stated + quantity.reference.uncertainty
     covered = None if known is None else abs(value - quantity.reference.value) <= known
-    return _judged(quantity, quantity.run, value, kind, allowed).model_copy(
+    return _make_verdict(quantity, quantity.run, value, kind, allowed).model_copy(
         update={
             "stated_error": stated,
             "covered": covered,
@@ -72,7 +72,7 @@ def judge_quantity(
 
 def judge_check(check: Check) -> Verdict:
     """Judge a number that needs no run against its reference; a value that is not finite fails."""
-    return _judged(check, check.subject, check.measure(), "required", check.tolerance.allowed)
+    return _make_verdict(check, check.subject, check.measure(), "required", check.tolerance.allowed)
 
 
 def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
@@ -87,16 +87,16 @@ def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
     return judge_check(same).model_copy(update={"runs": comparison.runs})
 
 
-def _scale(quantity: Quantity | Check) -> float:
+def _error_scale(quantity: Quantity | Check) -> float:
     """Return the scale to which an error is relative: the stated scale, else the size of the
     reference."""
     return abs(quantity.reference.value) if quantity.scale is None else quantity.scale
 
 
-def _judged(
+def _make_verdict(
     quantity: Quantity | Check, measured_on: str, value: float, kind: str, allowed: float
 ) -> Verdict:
-    reference, scale = quantity.reference, _scale(quantity)
+    reference, scale = quantity.reference, _error_scale(quantity)
     error = abs(value - reference.value) / scale
     return Verdict(
         name=quantity.name,
@@ -131,7 +131,7 @@ def expanded_uncertainty(
     values = [quantity.measure(results[label]) for label in tolerance.levels]
     if not all(map(math.isfinite, values)):
         return math.inf
-    u_num = numerical_uncertainty(_spacings(case, tolerance.levels), values, tolerance.order)
+    u_num = numerical_uncertainty(_run_spacings(case, tolerance.levels), values, tolerance.order)
     return COVERAGE * math.hypot(u_num, quantity.reference.uncertainty)
 
 
@@ -141,7 +141,7 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
     The verdict is INCONCLUSIVE if the 95 % interval of the observed order is too wide. It is a
     failure if an error is zero or not finite.
     """
-    sizes, errors = _refined(study, case, results)
+    sizes, errors = _sizes_and_errors(study, case, results)
     known = all(math.isfinite(error) and error > 0 for error in errors)
     observed = observed_order(sizes, errors) if known else None
     difference = math.nan if observed is None else abs(observed.order - study.expected)
@@ -166,8 +166,8 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
         scale_name="1",
         tolerance_kind="order",
         because=f"an order passes where it is at 95 % no lower than {ORDER_OFF} below what is "
-        f"promised{_not_yet(study)}, and not known to be as much higher; it is judged where its "
-        f"95 % interval is no wider than ± {ORDER_WIDTH}; "
+        f"promised{_asymptotic_text(study)}, and not known to be as much higher; it is "
+        f"judged where its 95 % interval is no wider than ± {ORDER_WIDTH}; "
         f"{len(errors)} {'changes' if study.apart else 'levels'}{runs}",
         status=order_status(kept),
         interval=None if observed is None else observed.half_width,
@@ -183,12 +183,14 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
     )
 
 
-def _not_yet(study: Order) -> str:
+def _asymptotic_text(study: Order) -> str:
     known = study.not_yet
     return "" if known is None else f", here {known.allowance:g}, as {known.because}"
 
 
-def _refined(study: Order, case: Case, results: Results) -> tuple[list[float], list[float]]:
+def _sizes_and_errors(
+    study: Order, case: Case, results: Results
+) -> tuple[list[float], list[float]]:
     """Return the discretisation sizes, coarse to fine, and the errors (or changes) at these sizes.
 
     The sizes are cell or element sizes, or the sizes that an order of changes defines. Runs of one
@@ -198,7 +200,7 @@ def _refined(study: Order, case: Case, results: Results) -> tuple[list[float], l
     if study.size is not None:
         pairs = list(zip(levels, levels[study.apart :], strict=False))
         return [study.size(one) for one, _ in pairs], [study.error(*pair) for pair in pairs]
-    return by_size(_spacings(case, study.levels), [study.error(level) for level in levels])
+    return by_size(_run_spacings(case, study.levels), [study.error(level) for level in levels])
 
 
 def judge_residuals(case: Case, results: Results) -> Verdict:
@@ -239,7 +241,7 @@ def judge_worst(
     ratio = {label: value / allowed(case.run(label)) for label, value in found.items()}
     worst = max(ratio, key=lambda label: (math.isnan(ratio[label]), ratio[label]))
     said = meaning.format(runs=len(found), where=where.get(worst, ""))
-    return _law(name, said, worst, found[worst], source, allowed(case.run(worst)), because)
+    return _judge_zero(name, said, worst, found[worst], source, allowed(case.run(worst)), because)
 
 
 def unsolved(run: AnyRun, message: str) -> Verdict:
@@ -255,13 +257,13 @@ def lost(where: str, meaning: str, what: str, tolerance: float = 1.0) -> Verdict
     meaning  description of the failure
     what     "run" or "case"
     """
-    return _law(
+    return _judge_zero(
         SOLVED, meaning, where, math.nan, "every run of a case has a solution", tolerance,
         f"a {what} without a result cannot be judged",
     )  # fmt: skip
 
 
-def _law(
+def _judge_zero(
     name: str, meaning: str, run: str, value: float, source: str, allowed: float, because: str
 ) -> Verdict:
     """Judge a dimensionless number that must vanish according to the equations.
@@ -286,5 +288,5 @@ def finite(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def _spacings(case: Case, levels: tuple[str, ...]) -> list[float]:
+def _run_spacings(case: Case, levels: tuple[str, ...]) -> list[float]:
     return [case.run(label).spacing for label in levels]

@@ -176,7 +176,7 @@ def wave_vector(rng: Generator) -> tuple[float, float]:
 ECHO = 50.0
 
 
-def _thin(rng: Generator) -> float:
+def _thin_layer_order_error(rng: Generator) -> float:
     """Compute the deviation from 1 of the order at which the effect of a thin layer vanishes.
 
     The body is a half-space with a layer of thickness h → 0 and a modulus ratio up to 100.
@@ -192,7 +192,7 @@ def _thin(rng: Generator) -> float:
     return abs(float(np.log2(far / near)) - 1) if near > 1e-12 * limit.max() else 0.0
 
 
-def _thick(rng: Generator) -> float:
+def _thick_layer_error(rng: Generator) -> float:
     """Compute the difference of the FRF from that of a half-space of the outer layer, over its
     bound."""
     body, x = stack(rng), rng.uniform(1, 300)
@@ -203,36 +203,36 @@ def _thick(rng: Generator) -> float:
     return float(np.abs(difference).max() / (bound * float(outer.csh)))
 
 
-def _stiffer(rng: Generator) -> float:
+def _stiffer_layer_deficit(rng: Generator) -> float:
     body, k, factor = stack(rng), wave_vector(rng), decades(rng, 0, 3)
     place = int(rng.integers(0, len(body.layers) + (body.base is not None)))
     if place == len(body.layers) and body.base is not None:
         stiffer = Stack(body.layers, (factor * body.base[0], body.base[1]))
     else:
-        stiffer = _with_film(body, place, body.layers[place]._replace(
+        stiffer = _replace_layer(body, place, body.layers[place]._replace(
             shear_modulus=factor * body.layers[place].shear_modulus))  # fmt: skip
     return deficit(frf_matrix(body, *k), frf_matrix(stiffer, *k))
 
 
-def _less_compressible(rng: Generator) -> float:
+def _less_compressible_deficit(rng: Generator) -> float:
     body, k = stack(rng), wave_vector(rng)
     low, high = sorted((body.layers[0].poisson_ratio, half_space(rng).poisson_ratio))
     return deficit(
         *(
-            frf_matrix(_with_film(body, 0, body.layers[0]._replace(poisson_ratio=nu)), *k)
+            frf_matrix(_replace_layer(body, 0, body.layers[0]._replace(poisson_ratio=nu)), *k)
             for nu in (low, high)
         )
     )
 
 
-def _thicker(rng: Generator) -> float:
+def _thicker_layer_deficit(rng: Generator) -> float:
     (G, nu), k = half_space(rng), wave_vector(rng)
     soft, h, factor = G / decades(rng, 0, 3), film(rng).thickness, rng.uniform(1, 10)
     thick, thin = (frf_matrix(Stack([(soft, nu, t)], (G, nu)), *k) for t in (factor * h, h))
     return deficit(thick, thin)
 
 
-def _between(rng: Generator) -> float:
+def _half_space_bounds_deficit(rng: Generator) -> float:
     one, other, k = half_space(rng), half_space(rng), wave_vector(rng)
     soft = HalfSpace(*map(min, one, other))
     stiff = HalfSpace(*map(max, one, other))
@@ -241,7 +241,7 @@ def _between(rng: Generator) -> float:
     return max(deficit(below, F), deficit(F, frf_matrix(Stack((), stiff), *k)))
 
 
-def _rigid_limit(rng: Generator) -> float:
+def _rigid_base_order_error(rng: Generator) -> float:
     """Compute the deviation from 1 of the order at which a stiff base approaches a rigid base."""
     films = [film(rng) for _ in range(rng.integers(1, 4))]
     x = decades(rng, -2, 1)
@@ -255,7 +255,7 @@ def _rigid_limit(rng: Generator) -> float:
     return abs(float(np.log2(far / near)) - 1) if near > 1e-10 * rigid.max() else 0.0
 
 
-def _long_waves(rng: Generator) -> float:
+def _long_wave_error(rng: Generator) -> float:
     films = [film(rng) for _ in range(rng.integers(1, 4))]
     softest = min(f.shear_modulus for f in films)
     # Layers are sheared by h/G and, held sideways, squeezed by h (1 - 2 nu) / 2G(1 - nu).
@@ -267,18 +267,19 @@ def _long_waves(rng: Generator) -> float:
     return apart(frf_matrix(Stack(films), alpha, 0.0), uniform.astype(np.complex128))
 
 
-def _incompressible(rng: Generator) -> float:
+def _incompressible_limit_error(rng: Generator) -> float:
     body, alpha = stack(rng), np.hypot(*wave_vector(rng))
     G, _, h = body.layers[0]
     limit, close = (
-        np.array(scalars(_with_film(body, 0, Film(G, nu, h)), alpha)) for nu in (0.5, 0.5 - 1e-13)
+        np.array(scalars(_replace_layer(body, 0, Film(G, nu, h)), alpha))
+        for nu in (0.5, 0.5 - 1e-13)
     )
     # d(1/M)/d(nu) = -4/G per unit thickness, at most, and a few more for c11 and c12.
     scale = limit.max() + min(h, 1 / alpha) / G
     return float(np.abs(close - limit).max() / scale)
 
 
-def _echo(rng: Generator) -> float:
+def _layer_echo_excess(rng: Generator) -> float:
     """Compute the difference of the FRF with one layer from its half-space part, over its bound."""
     body, x = stack(rng, most_layers=1), rng.uniform(1, 300)
     G, _, h = body.layers[0]
@@ -287,13 +288,13 @@ def _echo(rng: Generator) -> float:
     return float(np.abs(echo).max() / bound)
 
 
-def _overflow(rng: Generator) -> float:
+def _count_non_finite_entries(rng: Generator) -> float:
     body, m = stack(rng), decades(rng, 3, 6)
     values = [*frf_matrix(body, m, -m).ravel(), *remainder_scalars(body, m)]
     return float(np.count_nonzero(~np.isfinite(values)))
 
 
-def _depth(rng: Generator) -> float:
+def _interface_jump(rng: Generator) -> float:
     """Compute the error of tractions and displacements at the surface and their jump at interfaces.
 
     At z = 0 the fields must be the applied tractions and the surface FRF. At an interface the
@@ -320,48 +321,50 @@ def _depth(rng: Generator) -> float:
     return worst
 
 
-def _with_film(body: Stack, place: int, new: Film) -> Stack:
+def _replace_layer(body: Stack, place: int, new: Film) -> Stack:
     return Stack([*body.layers[:place], new, *body.layers[place + 1 :]], body.base)
 
 
 LIMIT_LAWS = (
     Law("thin_layer_order", "P9", "the effect of a thin layer vanishes at first order in h; "
-    "distance of the observed order from one", _thin, 0.02),
+    "distance of the observed order from one", _thin_layer_order_error, 0.02),
     Law("thick_layer", "P10", "short waves depend only on the outer layer; distance over the "
-    "bound 50 (1 + x²) e⁻²ˣ / αG, x = αh", _thick, 1.0),
+    "bound 50 (1 + x²) e⁻²ˣ / αG, x = αh", _thick_layer_error, 1.0),
     Law("stiffer", "P12", "a stiffer material in any layer reduces the compliance (Loewner "
-    "order)", _stiffer),
+    "order)", _stiffer_layer_deficit),
     Law("less_compressible", "P12", "a larger ν at fixed G reduces the compliance",
-    _less_compressible),
-    Law("thicker", "P13", "a thicker soft layer increases the compliance", _thicker),
-    Law("between", "P13", "the response lies between those of the two half-spaces", _between),
+    _less_compressible_deficit),
+    Law("thicker", "P13", "a thicker soft layer increases the compliance", _thicker_layer_deficit),
+    Law("between", "P13", "the response lies between those of the two half-spaces",
+        _half_space_bounds_deficit),
     Law("rigid_limit_order", "P14", "a rigid base is the limit of stiff ones at first order in "
-        "1/G; distance of the observed order from one", _rigid_limit, 0.02),
+        "1/G; distance of the observed order from one", _rigid_base_order_error, 0.02),
     Law("long_waves", "P14", "long waves over a rigid base shear and squeeze every layer "
-        "uniformly", _long_waves, 1e-8),
+        "uniformly", _long_wave_error, 1e-8),
     Law("incompressible", "P15", "the response is continuous at ν = ½: the difference from ν = ½ "
     "- 1e-13",
-        _incompressible, 1e-12),
-    Law("echo", "P16", "the remainder of one layer decays as its echo; over the bound", _echo, 1.0),
+        _incompressible_limit_error, 1e-12),
+    Law("echo", "P16", "the remainder of one layer decays as its echo; over the bound",
+        _layer_echo_excess, 1.0),
     Law("finite", "P17", "the response is finite up to αh = 1e8: number of entries that are not "
-    "finite", _overflow,
+    "finite", _count_non_finite_entries,
         0.5),
     Law("depth", "P18", "traction and displacement at z = 0 are the applied traction and the "
-    "FRF; traction and displacement are continuous at interfaces", _depth, 1e-12),
+    "FRF; traction and displacement are continuous at interfaces", _interface_jump, 1e-12),
 )  # fmt: skip
 
 
-def _hermitian(rng: Generator) -> float:
+def _reciprocity_error(rng: Generator) -> float:
     F = frf_matrix(stack(rng), *wave_vector(rng))
     return apart(F, F.conj().T)
 
 
-def _real(rng: Generator) -> float:
+def _real_response_error(rng: Generator) -> float:
     body, (m, n) = stack(rng), wave_vector(rng)
     return apart(frf_matrix(body, -m, -n), frf_matrix(body, m, n).conj())
 
 
-def _parity(rng: Generator) -> float:
+def _parity_error(rng: Generator) -> float:
     body, (m, n) = stack(rng), wave_vector(rng)
     F, turned = frf_matrix(body, m, n), frf_matrix(body, -m, -n)
     sign = np.array([[1, 1, -1], [1, 1, -1], [-1, -1, 1]])
@@ -369,7 +372,7 @@ def _parity(rng: Generator) -> float:
     return max(apart(turned, sign * F), float(np.abs(imaginary).max() / np.abs(F).max()))
 
 
-def _positive(rng: Generator) -> float:
+def _negative_energy(rng: Generator) -> float:
     body, k = stack(rng), wave_vector(rng)
     c11, c12, c22, csh = scalars(body, np.hypot(*k))
     if not (c11 > 0 and c22 > 0 and csh > 0 and c11 * c22 > c12**2):
@@ -378,7 +381,7 @@ def _positive(rng: Generator) -> float:
     return max(0.0, -float(np.linalg.eigvalsh(F).min() / np.abs(F).max()))
 
 
-def _turns(rng: Generator) -> float:
+def _rotation_error(rng: Generator) -> float:
     body, k, angle = stack(rng), wave_vector(rng), rng.uniform(-np.pi, np.pi)
     cos, sin = np.cos(angle), np.sin(angle)
     Q = np.array([[cos, -sin, 0], [sin, cos, 0], [0, 0, 1]]) @ np.diag([1, rng.choice([-1, 1]), 1])
@@ -386,7 +389,7 @@ def _turns(rng: Generator) -> float:
     return apart(frf_matrix(body, m, n), Q @ frf_matrix(body, *k) @ Q.T)
 
 
-def _scales(rng: Generator) -> float:
+def _scaling_error(rng: Generator) -> float:
     body, (m, n) = stack(rng), wave_vector(rng)
     length, stiffness = decades(rng, -3, 3), decades(rng, -3, 3)
     films = [(G * stiffness, nu, h * length) for G, nu, h in body.layers]
@@ -395,13 +398,13 @@ def _scales(rng: Generator) -> float:
     return apart(scaled, frf_matrix(body, m, n) * length / stiffness)
 
 
-def _homogeneous(rng: Generator) -> float:
+def _homogeneous_layers_error(rng: Generator) -> float:
     material, k = half_space(rng), wave_vector(rng)
     films = [(*material, film(rng).thickness) for _ in range(rng.integers(1, 6))]
     return apart(frf_matrix(Stack(films, material), *k), frf_matrix(Stack((), material), *k))
 
 
-def _cut(rng: Generator) -> float:
+def _cut_layer_error(rng: Generator) -> float:
     body, k = stack(rng), wave_vector(rng)
     G, nu, h = body.layers[0]
     parts = rng.uniform(0.05, 1, rng.integers(2, 7))
@@ -411,14 +414,14 @@ def _cut(rng: Generator) -> float:
     )
 
 
-def _nothing_inserted(rng: Generator) -> float:
+def _vanishing_layer_error(rng: Generator) -> float:
     body, k, place = stack(rng), wave_vector(rng), int(rng.integers(0, 6))
     # Thinner than rounding: at most max(G)/min(G) alpha h = 1e6 * 1e4 * 1e-28.
     films = [*body.layers[:place], (*half_space(rng), 1e-28), *body.layers[place:]]
     return apart(frf_matrix(Stack(films, body.base), *k), frf_matrix(body, *k))
 
 
-def _symmetric_operator(rng: Generator) -> float:
+def _operator_asymmetry(rng: Generator) -> float:
     """Compute the asymmetry or the most negative eigenvalue of the matrix of influence
     coefficients.
 
@@ -449,7 +452,7 @@ def dense_operator(K: LayeredCoefficients, shape: tuple[int, int]) -> np.ndarray
     return np.block([[K["xx"][at], xy, -zx], [xy, K["yy"][at], -zy], [zx, zy, K["zz"][at]]])
 
 
-def _identical(rng: Generator) -> float:
+def _identical_bodies_error(rng: Generator) -> float:
     body, k = stack(rng), wave_vector(rng)
     twice = 2 * frf_matrix(body, *k)
     twice[:2, 2] = twice[2, :2] = 0
@@ -457,23 +460,26 @@ def _identical(rng: Generator) -> float:
 
 
 SYMMETRY_LAWS = (
-    Law("hermitian", "P1", "F is Hermitian (Betti's reciprocity)", _hermitian),
-    Law("real", "P2", "real tractions give real displacements: F(-m, -n) = conj F(m, n)", _real),
+    Law("hermitian", "P1", "F is Hermitian (Betti's reciprocity)", _reciprocity_error),
+    Law("real", "P2", "real tractions give real displacements: F(-m, -n) = conj F(m, n)",
+        _real_response_error),
     Law("parity", "P3", "normal-tangential entries are imaginary and odd, all others real and even",
-        _parity),
+        _parity_error),
     Law("positive_definite", "P4", "strain energy is positive: all eigenvalues of F are > 0",
-        _positive),
+        _negative_energy),
     Law("rotation", "P5", "F(Qk) = Q F(k) Qᵀ for rotations and reflections of the axes; P6, the "
-        "exchange of x and y, is one of them", _turns),
-    Law("scaling", "P7", "lengths and moduli scale out: α G F depends on α h and ratios", _scales),
-    Law("homogeneous", "P8", "layers of the substrate's material have no effect", _homogeneous),
+        "exchange of x and y, is one of them", _rotation_error),
+    Law("scaling", "P7", "lengths and moduli scale out: α G F depends on α h and ratios",
+        _scaling_error),
+    Law("homogeneous", "P8", "layers of the substrate's material have no effect",
+        _homogeneous_layers_error),
     Law("cutting", "P11", "the division of a layer into layers of its material has no effect",
-    _cut, 1e-11),
+    _cut_layer_error, 1e-11),
     Law("no_thickness", "P11", "a layer of any material with vanishing thickness has no effect",
-        _nothing_inserted),
+        _vanishing_layer_error),
     Law("discrete_symmetry", "P19", "the matrix of influence coefficients of all three "
     "components is symmetric and positive, on cells no wider than the total thickness of the "
     "layers",
-        _symmetric_operator, 1e-11, 40),
-    Law("identical_bodies", "P20", "two identical bodies do not couple", _identical),
+        _operator_asymmetry, 1e-11, 40),
+    Law("identical_bodies", "P20", "two identical bodies do not couple", _identical_bodies_error),
 )  # fmt: skip

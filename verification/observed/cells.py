@@ -38,13 +38,13 @@ def states_on_cells(result: Result) -> list[ContactState]:
     the last change of the correction. Slip and energies are those before the correction.
     """
     undeformed = result.scene.indenter.initial_gap(*result.grid.coordinates())
-    before_touch = _before_touch(result.increments[0], undeformed)
+    before_touch = _motion_before_touch(result.increments[0], undeformed)
     states, before, grown, defined = list[ContactState](), None, False, True
     for now in result.increments:
-        state = _state(now, before, result, undeformed, before_touch)
+        state = _state_on_cells(now, before, result, undeformed, before_touch)
         if now.shear is not None:
             defined &= now.dissipated_energy is not None
-            grown |= now.halvings > 0 if before is None else _grows(before, now)
+            grown |= now.halvings > 0 if before is None else _contact_grows(before, now)
         skipped = BISECTED if now.halvings else CORRECTED if is_corrected(now) else ""
         if not defined:
             state = replace(state, passed=None)
@@ -64,7 +64,7 @@ def states_on_cells(result: Result) -> list[ContactState]:
     return states
 
 
-def _state(
+def _state_on_cells(
     now: Increment, before: Increment | None, result: Result, undeformed: Field, before_touch: Field
 ) -> ContactState:
     (x, y), grid, p = result.grid.coordinates(), result.grid, now.pressure
@@ -100,12 +100,12 @@ def _state(
     return ContactState(
         now, np.full_like(p, area), undeformed, p, now.gap, q, limit, slip, slip + before_touch,
         forces, np.array(motions), float(np.max(np.abs(lowered), initial=abs(now.approach))),
-        tuple(balances), tuple(_traces(before, now, area)),
+        tuple(balances), tuple(_stated_differences(before, now, area)),
         eased=result.tolerance / max(result.tolerance, change),
     )  # fmt: skip
 
 
-def _traces(before: Increment | None, now: Increment, area: float) -> list[float]:
+def _stated_differences(before: Increment | None, now: Increment, area: float) -> list[float]:
     """Compare sums over the fields of dissipation and slip with the stated numbers of an increment
     [1].
 
@@ -124,7 +124,7 @@ def _traces(before: Increment | None, now: Increment, area: float) -> list[float
     return [off, float(np.max(shorter if now.halvings else np.abs(shorter)))]
 
 
-def _before_touch(first: Increment, undeformed: Field) -> Field:
+def _motion_before_touch(first: Increment, undeformed: Field) -> Field:
     """Compute the relative motion of particles in the first increment before first contact
     [length].
 
@@ -139,5 +139,5 @@ def _before_touch(first: Increment, undeformed: Field) -> Field:
     return np.asarray(first.slip * (1 / touching - 1))
 
 
-def _grows(before: Increment, now: Increment) -> bool:
+def _contact_grows(before: Increment, now: Increment) -> bool:
     return bool(np.any((now.pressure > 0) & (before.pressure == 0)))

@@ -36,19 +36,19 @@ def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
     for ramp, end in zip(scene.load_path(), steps, strict=True):
         force, motion, arm = end.normal_force, abs(end.approach), end.contact_radius
         approach, shift = (getattr(end, name) for name in prescribed_motions(scene.rig))
-        yield _missed(ramp.normal, end.normal_force, approach, force, motion)
+        yield _control_deviation(ramp.normal, end.normal_force, approach, force, motion)
         if ramp.stretch is not None:
             strain = np.subtract((*end.bulk_strain, end.bulk_shear), ramp.stretch[1])
             yield float(np.max(np.abs(strain))) * arm / motion
         moment, tilt = getattr(end, "moment", None), getattr(end, "tilt", None)
-        yield _missed(ramp.tilting, moment, tilt, force * arm, motion / arm)
+        yield _control_deviation(ramp.tilting, moment, tilt, force * arm, motion / arm)
         if scene.friction is None:
             continue
-        yield _missed(ramp.tangential, end.tangential_force, shift, force, motion)
-        yield _missed(ramp.twisting, end.torque, end.twist, force * arm, motion / arm)
+        yield _control_deviation(ramp.tangential, end.tangential_force, shift, force, motion)
+        yield _control_deviation(ramp.twisting, end.torque, end.twist, force * arm, motion / arm)
 
 
-def _missed(
+def _control_deviation(
     control: ScalarControl | VectorControl, force: Any, motion: Any, *scales: float
 ) -> float:
     """Compute the relative deviation of one load or motion from its prescribed end value.
@@ -239,7 +239,7 @@ def violations(states: Sequence[ContactState]) -> Iterator[float]:
     """
     for before, now in pairwise([None, *states]):
         assert now is not None
-        yield from _of_pressure(now)
+        yield from _pressure_violations(now)
         yield from (balance.missing for balance in now.balances)
         yield from now.stated
         size = np.hypot(*now.shear)
@@ -248,10 +248,10 @@ def violations(states: Sequence[ContactState]) -> Iterator[float]:
         else:
             yield float(np.max(size - now.limit) / np.max(now.limit))
             if not now.unseen and now.passed is not None:
-                yield from _of_slip(before, now)
+                yield from _slip_violations(before, now)
 
 
-def _of_pressure(now: ContactState) -> Iterator[float]:
+def _pressure_violations(now: ContactState) -> Iterator[float]:
     p, gap = now.pressure, np.where(np.isposinf(now.gap), 0.0, now.gap) + now.give * now.pressure
     yield float(np.max(-p) / np.max(p))
     yield float(np.max(-gap) / now.depth)
@@ -259,7 +259,7 @@ def _of_pressure(now: ContactState) -> Iterator[float]:
         yield now.eased * now.over(p * np.abs(gap)) / (now.over(p) * now.depth)
 
 
-def _of_slip(before: ContactState | None, now: ContactState) -> Iterator[float]:
+def _slip_violations(before: ContactState | None, now: ContactState) -> Iterator[float]:
     """Yield relative violations of the friction law in one increment [1].
 
     Slip must be the relative motion of the surfaces, must oppose the shear at its limit, and must
@@ -284,7 +284,7 @@ def _of_slip(before: ContactState | None, now: ContactState) -> Iterator[float]:
     if most is not None and last is not None:
         yield (last - most) / max(most, TINY)
         if scale > 0 and not now.open and now.coarse == 1:
-            yield abs(_dissipated(start, now) - (most - last)) / scale
+            yield abs(_dissipated_energy_of(start, now) - (most - last)) / scale
 
 
 def _other_than_motion(slip: Field, passed: Field, touched: Mask) -> Field:
@@ -325,11 +325,13 @@ def imbalances(states: Sequence[ContactState]) -> Iterator[Imbalance]:
         if end.energy_imbalance is not None:
             yield Imbalance(number, 1.0, end.energy_imbalance, stated=end.energy_imbalance)
         if not now.open:  # otherwise the result lacks intermediate states
-            for difference, terms in _missing(before or now.at_rest(), now):
+            for difference, terms in _energy_differences(before or now.at_rest(), now):
                 yield Imbalance(number, scale, difference, **terms)
 
 
-def _missing(start: ContactState, now: ContactState) -> Iterator[tuple[float, dict[str, float]]]:
+def _energy_differences(
+    start: ContactState, now: ContactState
+) -> Iterator[tuple[float, dict[str, float]]]:
     """Yield the energy differences of one increment, each with the compared energies by name.
 
     The first difference is that of the energy balance; the others are those from stated energies.
@@ -340,14 +342,14 @@ def _missing(start: ContactState, now: ContactState) -> Iterator[tuple[float, di
     last, end = start.increment, now.increment
     work = 0.5 * float(np.sum((start.forces + now.forces) * (now.motions - start.motions)))
     stored = now.energy - (0.0 if last is None else start.energy)
-    own = _dissipated(start, now)
+    own = _dissipated_energy_of(start, now)
     told = {
         name: (getattr(end, name) or 0.0) - (getattr(last, name, None) or 0.0)
         for name in ("trapezoidal_work", "dissipated_energy", "unresolved_work")
     }
     shrunk = np.any(start.shear * (now.pressure == 0))
     told_alone = now.told or (shrunk and not now.give and end.unresolved_work is not None)
-    unresolved = told["unresolved_work"] if told_alone else _unresolved(start, now) - own
+    unresolved = told["unresolved_work"] if told_alone else _unresolved_work_of(start, now) - own
     terms = {"work": work, "stored": stored, "dissipated": own, "unresolved": unresolved}
     yield work - stored - own - unresolved, terms
     found = {"trapezoidal_work": work, "dissipated_energy": own, "unresolved_work": unresolved}
@@ -356,7 +358,7 @@ def _missing(start: ContactState, now: ContactState) -> Iterator[tuple[float, di
             yield energy - told[name], {name: energy, "stated": told[name]}
 
 
-def _dissipated(start: ContactState, now: ContactState) -> float:
+def _dissipated_energy_of(start: ContactState, now: ContactState) -> float:
     """Compute the energy dissipated by friction in an increment, from slip and mean friction limit.
 
     Points that lose contact may have stuck until then. For these the friction is half their shear
@@ -368,7 +370,7 @@ def _dissipated(start: ContactState, now: ContactState) -> float:
     return now.over(friction * np.hypot(*(now.slip - start.slip)))
 
 
-def _unresolved(start: ContactState, now: ContactState) -> float:
+def _unresolved_work_of(start: ContactState, now: ContactState) -> float:
     """Compute the unresolved work of a finite increment plus its dissipation [force length].
 
     The loads are taken as linear in time where gaps close or open, and the shear as well (see
@@ -377,9 +379,9 @@ def _unresolved(start: ContactState, now: ContactState) -> float:
     assert start.passed is not None
     assert now.passed is not None
     p, other = start.pressure, now.pressure
-    ends = other * _finite(start.gap), p * _finite(now.gap)
+    ends = other * _finite_gap(start.gap), p * _finite_gap(now.gap)
     if now.give:  # springs: the gap of a lasting contact changes
-        ends = ends[0] + p * _finite(start.gap), ends[1] + other * _finite(now.gap)
+        ends = ends[0] + p * _finite_gap(start.gap), ends[1] + other * _finite_gap(now.gap)
         changed = np.ones_like(p, dtype=bool)
     else:
         changed = (p > 0) != (other > 0)
@@ -388,5 +390,5 @@ def _unresolved(start: ContactState, now: ContactState) -> float:
     return 0.5 * now.over(closing - sheared)
 
 
-def _finite(gap: Field) -> Field:
+def _finite_gap(gap: Field) -> Field:
     return np.where(np.isposinf(gap), 0.0, gap)

@@ -104,7 +104,7 @@ class Rings:
     @cached_property
     def weights(self) -> Field:
         """Area of the points (rings, angles) [length^2]."""
-        return np.outer(self.basis.weights, self._around)
+        return np.outer(self.basis.weights, self._angle_weights)
 
     @cached_property
     def undeformed(self) -> Field:
@@ -142,7 +142,7 @@ class Rings:
         rings."""
         if self.basis is not self.model.hats:
             return float(np.sum(self.weights * values))
-        radii, on_ring = self.basis.radii, values @ self._around
+        radii, on_ring = self.basis.radii, values @ self._angle_weights
         share, width = 0.5 * (1 + PLACES), np.diff(radii)[:, None]
         r = radii[:-1, None] + width * share
         at_points = on_ring[:-1, None] * (1 - share) + on_ring[1:, None] * share
@@ -163,17 +163,17 @@ class Rings:
             else:  # the mean around the axis along the load, per nodal force along the load
                 C, sign = self.model.compliance(1).matrix[:2, :, :2], np.array([1.0, -1.0])
                 nodal = 0.5 * np.einsum("i,j,iajb->ab", sign, sign, C)
-            u[component, :, 0] = self._means(nodal, q[component, :, 0])
-            return u, self._means(self.model.compliance(0).matrix[1, :, 1], p[:, 0])[:, None]
+            u[component, :, 0] = self._ring_means(nodal, q[component, :, 0])
+            return u, self._ring_means(self.model.compliance(0).matrix[1, :, 1], p[:, 0])[:, None]
         tractions, u = np.stack([*q, p]), np.zeros((3, *self._shape))
         for n in range(len(self.angles)):
-            wave, loads = self._waves(n), self._amplitudes(n, tractions)
+            wave, loads = self._angular_functions(n), self._angular_amplitudes(n, tractions)
             if not np.any(loads):
                 continue
             condensed = self.model.compliance(n)
             for i, a in enumerate(condensed.motion.components):
                 for j, b in enumerate(condensed.motion.components):
-                    u[a] += np.outer(self._means(condensed.matrix[i, :, j], loads[b]), wave[a])
+                    u[a] += np.outer(self._ring_means(condensed.matrix[i, :, j], loads[b]), wave[a])
         if len(self.angles) > 1:
             self._join_on_axis(u)
         return u[:2], u[2]
@@ -183,7 +183,7 @@ class Rings:
         return len(self.basis.radii), len(self.angles)
 
     @cached_property
-    def _around(self) -> Field:
+    def _angle_weights(self) -> Field:
         """Integration weights of the angles by the trapezium rule, over the full circle
         [radian]."""
         if len(self.angles) == 1:
@@ -192,7 +192,7 @@ class Rings:
         share[[0, -1]] /= 2
         return share
 
-    def _waves(self, n: int) -> Field:
+    def _angular_functions(self, n: int) -> Field:
         """Return the angular functions of the r, θ and z components of harmonic n, shape (3,
         angles)."""
         inner = (self.angles > 0) & (np.arange(len(self.angles)) < len(self.angles) - 1)
@@ -200,17 +200,17 @@ class Rings:
         # With as many angles as harmonics, the sine of the last harmonic is zero at all angles.
         return np.stack([cos, sin if n < len(self.angles) - 1 else 0.0 * sin, cos])
 
-    def _amplitudes(self, n: int, tractions: Field) -> Field:
+    def _angular_amplitudes(self, n: int, tractions: Field) -> Field:
         """Compute the amplitudes (3, rings) of harmonic n of tractions (3, rings, angles).
 
         The trapezium rule over the angles is exact for these harmonics.
         """
-        waves = self._waves(n)
-        norms = np.sum(self._around * waves**2, axis=1)
-        found = np.einsum("cra,ca,a->cr", tractions, waves, self._around)
+        waves = self._angular_functions(n)
+        norms = np.sum(self._angle_weights * waves**2, axis=1)
+        found = np.einsum("cra,ca,a->cr", tractions, waves, self._angle_weights)
         return found / np.where(norms > 0, norms, 1.0)[:, None]
 
-    def _means(self, nodal: Field, amplitude: Field) -> Field:
+    def _ring_means(self, nodal: Field, amplitude: Field) -> Field:
         displaced = nodal @ (self.basis.products @ amplitude)
         return np.asarray(self.basis.products.T @ displaced) / self.basis.weights
 
@@ -219,7 +219,7 @@ class Rings:
 
         u  displacements (3, rings, angles) along r, θ and z [length]
         """
-        share, direction = self._around / (2 * np.pi), self.driven[:, 0]
+        share, direction = self._angle_weights / (2 * np.pi), self.driven[:, 0]
         u[:2, 0] = np.sum(share * u[:2, 0] * direction) * direction
         u[2, 0] = np.sum(share * u[2, 0])
 
@@ -237,7 +237,7 @@ def states_on_elements(result: Result) -> list[ContactState]:
     rings = Rings.of(result, on_points=penalty and not harmonics)
     element = last.radii[1] - last.radii[0] if harmonics else float(rings.model.radii[2])
     give = 1 / _spring_stiffness(result, element) if penalty else 0.0
-    return [_state(increment, rings, result, give) for increment in result.increments]
+    return [_state_on_elements(increment, rings, result, give) for increment in result.increments]
 
 
 def _spring_stiffness(result: Result, element: float) -> float:
@@ -253,12 +253,14 @@ def _spring_stiffness(result: Result, element: float) -> float:
     return result.discretisation.penalty / (softness * element)
 
 
-def _state(increment: Increment, rings: Rings, result: Result, give: float) -> ContactState:
+def _state_on_elements(
+    increment: Increment, rings: Rings, result: Result, give: float
+) -> ContactState:
     p, q = rings.on_grid(increment.pressure), rings.vector(increment, "shear")
     along, u_z = rings.displacement(p, q)
     if result.plan.path is Path.HARMONICS:  # springs that are known exactly are part of the bodies
         along, u_z, give = along + give * q, u_z + give * p, 0.0
-    force, motion = _load(increment, result)
+    force, motion = _load_and_motion(increment, result)
     if motion is None and force == 0.0:
         motion = 0.0
     w, friction, depth = rings.weights, rings.model.friction, abs(increment.approach)
@@ -290,7 +292,7 @@ def _state(increment: Increment, rings: Rings, result: Result, give: float) -> C
     )  # fmt: skip
 
 
-def _load(increment: Increment, result: Result) -> tuple[float, float | None]:
+def _load_and_motion(increment: Increment, result: Result) -> tuple[float, float | None]:
     """Return the force and the shift along the tangential load, or in torsion the torque and the
     twist.
 

@@ -33,7 +33,7 @@ class Observed(NamedTuple):
 def observed(result: Any) -> Observed:
     """Evaluate the laws of contact and friction and the energy balance in all increments of a
     result."""
-    states = _states(result)
+    states = _contact_states(result)
     return Observed(
         largest_of([*violations(states), *missed(result.scene, result.steps)]),
         largest_of(imbalances(states)),
@@ -42,7 +42,7 @@ def observed(result: Any) -> Observed:
     )
 
 
-def _states(result: Any) -> list[ContactState]:
+def _contact_states(result: Any) -> list[ContactState]:
     if result.solver == "semi_analytical":
         from verification.observed.cells import states_on_cells
 

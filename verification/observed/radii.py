@@ -49,7 +49,7 @@ def states_on_radii(result: Result) -> list[ContactState]:
         divided = BISECTED if on_disc and coupled and grown else bisected
         states.append(
             replace(
-                _state(now, result, few=few),
+                _state_on_radii(now, result, few=few),
                 open=lacking or divided, unseen=bisected or lacking or annulus,
                 told=coupled or few,
             )
@@ -58,7 +58,7 @@ def states_on_radii(result: Result) -> list[ContactState]:
     return states
 
 
-def _state(now: Increment, result: Result, *, few: bool) -> ContactState:
+def _state_on_radii(now: Increment, result: Result, *, few: bool) -> ContactState:
     """Compute the state of one increment.
 
     few  True if the contact has too few rings for integrals; the points then have equal weights,
@@ -83,9 +83,9 @@ def _state(now: Increment, result: Result, *, few: bool) -> ContactState:
     else:
         weights = _over_hats(r, np.ones_like)
         arm, f = (_over_hats(r, g) / weights for g in (lambda r: r, lambda r: gap(r, 0.0)))
-    w = weights[:, None] * _shares(now.angles)
+    w = weights[:, None] * _angle_shares(now.angles)
     limit = (result.scene.friction or FRICTIONLESS).limit(p)
-    carried = _carried(now, w, arm[:, None], q, result.plan.direction)
+    carried = _carried_loads(now, w, arm[:, None], q, result.plan.direction)
     force, torque = now.tangential_force or (0.0, 0.0), now.torque or 0.0
     most = float(np.sum(w * limit)) or now.normal_force
     balances = [Balance(float(np.sum(w * p)), now.normal_force, now.normal_force)]
@@ -105,7 +105,9 @@ def _state(now: Increment, result: Result, *, few: bool) -> ContactState:
     )  # fmt: skip
 
 
-def _carried(now: Increment, w: Field, arm: Field, q: Field, along: tuple[float, float]) -> Field:
+def _carried_loads(
+    now: Increment, w: Field, arm: Field, q: Field, along: tuple[float, float]
+) -> Field:
     """Compute the forces along x and y and the moment about z of a shear traction, as an array
     (3,).
 
@@ -163,7 +165,7 @@ def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
     return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)
 
 
-def _shares(angles: Field | None) -> Field:
+def _angle_shares(angles: Field | None) -> Field:
     """Return the weights of the angles, with sum 1, on a full circle or a half circle with both
     ends."""
     if angles is None:

@@ -55,13 +55,15 @@ def hertzian(scene: Scene) -> Problem:
     )
 
 
-def _pressed(title: str, load: LoadStep) -> Problem:
+def _pressed_ball(title: str, load: LoadStep) -> Problem:
     ball = paper.paraboloid(paper.STEEL)
     return hertzian(paper.frictionless(title, ball, paper.STEEL, load))
 
 
-BALL = _pressed("Ball on a half-space (paper's data, paraboloid)", paper.pressing())
-LED_BALL = _pressed("Ball on a half-space, approach prescribed", LoadStep(approach=HERTZ.approach))
+BALL = _pressed_ball("Ball on a half-space (paper's data, paraboloid)", paper.pressing())
+LED_BALL = _pressed_ball(
+    "Ball on a half-space, approach prescribed", LoadStep(approach=HERTZ.approach)
+)
 
 
 SLOPE = radians(1.0)  # angle of the cone's flank to the surface

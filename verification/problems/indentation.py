@@ -71,7 +71,7 @@ class Indentation(TabulatedContact):
         )
 
 
-def _bare(file_name: str, row: Mapping[str, Any], increments: int) -> Indentation:
+def _bare_body(file_name: str, row: Mapping[str, Any], increments: int) -> Indentation:
     nu = float(row["nu"])
     source = "references/frictional_indentation_homogeneous.json: self-similar (Spence 1975)"
     return Indentation(
@@ -80,9 +80,9 @@ def _bare(file_name: str, row: Mapping[str, Any], increments: int) -> Indentatio
 
 
 _ROWS = load_reference("frictional_indentation_homogeneous")["rows"]
-WEAK = _bare("weak", _ROWS[0], FEW)
-STRONG = _bare("strong", _ROWS[1], MANY)
-NU_ZERO = _bare("nu_zero", _ROWS[2], FEW)
+WEAK = _bare_body("weak", _ROWS[0], FEW)
+STRONG = _bare_body("strong", _ROWS[1], MANY)
+NU_ZERO = _bare_body("nu_zero", _ROWS[2], FEW)
 _ROW = load_reference("frictional_indentation_coated")
 COATED = Indentation(
     _ROW, "coated, µ = 0.1", "coated", coated(film(_ROW["E1_over_E2"], _ROW["h_over_aH"])),

@@ -53,7 +53,7 @@ class Twisted:
     energy_per_cycle: float = 0.0
 
 
-def _problem(title: str, ends: tuple[object, ...], *steps: LoadStep) -> Problem:
+def _torsion_problem(title: str, ends: tuple[object, ...], *steps: LoadStep) -> Problem:
     return Problem(
         paper.frictional(title, paper.paraboloid(STEEL), STEEL, *steps),
         (HERTZ, *ends),
@@ -69,17 +69,17 @@ def _problem(title: str, ends: tuple[object, ...], *steps: LoadStep) -> Problem:
 
 
 PARTS = {1: 0.5, 2: 0.9, 3: 0.99}  # torque over that at gross slip, by load step
-TWISTED = _problem(
+TWISTED = _torsion_problem(
     "Ball in torsion",
     tuple(virgin(part * SLIDING_TORQUE) for part in PARTS.values()),
     *map(torque_step, PARTS.values()),
 )
-LED = _problem(
+LED = _torsion_problem(
     "Ball in torsion by a given twist", (LARGEST,), LoadStep(twist=LARGEST.twist, increments=1)
 )
 
 
-def _loop() -> tuple[Twisted, ...]:
+def _torsion_loop() -> tuple[Twisted, ...]:
     """Compute the states of a torsion loop from the first loading by Masing's rule.
 
     After a reversal, the change of the twist is twice the first-loading twist at half the change of
@@ -95,9 +95,9 @@ def _loop() -> tuple[Twisted, ...]:
     return Twisted(reached), Twisted(back), Twisted(-reached), Twisted(reached, energy)
 
 
-TORSION_LOOP = _problem(
+TORSION_LOOP = _torsion_problem(
     "Ball in torsion to and fro",
-    _loop(),
+    _torsion_loop(),
     *map(torque_step, (AMPLITUDE, 0.0, -AMPLITUDE, AMPLITUDE)),
 )
 

@@ -174,12 +174,12 @@ def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recordi
     return Recording(
         by=recorded_by(provenance, reason),
         status=case.status,
-        quantities=tuple(_quantity(verdict) for verdict in case.verdicts),
+        quantities=tuple(_record_quantity(verdict) for verdict in case.verdicts),
         findings=tuple(
             RecordedFinding(name=f.name, run=f.run, unit=f.unit, value=f.value)
             for f in case.findings
         ),
-        runs=tuple(_run(run) for run in case.runs),
+        runs=tuple(_record_run(run) for run in case.runs),
     )
 
 
@@ -203,7 +203,7 @@ def recorded_by(provenance: Provenance, reason: str) -> RecordedBy:
     )
 
 
-def _quantity(verdict: Verdict) -> RecordedQuantity:
+def _record_quantity(verdict: Verdict) -> RecordedQuantity:
     return RecordedQuantity(
         name=verdict.name,
         run=verdict.run,
@@ -217,7 +217,7 @@ def _quantity(verdict: Verdict) -> RecordedQuantity:
     )
 
 
-def _run(run: RunRecord) -> RecordedRun:
+def _record_run(run: RunRecord) -> RecordedRun:
     return RecordedRun(label=run.label, **{name: getattr(run, name) for name in COUNTERS})
 
 
@@ -243,7 +243,7 @@ def read_baselines(directory: Path | None = None) -> dict[str, Baseline]:
     """
     folder = BASELINES if directory is None else directory
     files = sorted(folder.glob(f"*{ENDING}")) if folder.is_dir() else []
-    return {path.stem: _read(path) for path in files}
+    return {path.stem: _read_baseline(path) for path in files}
 
 
 def write_baselines(
@@ -266,11 +266,11 @@ def write_baselines(
     texts: dict[Path, str] = {}
     for case, recorded in recordings.items():
         path = directory / f"{case}{ENDING}"
-        levels = _read(path).levels if path.exists() else {}
+        levels = _read_baseline(path).levels if path.exists() else {}
         levels = {name: one for name, one in levels.items() if name != level}
         if recorded is not None:
             levels[level] = recorded
-        ordered = {name: levels[name] for name in _in_order(levels)}
+        ordered = {name: levels[name] for name in _order_levels(levels)}
         texts[path] = dump_baseline(Baseline(case=case, levels=ordered)) if ordered else ""
     if removed:
         path = directory / REMOVED
@@ -296,11 +296,11 @@ def dump_baseline(baseline: Baseline) -> str:
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _in_order(levels: Iterable[str]) -> list[str]:
+def _order_levels(levels: Iterable[str]) -> list[str]:
     return sorted(levels, key=lambda name: Level[name.upper()])
 
 
-def _read(path: Path) -> Baseline:
+def _read_baseline(path: Path) -> Baseline:
     if path.exists() and not path.is_file():
         raise BaselineRefused(f"baseline {path} is not a regular file")
     try:
@@ -348,7 +348,7 @@ def accept(
         for case, baseline in read_baselines(directory).items()
         if report.level in baseline.levels and (not names or case in names)
     }
-    cases = _chosen(report, () if report.chosen else earlier, names)
+    cases = _chosen_cases(report, () if report.chosen else earlier, names)
     failed = [f"{c.name}/{v.name}" for c in cases for v in c.verdicts if v.status is Status.FAIL]
     for refused, text in (
         (not reason, "a baseline needs a reason: --because 'why these numbers are right'"),
@@ -358,7 +358,7 @@ def accept(
             "it --with-failures",
         ),
         (
-            not _reproducible(report) and not with_changes,
+            not _is_reproducible(report) and not with_changes,
             "the report was made from a source that no commit holds, so nobody could make its "
             "numbers again; commit, verify, then accept, or accept it --with-changes",
         ),
@@ -386,7 +386,7 @@ def baselines_of(report: Report, reason: str) -> dict[str, Baseline]:
     }
 
 
-def _chosen(
+def _chosen_cases(
     report: Report, removable: Collection[str], names: Collection[str]
 ) -> list[CaseOutcome]:
     missing = sorted(set(names) - {case.name for case in report.cases} - set(removable))
@@ -397,5 +397,5 @@ def _chosen(
     return [case for case in report.cases if not names or case.name in names]
 
 
-def _reproducible(report: Report) -> bool:
+def _is_reproducible(report: Report) -> bool:
     return report.provenance.commit is not None and not report.provenance.changed

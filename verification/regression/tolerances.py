@@ -94,14 +94,18 @@ def held_to(cases: Sequence[CaseOutcome], tolerances: Tolerances) -> tuple[CaseO
     """
     return tuple(
         case.model_copy(
-            update={"verdicts": tuple(_held(v, known.get(text_of(v))) for v in case.verdicts)}
+            update={
+                "verdicts": tuple(
+                    _judge_by_tolerance(v, known.get(text_of(v))) for v in case.verdicts
+                )
+            }
         )
         for case in cases
         for known in (tolerances.of(case.name),)
     )
 
 
-def _held(verdict: Verdict, known: tuple[Tolerance, Acceptance] | None) -> Verdict:
+def _judge_by_tolerance(verdict: Verdict, known: tuple[Tolerance, Acceptance] | None) -> Verdict:
     if known is None or known[0].allowed >= verdict.allowed:
         return verdict
     tolerance, acceptance = known
@@ -132,7 +136,7 @@ def proposed(
         reports = [
             report.model_copy(update={"cases": held_to(report.cases, known)}) for report in reports
         ]
-    for case, key, verdicts, floor in _together(reports):
+    for case, key, verdicts, floor in _common_numbers(reports):
         bound, held = (verdicts[0].bound or verdicts[0].allowed), verdicts[0].allowed
         error = max(verdict.error or 0.0 for verdict in verdicts)
         allowed = float(f"{TIMES * error + floor:.2g}")
@@ -142,7 +146,7 @@ def proposed(
     return found
 
 
-def _together(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[Verdict], float]]:
+def _common_numbers(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[Verdict], float]]:
     """Yield each number that all reports have: case, key, its verdicts, and the least error to
     allow.
 
@@ -184,7 +188,7 @@ def accept_tolerances(reports: Sequence[Report], because: str, directory: Path =
     kept = tuple(
         acceptance.model_copy(update={"tolerances": rest})
         for acceptance in earlier.accepted
-        if (rest := _without(acceptance.tolerances, new))
+        if (rest := _remove_tolerances(acceptance.tolerances, new))
     )
     made = [report.provenance for report in reports]
     kernels = dict.fromkeys(str(one.machine.get("arithmetic", "unknown")) for one in made)
@@ -199,7 +203,7 @@ def accept_tolerances(reports: Sequence[Report], because: str, directory: Path =
     return sum(map(len, new.values()))
 
 
-def _without(
+def _remove_tolerances(
     tolerances: Mapping[str, Mapping[str, Tolerance]], new: Mapping[str, Mapping[str, Tolerance]]
 ) -> dict[str, dict[str, Tolerance]]:
     rest = {

@@ -71,7 +71,7 @@ class CaseStore:
             values = document["record"]
             if document["of"] != path.stem:
                 raise DamagedRecord(f"{path} is the record of {document['of']}")
-            if document["sha256"] != _digest(values):
+            if document["sha256"] != _record_digest(values):
                 raise DamagedRecord(f"{path} is damaged: its numbers have changed")
             return self.record_type.model_validate_json(json.dumps(values))
         except (ValueError, KeyError, TypeError, RecursionError) as error:
@@ -83,7 +83,7 @@ class CaseStore:
         code  digest of the source code that computed the record; None for that of this process
         """
         path, values = self.path(case, code), record.model_dump(mode="json")
-        document = {"of": path.stem, "sha256": _digest(values), "record": values}
+        document = {"of": path.stem, "sha256": _record_digest(values), "record": values}
         with atomic_file(path) as temporary:
             temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
 
@@ -101,7 +101,7 @@ def content_hash(case: StudyCase, code: bytes | None = None) -> str:
     return hashlib.sha256(text.encode() + (code or code_digest())).hexdigest()[:DIGITS]
 
 
-def _digest(values: Any) -> str:
+def _record_digest(values: Any) -> str:
     return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()
 
 
@@ -314,23 +314,23 @@ def run_cases(
 
     missing = {}
     for case in cases:
-        end = CaseEnd(case, None) if fresh else _stored(case, store)
+        end = CaseEnd(case, None) if fresh else _stored_end(case, store)
         if end.record is None:
             missing[case.name] = end
         else:
             ended(end)
     pool = LocalWorkers(max(1, min(workers, len(missing)))) if isinstance(workers, int) else workers
     try:
-        futures = {pool.submit(_answer, end.case): end for end in missing.values()}
+        futures = {pool.submit(_compute_case, end.case): end for end in missing.values()}
         for future in as_completed(futures):
-            end = _ended(futures[future], _received(future, pool), store)
+            end = _computed_end(futures[future], _received_answer(future, pool), store)
             ended(replace(end, workers=tuple(pool.lost())))
     finally:
         pool.close()
     return tuple(ends[case.name] for case in cases)
 
 
-def _stored(case: StudyCase, store: CaseStore) -> CaseEnd:
+def _stored_end(case: StudyCase, store: CaseStore) -> CaseEnd:
     """Return the outcome of a case from its stored record, or an outcome without record.
 
     The outcome has a message if a file exists that cannot be used.
@@ -342,20 +342,20 @@ def _stored(case: StudyCase, store: CaseStore) -> CaseEnd:
     return CaseEnd(case, record, stored=record is not None)
 
 
-def _received(future: Future[Answer], pool: Workers) -> Answer:
+def _received_answer(future: Future[Answer], pool: Workers) -> Answer:
     """Return the reply of a worker for a case, or the reason why no reply was received."""
     try:
         answer = future.result()
     except BrokenProcessPool:
         return Answer(KILLED, code_digest())
     except Exception as error:  # raised by the communication with the worker
-        return Answer(_reason(error), code_digest())
+        return Answer(_error_text(error), code_digest())
     if pool.elsewhere and answer.code != code_digest():
         return replace(answer, record=OTHER_CODE)
     return answer
 
 
-def _ended(end: CaseEnd, answer: Answer, store: CaseStore) -> CaseEnd:
+def _computed_end(end: CaseEnd, answer: Answer, store: CaseStore) -> CaseEnd:
     """Complete the outcome of a case by the reply of its worker, and store the record.
 
     The record is stored under the digest of the sources that computed it, because a source file may
@@ -367,7 +367,7 @@ def _ended(end: CaseEnd, answer: Answer, store: CaseStore) -> CaseEnd:
     return replace(end, record=answer.record)
 
 
-def _answer(case: StudyCase) -> Answer:
+def _compute_case(case: StudyCase) -> Answer:
     """Compute a case in a worker and return its record, or the error as text.
 
     An exception that cannot be unpickled in the parent process would look like a dead worker.
@@ -379,8 +379,8 @@ def _answer(case: StudyCase) -> Answer:
             record = record.model_copy(update={"seconds": time.process_time() - started})
         return Answer(record, code)
     except Exception as error:
-        return Answer(_reason(error), code)
+        return Answer(_error_text(error), code)
 
 
-def _reason(error: Exception) -> str:
+def _error_text(error: Exception) -> str:
     return f"{type(error).__name__}: {error}"

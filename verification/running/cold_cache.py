@@ -41,12 +41,12 @@ def cold_cache() -> Iterator[None]:
 
     The cache on disk is a temporary directory, which is removed afterwards.
     """
-    _forget()
+    _clear_memory_caches()
     with TemporaryDirectory() as empty, cache_directory(empty):
         yield
 
 
-def _forget() -> None:
+def _clear_memory_caches() -> None:
     for name, module in list(sys.modules.items()):
         if name.partition(".")[0] in SOLVERS:
             for value in list(vars(module).values()):

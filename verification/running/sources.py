@@ -45,7 +45,7 @@ def source_digest(*modules: str) -> str:
         found = (ROOT / "verification/references").glob("*.json")
         paths |= {path.relative_to(ROOT).as_posix() for path in found}
     for path in sorted(paths):
-        digest.update(f"{path} {_content(path)}\n".encode())
+        digest.update(f"{path} {_file_digest(path)}\n".encode())
     return digest.hexdigest()[:16]
 
 
@@ -68,28 +68,30 @@ def closure(modules: Iterable[str]) -> set[str]:
     Indirect imports are included.
     """
     found: set[str] = set()
-    left = [path for module in modules for path in _files(module, whole=True)]
+    left = [path for module in modules for path in _module_files(module, whole=True)]
     while left:
         path = left.pop()
         if path not in found:
             found.add(path)
-            left += () if path == EXPORTS else _imported(path)
+            left += () if path == EXPORTS else _imported_files(path)
     return found
 
 
 @cache
-def _imported(path: str) -> tuple[str, ...]:
+def _imported_files(path: str) -> tuple[str, ...]:
     text = (ROOT / path).read_text(encoding="utf-8")
-    names = {f for name in BY_NAME.findall(text) for f in _files(name, whole=True)}
+    names = {f for name in BY_NAME.findall(text) for f in _module_files(name, whole=True)}
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
-            names |= {file for name in node.names for file in _files(name.name)}
+            names |= {file for name in node.names for file in _module_files(name.name)}
         elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
-            names |= {file for name in node.names for file in _files(f"{node.module}.{name.name}")}
+            names |= {
+                file for name in node.names for file in _module_files(f"{node.module}.{name.name}")
+            }
     return tuple(names)
 
 
-def _files(module: str, *, whole: bool = False) -> Iterator[str]:
+def _module_files(module: str, *, whole: bool = False) -> Iterator[str]:
     """Yield the files of a module and of the packages that contain it.
 
     whole  if True, also yield all files of a package
@@ -106,7 +108,7 @@ def _files(module: str, *, whole: bool = False) -> Iterator[str]:
 
 
 @cache
-def _content(path: str) -> str:
+def _file_digest(path: str) -> str:
     """Compute the digest of a file.
 
     For a Python module, comments, docstrings and spaces are left out. Repeated braces count as one,

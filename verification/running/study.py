@@ -175,20 +175,22 @@ def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -
     """
     clock = [(name, record.seconds, record.repeats) for name, record in records.items()]
     files: dict[str, Sequence[Cells]] = {
-        ROWS: _named(records.items()),
-        PARTS: _named((name, part) for name, record in records.items() for part in record.parts),
-        FINDINGS: [_cells(row) for row in findings],
+        ROWS: _rows_by_case(records.items()),
+        PARTS: _rows_by_case(
+            (name, part) for name, record in records.items() for part in record.parts
+        ),
+        FINDINGS: [_csv_line(row) for row in findings],
         SECONDS: [dict(zip((CASE, "seconds", "repeats"), line, strict=True)) for line in clock],
     }
-    return {name: _text(lines) for name, lines in files.items() if lines}
+    return {name: _csv_text(lines) for name, lines in files.items() if lines}
 
 
-def _named(rows: Iterable[tuple[str, Row]]) -> list[Cells]:
+def _rows_by_case(rows: Iterable[tuple[str, Row]]) -> list[Cells]:
     """Convert rows to lines of a CSV file that begin with the name of their case."""
-    return [{CASE: name, **_cells(row)} for name, row in rows]
+    return [{CASE: name, **_csv_line(row)} for name, row in rows]
 
 
-def _cells(row: Row) -> Cells:
+def _csv_line(row: Row) -> Cells:
     """Convert a row to a line of a CSV file, by column name.
 
     The names are those of parameters and words, "name [unit]" for measures and "name [count]" for
@@ -202,7 +204,7 @@ def _cells(row: Row) -> Cells:
     }
 
 
-def _text(lines: Iterable[Cells]) -> str:
+def _csv_text(lines: Iterable[Cells]) -> str:
     """Write lines as CSV text, with a column for every name that occurs in any line.
 
     lines  values by column name
@@ -468,7 +470,7 @@ def converged(
         outcome=judged(worst <= tolerance, complete=len(rows) >= asked),
         measured=f"largest residual {_study_text(worst)} {where}",
         because=f"allowed {tolerance:g}",
-        about=_measures({RESIDUAL: worst}),
+        about=_measures_row({RESIDUAL: worst}),
     )
 
 
@@ -489,17 +491,17 @@ def within(
         outcome=judged(all(worst[n] <= allowed[n] for n in allowed), complete=len(rows) >= asked),
         measured=", ".join(f"{name} {_study_text(error)}" for name, error in worst.items()),
         because=because,
-        about=_measures(worst),
+        about=_measures_row(worst),
     )
 
 
 def _study_text(value: float) -> str:
-    return plain(_finite(value), 2)
+    return plain(_finite_or_none(value), 2)
 
 
-def _measures(values: Mapping[str, float]) -> Row:
-    return Row(measures={name: _finite(value) for name, value in values.items()})
+def _measures_row(values: Mapping[str, float]) -> Row:
+    return Row(measures={name: _finite_or_none(value) for name, value in values.items()})
 
 
-def _finite(value: float) -> float | None:
+def _finite_or_none(value: float) -> float | None:
     return value if math.isfinite(value) else None

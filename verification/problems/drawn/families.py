@@ -81,8 +81,8 @@ class Family:
         """Draw a scene of the family and the discretisation to be judged, without the answer."""
         radius = logarithmic(rng, 1e-3, 0.1)
         a = radius * logarithmic(rng, *of.STRAINS)
-        lower, upper = _one_of(rng, self.pairs)(rng, a)
-        shape = _one_of(rng, self.shapes)(rng, radius, a)
+        lower, upper = _draw_one(rng, self.pairs)(rng, a)
+        shape = _draw_one(rng, self.shapes)(rng, radius, a)
         outer = {"material": upper.material, "layers": upper.layers}
         bases = [body.material for body in (lower, upper) if body.material != RIGID]
         modulus = 1 / sum(1 / base.plane_strain_modulus for base in bases)
@@ -108,7 +108,7 @@ class Family:
             steps = [LoadStep(tangential_force=(force, 0.0)) for force in forces]
         scene = scene.model_copy(update={"loading": (*scene.loading, *steps)})
         limits = self.coarsest, self.finest
-        fineness = of.fineness(rng, _reach(scene, load, a), self.solver, limits)
+        fineness = of.fineness(rng, _contact_semi_axes(scene, load, a), self.solver, limits)
         return Posed(scene, fineness, forces, self.stressed)
 
     def known(self, rng: Rng) -> KnownScene:
@@ -120,11 +120,11 @@ class Family:
                 continue
 
 
-def _one_of(rng: Rng, ways: Sequence[T]) -> T:
+def _draw_one(rng: Rng, ways: Sequence[T]) -> T:
     return ways[int(rng.integers(len(ways)))]
 
 
-def _reach(scene: Scene, load: float, a: float) -> tuple[float, float]:
+def _contact_semi_axes(scene: Scene, load: float, a: float) -> tuple[float, float]:
     """Estimate the semi-axes of the frictionless contact of a scene [length].
 
     For shapes without reference solution both are a.

@@ -224,31 +224,36 @@ def by_rings(rng: Rng, posed: Posed) -> KnownScene:
     counts = tuple(DOUBLED * n if n > 1 else n for n in once.plan.increments)
     finer = replace(once.plan, increments=counts, fineness=DOUBLED)
     twice = radial.solve(posed.scene, plan=finer)
-    known = posed.known(_compared(once, twice, posed.stressed))
+    known = posed.known(_compared_truths(once, twice, posed.stressed))
     if rng.random() >= BY_MOTION or len(posed.scene.loading) > 1:
         return known
-    end, step = twice.steps[0], Truth(1, NORMAL, _other(posed.scene.loading[0].normal_force))
+    end, step = (
+        twice.steps[0],
+        Truth(1, NORMAL, _load_reference_value(posed.scene.loading[0].normal_force)),
+    )
     led = posed.scene.model_copy(update={"loading": (LoadStep(approach=end.approach),)})
     return posed.known((*known.truths, step), led)
 
 
-def _other(value: float | None) -> Reference:
+def _load_reference_value(value: float | None) -> Reference:
     assert value is not None
     return Reference(value, ReferenceKind.OTHER_SOLVER, "the load", ROUNDING * value)
 
 
-def _compared(once: Any, twice: Any, stressed: bool) -> Iterator[Truth]:
+def _compared_truths(once: Any, twice: Any, stressed: bool) -> Iterator[Truth]:
     both = [values_of(result) for result in (once, twice)]
     for step, (less, more) in enumerate(zip(*both, strict=True), start=1):
         for name in (name for name in KIND_OF if name in less and name in more):
-            yield _truth(step, name, float(more[name][0]), abs(float((more[name] - less[name])[0])))
+            yield _ring_truth(
+                step, name, float(more[name][0]), abs(float((more[name] - less[name])[0]))
+            )
     if stressed:
         for name, (value, error) in stress_maxima(twice, 1).items():
             if isinstance(error.error, float) and name in STRESSES:
-                yield _truth(1, name, value, error.error)
+                yield _ring_truth(1, name, value, error.error)
 
 
-def _truth(step: int, name: str, value: float, apart: float) -> Truth:
+def _ring_truth(step: int, name: str, value: float, apart: float) -> Truth:
     uncertainty = max(apart, ROUNDING * abs(value))
     reference = Reference(value, ReferenceKind.OTHER_SOLVER, "the ring solver", uncertainty)
     return Truth(step, name, reference)
@@ -361,19 +366,19 @@ def similar(rng: Rng, posed: Posed) -> KnownScene:
 
     In some scenes the tangential forces are replaced by the corresponding shifts.
     """
-    made, scene = _similar(posed), posed.scene
+    made, scene = _similar_of(posed), posed.scene
     if rng.random() < BY_MOTION:
         shifts = (LoadStep(tangential_shift=(s[0], 0.0)) for s in made.along(posed.forces))
         scene = scene.model_copy(update={"loading": (scene.loading[0], *shifts)})
     truths = [*made.truths(posed.forces)]
     if isinstance(scene.indenter, Paraboloid):
-        truths += _of_balls(made, posed)
+        truths += _ball_truths(made, posed)
     return posed.known(truths, scene)
 
 
 def slid(rng: Rng, posed: Posed) -> KnownScene:
     """Shift a pressed ball far beyond the onset of gross slip, and compute its known numbers."""
-    made, tip = _similar(posed), posed.scene.indenter
+    made, tip = _similar_of(posed), posed.scene.indenter
     assert isinstance(tip, Paraboloid)
     far = FAR * made.mu * made.full.radius**2 / tip.radius
     scene = posed.scene.model_copy(
@@ -385,7 +390,7 @@ def slid(rng: Rng, posed: Posed) -> KnownScene:
     return posed.known((*pressing, *sliding), scene)
 
 
-def _similar(posed: Posed) -> Similar:
+def _similar_of(posed: Posed) -> Similar:
     load, friction = posed.scene.loading[0].normal_force, posed.scene.friction
     assert load is not None
     assert friction is not None
@@ -410,7 +415,7 @@ def _edge_tension(made: Similar, stick_radius: float) -> float:
     return float(stress)
 
 
-def _of_balls(made: Similar, posed: Posed) -> Iterator[Truth]:
+def _ball_truths(made: Similar, posed: Posed) -> Iterator[Truth]:
     """Yield known stresses and fretting parameters of a ball under tangential forces.
 
     These are the tensile stress at the end of the first tangential step, and the largest slip
@@ -437,21 +442,21 @@ def refined(rng: Rng, posed: Posed) -> KnownScene:
     """
     matters = has_increment_error(posed.scene)
     counts = semi_analytical.plan(posed.scene).increments
-    fine, less = (_Level.of(posed, times, counts) for times in FINER)
+    fine, less = (_SolvedLevel.of(posed, times, counts) for times in FINER)
     base, cut = less, [less] * len(MANY)
     if any(matters):
-        base = _Level.of(posed, 1.0, counts)
+        base = _SolvedLevel.of(posed, 1.0, counts)
         cut = [
-            _Level.of(posed, 1.0, tuple(
+            _SolvedLevel.of(posed, 1.0, tuple(
                 max(least, n * least // MANY[-1]) if m else n
                 for n, m in zip(counts, matters, strict=True)
             ))
             for least in MANY
         ]  # fmt: skip
-    return posed.known(_of_levels(fine, less, base, *cut))
+    return posed.known(_refined_truths(fine, less, base, *cut))
 
 
-class _Level(NamedTuple):
+class _SolvedLevel(NamedTuple):
     """Numbers of a solve at the ends of all load steps.
 
     steps  numbers by name for each step; the last step includes the largest stresses if required
@@ -462,7 +467,7 @@ class _Level(NamedTuple):
     cell: float
 
     @classmethod
-    def of(cls, posed: Posed, times: float, counts: tuple[int, ...]) -> _Level:
+    def of(cls, posed: Posed, times: float, counts: tuple[int, ...]) -> _SolvedLevel:
         asked = posed.fineness.asked
         assert isinstance(asked, SurfaceDiscretisation)
         cells = tuple(2 * round(times * n / 2) if times > 1 else n for n in asked.cells or ())
@@ -476,7 +481,9 @@ class _Level(NamedTuple):
         return cls(steps, max(result.grid.spacing) / result.steps[-1].contact_radius)
 
 
-def _of_levels(fine: _Level, less: _Level, base: _Level, *cut: _Level) -> Iterator[Truth]:
+def _refined_truths(
+    fine: _SolvedLevel, less: _SolvedLevel, base: _SolvedLevel, *cut: _SolvedLevel
+) -> Iterator[Truth]:
     source = (
         f"the same solver on {FINER[0]:g} and {FINER[1]:g} times the cells, with the effect of at "
         f"least {MANY[0]} and {MANY[1]} increments a step"
