@@ -44,7 +44,7 @@ LEAST_TOLERANCE = 1e-13
 
 
 # Largest fraction of the difference between two levels that the tolerance of coarse solves may
-# cause.
+# cause: two digits of the difference are correct, as many as a stated error has.
 NEGLIGIBLE = 1e-2
 
 # Refinement factor of each discretisation parameter, by the part of the error that it causes.
