@@ -19,7 +19,7 @@ from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from contact_scene.rig import compliances
 from fem_reference.elasticity.compliance import NodalCompliance, composite
 from fem_reference.elasticity.hat_functions import Hats, hats_on
-from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, Motion, motion
+from fem_reference.elasticity.motion import PRESSING, SHEARING, Motion
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.scales import Scales
 
@@ -107,42 +107,14 @@ class ContactModel:
         """
         return np.asarray(self.scene.indenter.initial_gap(r, 0.0))
 
-    def compliance(self, harmonic: int) -> NodalCompliance:
-        """Return the compliance of the two surfaces for tractions of one angular harmonic n.
-
-        The matrix contains the displacement of the lower surface relative to the upper surface, per
-        unit generalised nodal force [length/force]. The springs of a rig are included. For n = 0
-        the loading is normal and has the components (r, z); torsion is excluded. For n >= 1 the
-        components are (r, theta, z).
-        """
-        return self._stored_compliance(motion(harmonic))
-
-    def torsion(self) -> NodalCompliance:
-        """Return the compliance of the two surfaces in torsion.
-
-        The matrix contains the circumferential displacement of the lower surface relative to the
-        upper surface, per unit circumferential nodal force [length/force].
-        """
-        return self._stored_compliance(TORSION)
-
-    def along_load(self) -> Field:
-        """Compute the compliance along a tangential load in Mindlin's approximation, shape (m, m).
-
-        The load acts along x. An entry is the displacement u_x of a node, averaged over the angle
-        θ, per unit nodal force f(r) along x [length/force]. With q_r = f cos θ and q_θ = -f sin θ,
-        the mean of u_x is (u_r - u_θ)/2 in the amplitudes of n = 1. Mindlin's approximation
-        neglects u_y and the part of u_x ∝ cos 2θ.
-        """
-        C = self.compliance(1).matrix
-        return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
-
-    def _stored_compliance(self, of: Motion) -> NodalCompliance:
+    def compliance(self, of: Motion) -> NodalCompliance:
         """Return the compliance of the two surfaces for one kind of loading, in units of the scene.
 
-        The compliance is computed at its first use and stored. The compliance of the rig's springs
-        is included.
+        The matrix contains the displacement of the lower surface relative to the upper surface, per
+        unit generalised nodal force [length/force]. The compliance is computed at its first use and
+        stored. The springs of a rig are included.
 
-        of  displacement field of one angular harmonic, such as that of normal loading or torsion
+        of  displacement field of one angular harmonic, such as PRESSING, SHEARING or TORSION
         """
         if of not in self._compliances:
             condensed = composite(*self.sections, of)
@@ -157,6 +129,17 @@ class ContactModel:
                 matrix=matrix + self._spring_compliance(of)[:, None, :, None],
             )
         return self._compliances[of]
+
+    def along_load(self) -> Field:
+        """Compute the compliance along a tangential load in Mindlin's approximation, shape (m, m).
+
+        The load acts along x. An entry is the displacement u_x of a node, averaged over the angle
+        θ, per unit nodal force f(r) along x [length/force]. With q_r = f cos θ and q_θ = -f sin θ,
+        the mean of u_x is (u_r - u_θ)/2 in the amplitudes of n = 1. Mindlin's approximation
+        neglects u_y and the part of u_x ∝ cos 2θ.
+        """
+        C = self.compliance(SHEARING).matrix
+        return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
 
     def _spring_compliance(self, of: Motion) -> Field:
         """Compute the displacement of the nodes by the springs of the test rig, per nodal force.

@@ -18,6 +18,8 @@ from fem_reference.compliance.ring_edge import (
     contact_edge,
 )
 from fem_reference.elasticity.hat_functions import TractionBasis
+from fem_reference.elasticity.motion import PRESSING, TORSION
+from fem_reference.elasticity.motion import motion as motion_of
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
 
@@ -86,7 +88,7 @@ def ring_compliance(
     harmonics = [np.zeros((3, rings, 3, rings)) for _ in range(highest + 1)]
     if path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS):
         for n, A in enumerate(harmonics):
-            condensed = model.compliance(n)
+            condensed = model.compliance(motion_of(n))
             for i, a in enumerate(condensed.motion.components):
                 for j, b in enumerate(condensed.motion.components):
                     A[a, :, b] = basis.compliance(condensed.matrix[i, :, j])
@@ -94,9 +96,9 @@ def ring_compliance(
         # Without coupling only the normal compliance is required, and that of the one component of
         # shear, if there is one.
         (A,) = harmonics
-        A[Z, :, Z] = basis.compliance(model.compliance(0).matrix[1, :, 1])
+        A[Z, :, Z] = basis.compliance(model.compliance(PRESSING).matrix[1, :, 1])
         if path is Path.TWISTING:
-            A[THETA, :, THETA] = basis.compliance(model.torsion().matrix[0, :, 0])
+            A[THETA, :, THETA] = basis.compliance(model.compliance(TORSION).matrix[0, :, 0])
             motion[THETA] = stretch
         elif path is Path.SHEARING:
             A[R, :, R] = basis.compliance(model.along_load())

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from math import pi, sqrt
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,40 +83,28 @@ def _add_shear(
     direction  unit vector (x, y) of the tangential load
     edges      radius of the contact edge on every ray (angles,) [length]
     """
-    sheared = replace(
+    path, (x, y) = contact.rings.path, direction
+    components = {"radial": 0} if contact.axisymmetric else {"radial": 0, "circumferential": 1}
+    single = {Path.TWISTING: {"circumferential": 1}, Path.SHEARING: {"along_load": 0}}
+    fields: dict[str, Any] = {
+        f"{field}_{name}": _drop_angle_axis(contact, on_grid[component])
+        for field, vectors in (("shear", state.shear), ("slip", state.slip))
+        for on_grid in [contact.compliance.vector_on_grid(vectors)]
+        for name, component in single.get(path, components).items()
+    }
+    if path is Path.TWISTING:
+        fields |= {"torque": state.load, "twist": state.motion}
+    else:
+        shift = None if state.motion is None else (state.motion * x, state.motion * y)
+        fields |= {"tangential_force": (state.load * x, state.load * y), "tangential_shift": shift}
+    return replace(
         pressed,
         status=state.status,
         in_stick=_result_field(contact, state.in_stick),
         stick_radius=sqrt(_stick_area(contact, state, edges) / pi),
         dissipated_energy=state.dissipated_energy,
+        **fields,
     )
-    shear, slip = (
-        [
-            _drop_angle_axis(contact, component)
-            for component in contact.compliance.vector_on_grid(vectors)
-        ]
-        for vectors in (state.shear, state.slip)
-    )
-    path, (x, y) = contact.rings.path, direction
-    if path is Path.TWISTING:
-        return replace(
-            sheared,
-            shear_circumferential=shear[1],
-            slip_circumferential=slip[1],
-            torque=state.load,
-            twist=state.motion,
-        )
-    sheared = replace(
-        sheared,
-        tangential_force=(state.load * x, state.load * y),
-        tangential_shift=None if state.motion is None else (state.motion * x, state.motion * y),
-    )
-    if path is Path.SHEARING:
-        return replace(sheared, shear_along_load=shear[0], slip_along_load=slip[0])
-    sheared = replace(sheared, shear_radial=shear[0], slip_radial=slip[0])
-    if contact.axisymmetric:
-        return sheared
-    return replace(sheared, shear_circumferential=shear[1], slip_circumferential=slip[1])
 
 
 def _result_field(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:

@@ -14,6 +14,7 @@ from fem_reference.contact import increment
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.elasticity import compliance, hat_functions, section_basis, weak_form
 from fem_reference.elasticity.factored_section import FactoredSection
+from fem_reference.elasticity.motion import SHEARING
 from fem_reference.model import ContactModel
 from radial.frictional.coupling import Coupling
 from verification.defects.defect import Defect, Replacements, replaces
@@ -51,7 +52,7 @@ def _resultant_weight(whole: Any, nodes: Any, reach: float = np.inf) -> Any:
 
 @replaces(ContactModel, "along_load")
 def _circumferential_shear(_: Any, model: Any) -> Any:
-    C = model.compliance(1).matrix
+    C = model.compliance(SHEARING).matrix
     return 0.5 * (C[0, :, 0] + C[0, :, 1] + C[1, :, 0] + C[1, :, 1])
 
 

@@ -19,6 +19,7 @@ from contact_scene import IsotropicMaterial
 from fem_reference import Increment, Path, Result
 from fem_reference.compliance.gauss_points import gauss_points
 from fem_reference.elasticity.hat_functions import TractionBasis
+from fem_reference.elasticity.motion import PRESSING, SHEARING, TORSION, motion
 from fem_reference.model import ContactModel, outermost_modulus
 from fem_reference.scales import Scales
 from verification.observed.contact_state import BISECTED, UNDEFINED, Balance, ContactState
@@ -159,18 +160,19 @@ class Rings:
         if self.path in (Path.SHEARING, Path.TWISTING):
             u, component = np.zeros((2, *self._shape)), int(self.path is Path.TWISTING)
             if component:
-                nodal = self.model.torsion().matrix[0, :, 0]
+                nodal = self.model.compliance(TORSION).matrix[0, :, 0]
             else:  # the mean around the axis along the load, per nodal force along the load
-                C, sign = self.model.compliance(1).matrix[:2, :, :2], np.array([1.0, -1.0])
+                C, sign = self.model.compliance(SHEARING).matrix[:2, :, :2], np.array([1.0, -1.0])
                 nodal = 0.5 * np.einsum("i,j,iajb->ab", sign, sign, C)
             u[component, :, 0] = self._ring_means(nodal, q[component, :, 0])
-            return u, self._ring_means(self.model.compliance(0).matrix[1, :, 1], p[:, 0])[:, None]
+            normal = self.model.compliance(PRESSING).matrix[1, :, 1]
+            return u, self._ring_means(normal, p[:, 0])[:, None]
         tractions, u = np.stack([*q, p]), np.zeros((3, *self._shape))
         for n in range(len(self.angles)):
             wave, loads = self._angular_functions(n), self._angular_amplitudes(n, tractions)
             if not np.any(loads):
                 continue
-            condensed = self.model.compliance(n)
+            condensed = self.model.compliance(motion(n))
             for i, a in enumerate(condensed.motion.components):
                 for j, b in enumerate(condensed.motion.components):
                     u[a] += np.outer(self._ring_means(condensed.matrix[i, :, j], loads[b]), wave[a])
