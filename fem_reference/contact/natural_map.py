@@ -175,7 +175,7 @@ class Equations:
         solves   number of linear systems solved
         """
         _, z_t, z_z, bound = self._evaluate_equations(at)
-        q = into_discs(z_t, bound)
+        q = np.clip(into_discs(z_t, bound), -bound, bound)  # also against round-off
         return CoupledSolution(np.maximum(z_z, 0.0), q, at.approach, at.shift, in_slip, 0, solves)
 
     def _evaluate_equations(self, at: Iterate) -> tuple[Vector, Field, Vector, Vector]:
