@@ -19,7 +19,7 @@ from verification.studies.stability.cell import (
     Surface,
     Verdict,
 )
-from verification.studies.stability.judged import judged
+from verification.studies.stability.judged import judge_contact
 from verification.studies.stability.pose import TOLERANCE, pose
 
 BOTH = [solver for solver in Solver if solver.by_elements]
@@ -46,7 +46,7 @@ CELLS = [
 @pytest.mark.parametrize("solver", BOTH)
 @pytest.mark.parametrize("cell", CELLS, ids=lambda cell: cell.name)
 def test_hard_cell_converges(cell: StabilityCell, solver: Solver) -> None:
-    record = judged(replace(cell, solver=solver))
+    record = judge_contact(replace(cell, solver=solver))
     assert record.verdict is Verdict.CONVERGED, record.reason
     assert record.residual is not None
     assert record.observed is not None
@@ -69,7 +69,7 @@ def test_hard_cell_converges(cell: StabilityCell, solver: Solver) -> None:
 def test_what_has_no_solution_is_refused_by_name(
     change: dict[str, Any], kind: Refusal, solver: Solver
 ) -> None:
-    record = judged(replace(ORDINARY, **change, solver=solver))
+    record = judge_contact(replace(ORDINARY, **change, solver=solver))
     assert record.verdict is Verdict.REFUSED
     assert record.refused_for is kind
     assert replace(ORDINARY, **change).posable == (kind is not Refusal.POSE)

@@ -34,7 +34,7 @@ from verification.studies.stability.judged import (
     SolvedContact,
     StabilityRun,
     by_superposition,
-    judged,
+    judge_contact,
 )
 from verification.studies.stability.pose import Posed, pose
 from verification.studies.stability.study import CLASSES, class_of, view_chart
@@ -103,7 +103,7 @@ def test_different_cells_have_different_names_and_files(tmp_path: object) -> Non
     ids=lambda cell: cell.name,
 )
 def test_hard_cell_converges(cell: StabilityCell) -> None:
-    record = judged(cell)
+    record = judge_contact(cell)
     assert record.verdict is Verdict.CONVERGED, record.reason
     assert record.residual is not None
     assert record.residual <= record.tolerance <= 1e-7
@@ -111,7 +111,7 @@ def test_hard_cell_converges(cell: StabilityCell) -> None:
 
 
 def test_more_than_friction_carries_is_refused() -> None:
-    record = judged(replace(ORDINARY, push=1.001))
+    record = judge_contact(replace(ORDINARY, push=1.001))
     assert record.verdict is Verdict.REFUSED
     assert record.refused_for is Refusal.FORCE
 
@@ -136,12 +136,12 @@ def test_what_a_cell_is_refused_for_does_not_hang_on_words(
     monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, refuse)
     if isinstance(error, SceneError):
         monkeypatch.setattr("verification.studies.stability.judged.pose", refuse)
-    assert judged(ORDINARY).refused_for is kind
+    assert judge_contact(ORDINARY).refused_for is kind
 
 
 def test_scale_changes_nothing() -> None:
     records = [
-        judged(replace(ORDINARY, length=length, modulus=modulus))
+        judge_contact(replace(ORDINARY, length=length, modulus=modulus))
         for length, modulus in ((1e-3, 210e9), (1e-9, 1e3), (1.0, 1e12))
     ]
     # Round-off may cost or save an iteration.
@@ -184,7 +184,7 @@ def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch: pytest.Mon
         return by_superposition(replace(posed, tolerance=1e-4))
 
     monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, careless)
-    assert judged(ORDINARY).verdict is Verdict.SILENT
+    assert judge_contact(ORDINARY).verdict is Verdict.SILENT
 
 
 def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -192,7 +192,7 @@ def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch
         raise NotConverged("the shear", 60, 1e-3, 1e-8)
 
     monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, helpless)
-    record = judged(ORDINARY)
+    record = judge_contact(ORDINARY)
     assert record.verdict is Verdict.NOT_CONVERGED
     assert record.residual == 1e-3
     assert "NotConverged" in record.reason
@@ -200,7 +200,7 @@ def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch
 
 def test_the_way_of_the_solver_is_told() -> None:
     ways = [
-        judged(replace(ORDINARY, **change)).way
+        judge_contact(replace(ORDINARY, **change)).way
         for change in ({}, {"surface": Surface.ALIKE_BALL},
                        {"surface": Surface.ALIKE_BALL, "path": LoadingPath.PRESS})
     ]  # fmt: skip

@@ -46,7 +46,7 @@ def showcase() -> tuple[Picture, ...]:
 
     Equal versions of the libraries give equal bytes.
     """
-    result = solve(_scene(), square_grid(CELLS, REACH * HERTZ.contact_radius), TOLERANCE)
+    result = solve(_coated_scene(), square_grid(CELLS, REACH * HERTZ.contact_radius), TOLERANCE)
     cells = surface_of(result)
     assert isinstance(cells, Cells)
     with style.figure_style():
@@ -54,23 +54,23 @@ def showcase() -> tuple[Picture, ...]:
         stress = stress_on_cells(state_of_result(result, None))
         section = section_plot(stress, result.scene.body, "")
         return (
-            _picture(
-                "pressure", "Pressure", _map(result, "pressure"),
+            _picture_of_figure(
+                "pressure", "Pressure", _field_figure(result, "pressure"),
                 f"A rigid ball pressed, µ = {FRICTION:g}, on a coating {MODULUS_RATIO:g} "
                 f"times as stiff as the body below and {THICKNESS:g} of Hertz's radius thick "
                 f"(step 1), then pushed by {PUSH:g} µW (step 2), on {CELLS} x {CELLS} cells.",
             ),
-            _picture(
-                "shear", "Shear and the border of stick", _map(result, "shear"),
+            _picture_of_figure(
+                "shear", "Shear and the border of stick", _field_figure(result, "shear"),
                 "The same contact: magnitude and direction of the shear; within the white line "
                 "the surfaces stick.",
             ),
-            _picture(
+            _picture_of_figure(
                 "zones", "Stick and slip", stick_slip_map(result, cells),
                 "The same contact: pressed, its middle sticks and the ring around slips; pushed, "
                 "less sticks, and off the centre.",
             ),
-            _picture(
+            _picture_of_figure(
                 "section", "Stress below it", section,
                 "The same contact pushed, in the section y = 0: the dashed line is the interface; "
                 "behind the contact the coating is pulled, and it bends over the softer body.",
@@ -78,7 +78,7 @@ def showcase() -> tuple[Picture, ...]:
         )  # fmt: skip
 
 
-def _map(result: Result, field: str) -> Figure:
+def _field_figure(result: Result, field: str) -> Figure:
     cells = surface_of(result)
     assert isinstance(cells, Cells)
     figure = field_map(result, cells, field)
@@ -86,7 +86,7 @@ def _map(result: Result, field: str) -> Figure:
     return figure
 
 
-def _scene() -> Scene:
+def _coated_scene() -> Scene:
     pushed = (PUSH * FRICTION * NORMAL_FORCE, 0.0)
     return Scene(
         title="A coated contact, pressed and pushed",
@@ -100,7 +100,7 @@ def _scene() -> Scene:
     )
 
 
-def _picture(name: str, title: str, figure: Figure, caption: str) -> Picture:
+def _picture_of_figure(name: str, title: str, figure: Figure, caption: str) -> Picture:
     """Convert a figure to an SVG drawing whose fields are embedded as raster images to limit its
     size.
     """

@@ -27,7 +27,7 @@ SECONDS_ALLOWED = 240
 SOURCES = Path(__file__).parents[2]
 
 
-def driven(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str, Any]:
+def run_driver(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str, Any]:
     """Run the driver of another code in a process with one thread, and return its answer.
 
     Raises CannotDo if the driver refuses the request, and RuntimeError with the last line of its
@@ -50,21 +50,21 @@ def driven(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str, An
 COARSEST, TOLERANCE = 32, 1e-8
 
 
-def answering(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
+def make_answer_function(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
     """Return a function that solves a challenge on a refinement level with another code.
 
     python  interpreter of the environment in which the code is installed
     """
 
     def solve(posed: Posed, level: int) -> Answer:
-        request, length, stress = _request(posed, COARSEST * 2**level, peer)
-        found = driven(python, peer, request)
-        return _answer(posed, request, found, length, stress)
+        request, length, stress = _driver_request(posed, COARSEST * 2**level, peer)
+        found = run_driver(python, peer, request)
+        return _answer_from_driver(posed, request, found, length, stress)
 
     return solve
 
 
-def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], float, float]:
+def _driver_request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], float, float]:
     """Return the request of a challenge for a driver, and the units of length and stress.
 
     The request is dimensionless, because tamaas is sensitive to the units. Raises CannotDo for
@@ -104,7 +104,7 @@ def _request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], floa
     return request, length, modulus
 
 
-def _answer(
+def _answer_from_driver(
     posed: Posed, request: dict[str, Any], found: dict[str, Any], length: float, stress: float
 ) -> Answer:
     n = request["cells"]

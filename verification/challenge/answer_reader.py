@@ -60,8 +60,8 @@ def rows(
     columns  names of the required columns
     """
     path = folder / table
-    reader = csv.DictReader(text_of(path).splitlines(), restkey="more")
-    columns_are_there(f"{path}:1", reader.fieldnames or (), columns)
+    reader = csv.DictReader(read_text_file(path).splitlines(), restkey="more")
+    require_columns(f"{path}:1", reader.fieldnames or (), columns)
     for row in reader:
         where = f"{path}:{reader.line_num}"
         if "more" in row:
@@ -72,7 +72,7 @@ def rows(
         yield where, {k: (v or "").strip() for k, v in row.items()}
 
 
-def columns_are_there(where: str, found: Sequence[str], expected: Sequence[str]) -> None:
+def require_columns(where: str, found: Sequence[str], expected: Sequence[str]) -> None:
     """Check that a table has all expected columns; raise Refused with the found columns if not.
 
     where     file and line
@@ -82,7 +82,7 @@ def columns_are_there(where: str, found: Sequence[str], expected: Sequence[str])
     missing = [name for name in expected if name not in found]
     if not missing:
         return
-    there = _words(found) or "nothing"
+    there = _quoted_names(found) or "nothing"
     if len(found) == 1 and any(mark in found[0] for mark in ";\t"):
         there += " (columns are separated by commas)"
     raise Refused(
@@ -91,7 +91,7 @@ def columns_are_there(where: str, found: Sequence[str], expected: Sequence[str])
     )
 
 
-def text_of(path: Path) -> str:
+def read_text_file(path: Path) -> str:
     """Return the text of a regular UTF-8 file of limited size; raise Refused for any other file."""
     try:
         if path.exists() and not path.is_file():
@@ -104,7 +104,7 @@ def text_of(path: Path) -> str:
         raise Refused(f"{path}: {reason}") from None
 
 
-def _words(names: Any) -> str:
+def _quoted_names(names: Any) -> str:
     return ", ".join(map(repr, names))
 
 
@@ -123,7 +123,7 @@ def read_fields(
     levels  levels of the answer, by name
     """
     found: dict[str, dict[Key, Field]] = {}
-    for where, level, step, columns in _in_files(folder):
+    for where, level, step, columns in _field_files(folder):
         if level not in levels or not step.isdigit():
             raise Refused(
                 f"{where}: level {level!r} and load_step {step!r}, expected a level of {LEVELS} "
@@ -135,7 +135,7 @@ def read_fields(
             raise Refused(
                 f"{where}: no traction of step {step} is asked, but of step {steps or 'none'}"
             )
-        columns_are_there(where, list(columns), FIELD_COLUMNS)
+        require_columns(where, list(columns), FIELD_COLUMNS)
         quantities = [q for q in here if f"{q}{IN_PASCAL}" in columns]
         if not quantities:
             expected = " or ".join(f"'{q}{IN_PASCAL}'" for q in here)
@@ -153,7 +153,7 @@ def read_fields(
     return found
 
 
-def _in_files(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
+def _field_files(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
     """Yield file position, level, load step and columns of every field file in the folder of an
     answer."""
     tables = folder / FIELDS
@@ -161,9 +161,9 @@ def _in_files(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
         level, _, step = path.stem.rpartition("_")
         if path.suffix != ".csv" or not level:
             raise Refused(f"{path}: expected LEVEL_STEP.csv, with a level of {LEVELS}")
-        head, _, rest = text_of(path).partition("\n")
+        head, _, rest = read_text_file(path).partition("\n")
         header = [name.strip() for name in head.split(",")]
-        columns_are_there(f"{path}:1", header, FIELD_COLUMNS)
+        require_columns(f"{path}:1", header, FIELD_COLUMNS)
         lines = rest.splitlines()
         try:
             table = np.loadtxt(lines, delimiter=",", ndmin=2) if any(lines) else np.zeros((0, 0))
@@ -191,14 +191,14 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
     Returns the challenge, the description of the code, and the answers on all levels, coarse to
     fine. Raises Refused with file, line, found and expected value.
     """
-    challenge = _challenge(directory)
+    challenge = _read_challenge(directory)
     file = directory / ANSWERS
-    solver = _solver(directory / SOLVER)
-    levels = dict(_levels(directory, challenge.window))
+    solver = _read_solver(directory / SOLVER)
+    levels = dict(_read_levels(directory, challenge.window))
     values: dict[str, dict[Key, float | tuple[float, float]]] = {name: {} for name in levels}
     at_places: dict[str, dict[Key, Vector]] = {name: {} for name in levels}
     filled: set[tuple[str, Key, int]] = set()
-    for where, level, key, point, value in _values(directory, challenge):
+    for where, level, key, point, value in _read_values(directory, challenge):
         if level not in levels:
             known = ", ".join(levels) or "none"
             raise Refused(f"{where}: level {level!r} is not in {LEVELS}; there are {known}")
@@ -213,11 +213,11 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
             values[level][key] = value
     for level, found in at_places.items():
         for key, each in found.items():
-            open_ones = [n for n in range(1, 1 + len(each)) if (level, key, n) not in filled]
-            if open_ones:
+            missing_points = [n for n in range(1, 1 + len(each)) if (level, key, n) not in filled]
+            if missing_points:
                 raise Refused(
                     f"{file}: {key[0]} of step {key[1]} on level {level} has no "
-                    f"value at point {', '.join(map(str, open_ones))}; fill in all or none"
+                    f"value at point {', '.join(map(str, missing_points))}; fill in all or none"
                 )
     fields = read_fields(directory, challenge, levels)
     answers = tuple(
@@ -232,7 +232,7 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
     return challenge, solver, answers
 
 
-def _challenge(directory: Path) -> Challenge:
+def _read_challenge(directory: Path) -> Challenge:
     path = directory / MANIFEST
     if not path.exists():
         raise Refused(
@@ -240,7 +240,7 @@ def _challenge(directory: Path) -> Challenge:
             "FILE.py:FUNCTION"
         )
     try:
-        manifest = json.loads(text_of(path))
+        manifest = json.loads(read_text_file(path))
         schema, name, version = (manifest[key] for key in ("schema", "case", "case_version"))
         files = {given: manifest["files"][given] for given in GIVEN}
     except (ValueError, KeyError, TypeError, RecursionError) as error:
@@ -256,14 +256,14 @@ def _challenge(directory: Path) -> Challenge:
             f"{challenge.version}; export it again"
         )
     for given, sha in files.items():
-        if digest(text_of(directory / given)) != sha:
+        if digest(read_text_file(directory / given)) != sha:
             raise Refused(f"{directory / given}: differs from what was exported; export it again")
     return challenge
 
 
-def _solver(path: Path) -> Solver:
+def _read_solver(path: Path) -> Solver:
     try:
-        content = tomllib.loads(text_of(path))
+        content = tomllib.loads(read_text_file(path))
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise Refused(f"{path}: {error}") from None
     tables = {key: content.get(key, {}) for key in ("solver", "convention", "claims")}
@@ -289,7 +289,7 @@ def _solver(path: Path) -> Solver:
     return Solver(name, version, url, sampling, grade, orders)
 
 
-def _levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, Any]]]:
+def _read_levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, Any]]]:
     seen: set[str] = set()
     coarser = window
     for where, row in rows(folder, LEVELS, LEVEL_COLUMNS):
@@ -299,8 +299,10 @@ def _levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, Any]]]
         seen.add(name)
         if status not in (SOLVED, GAVE_UP):
             raise Refused(f"{where}: status {status!r}, expected {SOLVED!r} or {GAVE_UP!r}")
-        unknowns, seconds = (_counted(where, k, row[k]) for k in ("unknowns", "cpu_seconds"))
-        h = _si(where, row["h"], row["h_unit"], LENGTH)
+        unknowns, seconds = (
+            _positive_number(where, k, row[k]) for k in ("unknowns", "cpu_seconds")
+        )
+        h = _number_in_si(where, row["h"], row["h_unit"], LENGTH)
         if not 0 < h <= coarser:
             than = "its window" if coarser == window else "the level before"
             raise Refused(
@@ -319,7 +321,7 @@ def _levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, Any]]]
         )
 
 
-def _values(
+def _read_values(
     folder: Path, challenge: Challenge
 ) -> Iterator[tuple[str, str, Key, int, float | tuple[float, float]]]:
     """Yield the filled-in numbers of the answer file.
@@ -330,7 +332,7 @@ def _values(
     for where, row in rows(folder, ANSWERS, ANSWER_COLUMNS):
         if not row["value"]:
             continue
-        step = _step(where, row["load_step"])
+        step = _step_number(where, row["load_step"])
         asked = challenge.one(row["quantity"], step)
         if asked is None:
             known = ", ".join(v.quantity for v in challenge.numbers if v.step == step) or "nothing"
@@ -338,14 +340,14 @@ def _values(
                 f"{where}: {row['quantity']!r} is not asked in step {step}; asked: {known}"
             )
         kind = KINDS[asked.unit]
-        value = _si(where, row["value"], row["unit"], kind)
+        value = _number_in_si(where, row["value"], row["unit"], kind)
         key = asked.quantity, step
         if isinstance(asked, AskedPoints):
-            yield where, row["level"], key, _point(where, row.get(POINT, ""), asked), value
+            yield where, row["level"], key, _point_number(where, row.get(POINT, ""), asked), value
         elif row.get(POINT):
             raise Refused(f"{where}: {asked.quantity} is one number and has no points")
         elif row["u"]:
-            u = _si(where, row["u"], row["unit"], kind)
+            u = _number_in_si(where, row["u"], row["unit"], kind)
             if not 0 <= u < math.inf:
                 raise Refused(f"{where}: u is {row['u']}, expected a positive uncertainty, or none")
             yield where, row["level"], key, 0, (value, u)
@@ -353,26 +355,26 @@ def _values(
             yield where, row["level"], key, 0, value
 
 
-def _point(where: str, text: str, asked: AskedPoints) -> int:
+def _point_number(where: str, text: str, asked: AskedPoints) -> int:
     if not text.isdigit() or len(text) > 6 or not 1 <= int(text) <= len(asked.places):
         raise Refused(f"{where}: point {text!r}, expected 1 to {len(asked.places)} of {POINTS}")
     return int(text)
 
 
-def _step(where: str, text: str) -> int:
+def _step_number(where: str, text: str) -> int:
     if not text.isdigit() or len(text) > 6:
         raise Refused(f"{where}: load_step {text!r}, expected a whole number from 1")
     return int(text)
 
 
-def _number(where: str, text: str) -> float:
+def _parsed_number(where: str, text: str) -> float:
     try:
         return float(text)
     except ValueError:
         raise Refused(f"{where}: {text!r} is no number") from None
 
 
-def _counted(where: str, name: str, text: str) -> float | None:
+def _positive_number(where: str, name: str, text: str) -> float | None:
     """Read a positive number from a cell of a table; None for an empty cell. Raises Refused.
 
     where  file and line
@@ -381,13 +383,13 @@ def _counted(where: str, name: str, text: str) -> float | None:
     """
     if not text:
         return None
-    number = _number(where, text)
+    number = _parsed_number(where, text)
     if not 0 <= number < math.inf:
         raise Refused(f"{where}: {name} is {text}, expected a positive number, or none")
     return number
 
 
-def _si(where: str, text: str, unit: str, kind: Kind) -> float:
+def _number_in_si(where: str, text: str, unit: str, kind: Kind) -> float:
     """Convert a number with a unit from a table to SI; raise Refused for an unsuitable unit.
 
     A number that is not finite is returned unchanged and fails when it is judged.
@@ -397,7 +399,7 @@ def _si(where: str, text: str, unit: str, kind: Kind) -> float:
     unit   unit of the number
     kind   physical dimension that is expected
     """
-    value = _number(where, text)
+    value = _parsed_number(where, text)
     if not unit:
         raise Refused(f"{where}: {text} has no unit; give one such as {kind.si}")
     factor = kind.units.get(unit)

@@ -69,7 +69,7 @@ WORDS = (
 )
 
 
-def tilted() -> Iterator[Challenge]:
+def tilted_indenters() -> Iterator[Challenge]:
     """Yield the challenges of a tilted flat punch and a tilted ball."""
     yield tilted_punch()
     yield tilted_ball()
@@ -86,7 +86,7 @@ def tilted_punch() -> Challenge:
     force_at = (arm * PUNCH_TILT[1], arm * PUNCH_TILT[0])
     exact = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, force_at)
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
-    return _tilted(
+    return _tilted_challenge(
         "tilted_punch", "A flat punch pressed and tilted", punch, PUNCH_TILT,
         "Galin's theorem; Sneddon 1951, § 52", force_at, (approach(exact.approach),),
     )  # fmt: skip
@@ -98,7 +98,7 @@ def tilted_ball() -> Challenge:
     A tilted paraboloid is a shifted paraboloid: x²/2R - φx = (x - Rφ)²/2R - Rφ²/2.
     """
     drop = 0.5 * RADIUS * (BALL_TILT[0] ** 2 + BALL_TILT[1] ** 2)
-    return _tilted(
+    return _tilted_challenge(
         "tilted_ball", "A ball pressed and tilted", paper.paraboloid(STEEL), BALL_TILT,
         "Hertz 1882, below the place where the slope is zero",
         (RADIUS * BALL_TILT[1], RADIUS * BALL_TILT[0]),
@@ -106,7 +106,7 @@ def tilted_ball() -> Challenge:
     )  # fmt: skip
 
 
-def _tilted(
+def _tilted_challenge(
     name: str,
     title: str,
     indenter: Indenter,
@@ -176,13 +176,15 @@ def changing_loads() -> Iterator[Challenge]:
             "own: pressed by 0.8 kN; 1 kN and 50 N along x; 50 N along y added; 0.9 kN "
             "and (20, 60) N; a torque of 6 N mm about z.",
             scene, content["source"],
-            tuple(_asked(step, name, value, ends) for step, values in ends.items()
+            tuple(_changing_load_value(step, name, value, ends) for step, values in ends.items()
                   for name, value in values.items()),
             (), SMALL, shares="the scene: two solvers of this program agree within the uncertainty",
         )  # fmt: skip
 
 
-def _asked(step: str, name: str, value: float, ends: dict[str, dict[str, float]]) -> AskedValue:
+def _changing_load_value(
+    step: str, name: str, value: float, ends: dict[str, dict[str, float]]
+) -> AskedValue:
     """Create a required number of the changing loads, with its error scale and uncertainty.
 
     The scale is the largest shift, twist or energy of the history.
@@ -224,12 +226,12 @@ def paper_figure() -> Challenge:
         f"{title}. Pressing leaves radial shear, and the way there matters: every force grows "
         "in proportion to time.", scene,
         f"{COATED.source}; the shifts by slipstick's finite elements and cells, which agree",
-        (approach(COATED.approach, REFERENCE_ERROR), *_shifts()), (), SMALL,
+        (approach(COATED.approach, REFERENCE_ERROR), *_figure_shifts()), (), SMALL,
         "for the approach nothing; the shifts are what two of them agree on",
     )  # fmt: skip
 
 
-def _shifts() -> Iterator[AskedValue]:
+def _figure_shifts() -> Iterator[AskedValue]:
     for step, shift in enumerate(SHIFTS.values(), start=2):
         yield AskedValue(
             "shift_x", step, "m",
@@ -253,7 +255,7 @@ def challenges() -> dict[str, Challenge]:
     return {
         one.name: one
         for one in (
-            *(*classical, *tilted(), *coated(), *frictional()),
+            *(*classical, *tilted_indenters(), *coated_balls(), *frictional()),
             *(paper_figure(), *at_places(), *changing_loads()),
         )
     }
@@ -262,7 +264,7 @@ def challenges() -> dict[str, Challenge]:
 def hertz_point() -> Challenge:
     """Create the challenge of a frictionless ball on a half-space (Hertz)."""
     pressure = round_halves((HERTZ.contact_radius, HERTZ.peak_pressure))
-    return _pressed("hertz_point", "Hertz: a ball on a half-space", BALL, pressure)
+    return _pressed_challenge("hertz_point", "Hertz: a ball on a half-space", BALL, pressure)
 
 
 def hertz_elliptical() -> Challenge:
@@ -275,13 +277,15 @@ def hertz_elliptical() -> Challenge:
         AskedValue("semi_axis_y", 1, "m", "semi-axis of the contact along y", b, b, "itself"),
     )
     pressure = HalfEllipsoids((Half((a, b), exact.peak_pressure),))
-    return _pressed("hertz_elliptical", "Hertz: a barrel on a half-space", BARREL, pressure, axes)
+    return _pressed_challenge(
+        "hertz_elliptical", "Hertz: a barrel on a half-space", BARREL, pressure, axes
+    )
 
 
 def cone() -> Challenge:
     """Create the challenge of a frictionless cone on a half-space, whose peak pressure is
     infinite."""
-    return _pressed("cone_contact", "A cone on a half-space", CONE, None)
+    return _pressed_challenge("cone_contact", "A cone on a half-space", CONE, None)
 
 
 def punch() -> Challenge:
@@ -291,17 +295,18 @@ def punch() -> Challenge:
     """
     exact = PUNCH.ends[0]
     return Challenge(
-        "flat_punch", "A flat punch on a half-space", _words(PUNCH), PUNCH.scene, PUNCH.source,
+        "flat_punch", "A flat punch on a half-space", _problem_text(PUNCH), PUNCH.scene,
+        PUNCH.source,
         (approach(exact.approach),), (), SMALL,
     )  # fmt: skip
 
 
-def coated() -> Iterator[Challenge]:
+def coated_balls() -> Iterator[Challenge]:
     """Yield one challenge of a frictionless rigid ball for each tabulated coating."""
     for row in ROWS:
         problem = coated_ball(row)
         exact = solved_here(problem).ends[0]
-        yield _pressed(
+        yield _pressed_challenge(
             f"coated_paraboloid/E1_over_E2={row['E1_over_E2']:g}",
             problem.scene.title, problem, fitted(exact.pressure, exact.contact_radius, SERIES),
             shares="of the numbers nothing; the pressure is of a semi-closed solution that takes "
@@ -314,11 +319,11 @@ def cattaneo_mindlin() -> Challenge:
     problem = sheared("Ball pressed and sheared, ν = 0", PARTS)
     values, fields = [approach(HERTZ.approach)], []
     for step, end in enumerate(problem.ends[1:], start=2):
-        values += _tangential(step, end, end.sliding_shift)
-        fields.append(_shear(step, _cattaneo(end), end.tangential_force))
+        values += _shift_and_stick_radius(step, end, end.sliding_shift)
+        fields.append(_required_shear(step, _partial_slip_shear(end), end.tangential_force))
     return Challenge(
         "cattaneo_mindlin", "Cattaneo and Mindlin: pressed, then sheared",
-        _words(problem), problem.scene, problem.source, tuple(values), tuple(fields), SMALL,
+        _problem_text(problem), problem.scene, problem.source, tuple(values), tuple(fields), SMALL,
     )  # fmt: skip
 
 
@@ -336,8 +341,8 @@ def loop() -> Challenge:
         if step == 1 + len(QUARTERS):
             lost = state.dissipated_energy
         scale = state.virgin.sliding_shift
-        values += _tangential(step, state, scale)
-        fields.append(_shear(step, _branches(state), state.tangential_force))
+        values += _shift_and_stick_radius(step, state, scale)
+        fields.append(_required_shear(step, _loop_shear(state), state.tangential_force))
     energy = state.dissipated_energy - lost
     first = 1 + len(QUARTERS)
     values.append(
@@ -349,12 +354,12 @@ def loop() -> Challenge:
     )  # fmt: skip
     return Challenge(
         "fretting_loop", "A fretting loop: sheared to and fro under a constant load",
-        _words(problem), problem.scene, "Mindlin and Deresiewicz 1953", tuple(values),
+        _problem_text(problem), problem.scene, "Mindlin and Deresiewicz 1953", tuple(values),
         tuple(fields), SMALL,
     )  # fmt: skip
 
 
-def _pressed(
+def _pressed_challenge(
     name: str,
     title: str,
     problem: Problem,
@@ -387,16 +392,16 @@ def _pressed(
                        paper.NORMAL_FORCE, paper.NORMAL_FORCE, uncertainty=u)
         )  # fmt: skip
     return Challenge(
-        name, title, _words(problem), problem.scene, problem.source, tuple(values),
+        name, title, _problem_text(problem), problem.scene, problem.source, tuple(values),
         tuple(fields), SMALL if problem.radius < 0.4 * SMALL else LARGE, shares,
     )  # fmt: skip
 
 
-def _words(problem: Problem) -> str:
+def _problem_text(problem: Problem) -> str:
     return f"{problem.scene.title}."
 
 
-def _tangential(step: int, end: Any, sliding: float) -> Iterator[AskedValue]:
+def _shift_and_stick_radius(step: int, end: Any, sliding: float) -> Iterator[AskedValue]:
     yield AskedValue(
         "shift_x", step, "m",
         "tangential shift of the indenter along +x, relative to far points of the body",
@@ -405,20 +410,24 @@ def _tangential(step: int, end: Any, sliding: float) -> Iterator[AskedValue]:
     yield stick_radius(end.stick_radius, step)
 
 
-def _shear(step: int, halves: HalfEllipsoids, force: float) -> AskedField:
+def _required_shear(step: int, halves: HalfEllipsoids, force: float) -> AskedField:
     return AskedField(
         "shear_x", step, "shear traction along x on the lower body, along +x where the indenter "
         "pulls that way", halves, "L1", FRICTION_LIMIT, force,
     )  # fmt: skip
 
 
-def _cattaneo(end: PartialSlip, times: float = 1.0) -> HalfEllipsoids:
+def _partial_slip_shear(end: PartialSlip, times: float = 1.0) -> HalfEllipsoids:
     peak = times * FRICTION * HERTZ.peak_pressure * (1 if end.tangential_force >= 0 else -1)
     a, c = HERTZ.contact_radius, end.stick_radius
     return round_halves((a, peak), (c, -peak * c / a)) if c > 0 else round_halves((a, peak))
 
 
-def _branches(state: TangentialHistory) -> HalfEllipsoids:
+def _loop_shear(state: TangentialHistory) -> HalfEllipsoids:
     return HalfEllipsoids(
-        tuple(term for times, one in state.branches() for term in _cattaneo(one, times).terms)
+        tuple(
+            term
+            for times, one in state.branches()
+            for term in _partial_slip_shear(one, times).terms
+        )
     )

@@ -26,14 +26,14 @@ def toml_text(scene: Scene | Patch) -> str:
     """Return the text of a scene file in TOML, with all values that differ from the defaults."""
     if isinstance(scene, Patch):
         tables = scene.document(exclude_defaults=True)
-        return "\n".join(_table(tables, ())).lstrip("\n") + "\n"
+        return "\n".join(_toml_lines(tables, ())).lstrip("\n") + "\n"
     content = scene.model_dump(mode="json", exclude_defaults=True, exclude_none=True)
     shape = scene.model_dump(mode="json")["indenter"]["shape"]
     content["indenter"] = {"shape": shape, **content["indenter"]}
-    return "\n".join(_table(content, ())).lstrip("\n") + "\n"
+    return "\n".join(_toml_lines(content, ())).lstrip("\n") + "\n"
 
 
-def _table(content: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+def _toml_lines(content: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
     """Yield the TOML lines of a table: first its values, then its subtables and arrays of tables.
 
     content  values by key
@@ -42,13 +42,13 @@ def _table(content: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
     deeper = {name: v for name, v in content.items() if _is_table(v) or _is_tables(v)}
     for name, value in content.items():
         if name not in deeper:
-            yield f"{name} = {_value(value)}"
+            yield f"{name} = {_toml_value(value)}"
     for name, value in deeper.items():
         here = (*path, name)
         for one in [value] if _is_table(value) else value:
             head = ".".join(here)
             yield f"\n[{head}]" if _is_table(value) else f"\n[[{head}]]"
-            yield from _table(one, here)
+            yield from _toml_lines(one, here)
 
 
 def _is_table(value: Any) -> bool:
@@ -59,9 +59,9 @@ def _is_tables(value: Any) -> bool:
     return isinstance(value, list) and bool(value) and all(map(_is_table, value))
 
 
-def _value(value: Any) -> str:
+def _toml_value(value: Any) -> str:
     if isinstance(value, list):
-        return f"[{', '.join(map(_value, value))}]"
+        return f"[{', '.join(map(_toml_value, value))}]"
     if isinstance(value, float):
         return repr(value)
     return json.dumps(value, ensure_ascii=False)
@@ -95,12 +95,12 @@ def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
     reference = json.dumps(challenge.reference(), indent=1) + "\n"
     files = {
         "scene.toml": toml_text(challenge.scene),
-        "asked.csv": _asked(challenge, blind=blind),
-        POINTS: _csv([POINT_COLUMNS, *_points(challenge)]),
-        "problem.md": _problem(challenge),
+        "asked.csv": _required_quantities_csv(challenge, blind=blind),
+        POINTS: _csv_text([POINT_COLUMNS, *_point_rows(challenge)]),
+        "problem.md": _problem_text(challenge),
         SOLVER: _template_text(SOLVER),
-        LEVELS: _csv([LEVEL_COLUMNS]),
-        ANSWERS: _csv([(*ANSWER_COLUMNS, POINT), *_empty_answers(challenge)]),
+        LEVELS: _csv_text([LEVEL_COLUMNS]),
+        ANSWERS: _csv_text([(*ANSWER_COLUMNS, POINT), *_empty_answers(challenge)]),
     }
     manifest = {
         "schema": SCHEMA,
@@ -123,7 +123,7 @@ def digest(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _asked(challenge: Challenge, *, blind: bool) -> str:
+def _required_quantities_csv(challenge: Challenge, *, blind: bool) -> str:
     rows: list[Sequence[Any]] = [
         ("quantity", "load_step", "unit", "norm", "scale", "scale_name", "grade", "required",
          "meaning")
@@ -142,7 +142,7 @@ def _asked(challenge: Challenge, *, blind: bool) -> str:
     for f in challenge.fields:
         over = "its own norm" if f.norm == "L2" else "µW"
         rows.append((f.quantity, f.step, "Pa", f.norm, "", over, f.par, "no", f.meaning))
-    return _csv(rows)
+    return _csv_text(rows)
 
 
 def _empty_answers(challenge: Challenge) -> list[Sequence[Any]]:
@@ -153,25 +153,25 @@ def _empty_answers(challenge: Challenge) -> list[Sequence[Any]]:
     ]  # fmt: skip
 
 
-def _points(challenge: Challenge) -> Iterator[Sequence[Any]]:
+def _point_rows(challenge: Challenge) -> Iterator[Sequence[Any]]:
     """Yield the rows of the table of required points, numbered from 1 for each quantity."""
     for p in challenge.points:
         for n, place in enumerate(p.places, start=1):
             yield p.quantity, p.step, n, *(f"{x:.10g}" for x in place)
 
 
-def _problem(challenge: Challenge) -> str:
-    steps = [f"{ramp.step}. {', '.join(_ends(ramp))}" for ramp in challenge.ramps]
+def _problem_text(challenge: Challenge) -> str:
+    steps = [f"{ramp.step}. {', '.join(_prescribed_ends(ramp))}" for ramp in challenge.ramps]
     return _template_text("problem.md").format(
         title=challenge.title, problem=challenge.problem,
         steps="\n".join(steps) or "1. the tractions as told above",
         window=f"{challenge.window * 1e3:g} mm square", source=challenge.source,
-        fields=_own_points(challenge),
+        fields=_field_instructions(challenge),
         shares=challenge.shares or "nothing",
     )  # fmt: skip
 
 
-def _own_points(challenge: Challenge) -> str:
+def _field_instructions(challenge: Challenge) -> str:
     """Return the instructions for tractions at self-chosen points; "" if no field is required."""
     if not challenge.fields:
         return ""
@@ -180,7 +180,7 @@ def _own_points(challenge: Challenge) -> str:
     return "\n" + _template_text("fields.md").format(step=step, columns=",".join(heads)).rstrip()
 
 
-def _ends(ramp: LoadRamp) -> Iterator[str]:
+def _prescribed_ends(ramp: LoadRamp) -> Iterator[str]:
     """Yield the prescribed loads and motions at the end of a load step as text.
 
     Rotations that are prescribed as zero are left out.
@@ -204,7 +204,7 @@ def _template_text(name: str) -> str:
     return (TEMPLATES / name).read_text(encoding="utf-8")
 
 
-def _csv(rows: Sequence[Sequence[Any]]) -> str:
+def _csv_text(rows: Sequence[Sequence[Any]]) -> str:
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(rows)
     return text.getvalue()

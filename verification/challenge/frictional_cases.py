@@ -100,10 +100,10 @@ def torsion() -> Challenge:
     values, fields = [], []
     for step, end in enumerate(TWISTED.ends[1:], start=2):
         values += [
-            _twist(step, end.twist, end.twist, "itself"),
+            _required_twist(step, end.twist, end.twist, "itself"),
             stick_radius(end.stick_radius, step),
         ]
-        shear = around(end)
+        shear = circumferential_shear(end)
         fields.append(
             AskedField(
                 "shear_around", step, "shear traction on the lower body around the z axis, "
@@ -119,7 +119,7 @@ def torsion() -> Challenge:
     )  # fmt: skip
 
 
-def around(end: TorsionalPartialSlip) -> RoundTable:
+def circumferential_shear(end: TorsionalPartialSlip) -> RoundTable:
     """Tabulate the circumferential shear of a ball in torsion over the radius."""
     return tabulated(end.shear, end.stick_radius, end.contact_radius)
 
@@ -127,7 +127,7 @@ def around(end: TorsionalPartialSlip) -> RoundTable:
 def torsion_loop() -> Challenge:
     """Create the challenge of a pressed ball under a torque that alternates between two limits."""
     values = [
-        _twist(step, end.twist, LARGEST.twist, OVER_TWIST)
+        _required_twist(step, end.twist, LARGEST.twist, OVER_TWIST)
         for step, end in enumerate(TORSION_LOOP.ends[1:], start=2)
     ]
     last, energy = len(TORSION_LOOP.ends), TORSION_LOOP.ends[-1].energy_per_cycle
@@ -154,8 +154,8 @@ def pressed_with_friction(one: Indentation) -> Challenge:
     r = r[np.abs(r - one.stick_part * a) > AWAY * a]
     places = np.stack([r, 0 * r, 0 * r], axis=1)
     limit = one.friction * HERTZ.peak_pressure
-    pressure = between(one, "p_over_pH", r) * HERTZ.peak_pressure
-    shear = between(one, "q_over_mu_pH", r) * limit
+    pressure = interpolate_profile(one, "p_over_pH", r) * HERTZ.peak_pressure
+    shear = interpolate_profile(one, "q_over_mu_pH", r) * limit
     points = (
         AskedPoints("pressure", 1, "Pa", "pressure", places, pressure, HERTZ.peak_pressure,
                     "p_H", uncertainty=PROFILE_ERROR),
@@ -174,7 +174,9 @@ def pressed_with_friction(one: Indentation) -> Challenge:
     )  # fmt: skip
 
 
-def between(one: Indentation, profile: str, r: NDArray[np.float64]) -> NDArray[np.float64]:
+def interpolate_profile(
+    one: Indentation, profile: str, r: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Interpolate a tabulated profile of a traction to distances r from the axis.
 
     Cubic splines inside and outside the stick zone interpolate the profile, divided by its square
@@ -226,7 +228,7 @@ def stuck_ball(nu: float) -> Challenge:
     )  # fmt: skip
 
 
-def _twist(step: int, value: float, scale: float, over: str) -> AskedValue:
+def _required_twist(step: int, value: float, scale: float, over: str) -> AskedValue:
     return AskedValue("twist", step, "rad", "rotation of the indenter about z relative to far "
                       "points of the body, right-handed", value, scale, over, Grade.C)  # fmt: skip
 
@@ -309,7 +311,7 @@ def layered_patches() -> Iterator[Challenge]:
             f"A layer of {THICKNESS:g} m on a half-space. No contact: on the square "
             f"|x|, |y| < {side / 2:g} m of its surface acts a uniform traction of {TRACTION:g} Pa, "
             "pressure along +z or shear along +x or +y, one at a time.",
-            Patch(_body(own[0]), side, TRACTION), PATCH_SOURCE, (), (), SMALL, points=tuple(
+            Patch(_layered_body(own[0]), side, TRACTION), PATCH_SOURCE, (), (), SMALL, points=tuple(
                 AskedPoints(name, 1, "m", meaning, places, values[key], scale,
                             "the largest u_z_by_pressure", Grade.B)
                 for key, (name, meaning) in MOVED.items()
@@ -317,7 +319,7 @@ def layered_patches() -> Iterator[Challenge]:
         )  # fmt: skip
 
 
-def _body(row: dict[str, float]) -> Body:
+def _layered_body(row: dict[str, float]) -> Body:
     def material(modulus: float, nu: float) -> IsotropicMaterial:
         young = 2 * (1 + nu) * SUBSTRATE * modulus / row["G2"]
         return IsotropicMaterial(young_modulus=young, poisson_ratio=nu)

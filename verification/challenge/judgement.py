@@ -29,7 +29,7 @@ from verification.norms import cell_means
 SCATTER = 3.0
 
 
-def sums_of(
+def field_sums(
     asked: AskedField, field: Field
 ) -> Iterator[tuple[str, str, float, float, float, float]]:
     """Yield the sums over the points of a traction field that must agree with the exact field.
@@ -43,11 +43,11 @@ def sums_of(
     spread = float(np.sum(forces * (field.x**2 + field.y**2)))
     reach = asked.scale * max(exact.semi_axes) ** 2
     yield "spread of the load", "Σ value·area·r²", spread, exact.spread, reach, 0.0
-    area, scatter = _covered(field, exact.semi_axes)
+    area, scatter = _covered_area(field, exact.semi_axes)
     yield "contact covered", "Σ area in the contact, over its own", area, 1.0, 1.0, scatter
 
 
-def _covered(field: Field, semi_axes: tuple[float, float]) -> tuple[float, float]:
+def _covered_area(field: Field, semi_axes: tuple[float, float]) -> tuple[float, float]:
     """Compute the fraction of the contact area that the points of a field cover, and its tolerance.
 
     The areas of the points are summed outwards, each centred at its point, up to the contact edge
@@ -128,7 +128,7 @@ def rows_of(
             yield Row("solved", step or None, level.label, Status.FAIL, f"gave up: {reason}")
     required: tuple[AskedQuantity, ...] = (*challenge.values, *challenge.fields, *challenge.points)
     for quantity in required:
-        yield from _rows_of(quantity, solver, levels, demanded or quantity.par)
+        yield from _judge_quantity(quantity, solver, levels, demanded or quantity.par)
 
 
 def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
@@ -150,7 +150,7 @@ def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, 
     ]
 
 
-def _rows_of(
+def _judge_quantity(
     asked: AskedQuantity, solver: Solver, levels: Sequence[Answer], grade: Grade
 ) -> Iterator[Row]:
     """Yield the verdicts on one required quantity: its error, convergence, and own properties.
@@ -158,26 +158,26 @@ def _rows_of(
     levels  answers, coarse to fine
     """
     key = asked.quantity, asked.step
-    found = [(one, given) for one in levels if (given := _given(asked, one)) is not None]
+    found = [(one, given) for one in levels if (given := _given_value(asked, one)) is not None]
     if not found:
         return
     finest, given = found[-1]
-    yield from _not_on_finest(key, finest, levels[-1])
-    errors = [(one.h, _error(asked, value, solver.sampling)) for one, value in found]
+    yield from _missing_on_finest(key, finest, levels[-1])
+    errors = [(one.h, _relative_error(asked, value, solver.sampling)) for one, value in found]
     value = reference = None
     hint = ""
     if isinstance(asked, AskedValue):
-        value, reference, hint = given, asked.value, _hint(given, asked)
-    yield _judged(key, finest.label, value, reference, errors, grade, asked.uncertainty, hint)
-    yield from _convergence(key, solver, errors, asked.uncertainty)
+        value, reference, hint = given, asked.value, _slip_hint(given, asked)
+    yield _judge_error(key, finest.label, value, reference, errors, grade, asked.uncertainty, hint)
+    yield from _judge_convergence(key, solver, errors, asked.uncertainty)
     if isinstance(asked, AskedValue):
         claims = [(one.uncertainty(key), e) for (one, _), (_, e) in zip(found, errors, strict=True)]
-        yield from _of_claims(asked, finest.label, claims, grade)
+        yield from _judge_claimed_uncertainty(asked, finest.label, claims, grade)
     elif isinstance(asked, AskedField):
-        yield from _of_areas(asked, given, finest.label, max(grade.bound, Grade.B.bound))
+        yield from _judge_point_areas(asked, given, finest.label, max(grade.bound, Grade.B.bound))
 
 
-def _given(asked: AskedQuantity, answer: Answer) -> Any:
+def _given_value(asked: AskedQuantity, answer: Answer) -> Any:
     """Return the number, field or numbers at points of an answer; None if it has none."""
     key = asked.quantity, asked.step
     if isinstance(asked, AskedValue):
@@ -185,7 +185,7 @@ def _given(asked: AskedQuantity, answer: Answer) -> Any:
     return (answer.fields if isinstance(asked, AskedField) else answer.points).get(key)
 
 
-def _error(asked: AskedQuantity, given: Any, sampling: str) -> float:
+def _relative_error(asked: AskedQuantity, given: Any, sampling: str) -> float:
     """Return the error of a required quantity over its scale, or a field's over its own norm.
 
     given     number, field or numbers at points
@@ -218,7 +218,7 @@ def _field_error(asked: AskedField, field: Field, sampling: str) -> float:
     return float(np.linalg.norm(side * off) / own) if own > 0 else math.inf
 
 
-def _of_claims(
+def _judge_claimed_uncertainty(
     asked: AskedValue,
     level: str,
     claims: Sequence[tuple[float | None, float]],
@@ -256,7 +256,7 @@ def order_text(order: tuple[float, float]) -> str:
     return f"{round(value, 2) + 0.0:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
 
 
-def _of_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
+def _judge_point_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
     """Judge the areas of the points of a field: load, second moment and contact area must be
     correct.
 
@@ -265,7 +265,7 @@ def _of_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iter
     level  refinement level
     bound  accepted relative difference
     """
-    for name, sums, has, should, scale, least in sums_of(asked, field):
+    for name, sums, has, should, scale, least in field_sums(asked, field):
         missed, allowed = abs(has - should) / scale, max(bound, least)
         if missed <= allowed:
             status, because = Status.PASS, sums
@@ -278,7 +278,7 @@ def _of_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iter
         )  # fmt: skip
 
 
-def _not_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
+def _missing_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
     """Yield an inconclusive verdict if a quantity is missing on the finest level of an answer.
 
     Without this verdict an answer that omits its worst numbers would be judged by the rest.
@@ -293,7 +293,7 @@ def _not_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
                   f"not answered there; judged on level {judged.label}")  # fmt: skip
 
 
-def _judged(
+def _judge_error(
     key: Key,
     level: str,
     value: float | None,
@@ -321,13 +321,13 @@ def _judged(
         status, because = Status.FAIL, f"beyond class {grade}{hint}"
         because = because if math.isfinite(error) else "no finite number"
     met = next((one for one in Grade if error + wide <= one.bound), None)
-    fit = _order(errors, wide)
+    fit = _fitted_order(errors, wide)
     return Row(
         *key, level, status, because, value, reference, error, grade.bound, met, fit, tuple(errors)
     )
 
 
-def _convergence(
+def _judge_convergence(
     key: Key, solver: Solver, errors: Sequence[tuple[float, float]], uncertainty: float
 ) -> Iterator[Row]:
     """Yield verdicts on the convergence: errors must not stall, and a claimed order must be
@@ -338,7 +338,7 @@ def _convergence(
     uncertainty  standard uncertainty of the reference, over the error scale
     """
     quantity, step = key
-    fit = _order(errors, 2 * uncertainty)
+    fit = _fitted_order(errors, 2 * uncertainty)
     if fit is None:
         return
     order, half = fit
@@ -357,7 +357,7 @@ def _convergence(
     yield Row(f"{quantity}: order", step, WHOLE, status, f"{told}, claimed {claimed:g}", order=fit)
 
 
-def _order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, float] | None:
+def _fitted_order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, float] | None:
     """Fit the order of convergence to the errors that are well above the uncertainty of the
     reference.
 
@@ -373,7 +373,7 @@ def _order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, f
     return fit.order, fit.half_width
 
 
-def _hint(value: float, asked: AskedValue) -> str:
+def _slip_hint(value: float, asked: AskedValue) -> str:
     """Return a hint if another sign, a factor of 2 or a unit would explain a wrong value; else
     ""."""
     slips = {"with the other sign": -1.0, "halved": 0.5, "doubled": 2.0}

@@ -111,7 +111,7 @@ def judge(
     problem, answers = posed(name), []
     for level in range(levels):
         started = time.process_time()
-        answer = _checked(solve(problem, level), challenges()[name], level)
+        answer = _checked_answer(solve(problem, level), challenges()[name], level)
         spent = time.process_time() - started
         seconds = spent if answer.seconds is None else answer.seconds
         answers.append(replace(answer, label=answer.label or str(level), seconds=seconds))
@@ -129,7 +129,7 @@ def judge(
     return judged(challenges()[name], who, answers, grade)
 
 
-def _checked(answer: object, challenge: Challenge, level: int) -> Answer:
+def _checked_answer(answer: object, challenge: Challenge, level: int) -> Answer:
     """Check the answer of a solver function on one level and convert its numbers; raise Refused.
 
     A quantity that only another challenge requires is accepted. Other names are refused.
@@ -143,8 +143,8 @@ def _checked(answer: object, challenge: Challenge, level: int) -> Answer:
     for key in keys:
         if not isinstance(key, tuple) or len(key) != 2:
             raise Refused(f"level {level}: {key!r}, expected a quantity and a loading step")
-        if key[0] not in _names() or key[1] not in range(1, steps + 1):
-            known = ", ".join(map(repr, _asked(challenge)))
+        if key[0] not in _known_quantities() or key[1] not in range(1, steps + 1):
+            known = ", ".join(map(repr, _required_keys(challenge)))
             raise Refused(f"level {level}: {key!r} is not asked; asked: {known}")
     scalars: dict[Key, float | tuple[float, float]] = {}
     given: dict[Key, Any] = {**answer.scalars}
@@ -167,14 +167,14 @@ def _checked(answer: object, challenge: Challenge, level: int) -> Answer:
     return replace(answer, scalars=scalars)
 
 
-def _asked(challenge: Challenge) -> list[Key]:
+def _required_keys(challenge: Challenge) -> list[Key]:
     return [(one.quantity, one.step) for one in (*challenge.numbers, *challenge.fields)]
 
 
 @cache
-def _names() -> frozenset[str]:
+def _known_quantities() -> frozenset[str]:
     """Return the names of all quantities that any challenge requires."""
-    return frozenset(name for one in challenges().values() for name, _ in _asked(one))
+    return frozenset(name for one in challenges().values() for name, _ in _required_keys(one))
 
 
 EXPECTED = "expected FILE.py:FUNCTION or MODULE:FUNCTION"
@@ -191,7 +191,7 @@ def named_solver(text: str) -> Callable[[Posed, int], Answer]:
     Raises Refused if there is no such function, and any exception of the executed file.
     """
     place, _, name = text.rpartition(":")
-    module = module_of(Path(place)) if place.endswith(".py") else _imported(place, text)
+    module = module_of(Path(place)) if place.endswith(".py") else _import_module(place, text)
     found: object = getattr(module, name, None)
     if not callable(found):
         raise Refused(f"{text}: {place} has no function {name!r}; {EXPECTED}")
@@ -217,7 +217,7 @@ def module_of(path: Path) -> ModuleType:
     return module
 
 
-def _imported(place: str, text: str) -> ModuleType:
+def _import_module(place: str, text: str) -> ModuleType:
     try:
         return importlib.import_module(place)
     except (ImportError, ValueError) as error:

@@ -373,15 +373,15 @@ class Challenge:
             "values": [
                 {
                     "quantity": v.quantity, "load_step": v.step, "unit": v.unit,
-                    "value": _digits(v.value), "u": _digits(v.uncertainty * v.scale),
-                    "scale": _digits(v.scale),
+                    "value": _rounded(v.value), "u": _rounded(v.uncertainty * v.scale),
+                    "scale": _rounded(v.scale),
                 }
                 for v in self.values
             ],
             "fields": [
                 {
                     "quantity": f.quantity, "load_step": f.step, "unit": "Pa", "norm": f.norm,
-                    "scale": _digits(f.scale), **_digits(f.traction.document()),
+                    "scale": _rounded(f.scale), **_rounded(f.traction.document()),
                 }
                 for f in self.fields
             ],
@@ -392,8 +392,9 @@ class Challenge:
             "points": [
                 {
                     "quantity": p.quantity, "load_step": p.step, "unit": p.unit,
-                    "values": _digits(p.values.tolist()), "u": _digits(p.uncertainty * p.scale),
-                    "scale": _digits(p.scale), "places": _digits(p.places.tolist()),
+                    "values": _rounded(p.values.tolist()),
+                    "u": _rounded(p.uncertainty * p.scale),
+                    "scale": _rounded(p.scale), "places": _rounded(p.places.tolist()),
                 }
                 for p in self.points
             ]
@@ -415,7 +416,9 @@ class Challenge:
     def loads(self) -> list[tuple[float, tuple[float, float]]]:
         """Normal and tangential force at the end of every load step [force]; NaN for prescribed
         motions."""
-        return [(_force(r.normal, nan), _force(r.tangential, (nan, nan))) for r in self.ramps]
+        return [
+            (_end_force(r.normal, nan), _end_force(r.tangential, (nan, nan))) for r in self.ramps
+        ]
 
     def one(self, quantity: str, step: int) -> AskedValue | AskedPoints | None:
         """Return the required number, or numbers at points, of a quantity in a load step; None if
@@ -429,18 +432,18 @@ class Challenge:
         return (*self.values, *self.points)
 
 
-def _force(control: Control[Value], unknown: Value) -> Value:
+def _end_force(control: Control[Value], unknown: Value) -> Value:
     return control.end if control.kind is ControlKind.FORCE else unknown
 
 
-def _digits(value: Any) -> Any:
+def _rounded(value: Any) -> Any:
     """Round all numbers in nested lists and records to 10 digits."""
     if isinstance(value, float):
         return float(f"{value:.{DIGITS}g}")
     if isinstance(value, list):
-        return [_digits(one) for one in value]
+        return [_rounded(one) for one in value]
     if isinstance(value, dict):
-        return {name: _digits(one) for name, one in value.items()}
+        return {name: _rounded(one) for name, one in value.items()}
     return value
 
 

@@ -51,15 +51,15 @@ class Replacement:
         """Make the replacement, and return the function that undoes it."""
         module = isinstance(self.owner, ModuleType)
         before = getattr(self.owner, self.name) if module else vars(self.owner)[self.name]
-        after = self._changed(before)
+        after = self._replacement_of(before)
         if module and not self.local:
-            _exchange(before, after)
+            _exchange_everywhere(before, after)
             # A module that is loaded meanwhile has imported the replacement.
-            return lambda: _exchange(after, before)
+            return lambda: _exchange_everywhere(after, before)
         setattr(self.owner, self.name, after)
         return lambda: setattr(self.owner, self.name, before)
 
-    def _changed(self, before: Any) -> Any:
+    def _replacement_of(self, before: Any) -> Any:
         if isinstance(before, property | cached_property):
             read = before.fget if isinstance(before, property) else before.func
             return property(lambda owner: self.change(read, owner))
@@ -139,7 +139,7 @@ def product_modules() -> list[ModuleType]:
     ]
 
 
-def _exchange(before: Any, after: Any) -> None:
+def _exchange_everywhere(before: Any, after: Any) -> None:
     for module in product_modules():
         for name, value in list(vars(module).items()):
             if value is before:

@@ -68,7 +68,7 @@ def _no_far_field(_: Any, self: Any, basis: Any) -> Any:
 
 
 @replaces(ContactModel, "gap")
-def _deformed_radius(whole: Any, self: Any, r: Any) -> Any:
+def _gap_at_deformed_radius(whole: Any, self: Any, r: Any) -> Any:
     return whole(self, (1 - DRAWN_IN) * r)
 
 
@@ -77,7 +77,7 @@ def _upper_body_rigid(whole: Any, lower: Any, upper: Any, motion: Any) -> Any:
     return whole(lower, None if lower else upper, motion)
 
 
-def _coupling(factor: float) -> Replacements:
+def _weak_coupling(factor: float) -> Replacements:
     @replaces(ring_compliance, "ring_compliance")
     def compliance(whole: Any, *given: Any, **more: Any) -> Any:
         right = whole(*given, **more)
@@ -90,12 +90,12 @@ def _coupling(factor: float) -> Replacements:
 
 
 @replaces(ContactModel, "friction")
-def _friction(whole: Any, self: ContactModel) -> CoulombFriction:
+def _high_friction(whole: Any, self: ContactModel) -> CoulombFriction:
     return CoulombFriction(coefficient=np.sqrt(2) * whole(self).largest)
 
 
 @replaces(increment, "advance")
-def _forgetful(whole: Any, contact: Any, before: Any, *more: Any) -> Any:
+def _history_dropped(whole: Any, contact: Any, before: Any, *more: Any) -> Any:
     if before is not None:
         first = contact.state_before_contact()
         forgotten = {
@@ -113,12 +113,12 @@ def _slip_reversed(whole: Any, self: Any, passes: Any) -> Any:
 
 
 @replaces(Penalty, "stiffness")
-def _soft(whole: Any, self: Any, *given: Any) -> Any:
+def _soft_penalty(whole: Any, self: Any, *given: Any) -> Any:
     return 0.1 * whole(self, *given)
 
 
 @replaces(increment._Increment, "next_pass")
-def _not_augmented(_: Any, self: Any, last: Any) -> Any:
+def _no_augmentation(_: Any, self: Any, last: Any) -> Any:
     return last
 
 
@@ -145,7 +145,7 @@ FINITE_ELEMENTS = (
     ),
     Defect(
         "fe-deformed-radius", "The gap is taken at the deformed radius.", ("fem_hertz",),
-        _deformed_radius,
+        _gap_at_deformed_radius,
     ),
     Defect(
         "fe-upper-body", "The compliance of the indenter is omitted.", ("fem_hertz",),
@@ -153,19 +153,19 @@ FINITE_ELEMENTS = (
     ),
     Defect(
         "fe-coupling-sign", "Pressure moves the surface away from the axis.", ("fem_indentation",),
-        _coupling(-1.0),
+        _weak_coupling(-1.0),
     ),
     Defect(
         "fe-coupling-0p99", "The coupling of pressure and shear is too weak by 1 %.",
-        ("fem_indentation", "fem_classical"), _coupling(0.99),
+        ("fem_indentation", "fem_classical"), _weak_coupling(0.99),
     ),
     Defect(
         "fe-friction-root-two", "The friction coefficient is too large by √2.",
-        ("fem_partial_slip",), _friction,
+        ("fem_partial_slip",), _high_friction,
     ),
     Defect(
         "fe-history-dropped", "Every increment starts from surfaces without history.",
-        ("fem_partial_slip",), _forgetful,
+        ("fem_partial_slip",), _history_dropped,
     ),
     Defect(
         "fe-dissipation-sign", "The dissipated energy has the wrong sign.",
@@ -173,11 +173,11 @@ FINITE_ELEMENTS = (
     ),
     Defect(
         "fe-penalty-soft", "The penalty is a tenth of the stated penalty.",
-        ("fem_penalty_hertz",), _soft,
+        ("fem_penalty_hertz",), _soft_penalty,
     ),
     Defect(
         "fe-penalty-not-augmented", "Augmentations have no effect.", ("fem_penalty_hertz",),
-        _not_augmented,
+        _no_augmentation,
     ),
 )  # fmt: skip
 
@@ -185,7 +185,7 @@ FINITE_ELEMENTS = (
 WEAKER = 0.99  # coupling of pressure and shear
 
 
-def _returned(*names: str, factor: float) -> Replacements:
+def _scaled_results(*names: str, factor: float) -> Replacements:
     """Return the replacement of the radial solver by one with a wrong factor in its results.
 
     names   results of every increment that are multiplied, such as "pressure"
@@ -223,25 +223,25 @@ def _radii_coupling(whole: Any, self: Coupling, *given: Any) -> Any:
 RADII = (
     Defect(
         "radial-pressure", "The pressure that the radial solver returns is 0.5 % too large.",
-        ("radial_tangential",), _returned("pressure", factor=1.005),
+        ("radial_tangential",), _scaled_results("pressure", factor=1.005),
     ),
     Defect(
         "radial-shear", "The shear that the radial solver returns is 2 % too small.",
         ("radial_tangential",),
-        _returned("shear_radial", "shear_circumferential", factor=0.98),
+        _scaled_results("shear_radial", "shear_circumferential", factor=0.98),
     ),
     Defect(
         "radial-slip-sign", "The slip that the radial solver returns has the wrong sign.",
         ("radial_tangential",),
-        _returned("slip_radial", "slip_circumferential", factor=-1.0),
+        _scaled_results("slip_radial", "slip_circumferential", factor=-1.0),
     ),
     Defect(
         "radial-elastic-energy", "The elastic energy that the radial solver returns is 1 % too "
-        "large.", ("radial_tangential",), _returned("elastic_energy", factor=1.01),
+        "large.", ("radial_tangential",), _scaled_results("elastic_energy", factor=1.01),
     ),
     Defect(
         "radial-dissipated-energy", "The dissipated energy that the radial solver returns counts "
-        "twice.", ("radial_tangential",), _returned("dissipated_energy", factor=2.0),
+        "twice.", ("radial_tangential",), _scaled_results("dissipated_energy", factor=2.0),
     ),
     Defect(
         "radial-friction-root-two", "The radial solver's friction coefficient is too large by √2.",

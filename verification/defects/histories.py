@@ -73,13 +73,13 @@ def _limit_by_direction(whole: Any, v: Any) -> Any:
     return whole(np.stack([v[0], 1.01 * v[1]]))
 
 
-def _no_residuals(*names: str) -> Replacements:
+def _zero_residuals(*names: str) -> Replacements:
     """Return replacements of the named residuals of cells by zero."""
     return tuple(Replacement(residuals, name, lambda *given: 0.0) for name in names)
 
 
-NO_CONTACT_RESIDUALS = _no_residuals("complementarity", "penetration")
-NO_FRICTION_RESIDUALS = _no_residuals("friction_cone", "slip_direction")
+NO_CONTACT_RESIDUALS = _zero_residuals("complementarity", "penetration")
+NO_FRICTION_RESIDUALS = _zero_residuals("friction_cone", "slip_direction")
 
 
 @replaces(history, "_reported_increment")
@@ -89,7 +89,7 @@ def _approach_when_unloading(whole: Any, model: Any, before: Any, state: Any, *p
     return replace(increment, approach=0.95 * increment.approach) if falls else increment
 
 
-def _grown(name: str, factor: float) -> Replacements:
+def _scaled_slip_increase(name: str, factor: float) -> Replacements:
     """Return a wrong factor in the increase of a field of slip in an increment.
 
     name    field of the tangential state, such as "dissipation"
@@ -106,7 +106,7 @@ def _grown(name: str, factor: float) -> Replacements:
 
 
 @replaces(stick_slip, "touching_share")
-def _before_touch(whole: Any, *given: Any) -> Any:
+def _slip_before_contact(whole: Any, *given: Any) -> Any:
     return 1.0
 
 
@@ -208,16 +208,16 @@ HISTORIES = (
     ),
     Defect(
         "dissipation-map", "The map of the dissipated energy is 5 % too large, its sum is not.",
-        ("load_paths",), _grown("dissipation", 1.05),
+        ("load_paths",), _scaled_slip_increase("dissipation", 1.05),
     ),
     Defect(
         "slip-before-touch", "Slip is counted from the start of the increment instead of first "
         "contact.",
-        ("coupled_history",), _before_touch,
+        ("coupled_history",), _slip_before_contact,
     ),
     Defect(
         "way-slipped", "The accumulated slip is doubled.",
-        ("load_paths",), _grown("slip_distance", 2.0),
+        ("load_paths",), _scaled_slip_increase("slip_distance", 2.0),
     ),
     Defect(
         "loss-with-coupling", "The dissipated energy of coupled bodies is 1 % too large.",
@@ -239,12 +239,12 @@ HISTORIES = (
 
 
 @replaces(ContactModel, "friction")
-def _friction(_: Any, self: Any) -> Any:
+def _high_friction(_: Any, self: Any) -> Any:
     return CoulombFriction(coefficient=np.sqrt(2) * self.scene.friction.largest)
 
 
 @replaces(stick_slip, "slip_and_stick")
-def _forgetful(whole: Any, model: Any, pressure: Any, last: Any, *rest: Any) -> Any:
+def _history_dropped(whole: Any, model: Any, pressure: Any, last: Any, *rest: Any) -> Any:
     return whole(model, pressure, untouched_state(model.grid.cells), *rest)
 
 
@@ -255,26 +255,26 @@ def _slip_reversed(whole: Any, model: Any, pressure: Any, bound: Any, last: Any,
 
 
 @replaces(ContactModel, "from_scene")
-def _deeper(whole: Any, *given: Any, **more: Any) -> Any:
+def _deep_gap(whole: Any, *given: Any, **more: Any) -> Any:
     model = whole(*given, **more)
     model.gap = 1.003 * model.gap
     return model
 
 
 @replaces(TangentialState, "__init__")
-def _cold(whole: Any, self: TangentialState, *given: Any, **named: Any) -> None:
+def _dissipation_halved(whole: Any, self: TangentialState, *given: Any, **named: Any) -> None:
     whole(self, *given, **named)
     if self.dissipated_energy is not None:
         object.__setattr__(self, "dissipated_energy", 0.5 * self.dissipated_energy)
 
 
 @replaces(energy, "_load_work")
-def _half_work(whole: Any, before: Any, after: Any) -> Any:
+def _work_halved(whole: Any, before: Any, after: Any) -> Any:
     return 0.5 * (whole(before, after) or 0.0)
 
 
 @replaces(increment, "normal_target")
-def _lighter(whole: Any, *given: Any) -> Any:
+def _reduced_normal_force(whole: Any, *given: Any) -> Any:
     right = whole(*given)
     return right if right.force is None else replace(right, force=0.997 * right.force)
 
@@ -326,7 +326,7 @@ def _shear_stress_sign(whole: Any, grid: Any, pressure: Any, shear: Any) -> Any:
     return whole(grid, pressure, None if shear is None else -shear)
 
 
-def _stress(change: Callable[[Any], Any]) -> Replacements:
+def _wrong_stress(change: Callable[[Any], Any]) -> Replacements:
     """Return an error of the stress components (nz, 6, nx, ny) below the surface.
 
     change  function that returns the wrong components
@@ -355,11 +355,11 @@ LOOP = ("fretting_loop",)
 CONTACT_AND_FRICTION = (
     Defect(
         "gap-too-deep", "The undeformed gap is too deep by 0.3 %.",
-        ("dissimilar_bodies", "hertz_approach_control"), _deeper,
+        ("dissimilar_bodies", "hertz_approach_control"), _deep_gap,
     ),
     Defect(
         "force-scaled", "The normal force of an increment is 0.3 % below the prescribed force.",
-        ("dissimilar_bodies",), _lighter,
+        ("dissimilar_bodies",), _reduced_normal_force,
     ),
     Defect(
         "force-not-met", "Pressures add up to 0.1 % less than the normal force.",
@@ -378,11 +378,11 @@ CONTACT_AND_FRICTION = (
     ),
     Defect(
         "friction-root-two", "The friction coefficient is too large by √2.",
-        ("cattaneo_mindlin", "near_sliding"), _friction,
+        ("cattaneo_mindlin", "near_sliding"), _high_friction,
     ),
     Defect(
         "history-dropped", "Every increment starts from surfaces without history.",
-        LOOP, _forgetful,
+        LOOP, _history_dropped,
     ),
     Defect(
         "one-increment", "A load step has one increment, instead of the requested number.",
@@ -394,10 +394,10 @@ CONTACT_AND_FRICTION = (
     ),
     Defect(
         "dissipation-halved", "Only half of the dissipated energy is counted.",
-        LOOP, _cold,
+        LOOP, _dissipation_halved,
     ),
     Defect(
-        "work-halved", "The work of the loads is halved.", LOOP, _half_work,
+        "work-halved", "The work of the loads is halved.", LOOP, _work_halved,
     ),
     Defect(
         "tilt-axes", "Tilts about the two axes are exchanged.",
@@ -422,11 +422,11 @@ CONTACT_AND_FRICTION = (
     ),
     Defect(
         "stress-planes-exchanged", "Below the surface σ_yz and σ_xz are exchanged.",
-        ("subsurface_stress",), _stress(_planes_exchanged),
+        ("subsurface_stress",), _wrong_stress(_planes_exchanged),
     ),
     Defect(
         "in-plane-shear-halved", "Below the surface σ_xy is halved.",
-        ("subsurface_stress",), _stress(_in_plane_halved),
+        ("subsurface_stress",), _wrong_stress(_in_plane_halved),
     ),
 )  # fmt: skip
 
@@ -461,7 +461,7 @@ def _no_tilt_about_y(_: Any, self: ContactModel) -> Any:
     return np.stack([y, 0 * x])
 
 
-def _taken_over(kind: ControlKind) -> Replacements:
+def _wrong_start_of_step(kind: ControlKind) -> Replacements:
     """Return a wrong initial value of a controlled force or displacement in a load step.
 
     The value is 2 % too large.
@@ -518,12 +518,12 @@ CONTROLS_AND_BODIES = (
     Defect(
         "approach-taken-over", "A step of prescribed approach starts at an approach 2 % above "
         "the end of the force step before it.", ("led_histories",),
-        _taken_over(ControlKind.DISPLACEMENT),
+        _wrong_start_of_step(ControlKind.DISPLACEMENT),
     ),
     Defect(
         "force-taken-over", "A step of prescribed force starts at a force 2 % above the end of "
         "the approach step before it.",
-        ("led_histories",), _taken_over(ControlKind.FORCE),
+        ("led_histories",), _wrong_start_of_step(ControlKind.FORCE),
     ),
     Defect(
         "torque-far-field", "The far-field rotation by a torque is halved.",

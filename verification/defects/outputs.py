@@ -30,7 +30,7 @@ def _shown_halved(text: str, field: str) -> Replacements:
 
 
 @replaces(verdicts, "expanded_uncertainty")
-def _coverage(whole: Any, *given: Any) -> Any:
+def _doubled_uncertainty(whole: Any, *given: Any) -> Any:
     return 2 * whole(*given)
 
 
@@ -80,7 +80,7 @@ TOLD = (
         "allowed-shown-halved", "The printed tolerance is halved.", BY_HAND,
         _shown_halved("_allowed_text", "allowed"),
     ),
-    Defect("coverage-doubled", "Tolerances are U = 4u.", BY_HAND, _coverage),
+    Defect("coverage-doubled", "Tolerances are U = 4u.", BY_HAND, _doubled_uncertainty),
     Defect(
         "finest-levels-exchanged", "Richardson extrapolation exchanges the two finest levels.",
         BY_HAND, _finest_exchanged,
@@ -109,7 +109,7 @@ FALSIFIED = (
 Change = Callable[[Any], Any]
 
 
-def _returned(change: Change) -> Replacements:
+def _changed_results(change: Change) -> Replacements:
     """Return an error of the results of the semi-analytical and the finite-element solver.
 
     change  function that returns the wrong result
@@ -121,7 +121,7 @@ def _returned(change: Change) -> Replacements:
     return tuple(Replacement(owner, "solve", solve) for owner in (semi_analytical, fem_reference))
 
 
-def _times(factor: Callable[[Any], float]) -> Change:
+def _scaled_results(factor: Callable[[Any], float]) -> Change:
     """Return a function that multiplies displacements, tractions and twist of a result by a factor.
 
     factor  function of the result that returns the factor
@@ -130,13 +130,14 @@ def _times(factor: Callable[[Any], float]) -> Change:
     def change(result: Any) -> Any:
         by = factor(result)
         return replace(
-            result, increments=tuple(_multiplied(increment, by) for increment in result.increments)
+            result,
+            increments=tuple(_scaled_increment(increment, by) for increment in result.increments),
         )
 
     return change
 
 
-def _multiplied(increment: Any, by: float) -> Any:
+def _scaled_increment(increment: Any, by: float) -> Any:
     found = {name: getattr(increment, name, None) for name in FALSIFIED}
     scaled = {
         name: (by * np.asarray(value) if np.ndim(value) else by * value)
@@ -146,26 +147,26 @@ def _multiplied(increment: Any, by: float) -> Any:
     return replace(increment, **scaled)
 
 
-def _cell(result: Any) -> float:
+def _relative_cell_size(result: Any) -> float:
     """Return the side of a surface cell or of a finite element over the contact radius, h/a [1]."""
     if isinstance(result, semi_analytical.Result):
         return max(result.grid.spacing) / result.increments[-1].contact_radius
     return 1 / float(result.discretisation.elements_per_radius)
 
 
-def _first_order(result: Any) -> float:
+def _first_order_factor(result: Any) -> float:
     """Return the factor 1 + 0.1 h/a: an error proportional to the cell side h over the contact
     radius a.
     """
-    return 1 + FIRST_ORDER * _cell(result)
+    return 1 + FIRST_ORDER * _relative_cell_size(result)
 
 
-def _floor(result: Any) -> float:
+def _error_floor_factor(result: Any) -> float:
     """Return the factor 1 ± 0.0005: an error that refinement does not reduce.
 
     The sign depends on the parity of the number of cells per contact radius.
     """
-    return 1 + FLOOR * (-1) ** round(1 / _cell(result))
+    return 1 + FLOOR * (-1) ** round(1 / _relative_cell_size(result))
 
 
 def _last_row_missing(result: Any) -> Any:
@@ -187,7 +188,7 @@ def _last_step_missing(result: Any) -> Any:
 
 
 @replaces(case_pool.CaseStore, "save")
-def _truncated(whole: Any, self: Any, case: Any, record: Any) -> None:
+def _half_record_written(whole: Any, self: Any, case: Any, record: Any) -> None:
     """Plant an incomplete write: each stored record of a case has only the first
     half of its text."""
     whole(self, case, record)
@@ -203,34 +204,34 @@ PLANTED_IN = ("hertz_point", "cattaneo_mindlin", "fem_hertz")
 PLANTED = (
     Defect(
         "first-order-error", "Results are too large by 0.1 h/a: an error of first order.",
-        PLANTED_IN, _returned(_times(_first_order)),
+        PLANTED_IN, _changed_results(_scaled_results(_first_order_factor)),
     ),
     Defect(
         "error-floor", "Results have an error of ± 0.05 % on any grid.",
-        PLANTED_IN, _returned(_times(_floor)),
+        PLANTED_IN, _changed_results(_scaled_results(_error_floor_factor)),
     ),
     Defect(
         "bias", "Results are too large by 0.3 %.",
-        PLANTED_IN, _returned(_times(lambda r: 1 + BIAS)),
+        PLANTED_IN, _changed_results(_scaled_results(lambda r: 1 + BIAS)),
     ),
 )  # fmt: skip
 
 NO_RESULTS = (
     Defect(
         "nan", "Results are not numbers.", SEEN,
-        _returned(_times(lambda r: np.nan)),
+        _changed_results(_scaled_results(lambda r: np.nan)),
     ),
     Defect(
         "wrong-length", "The pressure lacks its last row.", ("hertz_point", "fem_hertz"),
-        _returned(_last_row_missing),
+        _changed_results(_last_row_missing),
     ),
     Defect(
         "history-truncated", "The last increment of a result is missing.", ("cattaneo_mindlin",),
-        _returned(_last_step_missing),
+        _changed_results(_last_step_missing),
     ),
     Defect(
         "record-truncated", "Half of the file with a finished case reaches the disk.",
-        ("dissimilar_bodies",), _truncated,
+        ("dissimilar_bodies",), _half_record_written,
     ),
 )  # fmt: skip
 

@@ -24,7 +24,7 @@ TANGENTIAL: tuple[str, ...] = ("xx", "yy", "xy")
 COUPLING: tuple[str, ...] = ("xz", "yz")
 
 
-def scaled(pairs: tuple[str, ...], factor: float) -> Replacements:
+def scaled_coefficients(pairs: tuple[str, ...], factor: float) -> Replacements:
     """Return a wrong factor of components of the influence coefficients (traction to displacement).
 
     pairs   components, named by displacement and traction, such as "zz" or "xz"
@@ -40,7 +40,7 @@ def scaled(pairs: tuple[str, ...], factor: float) -> Replacements:
 
 
 @replaces(DisplacementOperator, "normal")
-def _periodic(_: Any, self: DisplacementOperator, pressure: Any) -> Any:
+def _periodic_images(_: Any, self: DisplacementOperator, pressure: Any) -> Any:
     self.transforms.counter.count += 1
     unpadded = KernelSpectrum(self.spectrum("zz").quarter[::2, ::2], 1)
     entries = {"zz": operator.response(self.transforms, "zz", unpadded)}
@@ -48,7 +48,7 @@ def _periodic(_: Any, self: DisplacementOperator, pressure: Any) -> Any:
 
 
 @replaces(spectra, "kernel_spectrum")
-def _without_mean(whole: Any, values: Any, parity: Any, reach: Any) -> Any:
+def _zero_mean_displacement(whole: Any, values: Any, parity: Any, reach: Any) -> Any:
     spectrum = whole(values, parity, reach)
     if parity == (1, 1):
         spectrum.quarter[0, 0] = 0.0
@@ -69,7 +69,7 @@ def _without_cross_term(whole: Any, self: Composite, component: str) -> Any:
     return (component != "xy") * whole(self, component)
 
 
-def _one_body(components: tuple[str, ...]) -> Replacements:
+def _upper_body_omitted(components: tuple[str, ...]) -> Replacements:
     @replaces(Composite, "_combined")
     def combined(whole: Any, self: Composite, component: str) -> Any:
         if component in components and self.lower and self.upper:
@@ -125,7 +125,7 @@ def _half_space_only(whole: Any, body: stack.Stack, alpha: Any) -> Any:
 
 
 @replaces(layered_response, "point_response")
-def _parity(whole: Any, component: str, *given: Any) -> Any:
+def _coupling_axes_exchanged(whole: Any, component: str, *given: Any) -> Any:
     return whole({"zx": "zy", "zy": "zx"}.get(component, component), *given)
 
 
@@ -138,12 +138,12 @@ SURFACE_RESPONSE = (
     Defect(
         "coupling-sign", "Pressure moves the surface away from the load instead of towards the "
         "load.",
-        ("frictional_indentation",), scaled(COUPLING, -1.0),
+        ("frictional_indentation",), scaled_coefficients(COUPLING, -1.0),
     ),
     Defect(
         "coupling-0p99", "The coupling of pressure and shear is too weak by 1 %.",
         ("no_slip_indentation", "frictional_indentation"),
-        scaled(COUPLING, 0.99),
+        scaled_coefficients(COUPLING, 0.99),
     ),
     Defect(
         "coupling-of-bodies-added", "The coupling of the upper body is added, not subtracted.",
@@ -155,26 +155,26 @@ SURFACE_RESPONSE = (
     ),
     Defect(
         "zero-wavenumber", "The kernel vanishes at wavenumber zero: mean displacements are lost.",
-        ("dissimilar_bodies",), _without_mean,
+        ("dissimilar_bodies",), _zero_mean_displacement,
     ),
     Defect(
         "padding-removed", "Convolutions are not padded: the contact sees its periodic images.",
-        ("dissimilar_bodies",), _periodic,
+        ("dissimilar_bodies",), _periodic_images,
     ),
     Defect(
         "normal-bias", "Normal displacements are too large by 0.3 %.",
         ("dissimilar_bodies", "hertz_approach_control"),
-        scaled(NORMAL, 1.003),
+        scaled_coefficients(NORMAL, 1.003),
     ),
     Defect(
         "normal-bias-stiff", "Normal displacements are too small by 0.3 %.",
         ("dissimilar_bodies", "hertz_approach_control"),
-        scaled(NORMAL, 1 / 1.003),
+        scaled_coefficients(NORMAL, 1 / 1.003),
     ),
     Defect(
         "tangential-bias", "Tangential displacements are too large by 0.3 %.",
         ("cattaneo_mindlin",),
-        scaled(TANGENTIAL, 1.003),
+        scaled_coefficients(TANGENTIAL, 1.003),
     ),
     Defect(
         "shear-across-omitted", "Shear along y does not move the surface along x.",
@@ -186,11 +186,11 @@ SURFACE_RESPONSE = (
     ),
     Defect(
         "upper-body-sheared-not", "The tangential compliance of the upper body is omitted.",
-        ("cattaneo_mindlin",), _one_body(("xx", "yy", "xy")),
+        ("cattaneo_mindlin",), _upper_body_omitted(("xx", "yy", "xy")),
     ),
     Defect(
         "upper-body-pressed-not", "The normal compliance of the upper body is omitted.",
-        ("hertz_approach_control",), _one_body(("zz",)),
+        ("hertz_approach_control",), _upper_body_omitted(("zz",)),
     ),
     Defect(
         "kappa-for-chi", "Shear waves reflect at the interface by κ instead of χ.",
@@ -211,6 +211,6 @@ SURFACE_RESPONSE = (
     ),
     Defect(
         "layered-coupling-axes", "The coupling of a layered body has its axes exchanged.",
-        ("layered_reference",), _parity,
+        ("layered_reference",), _coupling_axes_exchanged,
     ),
 )  # fmt: skip

@@ -83,10 +83,12 @@ def curve(
     look    meaning of the curve, which determines its line style
     series  number that determines its colour
     """
-    return Curve(label=label, x=_rounded(x), y=_rounded(y), look=look, series=series)
+    return Curve(
+        label=label, x=_rounded_coordinates(x), y=_rounded_coordinates(y), look=look, series=series
+    )
 
 
-def _rounded(values: Iterable[float]) -> tuple[float, ...]:
+def _rounded_coordinates(values: Iterable[float]) -> tuple[float, ...]:
     return tuple(float(f"{value:.{DIGITS}g}") for value in values)
 
 

@@ -41,7 +41,7 @@ def convergence_chart(
         count = (judged or {}).get(label)
         if count is None:
             count = len(sizes) if len(sizes) >= LEAST else 0
-        curves += _series(label, sizes, root_mean_squares, count, slopes.get(label), series)
+        curves += _error_curves(label, sizes, root_mean_squares, count, slopes.get(label), series)
     panel = Panel(x_label=x_label, y_label="relative error", curves=tuple(curves), logarithmic=True)
     legend = (
         "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of the "
@@ -50,7 +50,7 @@ def convergence_chart(
     return Chart(name=name, title=title, caption=f"{caption} {legend}", rows=((panel,),))
 
 
-def _series(
+def _error_curves(
     label: str, sizes: list[float], errors: list[float], count: int, expected: float | None,
     series: int,
 ) -> list[Curve]:  # fmt: skip
@@ -68,9 +68,9 @@ def _series(
         line = error_line(sizes[fitted], errors[fitted])
         ends = np.array([max(sizes[fitted]), min(sizes[fitted])])
         curves = [
-            _band(line, ends, series),
+            _confidence_band(line, ends, series),
             curve("", ends, line.at(ends), Look.FITTED, series),
-            curve(f"{label}: {_text(line.observed)}", sizes, errors, Look.LEVELS, series),
+            curve(f"{label}: {_order_text(line.observed)}", sizes, errors, Look.LEVELS, series),
         ]
         start = float(line.at(ends[:1])[0])
     if expected is not None:
@@ -79,14 +79,14 @@ def _series(
     return curves
 
 
-def _text(observed: ObservedOrder) -> str:
+def _order_text(observed: ObservedOrder) -> str:
     if not observed.is_legible:
         return "no order can be read"
     digits = ".2f" if observed.half_width >= SHOWN else ".1g"
     return f"{observed.order:.2f} ± {observed.half_width:{digits}}"
 
 
-def _band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
+def _confidence_band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
     """Return the outline of the 95 % confidence band of a line fitted to errors, as a curve of a
     chart.
 

@@ -24,24 +24,24 @@ class Section:
     radius: float
 
     @property
-    def _row(self) -> int:
+    def _section_row(self) -> int:
         return self.grid.cells[1] // 2
 
     @property
-    def _shown(self) -> NDArray[np.bool_]:
+    def _plotted_cells(self) -> NDArray[np.bool_]:
         return np.asarray(np.abs(self.grid.x) <= SHOWN * self.radius)
 
     @property
     def x(self) -> Field:
         """Positions of the cell centres along the row [length]."""
-        return np.asarray(self.grid.x[self._shown])
+        return np.asarray(self.grid.x[self._plotted_cells])
 
     @property
     def y(self) -> float:
         """Distance of the row of cells from y = 0 [length]: half a cell for an even number of
         cells.
         """
-        return float(self.grid.y[self._row])
+        return float(self.grid.y[self._section_row])
 
     @property
     def r(self) -> Field:
@@ -50,7 +50,7 @@ class Section:
 
     def of(self, field: Field) -> Field:
         """Return the values of a field (nx, ny) at the cells of the row."""
-        return np.asarray(field[self._shown, self._row])
+        return np.asarray(field[self._plotted_cells, self._section_row])
 
 
 @dataclass(frozen=True)

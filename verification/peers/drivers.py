@@ -180,10 +180,10 @@ def answer(code: str) -> None:
     with os.fdopen(os.dup(sys.stdout.fileno()), "w") as out:
         os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # prints of a code go to stderr
         import_module(code)
-        json.dump(_answered(DRIVERS[code], request), out)
+        json.dump(_timed_answer(DRIVERS[code], request), out)
 
 
-def _answered(solve: Callable[[Request], Answer], request: Request) -> Answer:
+def _timed_answer(solve: Callable[[Request], Answer], request: Request) -> Answer:
     seconds: list[float] = []
     try:
         while len(seconds) < MAX_REPEATS and sum(seconds) < ENOUGH_SECONDS:

@@ -89,7 +89,7 @@ def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
     known = json.loads(failed.read_text(encoding="utf-8")) if failed.exists() else {}
     missing = {}
     for peer in PEERS:
-        reason = _installed(python, peer, run, known.get(peer.distribution, ""))
+        reason = _install_peer(python, peer, run, known.get(peer.distribution, ""))
         if reason:
             missing[peer.distribution] = reason
     if missing != known:
@@ -99,7 +99,7 @@ def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
     return Installed(python, missing)
 
 
-def _installed(python: Path, peer: Peer, run: Run, failed: str) -> str:
+def _install_peer(python: Path, peer: Peer, run: Run, failed: str) -> str:
     """Install a code unless it is present or has failed before; return the reason of a failure, or
     "".
 

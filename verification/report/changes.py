@@ -125,7 +125,9 @@ def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
         change = number.regression
         if change is not None:
             now = value_text(number.value, number.unit, DIGITS)
-            yield _row(case.name, number.name, number.run, now, number.unit, change, case.baseline)
+            yield _change_row(
+                case.name, number.name, number.run, now, number.unit, change, case.baseline
+            )
     for count in case.counts:
         yield ChangeRow(
             case.name, count.name, ALL, count.kind, str(count.was), str(count.now), "–",
@@ -176,7 +178,7 @@ def changes_text(report: Report) -> str:
     return "; ".join(part for part in parts if part)
 
 
-def _row(
+def _change_row(
     case: str, name: str, run: str, now: str, unit: str, change: Change, origin: Origin
 ) -> ChangeRow:
     was = value_text(change.was, unit, DIGITS) if change.recorded else "–"

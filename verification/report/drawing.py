@@ -81,7 +81,7 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
     ax.tick_params(which="both", colors=INK)
     for spine in ax.spines.values():
         spine.set_edgecolor(INK)
-    _legend(ax, panel)
+    _draw_legend(ax, panel)
 
 
 def _label_decades(ax: Any, most: int) -> None:
@@ -138,7 +138,7 @@ def look_of(curve: Curve) -> dict[str, Any]:
             return {"color": colour, "linewidth": 1.3, "linestyle": style.LINE_STYLES[shape]}
 
 
-def _legend(ax: Any, panel: Panel) -> None:
+def _draw_legend(ax: Any, panel: Panel) -> None:
     labelled = [curve for curve in panel.curves if curve.label]
     if len(labelled) == 2 and panel.y_places:  # the names take the width that it would need
         ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, labelcolor=INK)

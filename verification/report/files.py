@@ -54,7 +54,7 @@ def set_aside_report(directory: Path) -> None:
     results are preserved. The record is moved first. The remaining files are then an incomplete
     report, which the next call removes.
     """
-    with _alone_in(directory):
+    with _locked_directory(directory):
         record = record_in(directory).name
         set_aside(directory, (record, *(name for name in POSSIBLE if name != record)))
 
@@ -69,11 +69,11 @@ def set_aside(directory: Path, names: Sequence[str] = STUDY_FILES) -> None:
     record, *_ = names
     with stop_signals_held():
         if not (directory / record).is_file():
-            _remove(directory, names)
+            _remove_files(directory, names)
             return
         try:
             (directory / EARLIER).mkdir(exist_ok=True)
-            _remove(directory / EARLIER, names)
+            _remove_files(directory / EARLIER, names)
             for name in filter(lambda one: (directory / one).is_file(), names):
                 os.replace(directory / name, directory / EARLIER / name)
         except OSError as error:
@@ -89,8 +89,9 @@ def draw_again(report: Report, directory: Path) -> None:
     A compressed record stays as it is; a plain record is written again.
     """
     packed = record_in(directory).name == PACKED
-    _write(_rendered(report) | ({} if packed else {RECORD: dump_report(report)}), directory,
-           kept=(PACKED,) if packed else ())  # fmt: skip
+    record = {} if packed else {RECORD: dump_report(report)}
+    kept = (PACKED,) if packed else ()
+    _replace_files(_rendered_files(report) | record, directory, kept)
 
 
 def write_report(report: Report, directory: Path) -> None:
@@ -100,7 +101,7 @@ def write_report(report: Report, directory: Path) -> None:
     A different record is removed first and the new one is written last. A directory with
     `report.json` therefore contains files that belong together.
     """
-    _write(_rendered(report) | {RECORD: dump_report(report)}, directory)
+    _replace_files(_rendered_files(report) | {RECORD: dump_report(report)}, directory)
 
 
 def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -> None:
@@ -113,11 +114,11 @@ def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -
 
     texts = {**rows, PAGE: render_study(record), STUDY_RECORD: dump_study(record)}
     with stop_signals_held():
-        _put(texts, directory)
+        _write_texts(texts, directory)
         _remove_set_aside(directory, STUDY_FILES)
 
 
-def _rendered(report: Report) -> dict[str, str]:
+def _rendered_files(report: Report) -> dict[str, str]:
     """Render the files of a report except its record: pages, JUnit table and
     summary, by file name."""
     # Drawing takes long to import: a command that only prepares a directory does without.
@@ -130,21 +131,23 @@ def _rendered(report: Report) -> dict[str, str]:
     }  # fmt: skip
 
 
-def _write(texts: Mapping[str, str], directory: Path, kept: Sequence[str] = ()) -> None:
+def _replace_files(texts: Mapping[str, str], directory: Path, kept: Sequence[str] = ()) -> None:
     """Replace the files of an earlier report, except those in `kept`.
 
     texts  contents by file name; the last one is the record, whose presence marks a complete report
     """
-    with _alone_in(directory), stop_signals_held():
+    with _locked_directory(directory), stop_signals_held():
         record = directory / RECORD
         if record.is_file() and record.read_text(encoding="utf-8") != texts.get(RECORD):
             record.unlink()
-        _remove(directory, [name for name in POSSIBLE if name not in texts and name not in kept])
-        _put(texts, directory)
+        _remove_files(
+            directory, [name for name in POSSIBLE if name not in texts and name not in kept]
+        )
+        _write_texts(texts, directory)
         _remove_set_aside(directory, POSSIBLE)
 
 
-def _put(texts: Mapping[str, str], directory: Path) -> None:
+def _write_texts(texts: Mapping[str, str], directory: Path) -> None:
     for name, text in texts.items():
         with atomic_file(directory / name) as temporary:
             temporary.write_text(text, encoding="utf-8", newline="\n")
@@ -152,11 +155,11 @@ def _put(texts: Mapping[str, str], directory: Path) -> None:
 
 def _remove_set_aside(directory: Path, names: Sequence[str]) -> None:
     with suppress(OSError):  # the folder is absent or has other files
-        _remove(directory / EARLIER, names)
+        _remove_files(directory / EARLIER, names)
         (directory / EARLIER).rmdir()
 
 
-def _remove(directory: Path, names: Sequence[str]) -> None:
+def _remove_files(directory: Path, names: Sequence[str]) -> None:
     """Remove files in the given order, so that the record, which marks a complete report, goes
     first.
     """
@@ -165,7 +168,7 @@ def _remove(directory: Path, names: Sequence[str]) -> None:
 
 
 @contextmanager
-def _alone_in(directory: Path) -> Iterator[None]:
+def _locked_directory(directory: Path) -> Iterator[None]:
     """Lock an output directory for a block; wait while another process writes a report there."""
     descriptor = os.open(directory, os.O_RDONLY)
     try:

@@ -35,12 +35,12 @@ def render_sheet(judgement: Judgement) -> str:
     """Render the judgement of a code as a self-contained HTML page without scripts."""
     page = environment().get_template("judgement.html")
     return page.render(
-        judgement=judgement, tables=(_verdicts(judgement), _levels(judgement)),
-        charts=tuple(_charts(judgement)),
+        judgement=judgement, tables=(_verdict_table(judgement), _level_table(judgement)),
+        charts=tuple(_error_charts(judgement)),
     )  # fmt: skip
 
 
-def _verdicts(judgement: Judgement) -> Table:
+def _verdict_table(judgement: Judgement) -> Table:
     return Table(
         title="Verdicts",
         columns=COLUMNS,
@@ -52,7 +52,7 @@ def _verdicts(judgement: Judgement) -> Table:
     )
 
 
-def _levels(judgement: Judgement) -> Table:
+def _level_table(judgement: Judgement) -> Table:
     rows = (
         (one.label, f"{one.h:.4g}", str(one.unknowns or WHOLE),
          WHOLE if one.seconds is None else f"{one.seconds:.3g}")
@@ -66,7 +66,7 @@ def _levels(judgement: Judgement) -> Table:
     )
 
 
-def _charts(judgement: Judgement) -> list[Chart]:
+def _error_charts(judgement: Judgement) -> list[Chart]:
     """Return charts of the largest errors of a code against element size and against CPU time."""
     fallen = [row for row in judgement.rows if len(row.errors) > 1]
     fallen.sort(key=lambda row: -(row.error or 0.0))

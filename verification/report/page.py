@@ -50,20 +50,20 @@ NUMBER = "number"  # class of the style sheet; "words" for the other columns
 
 def render_page(report: Report) -> str:
     """Render the first page of a verification report as HTML. Equal records give equal text."""
-    return _rendered("page.html", report=report, brief=report.level == "quick")
+    return _render_template("page.html", report=report, brief=report.level == "quick")
 
 
 def render_sheets(report: Report) -> str:
     """Render the page with one sheet per case, in the order of the record, as HTML."""
-    return _rendered("sheets.html", report=report, brief=report.level == "quick")
+    return _render_template("sheets.html", report=report, brief=report.level == "quick")
 
 
 def render_study(record: StudyRecord) -> str:
     """Render the page of a study as HTML."""
-    return _rendered("study.html", study=record, brief=False)
+    return _render_template("study.html", study=record, brief=False)
 
 
-def _rendered(template: str, **shown: object) -> str:
+def _render_template(template: str, **shown: object) -> str:
     return environment().get_template(template).render(**shown)
 
 

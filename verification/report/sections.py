@@ -74,12 +74,12 @@ def features(report: Report, sheets: str) -> tuple[Feature, ...]:
     sheets  address of the page with the sheets of the cases
     """
     return (
-        _planned(report, sheets),
-        *(_studied(study_section(report, name), text) for name, text in PROMISES.items()),
+        _plan_feature(report, sheets),
+        *(_study_feature(study_section(report, name), text) for name, text in PROMISES.items()),
     )
 
 
-def _planned(report: Report, sheets: str) -> Feature:
+def _plan_feature(report: Report, sheets: str) -> Feature:
     promise = "Simulate only the effects that a scene calls for"
     case = next((case for case in report.cases if case.name == FORCED), None)
     if case is None:
@@ -100,7 +100,7 @@ def _planned(report: Report, sheets: str) -> Feature:
     return Feature(promise, case.status, figures, f"{sheets}#{FORCED}")
 
 
-def _studied(section: StudySection, promise: str) -> Feature:
+def _study_feature(section: StudySection, promise: str) -> Feature:
     address, record = f"#study-{section.name}", section.record
     if record is None:
         return Feature(promise, None, f"not in this report; {section.command} finds it", address)
@@ -134,12 +134,14 @@ def stored_records(
         for record in stored_studies(place, left_out):
             if record.own_cells or record.name not in TITLES:
                 continue
-            if record.name not in best or _rank(record) >= _rank(best[record.name]):
+            if record.name not in best or _record_preference(record) >= _record_preference(
+                best[record.name]
+            ):
                 best[record.name] = record
     return tuple(best[name] for name in sorted(best))
 
 
-def _rank(record: StudyRecord) -> tuple[bool, int, str]:
+def _record_preference(record: StudyRecord) -> tuple[bool, int, str]:
     level = LEVELS.index(record.level) if record.level in LEVELS else -1
     return is_current(record.provenance), level, record.provenance.date
 

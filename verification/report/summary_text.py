@@ -104,11 +104,11 @@ def power_text(report: Report) -> str:
 def render_summary(report: Report) -> str:
     """Render the summary of a report in Markdown: status, failures, changes, and
     one row per case."""
-    return "\n".join(_lines(report)) + "\n"
+    return "\n".join(_summary_lines(report)) + "\n"
 
 
-def _lines(report: Report) -> Iterator[str]:
-    yield f"# {_sign(report.status)}: slipstick verify, {report.level}"
+def _summary_lines(report: Report) -> Iterator[str]:
+    yield f"# {_status_text(report.status)}: slipstick verify, {report.level}"
     yield ""
     yield f"{counts_text(report)}, in {len(report.cases)} cases."
     if age := age_text(report.provenance):
@@ -123,11 +123,11 @@ def _lines(report: Report) -> Iterator[str]:
     if len(lines) > MAX_LINES:
         yield f"- and {len(lines) - MAX_LINES} more"
     yield ""
-    yield from _changes(report)
+    yield from _change_lines(report)
     yield ""
     if report.studies:
         told = (
-            f"{study.name} {_sign(study.status)} ({study.level}{measured_text(study)})"
+            f"{study.name} {_status_text(study.status)} ({study.level}{measured_text(study)})"
             for study in report.studies
         )
         yield f"Studies: {', '.join(told)}."
@@ -135,14 +135,15 @@ def _lines(report: Report) -> Iterator[str]:
     yield "| case | verdict | verdicts | closest to its limit |"
     yield "| --- | --- | --- | --- |"
     for case in report.cases:
-        yield f"| {case.name} | {_sign(case.status)} | {len(case.verdicts)} | {_closest(case)} |"
+        status, closest = _status_text(case.status), _closest_verdict_text(case)
+        yield f"| {case.name} | {status} | {len(case.verdicts)} | {closest} |"
 
 
-def _sign(status: Status) -> str:
+def _status_text(status: Status) -> str:
     return f"{SYMBOLS[status]} {WORDS[status]}"
 
 
-def _closest(case: CaseOutcome) -> str:
+def _closest_verdict_text(case: CaseOutcome) -> str:
     """Describe the verdict of a case that is nearest to its tolerance."""
 
     def use(verdict: Verdict) -> float:
@@ -153,7 +154,7 @@ def _closest(case: CaseOutcome) -> str:
     return "–" if worst is None else f"{worst.name} [{worst.run}]: {clearance_text(worst)}"
 
 
-def _changes(report: Report) -> Iterator[str]:
+def _change_lines(report: Report) -> Iterator[str]:
     """Yield the Markdown lines on changes since the recorded baseline."""
     yield f"Since the baseline: {changes_text(report)}."
     for origin, names in origins(report):
@@ -198,7 +199,7 @@ def render_junit(report: Report) -> str:
             for v in case.verdicts
         ]
         lines = [row.line for row in case_rows(case) if row.kind.matters]
-        _suite(root, case.name, verdicts, lines if case.baseline else ["no baseline yet"])
+        _add_test_suite(root, case.name, verdicts, lines if case.baseline else ["no baseline yet"])
     own = [study for study in report.studies if is_current(study.provenance)]
     failed = [study for study in own if study.status is Status.FAIL]
     if own:
@@ -207,7 +208,7 @@ def render_junit(report: Report) -> str:
              study_failure_line(one) if one in failed else "", "")
             for one in own
         ]  # fmt: skip
-        _suite(root, "studies", studies)
+        _add_test_suite(root, "studies", studies)
     for name in ("tests", "failures", "errors", "skipped"):
         root.set(name, str(sum(int(suite.get(name, 0)) for suite in root)))
     ElementTree.indent(root)
@@ -215,7 +216,7 @@ def render_junit(report: Report) -> str:
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
 
 
-def _suite(
+def _add_test_suite(
     root: ElementTree.Element, name: str, made: list[Made], lines: list[str] | None = None
 ) -> None:
     ends = [status for _, status, _, _ in made]

@@ -112,7 +112,7 @@ class TractionRun:
         title = f"Rigid ball on a coated half-space, E1/E2 = {self.ratio:g}"
         scene = pressed(title, rigid_ball(), body, pressing(), *pushes, friction=FRICTION)
         counts = tuple(max(1, round(self.share * n)) for n in INCREMENTS)
-        result = self._solved(scene, counts, exact_contact(body).contact_radius)
+        result = self._solve_scene(scene, counts, exact_contact(body).contact_radius)
         ends = zip(FORCES, result.steps, strict=True)
         return CaseRecord(
             parameters=parameters_of(self),
@@ -121,10 +121,10 @@ class TractionRun:
                 "stick_fraction": result.steps[-1].stick_area / result.steps[-1].contact_area,
             },
             counters={"increments": sum(counts)},
-            parts=tuple(row for force, end in ends for row in _profile(result, end, force)),
+            parts=tuple(row for force, end in ends for row in _profile_rows(result, end, force)),
         )
 
-    def _solved(self, scene: Scene, counts: tuple[int, ...], radius: float) -> Any:
+    def _solve_scene(self, scene: Scene, counts: tuple[int, ...], radius: float) -> Any:
         if self.solver == RINGS:
             plan = replace(radial.plan(scene), increments=counts, fineness=self.fineness)
             return radial.solve(scene, plan=plan)
@@ -133,7 +133,7 @@ class TractionRun:
         return semi_analytical.solve(scene, grid, SOLVER_TOLERANCE, plan=cut)
 
 
-def _profile(result: Any, end: Any, force: float) -> list[Row]:
+def _profile_rows(result: Any, end: Any, force: float) -> list[Row]:
     """Sample the pressure and the shear traction on y = 0 at fixed x at the end of one load step.
 
     The pressure is divided by the Hertz peak pressure p_H, the shear by µ p_H.
@@ -181,21 +181,21 @@ class Curves:
 
         solves  records by kind of solve: "fine", "coarse", "half the increments"
         """
-        fine, *coarse = (_fields(solves[name]) for name in SOLVES)
+        fine, *coarse = (_curves_of_record(solves[name]) for name in SOLVES)
         errors = np.zeros((2, len(FORCES)))
         for (cells, increments), other in zip(list(SOLVES.values())[1:], coarse, strict=True):
             factor = (1 / min(cells, increments)) ** BELIEVED - 1
-            errors += _apart(fine, other) / factor
+            errors += _curve_differences(fine, other) / factor
         return cls(*fine, errors)
 
 
-def _fields(record: CaseRecord) -> tuple[Field, Field]:
+def _curves_of_record(record: CaseRecord) -> tuple[Field, Field]:
     rows = np.array([[value_of(row, "p"), value_of(row, "q")] for row in record.parts])
     pressure, shear = rows.T.reshape(2, len(FORCES), len(SHOWN))
     return pressure, shear
 
 
-def _apart(one: tuple[Field, Field], other: tuple[Field, Field]) -> Field:
+def _curve_differences(one: tuple[Field, Field], other: tuple[Field, Field]) -> Field:
     """Compute the relative differences of two pairs of pressure and shear curves (field, force).
 
     Each is the integral of the absolute difference on y = 0 over the integral of the pressure of
@@ -242,14 +242,14 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     }
     fine = {key: known[asked[*key, "fine"]] for key in curves}
     both = [ratio for ratio in RATIOS if {(ratio, CELLS), (ratio, RINGS)} <= set(curves)]
-    rows = tuple(_difference(ratio, curves, field) for ratio in both for field in range(2))
+    rows = tuple(_solver_difference(ratio, curves, field) for ratio in both for field in range(2))
     stick = {f"{solver}, E1/E2 = {ratio:g}": value_of(fine[ratio, solver], "stick_fraction")
              for ratio, solver in fine}  # fmt: skip
     return Conclusion(
-        answer=_answer(stick) if 2.0 in both else "",
+        answer=_answer_text(stick) if 2.0 in both else "",
         statements=(
             solved("every contact is solved", len(known), len(asked), "solves"),
-            _agree(rows, complete=len(both) == len(RATIOS)),
+            _solvers_agree(rows, complete=len(both) == len(RATIOS)),
             _shear_without_force(curves),
             Statement(
                 claim="the paper: gross sliding past 0.76 µW for E1/E2 = 2",
@@ -260,8 +260,8 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
             ),
             converged(tuple(fine.values()), SOLVER_TOLERANCE, "in the fine solves"),
         ),
-        tables=(_table(rows),),
-        charts=tuple(_figure(curves, field) for field in range(2)) if curves else (),
+        tables=(_difference_table(rows),),
+        charts=tuple(_traction_figure(curves, field) for field in range(2)) if curves else (),
         rows=rows,
         remarks=(
             "Assumed, because the paper does not say: substrate E2 = 210 GPa (from its contact "
@@ -275,7 +275,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
 Drawn = Mapping[tuple[float, str], Curves]
 
 
-def _answer(stick: Mapping[str, float]) -> str:
+def _answer_text(stick: Mapping[str, float]) -> str:
     cells, rings = (f"{100 * stick[f'{solver}, E1/E2 = 2']:.1f} %" for solver in (CELLS, RINGS))
     return (
         f"No: at 0.9 µW the contact with E1/E2 = 2 still sticks on {cells} of its area by cells, "
@@ -284,7 +284,7 @@ def _answer(stick: Mapping[str, float]) -> str:
     )
 
 
-def _difference(ratio: float, curves: Drawn, field: int) -> Row:
+def _solver_difference(ratio: float, curves: Drawn, field: int) -> Row:
     """Compare the curves of one field by cells and by the radial solver at every tangential force.
 
     The row has the relative difference of the solvers and the estimated error of each curve.
@@ -293,7 +293,7 @@ def _difference(ratio: float, curves: Drawn, field: int) -> Row:
     field  0 for the pressure, 1 for the shear
     """
     cells, rings = curves[ratio, CELLS], curves[ratio, RINGS]
-    apart = _apart((cells.pressure, cells.shear), (rings.pressure, rings.shear))[field]
+    apart = _curve_differences((cells.pressure, cells.shear), (rings.pressure, rings.shear))[field]
     measures: dict[str, float | None] = {}
     for number, force in enumerate(FORCES):
         measures |= {
@@ -304,7 +304,7 @@ def _difference(ratio: float, curves: Drawn, field: int) -> Row:
     return Row(parameters={"E1/E2": ratio, "field": FIELDS[field]}, measures=measures)
 
 
-def _agree(rows: Sequence[Row], *, complete: bool) -> Statement:
+def _solvers_agree(rows: Sequence[Row], *, complete: bool) -> Statement:
     """Judge the agreement of cells and radial solver: no difference exceeds the sum of both errors.
 
     rows      differences and errors of the curves
@@ -336,25 +336,25 @@ def _shear_without_force(curves: Drawn) -> Statement:
     )
 
 
-def _table(rows: Sequence[Row]) -> Table:
+def _difference_table(rows: Sequence[Row]) -> Table:
     columns = [(f"{what} {at}", f"{what} {at}") for at in AT.values() for what in
                ("apart", CELLS, RINGS)]  # fmt: skip
     return table_of(
         "Differences of the solvers, and the error of each curve",
         {
             "curve": lambda row: f"{row.parameters['field']}, E1/E2 = {row.parameters['E1/E2']}",
-            **{title: _number(name) for title, name in columns},
+            **{title: _number_text(name) for title, name in columns},
         },
         rows,
         "Relative to the integral of the pressure, or of µ times it, on y = 0.",
     )
 
 
-def _number(name: str) -> Any:
+def _number_text(name: str) -> Any:
     return lambda row: plain(value_of(row, name), 2)
 
 
-def _figure(curves: Drawn, field: int) -> Chart:
+def _traction_figure(curves: Drawn, field: int) -> Chart:
     """Draw the curves of one field, one panel per modulus ratio.
 
     Cells are drawn as lines on top of wide grey lines of the radial solver.
@@ -368,7 +368,7 @@ def _figure(curves: Drawn, field: int) -> Chart:
         Panel(
             x_label="x / Hertz radius" if place > 1 else "",
             y_label="" if place % 2 else label,
-            curves=tuple(_curves(curves, ratio, field, legend=place == 1)),
+            curves=tuple(_panel_curves(curves, ratio, field, legend=place == 1)),
             title=f"E1/E2 = {ratio:g}",
             height=1.7,
         )
@@ -384,7 +384,7 @@ def _figure(curves: Drawn, field: int) -> Chart:
     )
 
 
-def _curves(curves: Drawn, ratio: float, field: int, *, legend: bool) -> list[Curve]:
+def _panel_curves(curves: Drawn, ratio: float, field: int, *, legend: bool) -> list[Curve]:
     found_ = []
     for solver, look in ((RINGS, Look.REFERENCE), (CELLS, Look.COMPUTED)):
         known = curves.get((ratio, solver))

@@ -83,15 +83,15 @@ class CoverageCase:
             measures={"per_radius": known.fineness.per_radius},
         )
         try:
-            parts = tuple(_judged(known))
+            parts = tuple(_coverage_rows(known))
         except SolverError as error:
             return record.model_copy(update={"words": {"refused": str(error)}})
         seconds = time.process_time() - started
         return record.model_copy(update={"parts": parts, "seconds": seconds})
 
 
-def _judged(known: KnownScene) -> Iterator[Row]:
-    result, errors = _run(known)
+def _coverage_rows(known: KnownScene) -> Iterator[Row]:
+    result, errors = _solve_with_errors(known)
     steps = values_of(result)
     stressed = {truth.step for truth in known.truths if truth.quantity in STRESSES}
     stresses = {step: stress_maxima(result, step, errors) for step in stressed}
@@ -125,7 +125,7 @@ def coverage_row(truth: Truth, found: float, stated: StatedError | None) -> Row:
     )
 
 
-def _run(known: KnownScene) -> tuple[Any, StatedErrors]:
+def _solve_with_errors(known: KnownScene) -> tuple[Any, StatedErrors]:
     """Solve a scene with a known solution on cells or finite elements, and estimate the errors of
     its results.
     """
@@ -243,7 +243,7 @@ def is_decided(row: Row) -> bool:
     return uncertain <= CERTAIN * stated or value_of(row, WRONG) > stated + MISSED * uncertain
 
 
-def grouped(rows: Iterable[tuple[str, Row]]) -> dict[str, Coverage]:
+def coverage_by_group(rows: Iterable[tuple[str, Row]]) -> dict[str, Coverage]:
     """Count, in each group of results, how often stated errors cover true errors.
 
     rows  pairs of the name of a group and the row of one result
@@ -294,7 +294,7 @@ class RequestCase:
         """Refine the scene until the request is reported as met or refinement stops; record the
         true error.
         """
-        family, known, quantity, share = self._drawn()
+        family, known, quantity, share = self._draw_request()
         truths = [truth for truth in known.truths if truth.quantity == quantity]
         record = CaseRecord(
             parameters=parameters_of(self) | {"family": family, "quantity": quantity},
@@ -312,7 +312,7 @@ class RequestCase:
         except SolverError as error:
             return record.model_copy(update={"words": {"outcome": f"refused: {error}"}})
         largest = max(abs(truth.reference.value) for truth in truths)
-        found = [_found(truth, made.level) for truth in truths]
+        found = [_computed_value(truth, made.level) for truth in truths]
         errors = [abs(f - t.reference.value) for f, t in zip(found, truths, strict=True)]
         measures = {REACHED: made.accuracy.reached[quantity], TRUE: max(errors) / largest}
         outcome = "met" if made.accuracy.met else f"stopped: {made.accuracy.stopped}"
@@ -320,7 +320,7 @@ class RequestCase:
             update={"measures": record.measures | measures, "words": {"outcome": outcome}}
         )
 
-    def _drawn(self) -> tuple[str, KnownScene, str, float]:
+    def _draw_request(self) -> tuple[str, KnownScene, str, float]:
         """Draw a scene of known answer, a quantity of the scene and an allowed relative error.
 
         Draws are repeated until a quantity has a reference that is certain enough for the request.
@@ -330,17 +330,17 @@ class RequestCase:
         while True:
             family = str(rng.choice([*FAMILIES]))
             share, known = logarithmic(rng, *SHARES), FAMILIES[family].known(rng)
-            fit = [*dict.fromkeys(_certain(known, share))]
+            fit = [*dict.fromkeys(_requestable_quantities(known, share))]
             if fit:
                 return family, known, fit[int(rng.integers(len(fit)))], share
 
 
-def _found(truth: Truth, level: RefinementLevel) -> float:
+def _computed_value(truth: Truth, level: RefinementLevel) -> float:
     found = truth.read(level.values)
     return np.inf if found is None else found
 
 
-def _certain(known: KnownScene, share: float) -> Iterator[str]:
+def _requestable_quantities(known: KnownScene, share: float) -> Iterator[str]:
     """Yield the quantities of a scene for which an accuracy can be requested and checked.
 
     The relative uncertainty of the reference must be at most 0.1 of `share` at all load steps.
@@ -405,28 +405,30 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     requests = [record for case, record in known.items() if isinstance(case, RequestCase)]
     rows = [(str(scene.parameters["family"]), row) for scene in scenes for row in scene.parts]
     total = Coverage.of(ALL, [row for _, row in rows])
-    kinds = grouped((str(row.parameters["kind"]), row) for _, row in rows)
-    families = grouped(rows)
+    kinds = coverage_by_group((str(row.parameters["kind"]), row) for _, row in rows)
+    families = coverage_by_group(rows)
     return Conclusion(
         answer=f"Stated errors cover {total.covered.part:.1%} of {total.covered.of} numbers of "
         f"known answer; {total.tight.part:.1%} are less than {TIMES:g} times the true error.",
         statements=(
             solved("every scene and request is solved", len(known), len(asked), "cases"),
-            _statement(total, COVERED_IN_ALL, TIGHT),
-            *(_statement(one, COVERED) for one in kinds.values()),
-            *(_statement(one, COVERED, prefix="family ") for one in families.values()),
-            _requests(requests),
+            _coverage_statement(total, COVERED_IN_ALL, TIGHT),
+            *(_coverage_statement(one, COVERED) for one in kinds.values()),
+            *(_coverage_statement(one, COVERED, prefix="family ") for one in families.values()),
+            _request_statement(requests),
         ),
         tables=(
-            _table("Stated and true errors by quantity", [total, *kinds.values()]),
-            _table("Stated and true errors by family of scenes", [*families.values()]),
+            _coverage_table("Stated and true errors by quantity", [total, *kinds.values()]),
+            _coverage_table("Stated and true errors by family of scenes", [*families.values()]),
         ),
-        charts=(_chart({kind: _of_kind(kind, rows) for kind in KINDS}),) if rows else (),
+        charts=(_coverage_chart({kind: _decided_rows_of_kind(kind, rows) for kind in KINDS}),)
+        if rows
+        else (),
         remarks=REMARKS,
     )
 
 
-def _of_kind(kind: str, rows: Sequence[tuple[str, Row]]) -> list[Row]:
+def _decided_rows_of_kind(kind: str, rows: Sequence[tuple[str, Row]]) -> list[Row]:
     """Return the results of one kind of quantity whose stated error can be judged.
 
     Their status is estimated or exact, and their reference is certain enough.
@@ -443,7 +445,7 @@ def _of_kind(kind: str, rows: Sequence[tuple[str, Row]]) -> list[Row]:
     ]
 
 
-def _table(title: str, groups: Sequence[Coverage]) -> Table:
+def _coverage_table(title: str, groups: Sequence[Coverage]) -> Table:
     return table_of(
         title,
         {
@@ -459,7 +461,7 @@ def _table(title: str, groups: Sequence[Coverage]) -> Table:
     )
 
 
-def _statement(
+def _coverage_statement(
     coverage: Coverage, least: float, tightest: float = 0.0, prefix: str = ""
 ) -> Statement:
     covered, tight = coverage.covered, coverage.tight
@@ -478,7 +480,7 @@ def _statement(
     )
 
 
-def _requests(requests: Sequence[CaseRecord]) -> Statement:
+def _request_statement(requests: Sequence[CaseRecord]) -> Statement:
     """Judge if results whose requested accuracy is reported as met really have errors below the
     request.
 
@@ -500,14 +502,16 @@ def _requests(requests: Sequence[CaseRecord]) -> Statement:
     )
 
 
-def _chart(parts: dict[str, list[Row]]) -> Chart:
+def _coverage_chart(parts: dict[str, list[Row]]) -> Chart:
     """Draw, for each kind of quantity, the distribution of the true error over the stated error.
 
     The ordinate is the fraction of the results whose ratio exceeds the abscissa.
 
     parts  rows of the results by kind of quantity
     """
-    lines = [(kind.replace("_", " "), _exceeding(rows)) for kind, rows in parts.items() if rows]
+    lines = [
+        (kind.replace("_", " "), _exceedance_curve(rows)) for kind, rows in parts.items() if rows
+    ]
     allowed = [(1.0, LEAST_SHARE), (1.0, 1 - COVERED)]
     return log_chart(
         "wrong_over_stated",
@@ -522,7 +526,7 @@ def _chart(parts: dict[str, list[Row]]) -> Chart:
     )
 
 
-def _exceeding(rows: Sequence[Row]) -> list[tuple[float, float]]:
+def _exceedance_curve(rows: Sequence[Row]) -> list[tuple[float, float]]:
     """Compute the fraction of results whose ratio of true to stated error exceeds x, at several x.
 
     Returns pairs (x, fraction). Fractions below 1e-3 are left out, as the diagram is logarithmic.

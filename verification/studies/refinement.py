@@ -145,7 +145,7 @@ class StudiedScene:
         return contents.semi_analytical if self.on_cells else contents.fem_reference
 
 
-def _plan(scene: Scene, asked: Any) -> Any:
+def _plan_increments(scene: Scene, asked: Any) -> Any:
     if hasattr(asked, "path_accuracy"):
         return semi_analytical.plan(scene, asked.path_accuracy, asked.edge)
     return fem_reference.plan(scene)
@@ -188,7 +188,7 @@ class SceneLevel:
         except SolverError as error:
             words = {"refused": f"{type(error).__name__}: {error}"}
             return CaseRecord(parameters=parameters, words=words)
-        return self._record(result, parameters)
+        return self._level_record(result, parameters)
 
     def solved(self) -> Any:
         """Solve the scene on this level and return the result of the solver."""
@@ -196,18 +196,18 @@ class SceneLevel:
         scene, asked = contents.scene, self.scene.asked(contents)
         asked = asked.model_copy(update=dict(self.changed))
         if self.scene.on_cells:
-            plan = _plan(scene, asked).cut_into(self.increments)
+            plan = _plan_increments(scene, asked).cut_into(self.increments)
             return semi_analytical.solve_discretised(scene, asked, plan=plan)
         method = METHODS[self.scene.solver]
         return fem_reference.solve(scene.with_increments(self.increments), asked, method)
 
-    def _record(self, result: Any, parameters: dict[str, Value]) -> CaseRecord:
+    def _level_record(self, result: Any, parameters: dict[str, Value]) -> CaseRecord:
         steps = values_of(result)
         of: type[DiscretisedSolver] = CellSolver if self.scene.on_cells else ElementSolver
         solver = of.of(result)
         work = "convolutions" if self.scene.on_cells else "iterations"
         features, side = solver.features(result)[-1], max(solver.cell_sides(result))
-        ends = list(_scalars(steps[-1]))
+        ends = list(_key_scalars(steps[-1]))
         return CaseRecord(
             parameters=parameters | {"size": self.size or side},
             measures={
@@ -229,14 +229,14 @@ class SceneLevel:
                         ORDER: features.convergence_order(stem),
                         FLOOR: PER_TOLERANCE * result.tolerance + features.left.get(stem, 0.0),
                     },
-                    words={"small": unresolved(features, stem)},
+                    words={"small": unresolved_features(features, stem)},
                 )
                 for name, stem, _ in ends
             ),
         )
 
 
-def _scalars(values: Values) -> Iterator[tuple[str, str, float]]:
+def _key_scalars(values: Values) -> Iterator[tuple[str, str, float]]:
     """Yield the key results of a load step as (name, name of the vector, value).
 
     The name of a component ends in _x or _y. For a scalar both names are equal.
@@ -248,7 +248,7 @@ def _scalars(values: Values) -> Iterator[tuple[str, str, float]]:
                 yield name, stem, value
 
 
-def unresolved(features: Features, name: str) -> str:
+def unresolved_features(features: Features, name: str) -> str:
     """Describe the features that a result depends on and that the discretisation does not resolve.
 
     The text is empty if all are resolved.
@@ -267,7 +267,7 @@ def unresolved(features: Features, name: str) -> str:
 
 
 @cache
-def of_run(
+def discretisation_of_run(
     scene: StudiedScene, requested: bool
 ) -> tuple[tuple[tuple[str, Any], ...], tuple[int, ...]]:
     """Return the discretisation entries and the increments per load step that a run would choose.
@@ -279,7 +279,7 @@ def of_run(
     contents = scene.read()
     problem, asked = contents.scene, scene.asked(contents)
     if contents.accuracy is None or not requested:
-        return (), _plan(problem, asked).increments
+        return (), _plan_increments(problem, asked).increments
     method = METHODS.get(scene.solver, Method.COMPLEMENTARITY)
     solver: DiscretisedSolver = (
         CellSolver(problem, asked)
@@ -363,18 +363,19 @@ def estimates(levels: Sequence[CaseRecord], order: float | None) -> tuple[Estima
     if len(levels) < FEWEST_LEVELS:
         return ()
     return tuple(
-        _estimate(part, levels, order)
+        _estimate_limit(part, levels, order)
         for part in levels[-1].parts
-        if _varies(part, levels) and str(part.parameters["of"]) != levels[-1].words.get("infinite")
+        if _changes_with_level(part, levels)
+        and str(part.parameters["of"]) != levels[-1].words.get("infinite")
     )
 
 
-def _varies(part: Row, levels: Sequence[CaseRecord]) -> bool:
+def _changes_with_level(part: Row, levels: Sequence[CaseRecord]) -> bool:
     """Determine if a scalar result is present on all refinement levels and changes between them.
 
     Results that are zero by symmetry are excluded.
     """
-    name, measures = str(part.parameters["quantity"]), _known(part.measures)
+    name, measures = str(part.parameters["quantity"]), _finite_measures(part.measures)
     values = [level.measures.get(name) for level in levels]
     return (
         name != RESIDUAL
@@ -384,14 +385,14 @@ def _varies(part: Row, levels: Sequence[CaseRecord]) -> bool:
     )
 
 
-def _known(measures: Mapping[str, float | None]) -> dict[str, float]:
+def _finite_measures(measures: Mapping[str, float | None]) -> dict[str, float]:
     return {name: value for name, value in measures.items() if value is not None}
 
 
-def _estimate(part: Row, levels: Sequence[CaseRecord], order: float | None) -> Estimate:
-    name, measures = str(part.parameters["quantity"]), _known(part.measures)
+def _estimate_limit(part: Row, levels: Sequence[CaseRecord], order: float | None) -> Estimate:
+    name, measures = str(part.parameters["quantity"]), _finite_measures(part.measures)
     sizes = [float(level.parameters["size"] or 0.0) for level in levels]
-    values = [_known(level.measures)[name] for level in levels]
+    values = [_finite_measures(level.measures)[name] for level in levels]
     p = order or measures[ORDER]
     floor = measures[FLOOR] * measures[LARGEST]
     near = [(h / sizes[-1], v) for h, v in zip(sizes, values, strict=True) if h < NEAR * sizes[-1]]
@@ -402,7 +403,7 @@ def _estimate(part: Row, levels: Sequence[CaseRecord], order: float | None) -> E
     fit = refined_value(sizes, values, p)
     limit, why = values[-1], ""
     if bound > floor:
-        why = _not_asymptotic(fit.observed, fit.triplets)
+        why = _reason_not_asymptotic(fit.observed, fit.triplets)
         if fit.observed is not None and not why:
             followed = refined_value(sizes, values, fit.observed.order)
             limit, bound = followed.limit, COVERAGE * followed.uncertainty
@@ -418,7 +419,7 @@ def _estimate(part: Row, levels: Sequence[CaseRecord], order: float | None) -> E
     )  # fmt: skip
 
 
-def _not_asymptotic(observed: ObservedOrder | None, triplets: Triplets) -> str:
+def _reason_not_asymptotic(observed: ObservedOrder | None, triplets: Triplets) -> str:
     """Return the reason why the levels do not follow one power of the size, with a remedy.
 
     The text is empty if the levels follow one power.
@@ -495,7 +496,7 @@ def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: s
     what = "cells" if scene.on_cells else "elements"
 
     def levels(settings: Settings) -> tuple[SceneLevel, ...]:
-        chosen, increments = of_run(scene, settings.cells is None)
+        chosen, increments = discretisation_of_run(scene, settings.cells is None)
         contents = scene.read()
         asked = contents.semi_analytical
         if scene.on_cells:
@@ -505,7 +506,7 @@ def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: s
                 finest = (settings.cells, settings.cells)
             return tuple(
                 SceneLevel(scene, (*chosen, ("cells", (nx, ny))), increments, f"{nx} x {ny} cells")
-                for nx, ny in _counts(finest, settings, on_cells=True)
+                for nx, ny in _level_counts(finest, settings, on_cells=True)
             )
         planned = contents.fem_reference.elements_per_radius
         elements = settings.cells or dict(chosen).get("elements_per_radius", planned)
@@ -516,10 +517,10 @@ def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: s
                 increments,
                 f"{n} elements over the radius",
             )
-            for (n,) in _counts((elements,), settings, on_cells=False)
+            for (n,) in _level_counts((elements,), settings, on_cells=False)
         )
 
-    return _study(
+    return _refinement_study(
         scene,
         Refinement(
             "mesh",
@@ -532,7 +533,7 @@ def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: s
     )
 
 
-def _counts(
+def _level_counts(
     finest: tuple[int, ...], settings: Settings, *, on_cells: bool
 ) -> list[tuple[int, ...]]:
     """Return the numbers of cells per side, or of elements over the radius, of all levels, coarse
@@ -575,7 +576,7 @@ def increments_study(path: Path, overrides: Sequence[str], step: int | None, sol
     def levels(settings: Settings) -> tuple[SceneLevel, ...]:
         if not any(matters):
             return ()
-        chosen, own = of_run(scene, settings.cells is None)
+        chosen, own = discretisation_of_run(scene, settings.cells is None)
         most = max(count for count, matter in zip(own, matters, strict=True) if matter)
         found = []
         for doublings in range(settings.levels or LEVELS[settings.level]):
@@ -586,11 +587,13 @@ def increments_study(path: Path, overrides: Sequence[str], step: int | None, sol
             )
             words = f"{round(factor * most)} in a step"
             found.append(
-                SceneLevel(scene, (*chosen, *_cells(settings, scene)), counts, words, 1 / factor)
+                SceneLevel(
+                    scene, (*chosen, *_requested_cells(settings, scene)), counts, words, 1 / factor
+                )
             )
         return tuple(found)
 
-    return _study(
+    return _refinement_study(
         scene,
         Refinement(
             "increments",
@@ -604,7 +607,7 @@ def increments_study(path: Path, overrides: Sequence[str], step: int | None, sol
     )
 
 
-def _cells(settings: Settings, scene: StudiedScene) -> tuple[tuple[str, object], ...]:
+def _requested_cells(settings: Settings, scene: StudiedScene) -> tuple[tuple[str, object], ...]:
     if settings.cells is None:
         return ()
     if scene.on_cells:
@@ -612,7 +615,7 @@ def _cells(settings: Settings, scene: StudiedScene) -> tuple[tuple[str, object],
     return (("elements_per_radius", settings.cells),)
 
 
-def _study(scene: StudiedScene, refined: Refinement) -> Study:
+def _refinement_study(scene: StudiedScene, refined: Refinement) -> Study:
     """Build the study of one kind of refinement of a scene: its levels and its conclusions."""
     contents = scene.read()
     shares = {} if contents.accuracy is None else contents.accuracy.shares()
@@ -624,16 +627,16 @@ def _study(scene: StudiedScene, refined: Refinement) -> Study:
         every = list(found(asked, records).values())
         solved = [level for level in every if "refused" not in level.words]
         of = estimates(solved, refined.order)
-        too_few = () if len(solved) >= FEWEST_LEVELS else (_too_few(len(solved)),)
+        too_few = () if len(solved) >= FEWEST_LEVELS else (_too_few_levels(len(solved)),)
         return Conclusion(
             statements=(
                 *too_few,
-                *(_requested(one, shares[one.of]) for one in of if one.of in shares),
-                *map(_finding, of),
-                *_infinite(solved),
+                *(_request_statement(one, shares[one.of]) for one in of if one.of in shares),
+                *map(_limit_statement, of),
+                *_infinite_limits(solved),
             ),
             tables=(_estimate_table(of), _level_table(every)),
-            charts=(_chart(refined, of),) if of else (),
+            charts=(_error_chart(refined, of),) if of else (),
             rows=tuple(map(row_of, of)),
             remarks=REMARKS,
         )
@@ -652,7 +655,7 @@ EXACT = Statement(
 )
 
 
-def _too_few(count: int) -> Statement:
+def _too_few_levels(count: int) -> Statement:
     return Statement(
         claim="enough levels",
         outcome=Status.INCONCLUSIVE,
@@ -661,7 +664,7 @@ def _too_few(count: int) -> Statement:
     )
 
 
-def _infinite(solved: Iterable[CaseRecord]) -> list[Statement]:
+def _infinite_limits(solved: Iterable[CaseRecord]) -> list[Statement]:
     names = {level.words["infinite"] for level in solved if "infinite" in level.words}
     return [
         Statement(
@@ -683,7 +686,7 @@ def label(name: str) -> str:
     return f"{stem} along {axis}".replace("_", " ") if axis in "xy" else name.replace("_", " ")
 
 
-def _requested(one: Estimate, share: float) -> Statement:
+def _request_statement(one: Estimate, share: float) -> Statement:
     """Judge the error of a result on the finest level against the requested accuracy of the scene.
 
     The verdict is FAIL if the most likely error exceeds the request, PASS if the error bound at 95
@@ -707,7 +710,7 @@ def _requested(one: Estimate, share: float) -> Statement:
     )
 
 
-def _finding(one: Estimate) -> Statement:
+def _limit_statement(one: Estimate) -> Statement:
     limit = value_text(one.limit, one.unit, 7)
     open_ = f"; not asymptotic, because {one.open}" if one.open else ""
     return Statement(
@@ -768,26 +771,28 @@ def _level_table(levels: Sequence[CaseRecord]) -> Table:
         "Levels",
         {
             "level": lambda row: str(row.parameters["level"]),
-            **{label(name): _value(name) for name in names},
-            **{name: _number(name) for name in counters},
-            "largest residual": lambda row: row.words.get("refused") or _number(RESIDUAL)(row),
+            **{label(name): _value_column(name) for name in names},
+            **{name: _number_column(name) for name in counters},
+            "largest residual": lambda row: (
+                row.words.get("refused") or _number_column(RESIDUAL)(row)
+            ),
         },
         levels,
     )
 
 
-def _number(name: str) -> Callable[[CaseRecord], str]:
+def _number_column(name: str) -> Callable[[CaseRecord], str]:
     return lambda row: plain(row.number(name), 2)
 
 
-def _value(name: str) -> Callable[[CaseRecord], str]:
+def _value_column(name: str) -> Callable[[CaseRecord], str]:
     def text(row: CaseRecord) -> str:
         return value_text(row.measures[name], row.units[name]) if name in row.units else "–"
 
     return text
 
 
-def _chart(refined: Refinement, of: Sequence[Estimate]) -> Chart:
+def _error_chart(refined: Refinement, of: Sequence[Estimate]) -> Chart:
     finest = of[0].sizes[-1] if refined.order is None else 1.0
     lines = [(label(one.name), drawable((h / finest, e) for h, e in one.points)) for one in of]
     slopes = [

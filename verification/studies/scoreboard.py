@@ -9,7 +9,7 @@ from math import inf
 
 from contact_results.directory.machine import program_version
 from verification.adapters import own_solvers as own
-from verification.adapters.half_spaces import answering
+from verification.adapters.half_spaces import make_answer_function
 from verification.challenge.answer import Solver
 from verification.challenge.cases import challenges
 from verification.challenge.judgement import Judgement
@@ -70,11 +70,11 @@ class ScoredRun:
             "code": self.code, "challenge": self.challenge, "levels": self.levels,
         }  # fmt: skip
         try:
-            return _record(self._judged(), asked)
+            return _record_judgement(self._judge_code(), asked)
         except CannotDo as error:
             return CaseRecord(parameters=asked, words={CANNOT: str(error)})
 
-    def _judged(self) -> Judgement:
+    def _judge_code(self) -> Judgement:
         if self.code in OURS:
             solver, answer = OURS[self.code]
             solver = replace(solver, version=program_version())
@@ -83,7 +83,7 @@ class ScoredRun:
         installed = made_environment(peers_directory())
         if reason := installed.missing.get(peer.distribution):
             raise CannotDo(f"could not be installed: {reason}")
-        solve = answering(installed.python, peer)
+        solve = make_answer_function(installed.python, peer)
         version = peer.distribution.partition("==")[2]
         return judge(self.challenge, solve, self.levels, solver=Solver(peer.module, version))
 
@@ -106,7 +106,8 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         title="Classes by challenge and code",
         columns=("challenge", *codes),
         rows=tuple(
-            (name, *(_cell(found.get((name, code))) for code in codes)) for name in challenges()
+            (name, *(_class_text(found.get((name, code))) for code in codes))
+            for name in challenges()
         ),
         note="Verdicts that pass of all; class A is 1e-4 of a stated scale, B 1e-3, C 1e-2, on the "
         "finest of the levels; partial: something required is not answered.",
@@ -123,9 +124,9 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         ),
         answer=f"On {32 * 2 ** ((settings.levels or LEVELS[settings.level]) - 1)} cells a side all "
         "codes with cells of constant traction share one error; who differs is told below.",
-        tables=(board, _priced(found, codes),
+        tables=(board, _cpu_time_table(found, codes),
                 Table(title="Largest errors", columns=("challenge", "quantity", *codes),
-                      rows=tuple(_errors(found, codes)), units=NONE)),
+                      rows=tuple(_largest_error_rows(found, codes)), units=NONE)),
         remarks=tuple(
             f"{run.code} on {run.challenge}: {record.words[CANNOT]}."
             for run, record in runs if CANNOT in record.words
@@ -133,7 +134,9 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     )  # fmt: skip
 
 
-def _record(judgement: Judgement, asked: dict[str, str | bool | int | float | None]) -> CaseRecord:
+def _record_judgement(
+    judgement: Judgement, asked: dict[str, str | bool | int | float | None]
+) -> CaseRecord:
     parts = tuple(
         Row(
             parameters={"quantity": row.quantity, "step": row.step, "level": row.level},
@@ -152,7 +155,7 @@ def _record(judgement: Judgement, asked: dict[str, str | bool | int | float | No
     )  # fmt: skip
 
 
-def _cell(record: CaseRecord | None) -> str:
+def _class_text(record: CaseRecord | None) -> str:
     if record is None or CANNOT in record.words:
         return NO_ANSWER
     passed, all_verdicts = (
@@ -162,7 +165,7 @@ def _cell(record: CaseRecord | None) -> str:
     return f"{record.words[GRADE]}, {passed} of {all_verdicts}"
 
 
-def _priced(found: dict[tuple[str, str], CaseRecord], codes: list[str]) -> Table:
+def _cpu_time_table(found: dict[tuple[str, str], CaseRecord], codes: list[str]) -> Table:
     """Build the table of CPU seconds of all levels by challenge and code.
 
     The seconds are measured, or reported by the code.
@@ -185,7 +188,7 @@ def _priced(found: dict[tuple[str, str], CaseRecord], codes: list[str]) -> Table
     )  # fmt: skip
 
 
-def _errors(
+def _largest_error_rows(
     found: dict[tuple[str, str], CaseRecord], codes: list[str]
 ) -> Iterator[tuple[str, ...]]:
     """Yield the rows of the table of largest errors: challenge, quantity, and one error per code.

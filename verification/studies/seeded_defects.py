@@ -96,7 +96,7 @@ class DefectRun:
                 "failed": len(failed),
                 "inconclusive": outcome.count(Status.INCONCLUSIVE),
             },
-            parts=tuple(_failed_verdict(verdict).row() for verdict in failed),
+            parts=tuple(_describe_failure(verdict).row() for verdict in failed),
         )
 
 
@@ -128,7 +128,7 @@ def judge_case(name: str) -> CaseOutcome:
     return record.outcome
 
 
-def _failed_verdict(verdict: Verdict) -> FailedVerdict:
+def _describe_failure(verdict: Verdict) -> FailedVerdict:
     if verdict.name == SOLVED:
         how = "named error"
     elif verdict.name in LAWS:
@@ -247,12 +247,12 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
                 f"{len(passed)} of {len(healthy)} cases",
             ),
         ),
-        tables=(_table(found),),
+        tables=(_detection_table(found),),
         remarks=REMARKS,
     )
 
 
-def _table(found: list[Detection]) -> Table:
+def _detection_table(found: list[Detection]) -> Table:
     def of_clearest(text: Callable[[str, FailedVerdict], str]) -> Callable[[Detection], str]:
         return lambda one: "–" if one.clearest is None else text(*one.clearest)
 

@@ -141,7 +141,7 @@ def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
     """
     end, exact = result.steps[step], problem.ends[step].pressure
     if hasattr(result, "grid"):
-        return norms.relative_l2(end.pressure, _means(exact, result.grid))
+        return norms.relative_l2(end.pressure, _cell_means(exact, result.grid))
     if not isinstance(result, radial.Result):
         return field_errors.pressure_l2(result, step, problem)
     surface: Any = surface_of(result)
@@ -159,7 +159,7 @@ def _shear_l1(result: Any, step: int, problem: Problem) -> float:
     """
     end, exact = result.steps[step], problem.ends[step].shear
     if hasattr(result, "grid"):
-        known = _means(exact, result.grid)
+        known = _cell_means(exact, result.grid)
         return norms.shear_error(shear_of(end), known, FRICTION * end.pressure)
     if not isinstance(result, radial.Result):
         return field_errors.shear_error(result, step, problem)
@@ -169,12 +169,12 @@ def _shear_l1(result: Any, step: int, problem: Problem) -> float:
     return norms.shear_error(areas * surface.vector(end, "shear"), areas * known, limit)
 
 
-def _means(exact: Callable[[Field], Field], grid: SurfaceGrid) -> Field:
+def _cell_means(exact: Callable[[Field], Field], grid: SurfaceGrid) -> Field:
     return round_means(exact, *grid.coordinates(), grid.spacing)
 
 
 @cache
-def _pushed(increments: int) -> Problem:
+def _sheared_problem(increments: int) -> Problem:
     problem = sheared("Cattaneo-Mindlin, ν = 0", (SHEARED,))
     press, push = problem.scene.loading
     loading = (press, push.model_copy(update={"increments": increments}))
@@ -216,7 +216,7 @@ CATTANEO = PreciseContact(
     "Cattaneo-Mindlin, ν = 0",
     {"shear": "shear at 0.9 µW, Σ|q - q_exact| / Σµp", "shift": "shift over the sliding shift"},
     (SHEAR, SHIFT),
-    _pushed,
+    _sheared_problem,
 )
 COATING = PreciseContact(
     "coated",
@@ -343,7 +343,7 @@ class PrecisionCase:
 
         Raises the errors of the solvers.
         """
-        result, seconds, repeats = timed(self._solve)
+        result, seconds, repeats = timed(self._solve_contact)
         names = ("iterations", "convolutions", "factorizations")
         found = {name: [getattr(i, name, 0) or 0 for i in result.increments] for name in names}
         counters = {"increments": len(result.increments)}
@@ -357,7 +357,7 @@ class PrecisionCase:
             repeats=repeats,
         )
 
-    def _solve(self) -> Any:
+    def _solve_contact(self) -> Any:
         contact, n = self.solved, self.fineness
         scene = contact.posed(self.increments or contact.increments or 1).scene
         if self.method is Method.RADIAL:
@@ -380,10 +380,10 @@ class PrecisionCase:
 
 def all_cases(level: Level) -> tuple[PrecisionCase, ...]:
     """Return the solves of all contacts by all methods and settings at a level of the study."""
-    return tuple(case for contact in CONTACTS for case in _of_contact(contact, level))
+    return tuple(case for contact in CONTACTS for case in _cases_of_contact(contact, level))
 
 
-def _of_contact(contact: str, level: Level) -> Iterator[PrecisionCase]:
+def _cases_of_contact(contact: str, level: Level) -> Iterator[PrecisionCase]:
     upper = min(level, Level.STANDARD)
     for n in CELLS[upper]:
         for tolerance in (SOLVER_TOLERANCE, *LOOSE[upper]):
@@ -515,32 +515,33 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         if (points := points_of(known, contact.name, quantity))
     }
     best = {key: cheapest(points, ASKED) for key, points in everything.items()}
-    missed = [_meaning(*key) for key, p in everything.items() if cheapest(p, REACHED) is None]
+    missed = [_error_text(*key) for key, p in everything.items() if cheapest(p, REACHED) is None]
     had = len(everything) - len(missed)
     reached = Statement(
-        claim=f"every quantity is had to {_percent(REACHED)}",
+        claim=f"every quantity is had to {_percent_text(REACHED)}",
         outcome=judged(not missed and bool(everything)),
         measured=f"{had} of {len(everything)}" + (f"; not {'; '.join(missed)}" if missed else ""),
         because="some setting of some method of ours, and all finer ones of its curve",
     )
     good = [point for point in best.values() if point is not None]
-    most = f", in at most {_cost(max(good, key=lambda p: p.seconds))}" if good else ""
+    most = f", in at most {_cost_text(max(good, key=lambda p: p.seconds))}" if good else ""
     return Conclusion(
         statements=(
             solved("every setting is solved", len(known), len(cases(settings))),
             reached,
             *(
                 Statement(
-                    claim=f"{_meaning(*key)} to {_percent(ASKED)}",
+                    claim=f"{_error_text(*key)} to {_percent_text(ASKED)}",
                     outcome=None,
-                    measured="not reached" if p is None else f"{p.method}, {_setting(p)}",
+                    measured="not reached" if p is None else f"{p.method}, {_setting_text(p)}",
                 )
                 for key, p in best.items()
             ),
         ),
-        answer=f"{_percent(ASKED)} is reached for {len(good)} of {len(best)} quantities{most}.",
-        tables=tuple(_table(*key, points) for key, points in everything.items()),
-        charts=tuple(_chart(*key, points) for key, points in everything.items()),
+        answer=f"{_percent_text(ASKED)} is reached for {len(good)} of {len(best)} "
+        f"quantities{most}.",
+        tables=tuple(_setting_table(*key, points) for key, points in everything.items()),
+        charts=tuple(_precision_chart(*key, points) for key, points in everything.items()),
         remarks=(
             *REMARKS,
             *(f"Reference, {c.title}: {c.problem.source}." for c in CONTACTS.values()),
@@ -548,35 +549,35 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     )
 
 
-def _by_method(points: tuple[Point, ...]) -> Iterator[tuple[str, list[Point]]]:
+def _points_by_method(points: tuple[Point, ...]) -> Iterator[tuple[str, list[Point]]]:
     for method in Method:
         yield method.value, [p for p in points if p.method == method.value]
 
 
-def _table(contact: str, quantity: str, points: tuple[Point, ...]) -> Table:
+def _setting_table(contact: str, quantity: str, points: tuple[Point, ...]) -> Table:
     rows = (
-        (method, *(_setting(cheapest(own, target)) for target in TARGETS))
-        for method, own in _by_method(points)
+        (method, *(_setting_text(cheapest(own, target)) for target in TARGETS))
+        for method, own in _points_by_method(points)
         if own
     )
     return Table(
-        title=f"Cheapest setting by CPU time, {_meaning(contact, quantity)}",
-        columns=("method", *map(_percent, TARGETS)),
+        title=f"Cheapest setting by CPU time, {_error_text(contact, quantity)}",
+        columns=("method", *map(_percent_text, TARGETS)),
         rows=tuple(rows),
         note="CPU seconds, and the setting; – where no setting that was tried reaches it.",
         units=NONE,
     )
 
 
-def _chart(contact: str, quantity: str, points: tuple[Point, ...]) -> Chart:
+def _precision_chart(contact: str, quantity: str, points: tuple[Point, ...]) -> Chart:
     def drawn(points: Iterable[Point]) -> Points:
         return [(p.seconds, max(p.error, FLOOR)) for p in pareto(points)]
 
     meaning = CONTACTS[contact].errors[quantity]
-    lines = [(method, drawn(own)) for method, own in _by_method(points)]
+    lines = [(method, drawn(own)) for method, own in _points_by_method(points)]
     return log_chart(
         f"precision_{contact}_{quantity}",
-        _meaning(contact, quantity),
+        _error_text(contact, quantity),
         f"Error of the {meaning} against CPU seconds, set-up included, of the best settings of "
         "every method; thin black dashes are the Pareto line of all of them.",
         "CPU seconds",
@@ -585,19 +586,19 @@ def _chart(contact: str, quantity: str, points: tuple[Point, ...]) -> Chart:
     )
 
 
-def _meaning(contact: str, quantity: str) -> str:
+def _error_text(contact: str, quantity: str) -> str:
     return CONTACTS[contact].meaning(quantity)
 
 
-def _setting(point: Point | None) -> str:
-    return "–" if point is None else f"{_cost(point)}: {point.setting}"
+def _setting_text(point: Point | None) -> str:
+    return "–" if point is None else f"{_cost_text(point)}: {point.setting}"
 
 
-def _cost(point: Point) -> str:
+def _cost_text(point: Point) -> str:
     return f"{plain(point.seconds, 2)} s"
 
 
-def _percent(part: float) -> str:
+def _percent_text(part: float) -> str:
     return f"{100 * part:g} %"
 
 

@@ -55,8 +55,10 @@ def by_superposition(posed: Posed) -> SolvedContact:
     """Solve a contact with the semi-analytical solver, in a wider window if the contact requires
     one.
     """
-    result = _solved(posed)
-    return SolvedContact(result, _way(result.plan), max(i.rounds for i in result.increments))
+    result = _solve_in_window(posed)
+    return SolvedContact(
+        result, _method_text(result.plan), max(i.rounds for i in result.increments)
+    )
 
 
 def by_elements(posed: Posed, method: Method) -> SolvedContact:
@@ -87,7 +89,7 @@ SOLVERS: dict[Solver, Callable[[Posed], SolvedContact]] = {
 }
 
 
-def _solved(posed: Posed) -> Result:
+def _solve_in_window(posed: Posed) -> Result:
     grid = posed.grid
     for _ in range(MAX_WINDOWS):
         try:
@@ -99,7 +101,7 @@ def _solved(posed: Posed) -> Result:
     return solve(posed.scene, grid, posed.tolerance)
 
 
-def _way(decided: Plan) -> str:
+def _method_text(decided: Plan) -> str:
     if not decided.shear:
         return "pressure alone"
     if decided.coupling is Coupling.NONE:
@@ -125,10 +127,10 @@ class StabilityRun:
         return self.cell.name
 
     def compute(self) -> CaseRecord:
-        return judged(self.cell).of_cell(self.cell)
+        return judge_contact(self.cell).of_cell(self.cell)
 
 
-def judged(cell: StabilityCell) -> CellRecord:
+def judge_contact(cell: StabilityCell) -> CellRecord:
     """Solve a contact of the stability map and return its verdict, residuals and cost.
 
     Errors of the scene or the solver become verdicts and are not raised.
@@ -136,14 +138,14 @@ def judged(cell: StabilityCell) -> CellRecord:
     try:
         posed = pose(cell)
     except SceneError as error:
-        return _without_answer(Verdict.REFUSED, error, TOLERANCE)
+        return _failure_record(Verdict.REFUSED, error, TOLERANCE)
     tolerance = posed.tolerance
     try:
         result, way, rounds = SOLVERS[cell.solver](posed)
     except REFUSALS as error:
-        return _without_answer(Verdict.REFUSED, error, tolerance)
+        return _failure_record(Verdict.REFUSED, error, tolerance)
     except SolverError as error:
-        return _without_answer(Verdict.NOT_CONVERGED, error, tolerance)
+        return _failure_record(Verdict.NOT_CONVERGED, error, tolerance)
     increments, seen = result.increments, observed(result).violation
     # np.max propagates a residual that is NaN.
     residual = float(np.max([increment.residuals.worst for increment in increments]))
@@ -152,8 +154,8 @@ def judged(cell: StabilityCell) -> CellRecord:
         verdict=Verdict.CONVERGED if sound else Verdict.SILENT,
         reason="" if np.isfinite([residual, seen]).all() else "some number is not finite",
         tolerance=tolerance,
-        residual=_finite(residual),
-        observed=_finite(seen),
+        residual=_finite_or_none(residual),
+        observed=_finite_or_none(seen),
         increments=len(increments),
         halvings=sum(increment.halvings for increment in increments),
         rounds=rounds,
@@ -163,23 +165,23 @@ def judged(cell: StabilityCell) -> CellRecord:
     )
 
 
-def _finite(value: float) -> float | None:
+def _finite_or_none(value: float) -> float | None:
     """Return None in place of a value that is not finite, because JSON cannot store
     such a value."""
     return value if np.isfinite(value) else None
 
 
-def _without_answer(verdict: Verdict, error: Exception, tolerance: float) -> CellRecord:
+def _failure_record(verdict: Verdict, error: Exception, tolerance: float) -> CellRecord:
     return CellRecord(
         verdict=verdict,
-        refused_for=_refused_for(error) if verdict is Verdict.REFUSED else Refusal.NONE,
+        refused_for=_refusal_category(error) if verdict is Verdict.REFUSED else Refusal.NONE,
         reason=f"{type(error).__name__}: {error}",
         tolerance=tolerance,
-        residual=_finite(error.residual) if isinstance(error, NotConverged) else None,
+        residual=_finite_or_none(error.residual) if isinstance(error, NotConverged) else None,
     )
 
 
-def _refused_for(error: Exception) -> Refusal:
+def _refusal_category(error: Exception) -> Refusal:
     """Return the category of a refusal from the type of the error and the keys of the scene it
     names.
 

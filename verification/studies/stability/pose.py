@@ -55,7 +55,7 @@ class Loads:
     push: float
 
 
-def loading(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
+def load_steps_of_path(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
     """Return the load steps of a loading path, with few and therefore large increments.
 
     The stability map studies the convergence of large increments.
@@ -156,21 +156,23 @@ def pose(cell: StabilityCell) -> Posed:
     Raises SceneError for an invalid scene.
     """
     a = cell.length
-    both = (_coated(cell),) * (2 if cell.surface is Surface.ALIKE_BALL else 1)
+    both = (_coated_body(cell),) * (2 if cell.surface is Surface.ALIKE_BALL else 1)
     answer = surface_of(*both)
     ball = paraboloid(answer, RADIUS * a, a)
     half_width = a * (ROUGH_MARGIN if cell.surface is Surface.ROUGH else MARGIN)
     grid = SurfaceGrid((cell.cells, cell.cells), (2 * half_width, 2 * half_width))
     indenter = _indenter(cell, ball.approach, grid)
-    W = cell.load * _force(cell, answer, ball)
+    W = cell.load * _estimated_force(cell, answer, ball)
     approach = cell.load ** (2 / 3) * ball.approach
-    friction = _friction(cell, grid)
+    friction = _friction_coefficients(cell, grid)
     scene = Scene(
         title=f"Stability map: {cell.name}",
         indenter=indenter,
-        body=_body(cell),
+        body=_lower_body(cell),
         friction=CoulombFriction(coefficient=friction),
-        loading=loading(cell.path, Loads(W, approach, _mean(friction, cell, grid), cell.push)),
+        loading=load_steps_of_path(
+            cell.path, Loads(W, approach, _mean_friction(friction, cell, grid), cell.push)
+        ),
     )
     gap = indenter.initial_gap(*grid.coordinates())
     rounding = GAP_ROUNDING * float(np.max(gap, where=np.isfinite(gap), initial=0.0)) / approach
@@ -179,7 +181,7 @@ def pose(cell: StabilityCell) -> Posed:
     return Posed(scene, grid, cell.cells // CELLS_PER_ELEMENT, tolerance)
 
 
-def _materials(cell: StabilityCell) -> tuple[IsotropicMaterial, IsotropicMaterial]:
+def _coating_and_substrate(cell: StabilityCell) -> tuple[IsotropicMaterial, IsotropicMaterial]:
     """Return the elastic materials of coating and substrate of a contact."""
     E, ratio = cell.modulus, cell.modulus_ratio
     return (
@@ -188,25 +190,25 @@ def _materials(cell: StabilityCell) -> tuple[IsotropicMaterial, IsotropicMateria
     )
 
 
-def _coated(cell: StabilityCell) -> Body:
-    film, base = _materials(cell)
+def _coated_body(cell: StabilityCell) -> Body:
+    film, base = _coating_and_substrate(cell)
     return Body(
         material=base, layers=(Layer(thickness=cell.thickness * cell.length, material=film),)
     )
 
 
-def _body(cell: StabilityCell) -> Body:
+def _lower_body(cell: StabilityCell) -> Body:
     """Return the lower body of a contact, without its coating if that has the
     substrate's material."""
-    film, base = _materials(cell)
-    return Body(material=base) if film == base else _coated(cell)
+    film, base = _coating_and_substrate(cell)
+    return Body(material=base) if film == base else _coated_body(cell)
 
 
 def _indenter(cell: StabilityCell, approach: float, grid: SurfaceGrid) -> Indenter:
     a, R = cell.length, RADIUS * cell.length
     match cell.surface:
         case Surface.ALIKE_BALL:
-            body = _body(cell)
+            body = _lower_body(cell)
             return Paraboloid(radius=R, material=body.material, layers=body.layers)
         case Surface.FLAT_PUNCH:
             return FlatPunch(radius=a, material=RIGID)
@@ -214,16 +216,17 @@ def _indenter(cell: StabilityCell, approach: float, grid: SurfaceGrid) -> Indent
             return Cone(slope_angle=float(np.arctan(SLOPE)), material=RIGID)
         case Surface.TWO_SPOTS:
             return _height_map(
-                np.minimum(_bump(grid, R, -SPOTS * a), _bump(grid, R, SPOTS * a)), grid
+                np.minimum(_parabolic_gap(grid, R, -SPOTS * a), _parabolic_gap(grid, R, SPOTS * a)),
+                grid,
             )
         case Surface.ROUGH:
             noise = np.random.default_rng(SEED).standard_normal(grid.cells)
-            return _height_map(_bump(grid, R) + ROUGHNESS * approach * noise, grid)
+            return _height_map(_parabolic_gap(grid, R) + ROUGHNESS * approach * noise, grid)
         case _:
             return Paraboloid(radius=R, material=RIGID)
 
 
-def _bump(grid: SurfaceGrid, radius: float, x0: float = 0.0) -> Field:
+def _parabolic_gap(grid: SurfaceGrid, radius: float, x0: float = 0.0) -> Field:
     x, y = grid.coordinates()
     return np.asarray(((x - x0) ** 2 + y**2) / (2 * radius))
 
@@ -234,7 +237,9 @@ def _height_map(heights: Field, grid: SurfaceGrid) -> HeightMap:
     )
 
 
-def _force(cell: StabilityCell, answer: LayeredSurface, ball: LayeredIndentation) -> float:
+def _estimated_force(
+    cell: StabilityCell, answer: LayeredSurface, ball: LayeredIndentation
+) -> float:
     """Estimate the normal force under which the contact has the radius given by its coordinates.
 
     cell    coordinates of the contact
@@ -253,7 +258,7 @@ def _force(cell: StabilityCell, answer: LayeredSurface, ball: LayeredIndentation
             return ball.load
 
 
-def _mean(friction: float | FrictionMap, cell: StabilityCell, grid: SurfaceGrid) -> float:
+def _mean_friction(friction: float | FrictionMap, cell: StabilityCell, grid: SurfaceGrid) -> float:
     """Return the mean coefficient of friction of the contact, to compute the tangential force from.
 
     Nonuniform coefficients are weighted by the Hertz pressure. Their mean is reduced by 3 %,
@@ -267,7 +272,7 @@ def _mean(friction: float | FrictionMap, cell: StabilityCell, grid: SurfaceGrid)
     return float(SURELY * np.sum(coefficients * p) / np.sum(p))
 
 
-def _friction(cell: StabilityCell, grid: SurfaceGrid) -> float | FrictionMap:
+def _friction_coefficients(cell: StabilityCell, grid: SurfaceGrid) -> float | FrictionMap:
     """Return the coefficient of friction of a contact, or a map of coefficients on the grid.
 
     A patchy surface has random coefficients between 0 and 2µ; those below 0.3µ are set to zero. A
@@ -275,14 +280,14 @@ def _friction(cell: StabilityCell, grid: SurfaceGrid) -> float | FrictionMap:
     """
     if cell.surface is Surface.PATCHY:
         values = np.random.default_rng(SEED).uniform(0, 2 * cell.friction, grid.cells)
-        return _map(np.where(values < BARE * cell.friction, 0.0, values), grid)
+        return _reflected_friction_map(np.where(values < BARE * cell.friction, 0.0, values), grid)
     if cell.surface is Surface.GREASED:
         outside = np.hypot(*grid.coordinates()) > GREASE * cell.length
-        return _map(np.where(outside, cell.friction, 0.0), grid)
+        return _reflected_friction_map(np.where(outside, cell.friction, 0.0), grid)
     return cell.friction
 
 
-def _map(values: Field, grid: SurfaceGrid) -> FrictionMap:
+def _reflected_friction_map(values: Field, grid: SurfaceGrid) -> FrictionMap:
     """Build a friction map that continues the coefficients by reflection beyond the window.
 
     The continuation is needed if the contact requires a wider window.

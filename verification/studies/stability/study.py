@@ -66,18 +66,18 @@ def statements(found: Found) -> tuple[Statement, ...]:
     """
     told: list[Statement] = []
     for solver in Solver:
-        cells = of_solver(found, solver)
+        cells = contacts_of_solver(found, solver)
         about = (nothing_silent, nearly_everything_converges, refusals_are_due, cost)
-        told += (_of(solver, state(cells)) for state in about)
+        told += (_name_solver(solver, state(cells)) for state in about)
     return tuple(told)
 
 
-def of_solver(found: Found, solver: Solver) -> Found:
+def contacts_of_solver(found: Found, solver: Solver) -> Found:
     """Select the contacts of the stability map that one solver was to solve, with their records."""
     return {cell: record for cell, record in found.items() if cell.solver is solver}
 
 
-def ended(found: Found, *so: Verdict) -> Found:
+def contacts_with_verdict(found: Found, *so: Verdict) -> Found:
     """Select the contacts of the stability map that ended with one of the given verdicts."""
     return {cell: record for cell, record in found.items() if record.verdict in so}
 
@@ -91,21 +91,21 @@ def answer(found: Found) -> str:
     if not found:
         return ""
     ends = Counter(record.verdict for record in found.values())
-    refused = ended(found, Verdict.REFUSED)
+    refused = contacts_with_verdict(found, Verdict.REFUSED)
     asked = Counter(NAMES[cell.solver] for cell in found)
     return (
         f"Of {len(found)} cells ({'; '.join(f'{name}: {n}' for name, n in asked.items())}) "
         f"{ends[Verdict.CONVERGED]} converged, with "
-        f"residuals of {_worst(found)} at most, and {len(refused)} were refused, "
-        f"{len(_duly(refused))} of these for a force above µW or because a section cannot pose "
-        "them; "
+        f"residuals of {_worst_residual_text(found)} at most, and {len(refused)} were refused, "
+        f"{len(_duly_refused(refused))} of these for a force above µW or because a section "
+        "cannot pose them; "
         f"{ends[Verdict.NOT_CONVERGED]} gave up and {ends[Verdict.SILENT]} are wrong in silence."
     )
 
 
-def _worst(found: Found) -> str:
+def _worst_residual_text(found: Found) -> str:
     """Return the largest residual of all converged contacts of the stability map as text."""
-    solved = ended(found, Verdict.CONVERGED).values()
+    solved = contacts_with_verdict(found, Verdict.CONVERGED).values()
     return plain(max((r.worst or 0.0 for r in solved), default=0.0), 2)
 
 
@@ -114,11 +114,11 @@ def nothing_silent(found: Found) -> Statement:
 
     found  records by contact of the stability map
     """
-    silent = ended(found, Verdict.SILENT)
+    silent = contacts_with_verdict(found, Verdict.SILENT)
     return Statement(
         claim="no cell is wrong in silence",
         outcome=judged(not silent, complete=bool(found)),
-        measured=f"{len(silent)} of {len(found)} cells{_list(silent)}",
+        measured=f"{len(silent)} of {len(found)} cells{_names_text(silent)}",
         because="residuals of the solver within its tolerance, and the laws of contact and "
         "friction found again in what it returns",
     )
@@ -129,14 +129,18 @@ def nearly_everything_converges(found: Found) -> Statement:
 
     found  records by contact of the stability map
     """
-    given_up, solved = ended(found, Verdict.NOT_CONVERGED), ended(found, Verdict.CONVERGED)
+    given_up, solved = (
+        contacts_with_verdict(found, Verdict.NOT_CONVERGED),
+        contacts_with_verdict(found, Verdict.CONVERGED),
+    )
     asked = len(solved) + len(given_up)
     enough = bool(solved) and len(solved) >= LEAST_SHARE * asked
     return Statement(
         claim=f"at least {LEAST_SHARE:.0%} of the cells that are not refused converge",
         outcome=judged(enough, complete=bool(found)),
-        measured=f"{len(solved)} of {asked} converged, largest residual {_worst(found)}; "
-        f"{len(given_up)} not converged{_list(given_up)}",
+        measured=f"{len(solved)} of {asked} converged, largest residual "
+        f"{_worst_residual_text(found)}; "
+        f"{len(given_up)} not converged{_names_text(given_up)}",
         because="a solver that gives up says so, with its residual; every such cell has a row",
     )
 
@@ -149,9 +153,9 @@ def refusals_are_due(found: Found) -> Statement:
 
     found  records by contact of the stability map
     """
-    refused = ended(found, Verdict.REFUSED)
-    due = {cell: kind for cell in found if (kind := _due(cell))}
-    wrong = sorted((refused.keys() | due) - _duly(refused), key=lambda cell: cell.name)
+    refused = contacts_with_verdict(found, Verdict.REFUSED)
+    due = {cell: kind for cell in found if (kind := _due_refusal(cell))}
+    wrong = sorted((refused.keys() | due) - _duly_refused(refused), key=lambda cell: cell.name)
     beyond = sum(kind is Refusal.FORCE for kind in due.values())
     unposable = len(due) - beyond
     return Statement(
@@ -161,7 +165,7 @@ def refusals_are_due(found: Found) -> Statement:
         outcome=judged(not wrong, complete=bool(found)),
         measured=f"{len(refused)} refused, {beyond} ask for more than µW"
         + (f", {unposable} are not of revolution" if unposable else "")
-        + _list(wrong),
+        + _names_text(wrong),
         because="the only cells of the map that have no solution, or none on a section: one "
         "of each kind",
     )
@@ -173,7 +177,7 @@ def cost(found: Found) -> Statement:
 
     found  records by contact of the stability map
     """
-    solved = ended(found, Verdict.CONVERGED).values()
+    solved = contacts_with_verdict(found, Verdict.CONVERGED).values()
     if not solved:
         return Statement(claim="cost", outcome=None, measured="no cell converged")
     by_elements = next(iter(found)).solver.by_elements
@@ -190,7 +194,7 @@ def cost(found: Found) -> Statement:
     )
 
 
-def _due(cell: StabilityCell) -> Refusal:
+def _due_refusal(cell: StabilityCell) -> Refusal:
     """Return the reason for which a contact of the stability map must be refused; empty for none.
 
     A tangential force above µW and a scene without model in the solver are such reasons.
@@ -200,17 +204,19 @@ def _due(cell: StabilityCell) -> Refusal:
     return Refusal.FORCE if cell.push > LARGEST_FORCE else Refusal.NONE
 
 
-def _duly(refused: Found) -> set[StabilityCell]:
+def _duly_refused(refused: Found) -> set[StabilityCell]:
     """Select the refused contacts of the stability map whose reason of refusal is
     the expected one."""
-    return {cell for cell, r in refused.items() if r.refused_for and r.refused_for is _due(cell)}
+    return {
+        cell for cell, r in refused.items() if r.refused_for and r.refused_for is _due_refusal(cell)
+    }
 
 
-def _of(solver: Solver, statement: Statement) -> Statement:
+def _name_solver(solver: Solver, statement: Statement) -> Statement:
     return statement.model_copy(update={"claim": f"{NAMES[solver]}: {statement.claim}"})
 
 
-def _list(cells: Iterable[StabilityCell]) -> str:
+def _names_text(cells: Iterable[StabilityCell]) -> str:
     """Return the names of the first 12 contacts as text, followed by the number of further
     contacts.
     """
@@ -282,66 +288,69 @@ def view_chart(view: View, found: Mapping[str, CellRecord]) -> Chart:
             records = [found[cell.name] for cell in view.at(x, y) if cell.name in found]
             if records:
                 places[max(map(class_of, records))].append((i, j))
-                notes.append((float(i), float(j), _cost(records)))
+                notes.append((float(i), float(j), _work_text(records)))
     return stacked(
         f"stability_{view.name.replace('-', '_')}",
         view.title,
         "Colour and shape: the worst residual of the cells at a place beside what "
-        f"is allowed, or how they ended ({'; '.join(_legend())}). Allowed is the tolerance, and of "
-        f"what the fields alone show {OTHER_NORMS:g} times that. Number: the most "
+        f"is allowed, or how they ended ({'; '.join(_legend_texts())}). Allowed is the tolerance, "
+        f"and of what the fields alone show {OTHER_NORMS:g} times that. Number: the most "
         f"{WORK[view.by_elements]} that one of them took"
         f"{' (steps of Newton or of the active set)' if view.by_elements else ''}, with "
         f"{HALVED} where increments were halved.",
         Panel(
             x_label=AXES[view.x],
             y_label=AXES[view.y],
-            curves=tuple(_tiles(n, where) for n, where in places.items() if where),
+            curves=tuple(_class_tiles(n, where) for n, where in places.items() if where),
             height=HEIGHT_OF_AXES + HEIGHT_PER_ROW * len(y_values),
             notes=tuple(notes),
-            x_places=_texts(x_values),
-            y_places=_texts(y_values),
+            x_places=_axis_texts(x_values),
+            y_places=_axis_texts(y_values),
         ),
     )
 
 
-def _tiles(number: int, where: list[tuple[int, int]]) -> Curve:
+def _class_tiles(number: int, where: list[tuple[int, int]]) -> Curve:
     x, y = zip(*where, strict=True)
     label, series = CLASSES[number]
     return curve(label, map(float, x), map(float, y), Look.TILES, series)
 
 
-def _legend() -> list[str]:
+def _legend_texts() -> list[str]:
     return [f"{s}: {label}" for s, (label, _) in zip(SHAPES.split(", "), CLASSES, strict=True)]
 
 
-def _cost(records: list[CellRecord]) -> str:
+def _work_text(records: list[CellRecord]) -> str:
     most = max(record.work for record in records)
     mark = HALVED if any(record.halvings for record in records) else ""
     number = "–" if most == 0 else str(most) if most < THOUSANDS else f"{most / 1000:.0f}k"
     return number + mark
 
 
-def _texts(values: Iterable[Any]) -> tuple[str, ...]:
+def _axis_texts(values: Iterable[Any]) -> tuple[str, ...]:
     return tuple(str(v) if isinstance(v, str) else plain(v, 6) for v in values)
 
 
 def tables(found: Found) -> tuple[Table, ...]:
     """Return the tables of the solvers and of the contacts that are not solved."""
-    bad = [*ended(found, Verdict.NOT_CONVERGED, Verdict.SILENT).items()]
-    return (_of_solvers(found), *([_of_bad(bad)] if bad else []))
+    bad = [*contacts_with_verdict(found, Verdict.NOT_CONVERGED, Verdict.SILENT).items()]
+    return (_solver_table(found), *([_unsolved_table(bad)] if bad else []))
 
 
-def _of_solvers(found: Found) -> Table:
-    cells = {solver: of_solver(found, solver) for solver in Solver}
-    solved = {solver: [*ended(of, Verdict.CONVERGED).values()] for solver, of in cells.items()}
+def _solver_table(found: Found) -> Table:
+    cells = {solver: contacts_of_solver(found, solver) for solver in Solver}
+    solved = {
+        solver: [*contacts_with_verdict(of, Verdict.CONVERGED).values()]
+        for solver, of in cells.items()
+    }
     return table_of(
         "The solvers",
         {
             "solver": lambda s: NAMES[s],
             "cells": lambda s: str(len(cells[s])),
-            **{v: lambda s, v=v: str(len(ended(cells[s], v))) for v in Verdict},  # type: ignore[misc]
-            "largest residual": lambda s: _largest(r.residual for r in solved[s]),
-            "from the fields": lambda s: _largest(r.observed for r in solved[s]),
+            **{v: lambda s, v=v: str(len(contacts_with_verdict(cells[s], v))) for v in Verdict},  # type: ignore[misc]
+            "largest residual": lambda s: _largest_text(r.residual for r in solved[s]),
+            "from the fields": lambda s: _largest_text(r.observed for r in solved[s]),
             "increments": lambda s: str(sum(r.increments for r in solved[s])),
             "work": lambda s: str(sum(r.work for r in solved[s])),
         },
@@ -350,24 +359,24 @@ def _of_solvers(found: Found) -> Table:
     )
 
 
-def _of_bad(bad: list[Item]) -> Table:
+def _unsolved_table(bad: list[Item]) -> Table:
     return table_of(
         f"Not solved: all of these {len(bad)} cells",
         {
             "cell": lambda i: i[0].name,
             "verdict": lambda i: i[1].verdict,
-            "worst residual": lambda i: _number(i[1].worst),
+            "worst residual": lambda i: _number_text(i[1].worst),
             "reason": lambda i: i[1].reason or "–",
         },
         bad,
     )
 
 
-def _largest(values: Iterable[float | None]) -> str:
-    return _number(max((value or 0.0 for value in values), default=None))
+def _largest_text(values: Iterable[float | None]) -> str:
+    return _number_text(max((value or 0.0 for value in values), default=None))
 
 
-def _number(value: float | None) -> str:
+def _number_text(value: float | None) -> str:
     return "–" if value is None else plain(value, 2)
 
 
@@ -398,14 +407,14 @@ REMARKS = (
 
 def cases(settings: Settings) -> tuple[StabilityRun, ...]:
     """Return the solves of all contacts of the stability map at the level of the study."""
-    return tuple(map(StabilityRun, study_cells(settings.level, _cells(settings))))
+    return tuple(map(StabilityRun, study_cells(settings.level, _cells_per_side(settings))))
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
     """Derive the statements, tables and charts of the stability map from the available records."""
-    here = _found(settings, records)
+    here = _records_by_contact(settings, records)
     by_name = {cell.name: record for cell, record in here.items()}
-    maps = views(settings.level, _cells(settings))
+    maps = views(settings.level, _cells_per_side(settings))
     return Conclusion(
         statements=statements(here),
         answer=answer(here),
@@ -415,11 +424,11 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     )
 
 
-def _cells(settings: Settings) -> int:
+def _cells_per_side(settings: Settings) -> int:
     return settings.cells or CELLS[settings.level]
 
 
-def _found(settings: Settings, records: Records) -> dict[StabilityCell, CellRecord]:
+def _records_by_contact(settings: Settings, records: Records) -> dict[StabilityCell, CellRecord]:
     return {run.cell: CellRecord.of(r) for run, r in found(cases(settings), records).items()}
 
 
