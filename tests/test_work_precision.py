@@ -12,7 +12,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from radial.response.wavenumbers import (
-    _even_transforms,
     waves,
 )
 from verification.judging.case import Level
@@ -143,10 +142,10 @@ def test_a_measurement_finds_nothing_in_memory() -> None:
     """What contacts have in common is made again, with its functions called."""
     asked = waves(0.01, 1.0, 1.0)
     with cold_cache():
-        first = _even_transforms(asked, 2)
-        assert _even_transforms(asked, 2) is first
+        first = asked.even_transforms(2)
+        assert asked.even_transforms(2) is first
     with cold_cache():
-        assert _even_transforms(asked, 2) is not first
+        assert asked.even_transforms(2) is not first
 
 
 def test_a_code_that_cannot_be_installed_is_named_and_not_tried_again(tmp_path: Path) -> None:

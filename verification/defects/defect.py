@@ -10,6 +10,8 @@ from functools import cached_property
 from types import ModuleType
 from typing import Any
 
+from verification.running.cold_cache import clear_caches
+
 PRODUCT = (
     *("contact_scene", "semi_analytical", "fem_reference", "radial"),
     *("contact_results", "verification", "slipstick"),
@@ -109,22 +111,11 @@ def planted(defect: Defect) -> Iterator[None]:
     The caches of the solver functions are cleared before and after the block.
     """
     with ExitStack() as undo:
-        undo.callback(forget_remembered)
+        undo.callback(clear_caches, *REMEMBERING)
         for replacement in defect.replacements:
             undo.callback(replacement.plant())
-        forget_remembered()
+        clear_caches(*REMEMBERING)
         yield
-
-
-def forget_remembered() -> None:
-    """Clear the caches of all program functions whose results may depend on a planted defect."""
-    for module in product_modules():
-        if not module.__name__.startswith(REMEMBERING):
-            continue
-        for value in list(vars(module).values()):
-            clear = getattr(value, "cache_clear", None)
-            if clear is not None:
-                clear()
 
 
 def product_modules() -> list[ModuleType]:

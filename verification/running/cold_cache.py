@@ -41,17 +41,19 @@ def cold_cache() -> Iterator[None]:
 
     The cache on disk is a temporary directory, which is removed afterwards.
     """
-    _clear_memory_caches()
+    clear_caches(*SOLVERS)
     with TemporaryDirectory() as empty, cache_directory(empty):
         yield
 
 
-def _clear_memory_caches() -> None:
+def clear_caches(*packages: str) -> None:
+    """Clear the caches of functions and methods in all loaded modules of the given packages."""
     for name, module in list(sys.modules.items()):
-        if name.partition(".")[0] in SOLVERS:
-            for value in list(vars(module).values()):
-                if hasattr(value, "cache_clear"):
-                    value.cache_clear()
+        for value in list(vars(module).values()) if name.startswith(packages) else ():
+            methods = vars(value).values() if isinstance(value, type) else ()
+            for held in (value, *methods):
+                if hasattr(held, "cache_clear"):
+                    held.cache_clear()
 
 
 def timed(compute: Callable[[], T]) -> tuple[T, float, int]:
