@@ -50,7 +50,8 @@ def clear_caches(*packages: str) -> None:
     """Clear the caches of functions and methods in all loaded modules of the given packages."""
     for name, module in list(sys.modules.items()):
         for value in list(vars(module).values()) if name.startswith(packages) else ():
-            methods = vars(value).values() if isinstance(value, type) else ()
+            members = vars(value).items() if isinstance(value, type) else ()
+            methods = [held for member, held in members if not member.startswith("__")]
             for held in (value, *methods):
                 if hasattr(held, "cache_clear"):
                     held.cache_clear()
