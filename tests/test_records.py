@@ -48,10 +48,10 @@ def test_a_record_is_older_where_a_source_of_its_closure_changes(
 ) -> None:
     made = made_by()
     assert is_current(made)
-    real = sources._content
+    real = sources._file_digest
     for path, current in (("contact_scene/body_pair.py", True), ("verification/norms.py", False)):
         sources.source_digest.cache_clear()
-        monkeypatch.setattr(sources, "_content", lambda f, p=path: real(f) + "x" * (f == p))
+        monkeypatch.setattr(sources, "_file_digest", lambda f, p=path: real(f) + "x" * (f == p))
         assert is_current(made) is current
         assert age_text(made) == ("" if current else "older than the code")
     monkeypatch.undo()
@@ -70,10 +70,10 @@ def test_texts_and_format_of_a_source_do_not_count(
     }
     for name, text in texts.items():
         (tmp_path / name).write_text(text)
-    assert sources._content("a.py") != sources._content("c.py")
-    assert sources._content("a.py") != sources._content("d.py")
+    assert sources._file_digest("a.py") != sources._file_digest("c.py")
+    assert sources._file_digest("a.py") != sources._file_digest("d.py")
     (tmp_path / "e.py").write_text(texts["a.py"].replace("Old.", "New.").replace("5\n", "5  # w\n"))
-    assert sources._content("a.py") == sources._content("e.py")
+    assert sources._file_digest("a.py") == sources._file_digest("e.py")
 
 
 def test_every_study_names_the_module_that_makes_it() -> None:
