@@ -512,7 +512,8 @@ def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
         Reference(
             1 / pi, ReferenceKind.THEORY,
             "springs of stiffness ε in series with Hertz's contact, to first order: the approach "
-            "grows by d/dW of their energy ∫p²/2ε dA, which is p₀/2ε",
+            "grows by d/dW of their energy ∫p²/2ε dA, which is p₀/2ε; the next order is 1/k of it",
+            1 / (pi * k),
         ),
         Required(0.05, "set by hand: the next order in 1/k and the error of the mesh"),
     )  # fmt: skip
