@@ -275,11 +275,12 @@ def test_slip_amplitude_is_half_the_largest_distance_of_two_slips(monkeypatch):
 
 def test_the_tension_of_a_loop_is_that_along_its_force():
     oblique = [push(x * sqrt(0.5), x * sqrt(0.5), increments=8) for x in (0.9, -0.9, 0.9)]
-    along_x, along_diagonal = (
-        np.max(fretting_cycles(loop(32, *loading))[0].surface_tension)
-        for loading in (LOOP, (PRESS, *oblique))
-    )
+    found = [fretting_cycles(loop(32, *loading))[0] for loading in (LOOP, (PRESS, *oblique))]
+    along_x, along_diagonal = (np.max(cycle.surface_tension) for cycle in found)
     assert along_diagonal == pytest.approx(along_x, rel=0.02)
+    for cycle in found:
+        pulled = cycle.surface_tension > 0
+        assert np.array_equal(cycle.ruiz_f2 > 0, pulled & (cycle.ruiz_f1 > 0))
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import toeplitz
 
+from contact_scene import Body, IsotropicMaterial
 from fem_reference.compliance.ring_edge import (
     HatEdge,
+    beyond_pressure,
     stick_area,
 )
 from fem_reference.contact import pressure_program
@@ -23,6 +25,14 @@ from fem_reference.contact.pressure_program import (
 )
 
 CENTRE = 200
+
+
+def test_the_softer_body_decides_where_the_edge_lies() -> None:
+    soft, hard = (
+        Body(material=IsotropicMaterial(young_modulus=E, poisson_ratio=nu))
+        for E, nu in ((1e9, 0.1), (1e15, 0.4))
+    )
+    assert beyond_pressure(soft, hard) == pytest.approx(beyond_pressure(soft), abs=1e-5)
 
 
 def plane_contact(half_width: float) -> np.ndarray:

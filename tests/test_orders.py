@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from functools import cache
 from itertools import product
+from math import isnan, nan
 from types import SimpleNamespace
 from typing import Any
 
@@ -21,10 +22,13 @@ from verification.judging.case import (
     NotYetAsymptotic,
     Order,
     Quantity,
+    Reference,
+    ReferenceKind,
     Refinement,
+    Required,
 )
 from verification.judging.outcome import Status, Verdict
-from verification.judging.verdicts import judge_order, judge_quantity
+from verification.judging.verdicts import judge_order, judge_quantity, judge_worst
 from verification.problems.problem import identity
 from verification.solver import Solver
 
@@ -102,6 +106,29 @@ def test_values_that_refinement_does_not_change_are_judged_exactly(
     case = Case("planted", "", "", runs, (quantity,))
     verdict = judge_quantity(quantity, case, dict.fromkeys(labels, 0.0))
     assert (verdict.allowed, verdict.status, verdict.clearance) == (0.0, status, clearance)
+
+
+def test_a_stated_error_covers_no_more_than_itself_and_that_of_the_reference() -> None:
+    run: Any = SimpleNamespace(label="run", spacing=1.0)
+    known = Reference(0.0, ReferenceKind.THEORY, "planted", 0.25)
+    quantity = Quantity("one", "", "", "run", float, known, Required(1.0, "planted"), 1.0)
+    case = Case("planted", "", "", (run,), (quantity,))
+    found = [judge_quantity(quantity, case, {"run": x}, 0.5).covered for x in (-0.74, 0.74, 0.76)]
+    assert found == [True, True, False]
+
+
+@pytest.mark.parametrize(
+    ("tight", "loose", "worst"),
+    [(1e-3, 5e-3, "tight"), (1e-5, 5e-3, "loose"), (1e-5, nan, "loose")],
+)
+def test_the_worst_run_is_the_nearest_to_its_own_tolerance(tight, loose, worst) -> None:
+    runs: Any = (SimpleNamespace(label="tight", tolerance=1e-4),)
+    runs += (SimpleNamespace(label="loose", tolerance=1e-2),)
+    found = {"tight": tight, "loose": loose}
+    case = Case("planted", "", "", runs, ())
+    verdict = judge_worst(case, found, "", "", "", "", lambda run: run.tolerance)
+    assert verdict.run == worst
+    assert (verdict.status is Status.FAIL) is (worst == "tight" or isnan(loose))
 
 
 def pressed() -> Case:

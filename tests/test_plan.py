@@ -1,5 +1,7 @@
 """What a scene calls for: the effects, and into how many increments its steps are cut."""
 
+from math import sqrt
+
 import numpy as np
 import pytest
 from contact_scenes import PRESS, RIGID_BALL, grid, paraboloid, push, scene, slide, steel
@@ -72,6 +74,20 @@ def test_a_load_under_shear_is_cut_alike_there_and_back():
     whole = {**PRESS, **push(0.3)}
     *_, back, there = plan(scene(PRESS, push(0.3), half, whole)).increments
     assert back == there > 1
+
+
+@pytest.mark.parametrize(
+    ("loading", "coefficient"),
+    [
+        ((push(0.3), {"normal_force": 0.5 * PRESS["normal_force"], **push(0.2)}), 0.123),
+        ((push(0.9), push(0.0, 0.9), push(-0.9)), 0.9 * 0.25 * 2 * sqrt(2) * 0.9 * sqrt(2)),
+    ],
+    ids=["less pressure", "turned twice"],
+)
+def test_increments_follow_the_stated_rules(loading, coefficient) -> None:
+    """By the friction limit of the smaller load, and with all turns of the history."""
+    counts = plan(scene(PRESS, *loading), 1e-3).increments
+    assert counts[-1] == pytest.approx(1e3 * coefficient, abs=1.5)
 
 
 def test_bodies_have_the_modulus_and_beta_of_their_outermost_layers():

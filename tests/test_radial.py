@@ -181,6 +181,16 @@ def test_a_peak_between_rings_is_found() -> None:
     assert_allclose(found, np.max(pressure(made, many)), rtol=1e-6)
 
 
+def test_pressing_with_friction_takes_two_fifths_of_force_times_approach() -> None:
+    """W grows as δ^(3/2): friction keeps the contact similar to itself."""
+    contact = Scene(
+        indenter=BALL, body=Body(material=STEEL), friction={"coefficient": 0.2},
+        loading=({"normal_force": FORCE, "increments": 4},),
+    )  # fmt: skip
+    (end,) = radial.solve(contact).steps
+    assert_allclose(end.input_work, 0.4 * FORCE * end.approach, rtol=2e-5)
+
+
 def _scene(indenter: ShapedBody, body: Body, **step: Any) -> Scene:
     return Scene(indenter=indenter, body=body, loading=(LoadStep(**(step or {"normal_force": 1})),))
 

@@ -11,7 +11,8 @@ from synthetic_result import MU, synthetic_result
 
 from contact_results.figures.figure_files import seen_from_above
 from contact_results.figures.map_panels import RingsAbove
-from contact_results.figures.maps import field_map, stick_slip_map
+from contact_results.figures.maps import field_map, latest_slip, stick_slip_map
+from contact_results.figures.overview import overview
 from contact_results.figures.profile_plot import profile_plot
 from contact_results.figures.style import figure_style
 from contact_results.key_numbers import key_numbers
@@ -43,6 +44,8 @@ def test_a_component_is_shown_with_its_own_error() -> None:
     found = dict(key_numbers(pushed, {"tangential_force": both}))
     shown = [found[f"tangential force {axis}"] for axis in "xy"]
     assert shown == ["30.0 ± 1.0 N", "40.0 ± 2.0 N"]
+    unknown = StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED)
+    assert " ? " in dict(key_numbers(pushed, {"approach": unknown}))["approach"]
 
 
 @pytest.mark.parametrize(("name", "tiny"), [("torque", 9.9e-22), ("twist", 1e-20)])
@@ -101,6 +104,19 @@ def test_arrows_of_the_latest_slip_oppose_the_shear_where_it_slips() -> None:
         q_x, q_y = step.shear[:, i, j]
         assert np.all(arrow.U * q_x + arrow.V * q_y < 0)
         assert np.all(step.in_contact[i, j] & ~step.in_stick[i, j])
+    slips = [latest_slip(result, cells, i) for i in result.increments if i.slip is not None]
+    assert len(slips) > 2
+    np.testing.assert_allclose(sum(slips), result.increments[-1].slip)
+
+
+def test_the_overview_begins_with_the_profile_and_ends_with_the_last_numbers() -> None:
+    result: Any = synthetic_result()
+    with figure_style():
+        figure = overview(result, seen_from_above(result))
+    (numbers,) = (ax for ax in figure.axes if ax.texts and "status" in ax.texts[0].get_text())
+    assert figure.axes[0].get_position().y0 > numbers.get_position().y1
+    shown = numbers.texts[0].get_text().splitlines()
+    assert shown[1:-1] == [f"{name}: {text}" for name, text in key_numbers(result.steps, None)]
 
 
 def test_a_map_has_every_cell_at_its_place_and_a_profile_the_limit_of_its_last_step() -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, NamedTuple, cast
 
+import h5py
 import numpy as np
 import pytest
 from command import outcome, rows, slipstick
@@ -40,6 +41,7 @@ from contact_errors.error_formula import (
     build_stated_error,
     characteristic_size,
     largest_so_far,
+    prescribed_scalars,
     values_of,
 )
 from contact_errors.on_cells import CellSolver
@@ -72,11 +74,13 @@ from contact_scene.quantities.stated_error import (
 )
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.reading.scene_file import read_scene_file
+from contact_scene.rig import Rig
 from contact_scene.solver_errors import NotConverged
 from contact_scene.stepping.increment_error import (
     has_increment_error,
     near_gross_slip,
 )
+from fem_reference import Method
 from fem_reference import Path as ElementPath
 from semi_analytical import SurfaceGrid, solve
 from semi_analytical.edge_correction.pressure import left_over
@@ -166,6 +170,16 @@ def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None
     assert elements.neglected_errors(cast("Any", inclined))["stick_radius"] == pytest.approx(
         left, rel=0.01
     )
+    outline = SimpleNamespace(outline=SimpleNamespace(box=40.0))
+    pushed = SimpleNamespace(plan=SimpleNamespace(path=ElementPath.HARMONICS), sections=[outline])
+    mesh = FiniteElementDiscretisation(overlap=1e-3, harmonics=12)
+    springs = ElementSolver(rings.scene, mesh, method=Method.PENALTY)
+    made = {coarse.key: coarse for coarse in springs.mesh_coarse_solves(mesh, cast("Any", pushed))}
+    finer = {"overlap": 1 / mesh.overlap, "harmonics": mesh.harmonics, "box": 40.0}
+    for key, coarse in made.items():
+        size = 1 / coarse.value if key == "overlap" else coarse.value
+        assert coarse.ratio == pytest.approx(finer[key] / size)
+    assert made.keys() == finer.keys()
 
 
 @pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
@@ -180,10 +194,28 @@ def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratio)
 
 
 def test_components_of_a_vector_share_one_size() -> None:
-    both, one = ({"tangential_shift": np.array([3.0, y])} for y in (-1.0, 1e-12))
-    sizes = [found["tangential_shift"] for found in largest_so_far([one, both])]
-    np.testing.assert_array_equal(sizes, [[3.0, 3.0]] * 2)
+    steps = [{"tangential_shift": np.array(shift)} for shift in ((3.0, 1e-12), (2.0, -1.0))]
+    sizes = [found["tangential_shift"] for found in largest_so_far(steps)]
+    np.testing.assert_array_equal(sizes, [[3.0, 3.0]] * 2)  # also where it has become smaller
     assert build_stated_error({"cells": np.array([1.0, 2.0])}, True).error == (1.0, 2.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "features", "resolved"),
+    [
+        ("approach", {"stick": 0.0, "annulus": 0.0, "layer": 1.0, "wave": 4.0}, True),
+        ("approach", {"layer": 0.9}, False),
+        ("approach", {"wave": 3.9}, False),
+        ("stick_radius", {"stick": 2.9}, False),
+        ("tangential_shift", {"stick": 0.0, "annulus": 0.5}, True),
+        ("tangential_shift", {"stick": 9.0, "annulus": 0.4}, False),
+        ("peak_pressure", {"stick": 0.0}, True),
+        ("peak_pressure", {"stick": 0.0, "cusp": True}, False),
+        ("peak_pressure", {"stick": 0.0, "cusp": True, "slides": True}, True),
+    ],
+)
+def test_a_number_needs_cells_for_what_it_depends_on(name, features, resolved) -> None:
+    assert Features(contact=10.0, **features).resolve(name) is resolved
 
 
 def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:
@@ -285,10 +317,10 @@ def test_increments_of_coarse_solves() -> None:
 
 def test_a_push_near_gross_slip_is_marked() -> None:
     near, far, loose = (
-        near_gross_slip(rubbed(push(part), body=Body(material=matter)))
+        near_gross_slip(rubbed(push(part), push(0.1), body=Body(material=matter)))
         for part, matter in ((0.999, steel()), (0.9, steel()), (0.999, LOOSE))
     )
-    assert near == (False, True)
+    assert near == (False, True, True)  # what has slipped remains
     assert not any((*far, *loose))
 
 
@@ -596,6 +628,11 @@ def test_what_the_load_prescribes_is_exact() -> None:
     assert by_force["approach"].status is ErrorStatus.ESTIMATED
     assert by_shift["tangential_shift"].status is ErrorStatus.EXACT
     assert by_shift["tangential_force"].status is ErrorStatus.ESTIMATED
+    behind_spring = Rig(tangential_stiffness=1e8)
+    for rig, own, other in ((None, "shift", "actuator"), (behind_spring, "actuator", "shift")):
+        names = prescribed_scalars(of.load_path()[1], rig)
+        assert f"{own}_amplitude" in names
+        assert f"{other}_amplitude" not in names
 
 
 @pytest.mark.parametrize(
@@ -656,6 +693,14 @@ def test_an_iteration_leaves_its_last_change_times_the_contraction(changes, left
     assert left_over(changes) == pytest.approx(left)
 
 
+def test_an_area_leaves_twice_the_part_of_its_radius() -> None:
+    result = package.solve(scene(PRESS, push(0.5)), "semi-analytical", cells(24))
+    for features in CellSolver.of(result).features(result):
+        for zone in ("contact", "stick"):
+            assert features.left[f"{zone}_area"] == 2 * features.left[f"{zone}_radius"]
+    assert min(features.left["contact_radius"], features.left["stick_radius"]) > 0
+
+
 @pytest.mark.parametrize("shift", [0, 1])
 def test_wide_cells_carry_the_same_force_at_the_same_place(shift: int) -> None:
     on = SurfaceGrid((9, 12), (3.0, 4.0))
@@ -673,7 +718,7 @@ def test_wide_cells_carry_the_same_force_at_the_same_place(shift: int) -> None:
 
 FRETTING = (
     STEEL_BALL_PRESSED
-    + "".join(f'[[loading]]\ntangential_force = ["{T} N", 0]\n' for T in (90, -90, 90))
+    + "".join(f'[[loading]]\ntangential_force = ["{T} N", 0]\n' for T in (90, -90, 90, 60))
     + COARSE
 )
 TWENTY = '[semi_analytical]\ncells = [20, 20]\nwindow = ["1.2 mm", "1.2 mm"]\n'
@@ -690,15 +735,19 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[str, 
         ended = outcome(*asked, cwd=folder)
         assert ended.returncode == 0, ended.stderr
         written = (folder / option / "summary.json").read_text(encoding="utf-8")
-        found[option] = json.loads(written), ended.stdout, rows(folder / option / "cycles.csv")
+        with h5py.File(folder / option / "result.h5") as file:
+            last = dict(file["last_cycle"].attrs)
+        table = rows(folder / option / "cycles.csv")
+        found[option] = json.loads(written), ended.stdout, table, last
     return found
 
 
 def test_a_cycle_has_the_numbers_and_errors_of_the_step_that_closes_it(runs: Any) -> None:
-    summary, _, cycles = runs["--error"]
+    summary, _, cycles, last = runs["--error"]
     assert [(row["start_step"], row["end_step"]) for row in cycles] == [("2", "4")]
+    assert (last["start_step"], last["end_step"]) == (2, 4)
     end = summary["steps"][3]
-    assert [step["cycle_start"] for step in summary["steps"]] == [None, None, None, 2]
+    assert [step["cycle_start"] for step in summary["steps"]] == [None, None, None, 2, None]
     for name, mark in OF_CYCLES.items():
         parts = ("_x", "_y") if mark.kind is Kind.VECTOR else ("",)
         error = end["errors"].get(name, {"error": None})["error"]
@@ -720,7 +769,7 @@ def test_a_run_writes_the_errors_and_counts_their_solves_apart(runs: Any) -> Non
 
 
 def test_the_table_shows_what_is_wrong_beside_the_number(runs: Any) -> None:
-    shown, alone = (said for _, said, _ in runs.values())
+    shown, alone = (said for _, said, *_ in runs.values())
     assert " ± " in shown
     assert " ± " not in alone
     assert "because of --no-error" in alone

@@ -143,6 +143,18 @@ def test_admissible_pressure_has_no_tension_and_carries_force_and_moments(proble
     np.testing.assert_allclose(sums(p), target, atol=1e-12 * (target[0] + size))
 
 
+@given(carried())
+def test_what_other_cells_carry_is_taken_off_force_and_moments(problem):
+    rng, cells, target = problem
+    elsewhere = ~cells * rng.random(SHAPE)
+    for load in loads(target):
+        rest = load.less(elsewhere)
+        assert not np.any(rest.cells & (elsewhere > 0))
+        np.testing.assert_allclose(rest.moments + sums(elsewhere)[1:], target[1:], atol=1e-12)
+        if rest.total is not None:
+            assert rest.total + np.sum(elsewhere) == pytest.approx(target[0])
+
+
 @given(carried(), st.booleans())
 def test_pressure_under_force_and_moments_closes_the_gap_where_it_presses(problem, forced):
     rng, cells, target = problem

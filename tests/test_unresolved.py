@@ -256,7 +256,9 @@ def test_softest_within_a_contact_radius_counts(depth: float) -> None:
     scene = Scene(
         indenter=paper.paraboloid(STEEL), body=body, loading=(LoadStep(normal_force=1.0),)
     )
-    assert bool(beyond_linear_theory(scene, [End(1e6)])) is (depth < End.contact_radius)
+    told = beyond_linear_theory(scene, [End(1e6)])
+    assert bool(told) is (depth < End.contact_radius)
+    assert all("in layer 2 of the body" in text for text in told)
 
 
 # ---- Numbers that are hardly what was meant are remarked on, and no others.
