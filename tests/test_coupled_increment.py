@@ -25,6 +25,7 @@ from contact_scene import (
     Paraboloid,
 )
 from contact_scene.quantities.summary import ContactStatus
+from fem_reference.contact.increment import touching_share as share_of_rings
 from semi_analytical import SurfaceGrid, solve
 from semi_analytical.increments.tangential_state import touching_share
 
@@ -274,3 +275,12 @@ def test_slip_and_its_energy_count_from_touch():
     few, many = pressed(10), pressed(40)
     assert np.max(np.hypot(*few.slip)) == pytest.approx(np.max(np.hypot(*many.slip)), rel=0.06)
     assert few.dissipated_energy == pytest.approx(many.dissipated_energy, rel=0.03)
+
+
+def test_rings_touch_for_their_part_of_the_way_of_the_edge():
+    radii = np.array([0.5, 1.25, 1.75, 3.0])
+    small, large = (1.0, radii > 1.0), (2.0, radii > 2.0)
+    for (edge, apart), (edge_after, apart_after) in ((small, large), (large, small)):
+        share = share_of_rings(radii, apart, apart_after, edge, edge_after)
+        np.testing.assert_allclose(share[:3], [1.0, 0.75, 0.25])
+    assert share_of_rings(radii, small[1], large[1], 1.0, 2.0)[3] == 0.0

@@ -8,7 +8,7 @@ from scipy.ndimage import binary_erosion
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from semi_analytical import SurfaceGrid
-from semi_analytical.edge.clipped_power_means import mean_power
+from semi_analytical.edge.clipped_power_means import mean_of_cut, mean_of_smooth, mean_power
 from semi_analytical.edge.film import FilmLaw, film_law
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil, fit_about, peak_of
 from semi_analytical.edge.kernels import PARITY
@@ -31,6 +31,15 @@ PLACES = (
     (-0.6, 0.7, 0.4),
 )
 CELLS = 40
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS)
+def test_the_series_is_exact_to_what_it_states(exponent: float) -> None:
+    slopes = np.array([[1.0, 0.8, 0.5], [0.0, 0.2, 0.5]])
+    f = 1.5 * np.sum(slopes, axis=0)
+    exact = mean_of_cut(f, *slopes, exponent)
+    nearly = 5e-6 if exponent < 0 else 1e-6
+    np.testing.assert_allclose(mean_of_smooth(f, *slopes, exponent), exact, rtol=nearly)
 
 
 @pytest.mark.parametrize("exponent", EXPONENTS)

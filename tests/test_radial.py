@@ -136,7 +136,10 @@ def test_the_surface_touches_where_there_is_pressure(modulus: float, thickness: 
 
 
 @pytest.mark.parametrize("body", [Body(material=STEEL), coated(3.0, 1e-3, base=RIGID)])
-@pytest.mark.parametrize("indenter", [BALL, Cone(slope_angle=0.05, material=RIGID)])
+@pytest.mark.parametrize(
+    "indenter",
+    [BALL, Cone(slope_angle=0.05, material=RIGID), FlatPunch(radius=1e-3, material=RIGID)],
+)
 def test_what_is_stored_is_the_work_of_the_load(indenter: ShapedBody, body: Body) -> None:
     """dU = W dδ, by differences of neighbouring loads."""
     force, step = FORCE if body.layers == () else 1e-6, 1e-3

@@ -20,12 +20,14 @@ from contact_scenes import (
 
 from contact_scene import Ellipsoid
 from contact_scene.quantities.summary import ContactStatus
+from contact_scene.solver_errors import NotConverged
 from semi_analytical import (
     ContactNotResolved,
     GrossSliding,
     plan,
     solve,
 )
+from semi_analytical.increments import stick_slip
 
 TOLERANCE = 1e-9
 GRID = grid(32, 2.0)
@@ -168,6 +170,14 @@ def test_reciprocity_of_force_and_torque():
     by_torque = turned.tangential_shift[0] / turned.torque
     assert abs(by_force) > 0
     assert by_force == pytest.approx(by_torque, rel=1e-6)
+
+
+@pytest.mark.parametrize("part", [0.99, 1.01])
+def test_a_torque_that_is_missed_on_either_side_is_not_accepted(part, monkeypatch):
+    reported = stick_slip.torque_of
+    monkeypatch.setattr(stick_slip, "torque_of", lambda *given: part * reported(*given))
+    with pytest.raises(NotConverged):
+        end(PRESS, twist(0.3))
 
 
 def test_torque_beyond_friction_is_refused_with_its_limit():

@@ -259,3 +259,11 @@ def test_principal_stresses_keep_their_digits_where_two_are_equal(values, seed, 
         found = principal_stresses(components(whole))
         exact = np.linalg.eigvalsh(whole)[::-1]
         np.testing.assert_allclose(found, exact, rtol=0, atol=1e-14 * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, -0.8)])
+@pytest.mark.parametrize("around", [None, np.pi * np.arange(5) / 4, np.pi * np.arange(8) / 4])
+def test_places_of_the_line_are_those_of_its_points(around: Field | None, direction: Any) -> None:
+    rings = Rings(np.array([0.0, 0.5, 2.0]), around, direction, polar=False)
+    ahead = np.tensordot(direction, rings.positions, 1)
+    np.testing.assert_allclose(rings.along(ahead), rings.profile_line.places, atol=1e-15)

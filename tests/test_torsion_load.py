@@ -155,6 +155,17 @@ def test_what_other_cells_carry_is_taken_off_force_and_moments(problem):
         np.testing.assert_allclose(rest.moments + sums(elsewhere)[1:], target[1:], atol=1e-12)
 
 
+@given(carried())
+def test_a_plane_gap_is_closed_by_its_own_motion(problem):
+    rng, _, target = problem
+    motion = np.array([2.0, *rng.normal(size=2)])
+    by_force, by_approach = (
+        load.motion(rng.random(SHAPE), load.closure(motion)) for load in loads(target)
+    )
+    np.testing.assert_allclose(by_force, motion, atol=1e-9)
+    np.testing.assert_allclose(by_approach, motion, atol=1e-9)
+
+
 @given(carried(), st.booleans())
 def test_pressure_under_force_and_moments_closes_the_gap_where_it_presses(problem, forced):
     rng, cells, target = problem

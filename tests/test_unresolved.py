@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from scene_texts import STEEL_ON_STEEL
 
 import semi_analytical
+from contact_errors.on_cells import CellSolver
 from contact_results.files.summary_file import summary_of
 from contact_results.result_warnings import warnings_of
 from contact_scene import (
@@ -181,6 +182,8 @@ def test_the_stick_zone_shrinks_as_cattaneo_says_and_slip_takes_the_rest():
     assert (held.stick, held.annulus) == (pytest.approx(held.contact), None)
     free = resolved(PRESS, friction=None)
     assert (free.stick, free.annulus) == (None, None)
+    slid = solved_on(PRESS, {"tangential_shift": (20 * A**2 / RADIUS, 0.0)})
+    assert CellSolver.of(slid).features(slid)[-1].slides
 
 
 def egg_box(wave, cells=64):
