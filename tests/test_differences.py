@@ -25,7 +25,7 @@ READ: dict[Any, tuple[str, ...]] = {
     histories.scalars_apart: ("approach", "tangential_shift", "dissipated_energy"),
     hertz._pressure_and_approach: ("pressure", "approach"),
     histories.after_half: ("pressure", "shear", "tangential_shift", "approach"),
-    indenters._moved_apart: ("pressure", "shear"),
+    indenters._shifted_field_difference: ("pressure", "shear"),
 }
 
 

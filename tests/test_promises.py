@@ -193,7 +193,7 @@ def test_a_planted_number_that_is_none_ends_in_an_error_or_in_the_answer(
     ways = (
         (
             Transforms,
-            "filtered",
+            "filter_fields",
             60,
             lambda: solve(scene, SurfaceGrid((20, 20), window), TOLERANCE),
         ),

@@ -33,7 +33,7 @@ from verification.report.files import (
 from verification.report.page import render_page
 from verification.report.summary_text import failure_lines, render_junit, render_summary
 from verification.running import provenance
-from verification.running.case_pool import CaseStore, DamagedRecord, _digest
+from verification.running.case_pool import CaseStore, DamagedRecord, _record_digest
 from verification.running.provenance import Provenance
 from verification.running.records import EARLIER
 from verification.running.report_record import Report, load_report
@@ -263,7 +263,7 @@ def test_record_that_contradicts_itself_is_not_taken(tmp_path: Path) -> None:
 
     def forge(document: dict[str, Any]) -> None:
         document["record"]["outcome"]["verdicts"][0]["value"] = 1.5
-        document["sha256"] = _digest(document["record"])
+        document["sha256"] = _record_digest(document["record"])
 
     edited(store.path(asked), forge)
     with pytest.raises(DamagedRecord, match="is damaged"):
