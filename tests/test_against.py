@@ -119,6 +119,11 @@ def test_a_loop_of_the_actuator_has_the_energy_of_the_contact(place: Path) -> No
         assert found["slope"][4] == "100.0 %"
     assert energies[0] == pytest.approx(energies[1], rel=1e-4)
     assert 1 / slopes[0] - 1 / slopes[1] == pytest.approx(1 / 100, rel=1e-3)  # of the spring
+    smaller = table(place / "loop.csv", **{"shift [m]": shift, "T [N]": 0.9 * force})
+    both_ways = np.sum(force**2) + np.min(force) ** 2 + np.max(force) ** 2  # with both ends twice
+    gap = 0.1 * np.sqrt(both_ways / (len(force) + 2))
+    found = against(place, smaller)["force along the loop"]
+    assert float(found[3]) == pytest.approx(gap, rel=1e-3)
 
 
 def test_a_profile_is_compared_at_its_places(place: Path) -> None:

@@ -262,37 +262,30 @@ def test_arrays_and_whole_numbers_of_numpy_are_taken() -> None:
         assert not np.shares_memory(taken, values)
 
 
-def refused(make: Callable[[], BaseModel]) -> None:
+REFUSALS: tuple[tuple[Callable[[Any], BaseModel], Any], ...] = (
+    (lambda value: Paraboloid(radius=value, material="rigid"), NO_LENGTH),  # type: ignore[arg-type]
+    (lambda value: LoadStep(normal_force=1.0, increments=value), NO_COUNT),
+    (lambda value: SurfaceDiscretisation(cells=(value, 16)), NO_COUNT),
+    (lambda value: FiniteElementDiscretisation(elements_per_radius=value), NO_COUNT),
+    (lambda value: LoadStep(tangential_force=value), NO_PAIR),
+    (lambda value: HeightMap(file=value, spacing=1e-6, material="rigid"), NO_HEIGHTS),  # type: ignore[arg-type]
+)
+
+
+@pytest.mark.parametrize(
+    ("make", "value"), [(make, value) for make, values in REFUSALS for value in values]
+)
+def test_what_is_no_length_count_pair_or_height_is_refused(
+    make: Callable[[Any], BaseModel], value: Any
+) -> None:
     """By one exception, without a warning, that says what came in words that can be printed."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         with pytest.raises(ValidationError) as found:
-            make()
+            make(value)
     for detail in found.value.errors(include_url=False):
         assert detail["msg"].isprintable()
         assert len(detail["msg"]) < 300
-
-
-@pytest.mark.parametrize("value", NO_LENGTH, ids=lambda value: type(value).__name__)
-def test_what_is_no_length_is_refused(value: Any) -> None:
-    refused(lambda: Paraboloid(radius=value, material="rigid"))  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize("value", NO_COUNT, ids=lambda value: type(value).__name__)
-def test_what_is_no_count_is_refused(value: Any) -> None:
-    refused(lambda: LoadStep(normal_force=1.0, increments=value))
-    refused(lambda: SurfaceDiscretisation(cells=(value, 16)))
-    refused(lambda: FiniteElementDiscretisation(elements_per_radius=value))
-
-
-@pytest.mark.parametrize("value", NO_PAIR, ids=lambda value: type(value).__name__)
-def test_what_is_no_pair_is_refused(value: Any) -> None:
-    refused(lambda: LoadStep(tangential_force=value))
-
-
-@pytest.mark.parametrize("value", NO_HEIGHTS, ids=lambda value: type(value).__name__)
-def test_what_are_no_heights_is_refused(value: Any) -> None:
-    refused(lambda: HeightMap(file=value, spacing=1e-6, material="rigid"))  # type: ignore[arg-type]
 
 
 def test_a_quantity_with_a_unit_is_told_what_to_write() -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command import outcome, rows
+from scene_texts import STEEL_BALL_PRESSED
 from stored_mesh import read_mesh
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -135,6 +136,12 @@ def test_run_and_scene_give_the_same(place: Path) -> None:
                     continue
                 scale = 1e10 if "Pa" in key else 1.0
                 assert float(b[key]) == pytest.approx(expected, rel=1e-9, abs=1e-12 * scale)
+
+
+def test_the_last_step_of_a_scene_may_be_asked_for(tmp_path: Path) -> None:
+    (tmp_path / "ball.toml").write_text(STEEL_BALL_PRESSED, encoding="utf-8")
+    fast = ("--solver", "radial", "--no-error", "--figures", "none", "-o", "out")
+    assert outcome("stress", "ball.toml", *fast, "--step", 1, cwd=tmp_path).returncode == 0
 
 
 def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:
