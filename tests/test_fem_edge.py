@@ -165,18 +165,6 @@ def test_descent_alone_finds_the_same(program: PressureProgram) -> None:
     assert slow.values == pytest.approx(solve_program(program, free).values, abs=1e-8)
 
 
-@given(programs(), st.integers(-20, 20))
-def test_units_do_not_matter(program: PressureProgram, power: int) -> None:
-    """In units that differ by a power of four, whose roots are exact, every step is the same."""
-    s = 4.0**power
-    total = program.total and Total(program.total.weights / s, program.total.value)
-    other = PressureProgram(program.matrix * s, program.right * s * s, total)
-    free = np.ones(len(program.right), bool)
-    one, two = solve_program(program, free), solve_program(other, free)
-    assert np.array_equal(two.values, one.values * s)
-    assert two.steps == one.steps
-
-
 def test_who_rests_at_a_bound_without_being_pulled_stays_there() -> None:
     """Its gradient is zero: it could be free as well, and then would be told so."""
     program = PressureProgram(np.array([[4.0, 1.0], [1.0, 2.0]]), np.array([4.0, 1.0]))

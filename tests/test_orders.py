@@ -122,10 +122,9 @@ def test_a_stated_error_covers_no_more_than_itself_and_that_of_the_reference() -
     [(1e-3, 5e-3, "tight"), (1e-5, 5e-3, "loose"), (1e-5, nan, "loose")],
 )
 def test_the_worst_run_is_the_nearest_to_its_own_tolerance(tight, loose, worst) -> None:
-    runs: Any = (SimpleNamespace(label="tight", tolerance=1e-4),)
-    runs += (SimpleNamespace(label="loose", tolerance=1e-2),)
-    found = {"tight": tight, "loose": loose}
-    case = Case("planted", "", "", runs, ())
+    allowed = {"tight": 1e-4, "loose": 1e-2}
+    runs: Any = tuple(SimpleNamespace(label=one, tolerance=size) for one, size in allowed.items())
+    found, case = {"tight": tight, "loose": loose}, Case("planted", "", "", runs, ())
     verdict = judge_worst(case, found, "", "", "", "", lambda run: run.tolerance)
     assert verdict.run == worst
     assert (verdict.status is Status.FAIL) is (worst == "tight" or isnan(loose))

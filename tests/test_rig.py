@@ -161,10 +161,14 @@ def test_a_cycle_of_torsion_has_no_loop_of_force():
     assert "force_amplitude" not in cycle.numbers
     (texts,) = zip(*cycle_columns([cycle]).values(), strict=True)
     assert texts[:2] == ("3–4 (first)", "partial slip")
-    sizes = (cycle.numbers["energy_per_cycle"] * part for part in (0.1, 0.2, 0.3, 0.4))
+    energy = cycle.numbers["energy_per_cycle"]
     errors = [
-        {"energy_per_cycle": StatedError(error=size, parts={}, status=ErrorStatus.ESTIMATED)}
-        for size in sizes
+        {
+            "energy_per_cycle": StatedError(
+                error=part * energy, parts={}, status=ErrorStatus.ESTIMATED
+            )
+        }
+        for part in (0.1, 0.2, 0.3, 0.4)
     ]
     (lost,) = (t[0] for name, t in cycle_columns([cycle], errors).items() if "E_d" in name)
     value, error = map(float, lost.split("±"))

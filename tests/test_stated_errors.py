@@ -171,12 +171,14 @@ def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None
     assert elements.neglected_errors(cast("Any", inclined))["stick_radius"] == pytest.approx(
         left, rel=0.01
     )
-    outline = SimpleNamespace(outline=SimpleNamespace(box=40.0))
-    pushed = SimpleNamespace(plan=SimpleNamespace(path=ElementPath.HARMONICS), sections=[outline])
+    pushed = SimpleNamespace(
+        plan=SimpleNamespace(path=ElementPath.HARMONICS),
+        sections=[SimpleNamespace(outline=SimpleNamespace(box=40.0))],
+    )
     mesh = FiniteElementDiscretisation(overlap=1e-3, harmonics=12)
-    springs = ElementSolver(rings.scene, mesh, method=Method.PENALTY)
-    made = springs.mesh_coarse_solves(mesh, cast("Any", pushed))
-    found = {coarse.key: (coarse.value, coarse.ratio) for coarse in made}
+    solver = ElementSolver(rings.scene, mesh, method=Method.PENALTY)
+    solves = solver.mesh_coarse_solves(mesh, cast("Any", pushed))
+    found = {coarse.key: (coarse.value, coarse.ratio) for coarse in solves}
     assert found == {"overlap": (1e-2, 10.0), "harmonics": (8, 1.5), "box": (10.0, 4.0)}
 
 

@@ -140,8 +140,8 @@ def test_run_and_scene_give_the_same(place: Path) -> None:
 
 def test_the_last_step_of_a_scene_may_be_asked_for(tmp_path: Path) -> None:
     (tmp_path / "ball.toml").write_text(STEEL_BALL_PRESSED, encoding="utf-8")
-    fast = ("--solver", "radial", "--no-error", "--figures", "none", "-o", "out")
-    assert outcome("stress", "ball.toml", *fast, "--step", 1, cwd=tmp_path).returncode == 0
+    options = ("--solver", "radial", "--no-error", "--figures", "none", "-o", "out", "--step", 1)
+    assert outcome("stress", "ball.toml", *options, cwd=tmp_path).returncode == 0
 
 
 def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:

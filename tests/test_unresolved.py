@@ -4,7 +4,7 @@ import json
 import re
 from math import atan
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -13,8 +13,10 @@ from contact_scenes import APPROACH, INDENTERS, PRESS, RADIUS, A, bump, grid, pu
 from hypothesis import given
 from hypothesis import strategies as st
 from scene_texts import STEEL_ON_STEEL
+from scipy.stats import norm
 
 import semi_analytical
+from contact_errors import on_cells
 from contact_errors.on_cells import CellSolver
 from contact_results.files.summary_file import summary_of
 from contact_results.result_warnings import warnings_of
@@ -140,6 +142,13 @@ def test_waves_that_the_cells_do_not_see_are_told_by_what_they_take_from_the_pea
     named, missed = told(amplitude, wave, 96, size)
     assert named == pytest.approx(missed, rel=0.3)
     assert missed > 0.03
+
+
+def test_what_waves_between_cells_take_counts_with_their_highest(monkeypatch) -> None:
+    """A height of a Gaussian surface that one place in a thousand exceeds."""
+    monkeypatch.setattr(on_cells, "unresolved_pressure", lambda result: 0.1)
+    lost = CellSolver(scene(PRESS), SurfaceDiscretisation()).neglected_errors(cast("Any", None))
+    assert lost["peak_pressure"] == pytest.approx(0.1 * norm.isf(1e-3), rel=0.05)
 
 
 # ---- What is resolved of a result is counted in cells, whatever the sizes, loads and materi
