@@ -21,7 +21,15 @@ from contact_scenes import (
 import radial
 import slipstick
 from contact_results.result_warnings import warnings_of
-from contact_scene import HeightMap, LoadStep, RadialDiscretisation, Scene, SurfaceDiscretisation
+from contact_scene import (
+    Body,
+    HeightMap,
+    Layer,
+    LoadStep,
+    RadialDiscretisation,
+    Scene,
+    SurfaceDiscretisation,
+)
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
 from verification.closed_forms.hertz import PointContact
@@ -64,6 +72,14 @@ def test_the_pressure_of_hertz_is_right_to_a_ten_thousandth_wherever_the_cells_l
     assert end.approach == pytest.approx(APPROACH, rel=1e-5)
     assert end.peak_pressure == pytest.approx(hertz().peak_pressure, rel=1e-5)
     assert end.elastic_energy == pytest.approx(0.4 * LOAD * APPROACH, rel=3e-5)
+
+
+def test_the_edge_on_a_stiff_film_is_where_rings_have_it():
+    film = Layer(thickness=A / 2, material=steel(young_modulus=4 * steel().young_modulus))
+    coated = frictionless(PRESS).model_copy(update={"body": Body(material=steel(), layers=(film,))})
+    (rings,) = slipstick.solve(coated, "radial").steps
+    (end,) = slipstick.solve(coated, discretisation=SurfaceDiscretisation(cells=(64, 64))).steps
+    assert end.contact_radius == pytest.approx(rings.contact_radius, rel=1e-4)
 
 
 def bumps(cells: int, *places: tuple[float, float, float, float]) -> tuple[Scene, SurfaceGrid]:

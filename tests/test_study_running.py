@@ -10,12 +10,15 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 from command import outcome, signalled
 from study_cases import Dying, Killed, Number, Refusing, Square, Timed
 
 from contact_results.blas_threads import VARIABLES
+from slipstick.cli import progress
 from slipstick.cli.commands.study import _compute_study
 from verification.judging.case import Level
 from verification.report.files import set_aside, write_study
@@ -300,3 +303,17 @@ def test_seconds_are_the_workers_unless_the_case_measures_them(tmp_path: Path, s
     (end,) = run_cases([Timed(0.02, said)], CaseStore(tmp_path), InThisProcess(), lambda end: None)
     assert isinstance(end.record, CaseRecord)
     assert end.record.seconds == said if said else 0.02 <= end.record.seconds < 1.0
+
+
+def test_the_time_left_is_in_proportion_to_the_work_left(monkeypatch, capsys) -> None:
+    clock = iter((0.0, 10.0))
+    monkeypatch.setattr(progress, "time", SimpleNamespace(monotonic=lambda: next(clock)))
+    cases: Any = tuple(SimpleNamespace(name=name) for name in ("small", "large"))
+
+    def one_by_one(cases: Any, store: Any, workers: Any, observe: Any, fresh: bool) -> None:
+        for case in cases:
+            observe(SimpleNamespace(case=case, stored=False, warnings=()))
+
+    monkeypatch.setattr("verification.running.case_pool.run_cases", one_by_one)
+    progress.run_shown(cases, cast("Any", None), 1, str, {"small": 1, "large": 3})
+    assert "(1 of 2, about 30 s left)" in capsys.readouterr().err
