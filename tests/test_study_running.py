@@ -306,14 +306,15 @@ def test_seconds_are_the_workers_unless_the_case_measures_them(tmp_path: Path, s
 
 
 def test_the_time_left_is_in_proportion_to_the_work_left(monkeypatch, capsys) -> None:
-    clock = iter((0.0, 10.0))
-    monkeypatch.setattr(progress, "time", SimpleNamespace(monotonic=lambda: next(clock)))
+    clock = iter((0.0, 10.0)).__next__
+    monkeypatch.setattr(progress, "time", SimpleNamespace(monotonic=clock))
     cases: Any = tuple(SimpleNamespace(name=name) for name in ("small", "large"))
 
-    def one_by_one(cases: Any, store: Any, workers: Any, observe: Any, fresh: bool) -> None:
-        for case in cases:
-            observe(SimpleNamespace(case=case, stored=False, warnings=()))
-
-    monkeypatch.setattr("verification.running.case_pool.run_cases", one_by_one)
-    progress.run_shown(cases, cast("Any", None), 1, str, {"small": 1, "large": 3})
+    monkeypatch.setattr(
+        "verification.running.case_pool.run_cases",
+        lambda cases, store, workers, observe, fresh: [
+            observe(SimpleNamespace(case=case, stored=False, warnings=())) for case in cases
+        ],
+    )
+    progress.run_with_progress(cases, cast("Any", None), 1, str, {"small": 1, "large": 3})
     assert "(1 of 2, about 30 s left)" in capsys.readouterr().err
