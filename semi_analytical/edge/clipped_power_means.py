@@ -30,8 +30,8 @@ SETTLED = 1e-3
 def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
     """Compute the mean of (f + f_x x + f_y y)_+^exponent over a unit cell, shape of f.
 
-    The subscript + sets negative values to zero. The derivative with respect to f is exponent *
-    mean_power(…, exponent - 1).
+    The subscript + sets negative values to zero. The mean pressure of a cell that the contact edge
+    cuts is such a mean. The derivative with respect to f is exponent * mean_power(…, exponent - 1).
 
     f         value of the linear function at the cell centre
     f_x, f_y  slopes: change of the function across a cell
@@ -52,7 +52,10 @@ def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
 
 def power(base: Field, exponent: Exponent) -> Field:
     """Compute base^exponent element by element, by square roots if the exponent is a multiple of
-    1/2."""
+    1/2.
+
+    Square roots and products are faster than a general power.
+    """
     if isinstance(exponent, np.ndarray) or exponent < 0 or 2 * exponent % 1:
         return np.asarray(base**exponent)
     whole = int(exponent)
@@ -62,17 +65,17 @@ def power(base: Field, exponent: Exponent) -> Field:
 
 
 def _select_exponents(exponent: Exponent, shape: tuple[int, ...], where: NDArray[Any]) -> Exponent:
-    """Select the exponents that belong to some elements; a single number remains a single number.
+    """Select the exponents of a subset of array elements; a single number is returned unchanged.
 
     exponent  a number, or an array that broadcasts to `shape`
-    shape     shape of the data
+    shape     shape of the data to which the exponents belong
     where     mask of the selected elements, of this shape
     """
     return np.broadcast_to(exponent, shape)[where] if np.ndim(exponent) else exponent
 
 
 def mean_of_smooth(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
-    """Compute the mean of (f + f_x x + f_y y)^a over a unit cell in which the function is positive.
+    """Compute the mean of (f + f_x x + f_y y)^a over unit cells in which the function is positive.
 
     The binomial series has an error of 3e-7 if f is at least 1.5 times the sum of the slopes.
 
@@ -86,8 +89,9 @@ def mean_of_smooth(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
 
 
 def mean_of_cut(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
-    """Compute the mean of (f + f_x x + f_y y)_+^a over unit cells that the zero line may cut, shape
-    (n,).
+    """Compute the mean of (f + f_x x + f_y y)_+^a over unit cells that the zero line may cut.
+
+    Negative values of the function count as zero. All arrays have the shape (n,).
 
     f         value of the linear function at the cell centre: between minus half and a few times
               the sum of the slopes
@@ -98,10 +102,13 @@ def mean_of_cut(f: Field, f_x: Field, f_y: Field, a: Exponent) -> Field:
 
 
 def _series_terms(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]:
-    """Return the coefficients of 1/f², 1/f⁴ and 1/f⁶ in the mean of (f + b x + c y)^a over f^a.
+    """Return the coefficients of 1/f², 1/f⁴ and 1/f⁶ in the cell mean of (f + b x + c y)^a over
+    f^a.
 
-    The mean is taken over the unit cell. The coefficients are those of the binomial series with the
-    means of powers of b x + c y.
+    The mean over the unit cell is a binomial series, with the means of powers of b x + c y.
+
+    b, c  slopes of the linear function: change across a cell
+    a     exponent
     """
     b, c = b**2, c**2
     second = a * (a - 1) / 2
@@ -115,10 +122,12 @@ def _series_terms(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]
 
 
 def _sum_series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> Field:
-    """Sum the binomial series 1 + second/f² + fourth/f⁴ + sixth/f⁶ of the mean of a power over a
-    cell.
+    """Sum the series 1 + second/f² + fourth/f⁴ + sixth/f⁶ of the cell mean of a power over f^a.
 
-    inverse  1/f², with f the value at the cell centre
+    The series is the mean of (f + b x + c y)^a over a unit cell, divided by f^a.
+
+    inverse                1/f², with f the value of the linear function at the cell centre
+    second, fourth, sixth  coefficients of the series
     """
     total = inverse * sixth
     for term in (fourth, second):
@@ -129,10 +138,13 @@ def _sum_series(inverse: Field, second: Field, fourth: Field, sixth: Field) -> F
 
 
 def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """Compute the mean of (f + b x + c y)_+^a over a cell and its derivative with respect to f.
+    """Compute the mean of (f + b x + c y)_+^a over unit cells, and its derivative with respect to
+    f.
 
-    All arrays have the shape (n,). The zero line of the function may cut the cells.
+    The zero line of the linear function may cut the cells; negative values count as zero. All
+    arrays have the shape (n,).
 
+    f     value of the linear function at the cell centre
     b, c  larger and smaller slope, not negative
     a     exponent
     """
@@ -146,9 +158,15 @@ def _cut_with_slope(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, F
 
 
 def _straight_means(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """Compute the mean of (f + b x + c y)_+^a over a cell and its f-derivative for a small slope c.
+    """Compute the mean of (f + b x + c y)_+^a over unit cells and its f-derivative, for a small
+    slope c.
 
-    The integral along the larger slope b has a closed form. Gauss points are used along c.
+    The zero line is almost parallel to a cell side. The integral along the larger slope b has a
+    closed form. Gauss points are used along c.
+
+    f     value of the linear function at the cell centre (n,)
+    b, c  larger and smaller slope, not negative (n,)
+    a     exponent
     """
     mean, slope = np.zeros(f.shape), np.zeros(f.shape)
     for y, weight in zip(POINTS, WEIGHTS, strict=True):
@@ -161,11 +179,15 @@ def _straight_means(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, F
 
 
 def _oblique_means(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Field]:
-    """Compute the mean of (f + b x + c y)_+^a over a cell and its f-derivative from the four
-    corners.
+    """Compute the mean of (f + b x + c y)_+^a over unit cells and its f-derivative, by a closed
+    formula.
 
-    The results are second differences of the closed integral. They need a slope c that is not
-    small.
+    The formula is a second difference over the four corners of the cell. It requires a slope c that
+    is not small.
+
+    f     value of the linear function at the cell centre (n,)
+    b, c  larger and smaller slope, positive (n,)
+    a     exponent
     """
     outer, inner = (b + c) / 2, (b - c) / 2
     corners = np.maximum(np.array([f + outer, f - outer, f + inner, f - inner]), 0.0)
@@ -182,14 +204,15 @@ def _corner_differences(corners: Field) -> Field:
 def centre_value(
     mean: Field, f_x: Field, f_y: Field, exponent: Exponent, near: Field | None = None
 ) -> Field:
-    """Compute the centre value f of a linear function from the mean of its power over a cell, shape
-    (n,).
+    """Compute the centre value f of a linear function from the mean of its power over a unit cell.
 
-    Inverse of `mean_power`. The edge correction computes φ = p^(1/α) from the mean pressure in this
-    way. The result lies within half the sum of the slopes of mean^(1/exponent).
+    This function is the inverse of `mean_power`. The edge correction computes φ = p^(1/α) at the
+    cell centre from the mean pressure p in this way. The result (n,) differs from mean^(1/exponent)
+    by at most half the sum of the slopes.
 
     mean      mean of (f + f_x x + f_y y)_+^exponent over the cell, positive
     f_x, f_y  slopes: change of the function across a cell
+    exponent  exponent α of the power
     near      initial guess of f for cells that the zero line may cut
     """
     f_x, f_y = np.abs(f_x), np.abs(f_y)
@@ -204,12 +227,12 @@ def centre_value(
 
 
 def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """Solve mean^(1/a) = target for the centre value f in cells where the linear function is
-    positive.
+    """Compute the centre value f of a positive linear function from the cell mean of its power.
 
-    Each fixed-point iteration divides the error by 200.
+    The equation mean^(1/a) = target is solved for f, where the mean is that of (f + b x + c y)^a
+    over the unit cell. Each fixed-point iteration divides the error by 200.
 
-    target  mean^(1/a), with the mean of (f + b x + c y)^a over the cell
+    target  given value of mean^(1/a)
     b, c    larger and smaller slope, not negative
     a       exponent
     """
@@ -220,13 +243,16 @@ def _smooth_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
 
 
 def _initial_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
-    """Return an initial guess of the centre value f in cells that the zero line may cut.
+    """Return an initial guess of the centre value f of a linear function from the cell mean of its
+    power.
 
-    The guess is exact if only one corner of the cell is positive. If two corners are positive, the
-    smaller slope is neglected. Otherwise both slopes are neglected.
+    The zero line of the function f + b x + c y may cut the cell. The guess is exact if only one
+    corner of the cell is positive. If two corners are positive, the smaller slope is neglected.
+    Otherwise both slopes are neglected.
 
-    target  mean^(1/a)
+    target  given value of mean^(1/a), with the mean of (f + b x + c y)_+^a over the cell
     b, c    larger and smaller slope, not negative
+    a       exponent
     """
     mean = (a + 1) * b * power(target, a)
     corner, side = power((a + 2) * c * mean, 1 / (a + 2)), power(mean, 1 / (a + 1))
@@ -235,11 +261,13 @@ def _initial_centre(target: Field, b: Field, c: Field, a: Exponent) -> Field:
 
 
 def _cut_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | None) -> Field:
-    """Solve mean^(1/a) = target for the centre value f in cells that the zero line may cut.
+    """Compute the centre value f of a linear function from the cell mean of its power, in cut
+    cells.
 
-    The equation is almost linear in f. Newton's method is safeguarded by bisection.
+    The zero line of the function f + b x + c y may cut the cell. The equation mean^(1/a) = target
+    is almost linear in f. Newton's method is safeguarded by bisection.
 
-    target  mean^(1/a), with the mean of (f + b x + c y)_+^a over the cell
+    target  given value of mean^(1/a), with the mean of (f + b x + c y)_+^a over the cell
     b, c    larger and smaller slope, not negative
     a       exponent
     near    initial guess of f; None if unknown

@@ -1,6 +1,6 @@
-"""Areas of contact and stick zone with sub-cell accuracy, from fits to p² or to the shear deficit.
+"""Areas of the contact and of the stick zone, resolved below the cell size by local fits.
 
-Towards the edge of a smooth contact the pressure falls like the square root of the distance, so
+Towards the edge of a smooth contact the pressure p falls like the square root of the distance, so
 that p² passes through zero with a finite slope. A quadratic is fitted to p² in interior cells and
 extrapolated over the edge cells. The covered fraction of an edge cell is the part where the fit is
 positive. At the border of the stick zone the difference between friction limit and shear is the
@@ -22,15 +22,17 @@ LEAST_FALL = 0.9
 
 
 def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -> float:
-    """Compute the area of a region as a number of cells, with the covered fractions of its edge
+    """Compute the area of a contact or stick zone in cells, with covered fractions of its edge
     cells.
 
-    values  (nx, ny), positive inside the region, falling like a square root towards the edge
+    The fractions come from local fits to the squared values. An edge cell counts as 1 or 0 by its
+    centre where the region is too thin for a fit, or where the values do not fall towards the edge
+    (flat punch).
+
+    values  traction that is positive inside the region and falls like a square root towards its
+            edge (nx, ny)
     inside  cells whose centre is in the region (nx, ny)
     domain  domain of `values` and `inside`; the area excludes the mirror images
-
-    An edge cell counts as 1 or 0 by its centre where the region is too thin for a fit, or where the
-    values do not fall towards the edge (flat punch).
     """
     framed = domain.add_frame(inside, 1)
     trusted = ~near(~framed)  # cells whose neighbours are inside, too
@@ -51,14 +53,15 @@ def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -
 
 
 def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
-    """Compute the area of the stick zone as a number of cells, from fits to the shear deficit.
+    """Compute the area of the stick zone in cells, from fits to the shear deficit.
 
     The deficit is the shear of gross slip minus the actual shear. Its direction of slip is that of
     the nearest slipping cell, because after a load reversal the shear just inside the stick zone
     still has the former direction.
 
-    shear     shear q (2, nx, ny)
-    bound     friction limit µp (nx, ny), zero outside the contact area
+    shear     shear q of the cells (2, nx, ny) [force/length^2]
+    bound     friction limit µp of the cells, zero outside the contact area (nx, ny)
+              [force/length^2]
     in_stick  sticking cells (nx, ny)
     """
     inside = _box_with_edge(bound > 0)
@@ -76,6 +79,8 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
 def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
     """Return the slices of the smallest rectangle that contains given cells and their neighbours.
 
+    Fits on this rectangle of the window cost less than fits on the whole window.
+
     marked  cells that the rectangle must contain (nx, ny)
     """
     at = (np.flatnonzero(np.any(marked, axis=axis)) for axis in (1, 0))
@@ -83,9 +88,10 @@ def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
 
 
 def near(marked: Mask) -> Mask:
-    """Select the cells that belong to a set or touch it at a side or a corner.
+    """Return a mask of the cells that belong to a set or touch a cell of the set at a side or a
+    corner.
 
-    The result has the shape (nx - 2, ny - 2), because the outermost layer of cells is omitted.
+    The mask has the shape (nx - 2, ny - 2): it omits the outermost layer of cells of the input.
 
     marked  cells of the set (nx, ny)
     """

@@ -1,4 +1,4 @@
-"""Results of the edge correction of a state: corrected pressure, corrected shear and their
+"""Results of the edge correction of a contact state: corrected pressure and shear, and their
 errors."""
 
 from dataclasses import dataclass
@@ -10,15 +10,18 @@ from semi_analytical.edge.subcell_tractions import SubcellTractions
 
 @dataclass(frozen=True)
 class CorrectedShear:
-    """Shear with a stick border inside the cells, from the edge correction; fields on the full
-    window.
+    """Shear after the edge correction, with a border of the stick zone that cuts cells.
 
-    shear         (2, nx, ny) mean over each cell [force/length^2]
+    All fields are on the full window.
+
+    shear         mean of the shear over each cell (2, nx, ny) [force/length^2]
     within        variation within the cells, of the components x and y
-    slip          (2, nx, ny) direction of the shear in the slip zone, extended to the other cells
-    displacement  (2, nx, ny) tangential displacement u_t at the cell centres [length]
-    shift         (2,) shift of the indenter [length]; None at the friction limit in force control
-    stick         (nx, ny) cells whose centre sticks
+    slip          direction of the shear in the slip zone, extended to the other cells (2, nx, ny)
+    displacement  relative tangential displacement of the surfaces at the cell centres (2, nx, ny)
+                  [length]
+    shift         tangential shift of the indenter (2,) [length]; None at the friction limit in
+                  force control
+    stick         cells whose centre sticks (nx, ny)
     stick_cells   area of the stick zone in cells
     change        relative change of the shear in the last iteration, Σ|Δq|/Σµp
     radius_left   relative error of the stick radius due to the finite number of iterations
@@ -37,7 +40,8 @@ class CorrectedShear:
 
 @dataclass(frozen=True)
 class EdgeReport:
-    """Outcome of the edge correction of a state: cause of a failure, or errors of the iteration.
+    """Outcome of the edge correction of a contact state: cause of a failure, or errors of the
+    iteration.
 
     All errors are relative and are caused by the finite number of iterations.
 
@@ -61,22 +65,24 @@ class EdgeReport:
 
 @dataclass(frozen=True)
 class Corrected:
-    """State whose pressure is corrected for a contact edge inside cells; fields on the full window.
+    """Contact state after the edge correction, with a contact edge that cuts cells.
 
-    pressure       (nx, ny) mean over each cell, also over partly covered cells whose centre is
-                   outside the contact [force/length^2]
+    All fields are on the full window.
+
+    pressure       mean over each cell, also over partly covered cells whose centre is outside the
+                   contact (nx, ny) [force/length^2]
     peak           largest pressure at a point [force/length^2]
-    gap            (nx, ny) gap at the cell centres [length]
+    gap            gap at the cell centres (nx, ny) [length]
     approach       approach of the bodies [length]
     contact_cells  area of the contact in cells
     change         relative change of the pressure in the last iteration, Σ|Δp|/Σp
-    edge           pressure in the cells along the contact edge
+    edge           pressure in the subcells of the cells along the contact edge
     report         errors due to the finite number of iterations
     tilt           tilt of the indenter (x, y); None for an indenter that does not tilt
-    shear          (2, nx, ny) shear at the corrected pressure [force/length^2]; None without
+    shear          shear at the corrected pressure (2, nx, ny) [force/length^2]; None without
                    friction
-    sheared        shear with a stick border inside cells; None for coupled bodies, without shear,
-                   or if the border cannot be fitted
+    sheared        shear with a stick border that cuts cells; None for coupled bodies, without
+                   shear, or if the border cannot be fitted
     """
 
     pressure: Field

@@ -1,7 +1,7 @@
-"""Surface displacements by the variation of tractions within their cells.
+"""Surface displacements by the variation of tractions within cells.
 
-`Within` holds this variation. `EdgeOperator` maps it to displacements at the cell centres. The edge
-correction adds these displacements to those of tractions that are uniform in each cell.
+`Within` stores this variation. `EdgeOperator` computes its displacements at the cell centres. The
+edge correction adds these displacements to those of tractions that are uniform in each cell.
 """
 
 from __future__ import annotations
@@ -34,9 +34,12 @@ class Within:
     """Variation of one traction component about its cell means: slopes, and a remainder in edge
     cells.
 
-    slopes  (2, nx, ny) change of the traction across a cell along x and y [force/length^2]
+    The component is the pressure or one component of the shear. Edge cells are the cells along the
+    edge of the contact or stick zone, with PARTS x PARTS subcells.
+
+    slopes  change of the traction across each cell along x and y (2, nx, ny) [force/length^2]
     i, j    indices of the edge cells (n,)
-    rest    (n, PARTS, PARTS) subcell tractions of the edge cells minus cell mean and slopes
+    rest    subcell tractions of the edge cells minus cell mean and slopes (n, PARTS, PARTS)
             [force/length^2]
     """
 
@@ -54,16 +57,15 @@ class Within:
         parts: Field,
         domain: ReducedDomain = WINDOW,
     ) -> Within:
-        """Compute the variation of a traction from its cell means and its subcell values in edge
-        cells.
+        """Compute the variation of a traction within cells from cell means and subcell values.
 
-        Slopes are central differences of the means. In edge cells they are fitted to the subcell
-        values.
+        Slopes are central differences of the means. In edge cells the slopes are fitted to the
+        subcell values, and the remainder is the difference.
 
-        means   (nx, ny) cell means on the domain
-        i, j    indices of the edge cells (n,)
-        parts   (n, PARTS, PARTS) subcell values of the edge cells
-        domain  domain of `means`
+        means   cell means of the traction (nx, ny)
+        i, j    indices of the edge cells, which have subcell values (n,)
+        parts   subcell values of the edge cells (n, PARTS, PARTS)
+        domain  domain of `means`: full window or reduced domain
         """
         slopes = domain.differences(means) * (means != 0)
         values = parts.reshape(-1, PARTS**2)
@@ -73,11 +75,12 @@ class Within:
         return cls(slopes, i, j, rest.reshape(parts.shape))
 
     def along(self, n: Field, component: Field) -> Within:
-        """Return the variation within cells of one component of a vector traction from that of its
+        """Return the variation within cells of one component of the shear, from that of its
         magnitude.
 
-        Used for the shear at the friction limit, whose direction is smooth. In edge cells the
-        variation is n times the present one; elsewhere the slopes are differences of the component.
+        The present object is the variation of the magnitude, the friction limit. The direction of
+        the shear is smooth. In edge cells the result is n times the present variation; in other
+        cells the slopes are differences of the component.
 
         n          direction cosine of the component (nx, ny)
         component  cell means of the component (nx, ny)
@@ -89,14 +92,18 @@ class Within:
 
     @classmethod
     def zero(cls, cells: tuple[int, ...]) -> Within:
-        """Return the variation within cells of a traction that is zero everywhere on `cells`
-        (nx, ny)."""
+        """Return the variation within cells of a traction that is zero everywhere.
+
+        cells  number of cells along x and y
+        """
         none = np.zeros(0, dtype=int)
         return cls(np.zeros((2, *cells)), none, none, np.zeros((0, PARTS, PARTS)))
 
     def extend_to_window(self, domain: ReducedDomain) -> Within:
-        """Extend the variation of a traction that is even about the mirror planes to the full
+        """Extend the variation of a traction within cells from the reduced domain to the full
         window.
+
+        The traction is even about the mirror planes, as a pressure.
 
         domain  reduced domain of the present variation
         """
@@ -112,14 +119,15 @@ class Within:
 
     @classmethod
     def combine(cls, slopes: Field, terms: Sequence[tuple[Field, Within]]) -> Within:
-        """Combine given slopes with the sum of the remainders of several variations times smooth
-        fields.
+        """Return a variation within cells with given slopes and a weighted sum of several
+        remainders.
 
-        Remainders of the same cell are added, so that the number of cells does not grow over load
-        cycles.
+        Used for the shear, which combines the friction limit in the slip zone with the shear of
+        preceding increments in the stick zone. Remainders of the same cell are added, so that the
+        number of edge cells does not grow over load cycles.
 
         slopes  slopes of the result (2, nx, ny)
-        terms   pairs of a smooth factor (nx, ny) and a variation
+        terms   pairs of a smooth weight (nx, ny) and a variation whose remainder is added
         """
         ny = slopes.shape[2]
         some = [factor[w.i, w.j] != 0 for factor, w in terms]
@@ -136,7 +144,8 @@ class EdgeOperator:
     """Operator from variations of tractions within cells to surface displacements at the cell
     centres.
 
-    A call costs half a convolution per displacement component and one per traction component.
+    The edge correction applies this operator in each iteration. One application costs half a
+    convolution per displacement component and one per traction component.
     """
 
     def __init__(
@@ -146,13 +155,13 @@ class EdgeOperator:
         counter: Convolutions,
         domain: ReducedDomain = WINDOW,
     ) -> None:
-        """Compute the Fourier spectra of the slope kernels and the displacement tables of the edge
-        cells.
+        """Compute the Fourier spectra of the slope kernels, and the displacements by unit subcell
+        tractions.
 
         kernels  sign and kernels; one row per displacement component, one column per traction
                  component
         shape    number of cells of the domain along x and y
-        counter  counter of convolutions, which a call increases
+        counter  counter of convolutions, which each application increases
         domain   domain of all fields; a reduced domain is for pressures only
         """
         self._transforms = Transforms(shape, ReducedDomain(domain.mirrors), counter)
@@ -184,10 +193,13 @@ class EdgeOperator:
         ]
 
     def __call__(self, *within: Within) -> Field:
-        """Compute displacements (rows, nx, ny) [length] from the variations of tractions within
-        cells.
+        """Compute the surface displacements [length] that the variations of tractions within cells
+        cause.
 
-        within  one variation per traction component
+        The result (components, nx, ny) is at the cell centres. Cell means of the tractions do not
+        contribute.
+
+        within  variation within cells of each traction component
         """
         slopes = np.concatenate([w.slopes for w in within])
         self._counter.count += 0.5 * (len(self._matrix) + len(slopes))
@@ -198,6 +210,13 @@ class EdgeOperator:
         return u
 
     def _multiply_amplitudes(self, amplitudes: Sequence[Array], columns: slice) -> list[Array]:
+        """Multiply the transformed slopes of the tractions by the spectra of the slope kernels.
+
+        The results are the transformed displacement components in some columns of the transforms.
+
+        amplitudes  transforms of the slopes, along x and y of each traction component
+        columns     columns of the transforms to which the amplitudes belong
+        """
         symbols = {name: [one[columns] for one in pair] for name, pair in self._components.items()}
         u = []
         for row in self._matrix:
@@ -211,13 +230,13 @@ class EdgeOperator:
 
 
 def around(within: Within, near: Field, count: int) -> Field:
-    """Compute the displacements that the tractions of edge cells cause at most REACH cells away.
+    """Compute the displacements that the remainders in edge cells cause at most REACH cells away.
 
-    Only the remainders of the tractions act: subcell tractions minus mean and slopes of the cell.
-    The result (count, nx + 2 REACH, ny + 2 REACH) includes a margin of REACH cells on each side.
+    A remainder is the traction in the subcells of a cell minus its mean and its slopes. The result
+    (count, nx + 2 REACH, ny + 2 REACH) includes a margin of REACH cells on each side.
 
-    within  variation of one traction component within the cells
-    near    (count * offsets, PARTS²) displacement by unit traction on each subcell
+    within  variation of one traction component within cells
+    near    displacement by unit traction on each subcell (count * offsets, PARTS²)
     count   number of displacement components
     """
     shape = np.array(within.slopes.shape[1:]) + 2 * REACH

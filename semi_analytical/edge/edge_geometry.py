@@ -1,5 +1,8 @@
-"""Contact edge as a set of points with normals and curvatures, and distances of places from the
-edge."""
+"""Contact edge as a set of points with normals and curvatures, and distances of other points from
+it.
+
+The edge pressure law of layered bodies needs the distance of each cell from the edge.
+"""
 
 from __future__ import annotations
 
@@ -21,17 +24,17 @@ MIN_SLOPE_RATIO, MIN_JACOBIAN = 0.1, 0.3
 
 @dataclass(frozen=True)
 class LocalEdge:
-    """Distance from the contact edge and geometry of the edge near given places, all arrays of one
+    """Distance from the contact edge and geometry of the edge near given points, all arrays of one
     shape.
 
     φ = p^(1/α) is a smooth function that vanishes at the edge, with the pressure p ~ s^α at the
     distance s from the edge.
 
-    distance   distance s of the places from the edge, negative outside
-    normal     (2, …) inward unit normal of the edge
-    slope      slope of φ along the normal at the edge
+    distance   distance s of the points from the edge, negative outside the contact
+    normal     inward unit normal of the edge (2, …)
+    slope      derivative of φ along the normal, at the edge
     bend       second derivative of φ along the normal
-    curvature  curvature κ of the edge, positive for a convex region
+    curvature  curvature κ of the edge, positive for a convex contact area
     """
 
     distance: Field
@@ -42,26 +45,29 @@ class LocalEdge:
 
     @property
     def slope_at_place(self) -> Field:
-        """Slope of φ = p^(1/α) along the edge normal at the places, not at the edge.
+        """Slope of φ = p^(1/α) along the edge normal at the given points, not at the edge.
 
-        The value is at least MIN_SLOPE_RATIO of the slope at the edge.
+        p is the pressure. The slope is at least MIN_SLOPE_RATIO of the slope at the edge.
         """
         inside = self.slope + self.bend * self.distance
         return np.maximum(inside, MIN_SLOPE_RATIO * self.slope)
 
     @property
     def foot(self) -> Field:
-        """Vectors (2, …) from the places to the nearest points of the contact edge."""
+        """Vectors (2, …) from the given points to the nearest points of the contact edge."""
         return -self.distance * self.normal
 
 
 @dataclass(frozen=True)
 class EdgeLine:
-    """Points of the contact edge in index coordinates, one per cell along the edge, shape (n,).
+    """Points of the contact edge, one per cell along the edge, with the local geometry of the edge.
 
-    at         (2, n) indices of the cells
-    x, y       point of the edge nearest to each cell
-    normal     (2, n) inward unit normal; `slope`, `bend` and `curvature` as in `LocalEdge`
+    at         indices of the cells along the edge (2, n)
+    x, y       edge point nearest to each cell, as cell indices (n,)
+    normal     inward unit normal of the edge (2, n)
+    slope      derivative of φ = p^(1/α) along the normal, at the edge, with the pressure p (n,)
+    bend       second derivative of φ along the normal (n,)
+    curvature  curvature of the edge, positive for a convex contact area (n,)
     stretched  sides of a cell along x and y in the unit of distances
     """
 
@@ -76,9 +82,12 @@ class EdgeLine:
 
     @classmethod
     def from_fits(cls, phi: Quadratic, stretched: tuple[float, float]) -> EdgeLine:
-        """Compute the edge points nearest to the expansion points of quadratics in φ.
+        """Compute the points of the contact edge from local fits of φ, one edge point per fit.
 
-        phi        quadratic fits of φ about cells (n,)
+        φ = p^(1/α) is a function of the pressure p that vanishes at the edge. The edge point is the
+        point with φ = 0 on the line along the gradient of φ.
+
+        phi        quadratics of φ about the cells along the edge (n,)
         stretched  sides of a cell along x and y in the unit of distances
         """
         q = phi.in_scaled_axes(*stretched)
@@ -100,14 +109,22 @@ class EdgeLine:
         )
 
     def use_median_curvature(self) -> EdgeLine:
-        """Replace the curvature and the ratio bend/slope of each edge point by their medians
-        over the edge."""
+        """Replace the curvature and the ratio bend/slope of each edge point by their medians over
+        the edge.
+
+        Used for the first approximations of the edge, whose second derivatives are not yet
+        reliable.
+        """
         bend = self.slope * np.median(self.bend / self.slope)
         curvature = np.full_like(bend, np.median(self.curvature))
         return replace(self, bend=bend, curvature=curvature)
 
     def append_images(self, domain: ReducedDomain) -> EdgeLine:
-        """Append the images of the edge points beyond the mirror planes of a reduced domain."""
+        """Append the mirror images of the edge points beyond the symmetry planes of a reduced
+        domain.
+
+        domain  reduced domain; without mirror planes the edge is returned unchanged
+        """
         line = self
         for axis in domain.planes:
             one, image = vars(line), vars(line._reflect_points(axis))
@@ -119,8 +136,9 @@ class EdgeLine:
         return line
 
     def _reflect_points(self, axis: int) -> EdgeLine:
-        """Return the mirror images of the edge points about a plane half a cell before the first
-        cell.
+        """Return the mirror images of the edge points about a symmetry plane of the reduced domain.
+
+        The plane lies half a cell before the first cell.
 
         axis  axis normal to the plane: 0 for x, 1 for y
         """
@@ -129,9 +147,12 @@ class EdgeLine:
         return replace(self, at=at, x=places[0], y=places[1], normal=normal)
 
     def geometry_at_cells(self, i: Indices, j: Indices) -> LocalEdge:
-        """Compute distance and geometry of the edge for cells (i, j), shape (n,).
+        """Compute the distance of cell centres from the contact edge, and the geometry of the edge
+        near them.
 
-        The result is a weighted mean over the nearest edge points.
+        The results are weighted means over the values of the NEIGHBOURS nearest edge points.
+
+        i, j  indices of the cells (n,)
         """
         from scipy.spatial import KDTree  # its import takes as long as a small contact
 
@@ -149,13 +170,14 @@ class EdgeLine:
     def geometry_at_places(
         self, which: Indices | slice, x: Field | Indices, y: Field | Indices
     ) -> LocalEdge:
-        """Compute distance and geometry of the edge for places (x, y), from one edge point per
-        place.
+        """Compute the distance of points from the contact edge, and the geometry of the edge near
+        them.
 
-        The edge near a point is a circular arc. Distances are of first order in its curvature.
+        Each point uses one edge point, near which the edge is a circular arc. Distances are of
+        first order in the curvature of the arc.
 
         which  indices of the edge points; broadcast with x and y
-        x, y   index coordinates of the places
+        x, y   points as cell indices
         """
         dx, dy = (
             (at - of[which]) * side

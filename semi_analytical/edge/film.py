@@ -75,12 +75,12 @@ class FilmLaw:
 
     @cached_property
     def _pressure_ratios(self) -> CubicSpline:
-        """Effect of the layers on three basic edge pressures, as functions of ln s (interpolating
-        splines).
+        """Ratios of three basic edge pressures with layers to their values without layers, as
+        splines.
 
-        Each ratio is a pressure Φn, n = 1, 2, 3, with layers over its value without layers. Sums of
-        the Φn are the pressures that end smoothly at the edge. s is the distance from the edge over
-        the layer thickness.
+        The basic pressures Φn, n = 1, 2, 3, end smoothly at a straight contact edge. Every edge
+        pressure of the bodies is a sum of them. The interpolating splines have the argument ln s,
+        with s the distance from the edge over the layer thickness.
         """
         from scipy.interpolate import CubicSpline  # its import takes as long as a small contact
 
@@ -105,13 +105,17 @@ class FilmLaw:
     def holds_within(self, radius: float) -> bool:
         """Return True if a contact is wide enough for the edge pressure law of layered bodies.
 
-        radius  radius of the inscribed circle of the contact, in cells
+        The law assumes an edge that is straight over the layer thickness. The contact radius must
+        be at least NARROW times the thickness.
+
+        radius  radius of the largest circle inside the contact, in cells
         """
         return radius * min(self.stretched) >= NARROW
 
     def over_root(self, s: Field, c: Field) -> Field:
-        """Compute the ratio of the pressure law to √s at distances s > 0 from the edge, any shape.
+        """Compute the ratio of the edge pressure law of layered bodies to √s, at points.
 
+        s  distances s > 0 of the points from the contact edge over the layer thickness, any shape
         c  coefficient of the second term of the law, shape of s
         """
         first, second, _ = self._interpolate_ratios(s)
@@ -120,14 +124,16 @@ class FilmLaw:
     def means_over_root(
         self, s: Field, along: Field, across: Field, c: Field
     ) -> tuple[Field, Field]:
-        """Compute the ratio of the mean of the pressure law to the mean of √s over rectangles,
-        shape (n,).
+        """Compute the ratio of the mean of the edge pressure law to the mean of √s over n
+        rectangles.
 
-        The second result is d ln(ratio) / d ln(mean of √s). For rectangles outside the edge the
-        results are 1 and 0.
+        The rectangles are cells or subcells. The second result is the derivative d ln(ratio) / d
+        ln(mean of √s), which Newton's method for the edge requires. For rectangles outside the
+        contact edge the results are 1 and 0. All arrays have the shape (n,).
 
-        s              distance of the centre of each rectangle from the edge; negative outside
-        along, across  change of the distance along the two sides of each rectangle
+        s              distance of each rectangle centre from the edge over the layer thickness;
+                       negative outside
+        along, across  change of this distance along the two sides of each rectangle
         c              coefficient of the second term of the law
         """
         b, a = np.maximum(np.abs(along), np.abs(across)), np.minimum(np.abs(along), np.abs(across))
@@ -145,12 +151,12 @@ class FilmLaw:
         return law / root, law_rate * root / (law * root_rate) - 1
 
     def _interpolate_ratios(self, s: Field) -> Field:
-        """Interpolate the effect of the layers on three basic edge pressures Φ1, Φ2, Φ3, shape (3,
-        …).
+        """Interpolate the effect of the layers on three basic edge pressures Φ1, Φ2 and Φ3.
 
-        The results are the ratios of Φ1, Φ2 and Φ3 with layers to their values without layers.
+        The results (3, …) are the ratios of Φn with layers to Φn without layers. Beyond the table
+        of distances the value at its end is used.
 
-        s  distances from the edge over the layer thickness (…)
+        s  distances from the contact edge over the layer thickness (…)
         """
         u = np.log(np.maximum(s, 1e-300))
         found = self._pressure_ratios(
@@ -159,11 +165,12 @@ class FilmLaw:
         return np.asarray(np.moveaxis(found, -1, 0))
 
     def _law_values(self, s: Field, c: Field) -> Field:
-        """Compute the edge pressure law, its derivative, √s and the derivative of √s; shape (4, n).
+        """Compute the edge pressure law of layered bodies, √s, and their derivatives at n points.
 
-        The law is √s times a ratio that depends on the layers and on c.
+        The rows of the result (4, n) are the law, its derivative with respect to s, √s, and the
+        derivative of √s. The law is √s times a ratio that depends on the layers and on c.
 
-        s  distances s > 0 from the edge over the layer thickness (n,)
+        s  distances s > 0 of the points from the contact edge over the layer thickness (n,)
         c  coefficient of the second term of the law (n,)
         """
         root, step = np.sqrt(s), 0.02
@@ -173,12 +180,13 @@ class FilmLaw:
         ])  # fmt: skip
 
     def _law_integrals(self, s: Field, c: Field) -> Field:
-        """Compute integrals from 0 to s of the edge pressure law, its derivative, √s and its
-        derivative.
+        """Integrate the edge pressure law of layered bodies, √s, and their derivatives from 0 to s.
 
-        The result has the shape (4, n). Means over cells follow from these integrals.
+        The rows of the result (4, n) are the integrals of the law, of its derivative, of √s, and of
+        the derivative of √s. Means over cells that the edge cuts are differences of these
+        integrals.
 
-        s  distances s > 0 from the edge over the layer thickness (n,)
+        s  distances s >= 0 from the contact edge over the layer thickness (n,)
         c  coefficient of the second term of the law (n,)
         """
         root = np.sqrt(s)
@@ -194,18 +202,24 @@ class FilmLaw:
 
 
 def _euler_weights() -> Field:
-    """Return the weights of Euler summation of the alternating series of the Laplace inversion."""
+    """Return the weights of the terms of the numerical Laplace inversion (2 TERMS + 1,).
+
+    Euler summation accelerates the alternating series of the inversion. The inversion yields the
+    edge pressures of layered bodies.
+    """
     tail = np.cumsum([comb(TERMS, k) for k in range(TERMS)]) / 2**TERMS
     return np.concatenate([[0.5], np.ones(TERMS), tail[::-1]])
 
 
 def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw | None:
-    """Return the law of the pressure near the contact edge of two bodies with layers.
+    """Return the law of the pressure near the contact edge of two bodies that may have layers.
 
-    None is returned if the pressure follows √s over the edge cells, and for a layer on a rigid
-    base, where X(0) = 0.
+    None is returned if the pressure follows √s over the cells along the edge, s the distance from
+    the edge: without layers, with thick layers, or with layers as compliant as the base. None is
+    also returned for a layer on a rigid base.
 
-    spacing  cell sides [length]
+    lower, upper  bodies in contact
+    spacing       cell sides along x and y [length]
     """
     stacks = [stack_of(body) for body in (lower, upper) if body.deforms]
     layered = [stack for stack in stacks if stack.layers]
@@ -228,8 +242,12 @@ def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw 
 
 
 def _uniform_depth(stack: Stack) -> float:
-    """Return the total thickness [length] of the outermost layers that have equal elastic
-    constants."""
+    """Return the depth [length] below a surface down to which the elastic constants are uniform.
+
+    This depth is the total thickness of the outermost layers with equal elastic constants.
+
+    stack  layers and base of the body
+    """
     depth, outer = 0.0, stack.outer
     for layer in stack.layers:
         stiffer = abs(layer.shear_modulus / outer.shear_modulus - 1)
@@ -240,9 +258,12 @@ def _uniform_depth(stack: Stack) -> float:
 
 
 def _material_compliance(stack: Stack) -> float:
-    """Return (1 - ν)/G of the outermost material of a body [length²/force].
+    """Return the normal compliance (1 - ν)/G of the outermost material of a body [length²/force].
 
-    This is the wavenumber times the normal surface displacement per pressure.
+    The compliance is the wavenumber times the normal surface displacement per unit pressure of a
+    half-space of this material.
+
+    stack  layers and base of the body
     """
     outer = stack.outer
     return (1 - outer.poisson_ratio) / outer.shear_modulus

@@ -1,9 +1,9 @@
-"""Edge shape of contacts of layered bodies: the fits of `shape` with the pressure law of `film`.
+"""Fits of φ near the contact edge of layered bodies, with the pressure law of `edge.film`.
 
-Cell means of the pressure are divided by the ratio of the law to √s and then fitted like those of a
-root. The ratio depends on the distance s from the edge, hence on the fit. Newton's method solves
-for the ratio and the fit: the fits include the derivative of the data with respect to φ at the
-edge.
+φ is a power of the pressure that vanishes smoothly at the edge. Cell means of the pressure are
+divided by the ratio of the law to √s and then fitted like those of a root. The ratio depends on the
+distance s from the edge, hence on the fit. Newton's method solves for the ratio and the fit: the
+fits include the derivative of the data with respect to φ at the edge.
 """
 
 from dataclasses import dataclass
@@ -42,9 +42,13 @@ FAR = 5.0
 
 @dataclass(frozen=True, kw_only=True)
 class FilmShape(EdgeShape):
-    """Edge shape of a contact of layered bodies: cell means of φ and fits near the edge.
+    """Cell means of φ in a contact of layered bodies, and fits to these means near the contact
+    edge.
 
-    sensitivity  (nx, ny) derivative of the data `phi` with respect to φ at the nearest edge point
+    φ is a power of the pressure over the ratio of the pressure law to √s, s the distance from the
+    edge. φ vanishes smoothly at the edge.
+
+    sensitivity  derivative of the data `phi` with respect to φ at the nearest edge point (nx, ny)
     line         contact edge from which `phi` was computed
     law          law of the pressure near the edge
     """
@@ -54,9 +58,13 @@ class FilmShape(EdgeShape):
     law: FilmLaw
 
     def fits(self, i: Indices, j: Indices) -> Fits:
-        """Fit φ near cells (i, j) of the region, shape (n,), with the derivative of the data.
+        """Fit quadratics to the cell means of φ about cells near the contact edge of layered
+        bodies.
 
-        The model of the data is φ at the cell plus `sensitivity` times φ at the nearest edge point.
+        φ vanishes smoothly at the edge. The data depend on the position of the edge. Their model is
+        therefore φ at the cell plus `sensitivity` times φ at the nearest edge point.
+
+        i, j  indices of the central cells of the fits (n,)
         """
         foot = self.line.geometry_at_cells(i, j).foot / np.array(self.line.stretched)[:, None]
         return fit_about(
@@ -70,9 +78,13 @@ class FilmShape(EdgeShape):
         )
 
     def parts_over_root(self, phi: Quadratic) -> Field:
-        """Compute the ratios of the pressure law to √s in the subcells of cells (n, PARTS, PARTS).
+        """Compute the ratio of the edge pressure law of layered bodies to √s in each subcell of n
+        cells.
 
-        phi  quadratic fits of φ about the cells
+        The result has the shape (n, PARTS, PARTS); s is the distance from the contact edge.
+        Subcells near the edge use the ratio of the means, other subcells the ratio at the centre.
+
+        phi  quadratic fits of φ about the cells (n,)
         """
         x, law = part_centres(), self.law
         at_x = phi.x[:, None] + np.repeat(x, PARTS)
@@ -102,15 +114,19 @@ def film_shape(
     exponent: Exponent = 0.5,
     before: EdgeLine | None = None,
 ) -> FilmShape:
-    """Determine the edge shape of a contact region of layered bodies by Newton's method.
+    """Determine φ near the contact edge of layered bodies, and the edge itself, by Newton's method.
 
-    means     (nx, ny) cell means of the pressure, positive in the region
-    region    (nx, ny) cells of the region
+    φ is a power of the pressure over the ratio of the pressure law to √s, s the distance from the
+    edge. The ratio depends on the edge, and the edge is the zero line of φ.
+
+    means     cell means of the pressure, positive in the contact area (nx, ny)
+    region    cells of the contact area (nx, ny)
     stencil   window and weights of the fits
     law       law of the pressure near the edge
-    depth     depth of the region, see `shape.depth_of`
-    domain    domain of all fields
-    exponent  α in p = (ratio of the law to the root) φ^α
+    depth     distance of each cell from the nearest cell outside the contact area, in cells (nx,
+              ny)
+    domain    domain of all fields: full window or reduced domain
+    exponent  α in p = (ratio of the law to √s) φ^α
     before    edge of the previous iteration; None in the first one
     """
     problem = _Problem(np.where(region, means, 0.0), region, stencil, law, depth, domain, exponent)
@@ -127,6 +143,19 @@ def film_shape(
 
 @dataclass(frozen=True)
 class _Problem:
+    """Data of the fit of φ near the contact edge of layered bodies, fixed during Newton's method.
+
+    φ is a power of the pressure that vanishes smoothly at the contact edge.
+
+    means     cell means of the pressure, zero outside the contact area (nx, ny)
+    region    cells of the contact area (nx, ny)
+    stencil   window and weights of the fits
+    law       law of the pressure near the edge
+    depth     distance of each cell from the nearest cell outside the contact area, in cells (nx,
+              ny)
+    domain    domain of all fields: full window or reduced domain
+    exponent  α in p = (ratio of the law to √s) φ^α, s the distance from the edge
+    """
     means: Field
     region: Mask
     stencil: Stencil
@@ -137,9 +166,11 @@ class _Problem:
 
     @property
     def means_by_depth(self) -> Field:
-        """Cell means of φ, with the depth of each cell as its distance from the edge (nx, ny).
+        """Initial guess of the cell means of φ in a contact of layered bodies (nx, ny).
 
-        Initial guess of φ, and φ of the cells far from the edge.
+        φ is a power of the pressure that vanishes smoothly at the contact edge. The depth of a
+        cell, counted in cells, serves as its distance from the edge. Cells far from the edge keep
+        these values.
         """
         size = np.sqrt(np.prod(self.law.stretched))
         s = np.maximum(self.depth - 0.5, 0.5) * size
@@ -147,9 +178,9 @@ class _Problem:
         return power(self.means / self.law.over_root(s, curved), np.divide(1, self.exponent))
 
     def initial_edge(self, i: Indices, j: Indices) -> EdgeLine:
-        """Return the initial guess of the contact edge, fitted to cells away from the edge.
+        """Return the initial guess of the contact edge of layered bodies, from fits to inner cells.
 
-        Cells along the edge are excluded, because their φ depends on the unknown position of the
+        Cells along the edge are not data, because their φ depends on the unknown position of the
         edge.
 
         i, j  indices of the cells along the edge (n,)
@@ -160,10 +191,10 @@ class _Problem:
         return line.use_median_curvature().append_images(self.domain)
 
     def about(self, line: EdgeLine) -> FilmShape:
-        """Compute the cell means of φ and their sensitivity to the edge, for a given contact edge.
+        """Compute the cell means of φ for a given contact edge, and their sensitivity to the edge.
 
-        φ = (pressure over the ratio of the edge law to √s)^(1/α). The distances s are those from
-        the given edge.
+        φ = (pressure over the ratio of the edge law of layered bodies to √s)^(1/α), with the
+        distance s from the given edge.
 
         line  points of the given contact edge
         """
@@ -196,12 +227,16 @@ class _Problem:
 
 
 def _law_coefficient(local: LocalEdge, depth: Field, law: FilmLaw) -> Field:
-    """Return the coefficient c of the pressure law at cells near the edge of curvature κ.
+    """Compute the coefficient c of the edge pressure law of layered bodies, from the local edge
+    geometry.
 
-    c = ¾ (b - κ) for φ = g s (1 + b s) at the distance s from the edge.
+    The coefficient is c = ¾ (b - κ) for φ = g s (1 + b s) at the distance s from an edge of
+    curvature κ.
 
-    local  geometry of the edge near the cells
-    depth  depth of the region in cells (nx, ny); the inscribed radius limits c
+    local  geometry of the edge near n cells
+    depth  distance of each cell from the nearest cell outside the contact area, in cells (nx, ny);
+           its maximum limits c
+    law    law of the pressure near the edge
     """
     limit = MAX_COEFFICIENT / (np.max(depth) * min(law.stretched))
     return np.clip(0.75 * (local.bend / (2 * local.slope) - local.curvature), -limit, limit)

@@ -1,6 +1,7 @@
 """Weighted least-squares fits of quadratics to cell means on square windows of cells.
 
-The edge correction uses these fits to determine φ near the contact edge, and the peak pressure.
+The edge correction fits φ = p^(1/α) near the contact edge, with the pressure p ~ s^α at the
+distance s from the edge. Fits to p² yield the peak pressure.
 """
 
 from dataclasses import dataclass
@@ -26,9 +27,12 @@ CURVED = 0.1
 
 @dataclass(frozen=True)
 class Stencil:
-    """Square window of (2 reach + 1)² cells for a local fit, with Gaussian weights of the cells.
+    """Square window of (2 reach + 1)² cells for a local least-squares fit, with weights of the
+    cells.
 
-    The weight at the distance r from the centre is exp(-r²/(2 width²)). Lengths are in cells.
+    reach  number of cells from the centre of the window to its sides
+    width  decay length of the Gaussian weights exp(-r²/(2 width²)) at the distance r from the
+           centre, in cells
     """
 
     reach: int
@@ -40,12 +44,13 @@ NARROW, WIDE, WIDER = Stencil(3, 1.7), Stencil(5, 2.5), Stencil(6, 3.0)
 
 @dataclass(frozen=True)
 class Fits:
-    """Polynomial fits about cells, one fit per cell, all arrays of one shape.
+    """Quadratics fitted to cell means about several cells, one fit per cell; all arrays of one
+    shape.
 
-    quadratic  fitted quadratics about the cell centres
-    rms        weighted root mean square of the residuals
-    mean       weighted mean of the data
-    count      number of data with a positive weight
+    quadratic  fitted quadratics, expanded about the cell centres
+    rms        weighted root mean square of the differences between data and fit
+    mean       weighted mean of the data in the window of the fit
+    count      number of cells with a positive weight in the window
     """
 
     quadratic: Quadratic
@@ -64,16 +69,18 @@ def fit_about(
     domain: ReducedDomain = WINDOW,
     sensitivity: tuple[Field, Field] | None = None,
 ) -> Fits:
-    """Fit polynomials to cell means about the cells (i, j), shape (n,), by weighted least squares.
+    """Fit a polynomial to the cell means in the window about each of n cells, by weighted least
+    squares.
 
-    data         (nx, ny) cell means
-    weight       (nx, ny) weights, multiplied by those of the stencil
+    data         cell means (nx, ny)
+    weight       weights of the cells (nx, ny), multiplied by those of the stencil
+    i, j         indices of the central cells of the fits (n,)
     stencil      window and weights of the fits
     degree       degree of the polynomials, 1 or 2
-    domain       domain of all fields
-    sensitivity  factor (nx, ny) and vectors from the cells (2, n); the model of the data is the
-                 polynomial plus the factor times the value of the polynomial at the end of the
-                 vector
+    domain       domain of all fields: full window or reduced domain
+    sensitivity  factor (nx, ny) and vectors in cells (2, n) from the central cells to another
+                 point. The model of the data is the polynomial plus the factor times the polynomial
+                 at this point. None: the model is the polynomial
     """
     data, weight = (domain.add_frame(field, stencil.reach) for field in (data, weight))
     fade, basis = stencil_weights(stencil), monomials(stencil)[: 3 * degree]
@@ -109,10 +116,10 @@ def fit_about(
 
 
 def values_in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
-    """Return the values of a field in square windows about cells (i, j); shape (n, window).
+    """Return the values of a field in the square window about each of n cells (n, (2 reach + 1)²).
 
     padded   field with a margin of `stencil.reach` cells on each side
-    i, j     indices of the central cells (n,)
+    i, j     indices of the central cells in the field without margin (n,)
     stencil  size of the windows
     """
     dx, dy = _window_offsets(stencil)
@@ -123,15 +130,25 @@ def values_in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -
 
 @cache
 def stencil_weights(stencil: Stencil) -> Field:
-    """Return the Gaussian weights of the cells in the window of a stencil (window,)."""
+    """Return the Gaussian weights of the cells in the window of a stencil, for local fits.
+
+    The shape is ((2 reach + 1)²,). The central cell has the weight 1.
+
+    stencil  window, and decay length of the weights
+    """
     dx, dy = _window_offsets(stencil)
     return _read_only(np.exp(-(dx**2 + dy**2) / (2 * stencil.width**2)))
 
 
 @cache
 def monomials(stencil: Stencil) -> Field:
-    """Compute the means of 1, x, y, x²/2, xy, y²/2 over the cells of a stencil window (6,
-    window)."""
+    """Compute the means of the monomials 1, x, y, x²/2, xy, y²/2 over each cell of a fit window.
+
+    The shape is (6, (2 reach + 1)²). The coordinates x, y are in cells from the centre of the
+    window.
+
+    stencil  square window of cells
+    """
     dx, dy = _window_offsets(stencil)
     rows = (np.ones(len(dx)), dx, dy, dx**2 / 2 + 1 / 24, dx * dy, dy**2 / 2 + 1 / 24)
     return _read_only(np.stack(rows))
@@ -139,10 +156,10 @@ def monomials(stencil: Stencil) -> Field:
 
 @cache
 def _monomial_products(stencil: Stencil, degree: int) -> Field:
-    """Compute the products of all pairs of monomials in the window of a stencil (9 degree²,
-    window).
+    """Compute the products of all pairs of monomials in each cell of a fit window.
 
-    They yield the matrices of the least-squares fits.
+    The shape is (9 degree², (2 reach + 1)²). Weighted sums over the cells yield the matrices of the
+    least-squares fits.
 
     stencil  square window of cells
     degree   degree of the polynomials, 1 or 2
@@ -164,9 +181,12 @@ def _read_only(values: Field) -> Field:
 
 
 def solution(normal: Field, right: Field) -> Field:
-    """Solve the regularised normal equations of n least-squares fits for their coefficients (n, m).
+    """Solve the normal equations of n least-squares fits for the m coefficients of each fit (n, m).
 
-    normal  matrices of the fits (n, m, m); their diagonals are regularised in place
+    A small multiple of the trace is added to the diagonals, so that coefficients that the data do
+    not determine stay finite.
+
+    normal  matrices of the normal equations (n, m, m); their diagonals are changed in place
     right   right-hand sides (n, m)
     """
     diagonal = np.einsum("nkk->nk", normal)
@@ -183,11 +203,12 @@ FIT = np.linalg.pinv(monomials(NEXT).T * _ROOTS[:, None]) * _ROOTS
 
 
 class Peak(NamedTuple):
-    """Largest pressure at a point.
+    """Largest pressure at a point of the contact, from a fit to cell means.
 
     value  largest pressure [force/length^2]
-    ridge  True if the pressure is curved in at most one direction there; the error along a ridge is
-           of second order
+    ridge  True if the pressure is curved in at most one direction at this point, as along the ridge
+           of a ring-shaped contact. Along a ridge the error of the value is of second order in the
+           cell size
     """
 
     value: float
@@ -195,13 +216,15 @@ class Peak(NamedTuple):
 
 
 def peak_of(means: Field) -> Peak:
-    """Determine the largest pressure at a point from corrected cell means of the pressure (nx, ny).
+    """Determine the largest pressure at a point from the cell means of the pressure.
 
     A quadratic is fitted to the cell means of p² in the cell with the largest mean and its
     neighbours. In a Hertz contact p² is quadratic. The cell mean of p² is the square of the mean
     plus 1/12 of the square of the slope. On a ridge (ring-shaped contacts) the maximum is taken
     across the ridge. The largest mean is returned if a neighbour is out of contact or the maximum
     is not between the neighbours.
+
+    means  cell means of the pressure after the edge correction (nx, ny) [force/length^2]
     """
     i, j = (int(at) for at in np.unravel_index(np.argmax(means), means.shape))
     largest = Peak(float(means[i, j]), ridge=True)

@@ -1,10 +1,10 @@
 """Displacement kernels of tractions that vary within cells.
 
-Within a cell a traction is the sum of its mean, a slope, and a remainder. The remainder displaces
-only cells at most REACH away. Slopes act through the first moments of the influence coefficients.
-Remainders act through a table of PARTS x PARTS subcells of a cell. Both kernels follow from
-influence coefficients at the spacing of the subcells, for all bodies. PARTS is odd, so that cell
-centres are subcell centres.
+Within a cell a traction is the sum of its mean, a slope, and a remainder. Slopes act on all cells,
+through the first moments of the influence coefficients. Remainders act only on cells at most REACH
+away, through a table of PARTS x PARTS subcells of a cell. Both kernels follow from influence
+coefficients at the spacing of the subcells, for all bodies. PARTS is odd, so that cell centres are
+subcell centres. `semi_analytical.edge.displacement` uses the kernels.
 """
 
 from dataclasses import dataclass
@@ -28,19 +28,21 @@ PART_OFFSETS = NEAR * PARTS + PARTS // 2 + 1
 def part_centres() -> Field:
     """Return the positions of the subcell centres along one side of a cell (PARTS,), in cells.
 
-    The position 0 is the cell centre.
+    The cell centre has the position 0.
     """
     return (np.arange(PARTS) - PARTS // 2) / PARTS
 
 
 @dataclass(frozen=True)
 class EdgeKernels:
-    """Displacement kernels of slopes and remainders for one component of the influence
-    coefficients.
+    """Kernels of the surface displacement by tractions that vary within cells, for one component.
 
-    component  name of the component, e.g. "zz", as in `InfluenceCoefficients`
-    cells      influence coefficients of the cells
-    parts      influence coefficients at PART_OFFSETS offsets of the subcells
+    The component is a pair of a displacement direction and a traction direction. Offsets are
+    distances in cells from the loaded cell to the displaced cell centre.
+
+    component  name of the component, e.g. "zz" for the normal displacement by a pressure
+    cells      influence coefficients at the spacing of the cells
+    parts      influence coefficients at the spacing of the subcells, at PART_OFFSETS offsets
     """
 
     component: str
@@ -49,20 +51,25 @@ class EdgeKernels:
 
     @property
     def parity(self) -> tuple[int, int]:
-        """Parity of the influence coefficients along x and y: 1 for even, -1 for odd."""
+        """Parities of the influence coefficients along x and y: 1 for even, -1 for odd."""
         return PARITY[self.component]
 
     @property
     def even(self) -> bool:
-        """True if the influence coefficients have equal parities along x and y."""
+        """True if the influence coefficients have equal parities along x and y.
+
+        Then each first moment of the coefficients is odd along one axis, and its spectrum is
+        imaginary.
+        """
         return self.parity[0] == self.parity[1]
 
     @cached_property
     def moments(self) -> Field:
-        """Displacement by linear tractions x and y on the cell at the origin (2, nx, ny)
+        """Surface displacement by linear tractions on the cell at the origin (2, nx, ny)
         [length^3/force].
 
-        Entry (i, j) belongs to the offset (i, j) >= 0. The tractions x and y are in cells.
+        The tractions are x (first row) and y (second row), in cells from the cell centre. Entry (i,
+        j) is the displacement at the centre of the cell with the offset i, j >= 0.
         """
         A = self.cells[self.component]
         moments = np.stack(
@@ -74,10 +81,12 @@ class EdgeKernels:
 
     @cached_property
     def near_moments(self) -> Field:
-        """Displacement by linear tractions x and y at NEAR + 1 offsets along each axis, from
-        subcell sums.
+        """Surface displacement by linear tractions on the cell at the origin, at the centres of
+        near cells.
 
-        The shape is (2, NEAR + 1, NEAR + 1).
+        The shape is (2, NEAR + 1, NEAR + 1), for the tractions x and y and offsets from 0 to NEAR
+        cells along each axis. The displacements are sums over the subcells of the loaded cell
+        [length^3/force].
         """
         K = self.parts[self.component][:PART_OFFSETS, :PART_OFFSETS]
         x, one = part_centres(), np.ones(PARTS)
@@ -89,9 +98,12 @@ class EdgeKernels:
 
     @cached_property
     def near(self) -> Field:
-        """Displacement by unit traction on each subcell of the cell at the origin [length^3/force].
+        """Surface displacement at near cell centres by a unit traction on one subcell
+        [length^3/force].
 
-        The shape is (2 REACH + 1, 2 REACH + 1, PARTS, PARTS), for cell offsets -REACH … REACH.
+        The shape is (2 REACH + 1, 2 REACH + 1, PARTS, PARTS). The first two axes are the offsets
+        -REACH … REACH of the displaced cell. The last two axes are the loaded subcell of the cell
+        at the origin.
         """
         K = self.parts[self.component]
         i = PARTS * np.arange(-REACH, REACH + 1)[:, None] - np.arange(PARTS) + PARTS // 2
@@ -101,13 +113,14 @@ class EdgeKernels:
 
 
 def _subcell_sums(weights: Field, parity: int) -> Field:
-    """Return the matrix that sums weighted subcell coefficients over a cell (NEAR + 1,
-    PART_OFFSETS).
+    """Return the matrix that sums influence coefficients of weighted subcells over one side of a
+    cell.
 
-    The matrix maps values at subcell offsets >= 0 to sums at cell offsets >= 0. Negative offsets
-    use the parity.
+    The matrix (NEAR + 1, PART_OFFSETS) maps coefficients at subcell offsets >= 0 to sums at cell
+    offsets >= 0. Coefficients at negative offsets follow from the parity.
 
-    weights  weight of each subcell along one side of the cell (PARTS,)
+    weights  weight of each subcell along the side of the cell (PARTS,)
+    parity   parity of the coefficients along this side: 1 even, -1 odd
     """
     offsets = PARTS * np.arange(NEAR + 1)[:, None] - np.arange(PARTS) + PARTS // 2
     sums = np.zeros((NEAR + 1, PART_OFFSETS))
@@ -117,12 +130,12 @@ def _subcell_sums(weights: Field, parity: int) -> Field:
 
 
 def _coefficient_slope(values: Field, axis: int, parity: int) -> Field:
-    """Compute the derivative of influence coefficients along one axis, per cell.
+    """Compute the derivative of influence coefficients with respect to the offset along one axis.
 
-    The first moments of the coefficients follow from it. Differences are of fourth order, at the
-    far end of lower order.
+    The displacement by a linear traction on a distant cell is this derivative over -12. Differences
+    of fourth order are used, of lower order at the largest offsets.
 
-    values  coefficients at offsets >= 0 (nx, ny)
+    values  influence coefficients at offsets >= 0 (nx, ny)
     axis    0 for x, 1 for y
     parity  parity of the coefficients along the axis: 1 even, -1 odd
     """

@@ -1,4 +1,8 @@
-"""Quadratic functions of the position in index coordinates, one function per place."""
+"""Quadratic functions of the position in the plane, each expanded about a different point.
+
+The edge correction represents φ = p^(1/α) near the contact edge by these functions, with the
+pressure p. Coordinates are cell indices.
+"""
 
 from __future__ import annotations
 
@@ -31,24 +35,29 @@ class Quadratic:
 
     @property
     def slope(self) -> Field:
-        """Magnitude of the gradient of each quadratic at the point about which it is expanded."""
+        """Magnitude of the gradient of each quadratic function at its expansion point."""
         return np.hypot(self.f_x, self.f_y)
 
     def chosen(self, which: Mask | Indices | slice) -> Quadratic:
-        """Select some of the quadratics.
+        """Return a subset of the quadratic functions.
 
-        which  mask, indices or slice of their places
+        which  mask, indices or slice of the selected functions
         """
         return Quadratic(*(part[which] for part in vars(self).values()))
 
     def reshape_arrays(self, shape: tuple[int, ...]) -> Quadratic:
-        """Return the quadratics with all arrays in another shape."""
+        """Return the quadratic functions with all coefficient arrays in another shape.
+
+        shape  new shape, with as many entries as the present one
+        """
         return Quadratic(*(part.reshape(shape) for part in vars(self).values()))
 
     def in_scaled_axes(self, dx: float, dy: float) -> Quadratic:
-        """Convert derivatives to a unit of length in which a cell has the sides dx and dy.
+        """Convert the derivatives of quadratic functions from cells to another unit of length.
 
-        The places remain index coordinates.
+        The expansion points remain cell indices.
+
+        dx, dy  sides of a cell along x and y in the new unit
         """
         return Quadratic(
             *(self.x, self.y, self.f, self.f_x / dx, self.f_y / dy),
@@ -56,17 +65,19 @@ class Quadratic:
         )
 
     def evaluate(self, dx: Field, dy: Field) -> Field:
-        """Evaluate the quadratics at offsets from their places.
+        """Evaluate each quadratic function at an offset from its expansion point.
 
-        dx, dy  offsets in cells; further axes come first
+        dx, dy  offsets along x and y in cells; they broadcast with the arrays of the functions
         """
         bend = (self.f_xx * dx + 2 * self.f_xy * dy) * dx + self.f_yy * dy * dy
         return np.asarray(self.f + self.f_x * dx + self.f_y * dy + bend / 2)
 
     def about(self, x: Field, y: Field) -> Quadratic:
-        """Expand the quadratics about other places; the functions themselves do not change.
+        """Compute the expansion of each quadratic function about another point.
 
-        x, y  new places in index coordinates
+        The functions themselves do not change, only the coefficients.
+
+        x, y  new expansion points as cell indices
         """
         dx, dy = x - self.x, y - self.y
         return Quadratic(
@@ -83,21 +94,27 @@ class Quadratic:
         )
 
     def cell_mean(self, exponent: float | Field) -> Field:
-        """Compute the mean of the power φ_+^exponent of each quadratic φ over the unit cell about
-        its point.
+        """Compute the mean of φ_+^exponent over the unit cell about the expansion point of each
+        quadratic φ.
 
-        The linear part of the quadratic represents φ in the cell. Negative φ counts as zero. The
-        exponent 0 yields the fraction of the cell with positive φ.
+        Negative φ counts as zero. φ is taken as linear over the cell, with its mean and its slopes
+        at the centre. The exponent 0 yields the fraction of the cell with positive φ.
+
+        exponent  exponent of φ, a number or one per quadratic
         """
         return mean_power(self.mean, self.f_x, self.f_y, exponent)
 
     @property
     def cut(self) -> Mask:
-        """True if the linear part of the quadratic vanishes somewhere in the unit cell about its
-        place."""
+        """True if the zero line of a quadratic function cuts the unit cell about its expansion
+        point.
+
+        The function is taken as linear over the cell. With φ = p^(1/α) of the pressure p the zero
+        line is the contact edge.
+        """
         return np.asarray(np.abs(self.mean) < (np.abs(self.f_x) + np.abs(self.f_y)) / 2)
 
     @property
     def mean(self) -> Field:
-        """Mean of each quadratic over the unit cell about the point of its expansion."""
+        """Mean of each quadratic function over the unit cell about its expansion point."""
         return np.asarray(self.f + (self.f_xx + self.f_yy) / 24)

@@ -1,6 +1,8 @@
 """Shape of φ = p^(1/α) near the edge of a region, from fits to the cell means of p.
 
-The region is a contact area or a stick zone. φ passes smoothly through zero at the edge.
+The region is a contact area with the pressure p, or a stick zone with the shear deficit p. Near the
+edge p ~ s^α at the distance s from the edge, so that φ passes smoothly through zero. The edge
+correction computes subcell tractions from these fits.
 """
 
 from dataclasses import dataclass
@@ -39,13 +41,17 @@ SIDES = 4
 class EdgeShape:
     """Cell means of φ = p^(1/α) in a region, and fits to these means near the edge of the region.
 
-    means     (nx, ny) cell means of p
-    phi       (nx, ny) cell means of φ; valid for positive weights
-    weight    (nx, ny) weights of the cells in fits
-    exponent  α, a number or (nx, ny)
+    p is the pressure of a contact area or the shear deficit of a stick zone, and p ~ s^α at the
+    distance s from the edge. φ is smooth and vanishes at the edge.
+
+    means     cell means of p (nx, ny)
+    phi       cell means of φ (nx, ny); valid in cells of positive weight
+    weight    weights of the cells in fits (nx, ny)
+    exponent  exponent α, a number or (nx, ny)
     stencil   window and weights of the fits
-    depth     (nx, ny) distance to the nearest cell outside the region in cells, zero outside
-    domain    domain of all fields
+    depth     distance of each cell from the nearest cell outside the region (nx, ny), in cells;
+              zero outside
+    domain    domain of all fields: full window or reduced domain
     """
 
     means: Field
@@ -58,50 +64,55 @@ class EdgeShape:
 
     @cached_property
     def nearest_cells(self) -> Indices:
-        """Indices (2, nx, ny) of the cell of the contact or stick region that is nearest to each
+        """Indices (2, nx, ny) of the cell of the contact area or stick zone that is nearest to each
         cell."""
         found = distance_transform_edt(self.depth == 0, return_distances=False, return_indices=True)
         return np.asarray(found)
 
     def fits(self, i: Indices, j: Indices) -> Fits:
-        """Fit quadratics to the cell means of φ about cells of the region.
+        """Fit quadratics to the cell means of φ = p^(1/α) about cells of the contact area or stick
+        zone.
 
-        φ = p^(1/α) is a smooth function that vanishes at the edge of the region, with the traction
-        p.
+        φ is a smooth function of the traction p and vanishes at the edge of the region.
 
-        i, j  indices of the cells (n,)
+        i, j  indices of the central cells of the fits (n,)
         """
         return fit_about(self.phi, self.weight, i, j, self.stencil, domain=self.domain)
 
     def nearest_to(self, x: Field, y: Field) -> Indices:
-        """Return the indices (2, n) of the cells of the region that are nearest to places (x,
-        y), shape (n,)."""
+        """Return the cells (2, n) of the contact area or stick zone that are nearest to given
+        points.
+
+        x, y  points as cell indices, not necessarily whole numbers (n,)
+        """
         last = np.array(self.means.shape) - 1
         i, j = (np.clip(np.rint(at), 0, n).astype(int) for at, n in zip((x, y), last, strict=True))
         return self.nearest_cells[:, i, j]
 
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
-        """Expand φ about places near the edge of the region, by local fits.
+        """Compute the expansion of φ = p^(1/α) about points near the edge of the region, by local
+        fits.
 
-        φ = p^(1/α) is a smooth function that vanishes at the edge, with the traction p. At places
-        outside the region the fit about the nearest cell of the region is used. A fit centred
-        outside has one-sided data and a hundredfold error.
+        φ is a smooth function of the traction p and vanishes at the edge. A point outside the
+        region uses the fit about the nearest cell of the region, because a fit centred outside has
+        data on one side only and a hundredfold error.
 
-        x, y     places in index coordinates (n,)
-        returns  quadratics of φ about the places, and True for reliable fits (n,)
+        x, y     points as cell indices (n,)
+        returns  quadratics of φ expanded about the points, and a mask that is True for reliable
+                 fits (n,)
         """
         fits = self.fits(*self.nearest_to(x, y))
         return fits.quadratic.about(x, y), reliable(fits)
 
     def about_cells(self, adjacent: "AdjacentCells", fits: Fits) -> tuple[Quadratic, Field]:
-        """Expand φ about cells of the region and about cells adjacent to the region, shape (n,).
+        """Compute the expansion of φ = p^(1/α) about n cells in the region or next to its edge.
 
-        φ = p^(1/α) is a smooth function that vanishes at the edge of the region, with the traction
-        p. The second result is the rms residual of the fits over the change of φ across a cell. It
+        φ is a smooth function of the traction p and vanishes at the edge of the region. The second
+        result (n,) is the rms residual of the fits over the change of φ across a cell. This ratio
         is infinite for fits with few data.
 
-        adjacent  cells, and the fits that determine φ there
-        fits      fits about `adjacent.fitted`
+        adjacent  the n cells, and the assignment of fits to them
+        fits      quadratics fitted about the cells `adjacent.fitted`
         """
         error = np.where(fits.count < LEAST_DATA, np.inf, fits.rms)
         error /= np.maximum(fits.quadratic.slope, np.finfo(float).tiny)
@@ -113,14 +124,15 @@ class EdgeShape:
         return Quadratic(*means[:-1]), means[-1]
 
     def edge_points(self, x: Field | Indices, y: Field | Indices) -> tuple[Quadratic, Mask]:
-        """Find the edge points nearest to given places, and expand φ about these points, shape
-        (n,).
+        """Find the edge point nearest to each of n given points, and fit φ = p^(1/α) about the edge
+        points.
 
-        φ = p^(1/α) vanishes at the edge, with the traction p. Newton steps along the gradient find
-        the edge points, with new fits in the first REFITS steps. At the edge points φ is zero up to
-        rounding. The second result is True for reliable fits.
+        φ is a smooth function of the traction p and vanishes at the edge. Newton steps along the
+        gradient of φ find the edge points, with new fits in the first REFITS steps. The second
+        result is a mask, True for reliable fits at edge points less than FARTHEST cells away. Used
+        to compute stresses at the contact edge.
 
-        x, y  places in index coordinates (n,)
+        x, y  given points as cell indices (n,)
         """
         at_x, at_y = x.astype(float), y.astype(float)
         for _ in range(REFITS):
@@ -133,14 +145,15 @@ class EdgeShape:
 
 
 class AdjacentCells:
-    """Assignment of fits of φ to cells in a region or next to its edge, as pairs of a cell and a
-    fit.
+    """Assignment of local fits of φ to cells in a region or next to its edge, as pairs of a cell
+    and a fit.
 
-    A cell of the region uses the fit about itself. A cell outside uses the mean of the fits about
-    its side neighbours in the region, or without side neighbours about its corner neighbours. This
-    rule preserves mirror symmetry.
+    φ is a function of the traction that vanishes at the edge of the region. A cell of the region
+    uses the fit about itself. A cell outside uses the mean of the fits about its side neighbours in
+    the region, or without side neighbours about its corner neighbours. This rule preserves mirror
+    symmetry.
 
-    fitted  (2, m) indices of the cells about which fits are needed
+    fitted  indices of the cells about which fits are needed (2, m)
     which   index of the fit of each pair
     place   index of the cell of each pair
     at      coordinates of the cell of each pair, along x and y
@@ -149,9 +162,10 @@ class AdjacentCells:
     """
 
     def __init__(self, depth: Field, i: Indices, j: Indices) -> None:
-        """Find the fits that determine φ at cells (i, j) in a region or next to its edge.
+        """Find the fits that determine φ in given cells in a region or next to its edge.
 
-        depth  depth of the region (nx, ny), see `depth_of`
+        depth  distance of each cell from the nearest cell outside the region, in cells (nx, ny)
+        i, j   indices of the given cells (n,)
         """
         last = np.array(depth.shape)[:, None, None] - 1
         at = np.stack([i, j])[:, None] + STEPS
@@ -169,12 +183,12 @@ class AdjacentCells:
 
 
 def _step_to_edge(here: Quadratic) -> tuple[Field, Field]:
-    """Move places towards the edge of the region, where φ = 0, by one Newton step of at most one
+    """Move points towards the edge of a region, where φ = 0, by one Newton step of at most one
     cell.
 
-    Return the new coordinates x and y.
+    The step is along the gradient of φ. The results are the new coordinates x and y.
 
-    here  quadratic fits of φ about the present places
+    here  quadratics of φ expanded about the present points
     """
     squared = np.maximum(here.slope**2, np.finfo(float).tiny)
     step = here.f / squared
@@ -183,8 +197,13 @@ def _step_to_edge(here: Quadratic) -> tuple[Field, Field]:
 
 
 def reliable(fits: Fits) -> Mask:
-    """Return True for fits of φ that have enough data and small residuals, compared with the
-    slope."""
+    """Return a mask (n,) that is True for reliable fits of φ near the edge of a region.
+
+    A reliable fit has at least LEAST_DATA data, and its rms residual is less than LARGEST_RMS of
+    the change of φ across a cell.
+
+    fits  fits of φ about n cells
+    """
     few = fits.count < LEAST_DATA
     return np.asarray(~few & (fits.rms < LARGEST_RMS * fits.quadratic.slope))
 
@@ -203,11 +222,11 @@ def edge_shape(
 ) -> EdgeShape:
     """Determine the cell means of φ = p^(1/α) in a region from the cell means of p.
 
-    Cells that the edge cuts use the slopes of preceding fits, because there φ is not a power of the
-    mean.
+    p is the pressure in a contact area or the shear deficit in a stick zone. Cells that the edge
+    cuts use the slopes of preceding fits, because there φ is not a power of the mean.
 
-    means     (nx, ny) cell means of p, positive in the region
-    region    (nx, ny) cells of the region
+    means     cell means of p, positive in the region (nx, ny)
+    region    cells of the region (nx, ny)
     stencil   stencil of the fits: `NARROW` for one ring, `WIDE` for two
     rings     number of outermost layers of cells that are not data: 1 for exact or corrected means,
               2 for means of a solver without edge correction; with 0 all cells are data, cut cells
@@ -215,8 +234,9 @@ def edge_shape(
     exponent  α in p ~ s^α, s the distance from the edge; a number or a smooth field (nx, ny)
     rounds    number of computations of φ: the first is means^(1/α) without cut cells; the others
               use `centre_value` with the slopes of the preceding fits
-    depth     depth of the region if known, see `depth_of`
-    domain    domain of all fields
+    depth     distance of each cell from the nearest cell outside the region, in cells; computed if
+              None
+    domain    domain of all fields: full window or reduced domain
     before    φ of a previous iteration and fits along the edge; they replace the first fits
 
     Raises ValueError if no cell remains as data.
@@ -254,9 +274,12 @@ def edge_shape(
 
 
 def depth_of(region: Mask, domain: ReducedDomain = WINDOW) -> Field:
-    """Compute the distance of each cell of a region from the nearest cell outside (nx, ny), in
-    cells.
+    """Compute the distance of each cell of a region from the nearest cell outside the region.
 
-    Cells beyond the window count as outside. The result is zero at cells outside the region.
+    The distance (nx, ny) is in cells, between cell centres, and zero outside the region. Cells
+    beyond the window count as outside.
+
+    region  cells of the region (nx, ny)
+    domain  domain of `region`: full window or reduced domain
     """
     return np.asarray(distance_transform_edt(domain.add_frame(region, 1))[1:-1, 1:-1])

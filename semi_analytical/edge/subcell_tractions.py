@@ -1,6 +1,6 @@
 """Tractions in the subcells of cells along the edge of a region, from fits of φ = p^(1/α).
 
-The region is a contact area, or a stick zone with the shear deficit as traction. The edge
+The region is a contact area with the pressure p, or a stick zone with the shear deficit p. The edge
 correction computes displacements from these subcell tractions.
 """
 
@@ -50,9 +50,10 @@ HALF_SQUARE = np.mean(X**2) / 2
 
 @dataclass(frozen=True)
 class EdgeCells:
-    """Cells along the edge of a region.
+    """Cells along the edge of a contact area or stick zone, grouped by the method for their
+    subcells.
 
-    region  cells of the region (nx, ny)
+    region  cells of the contact area or stick zone (nx, ny)
     domain  domain of the region: full window or reduced domain
     """
 
@@ -60,48 +61,61 @@ class EdgeCells:
     domain: ReducedDomain
 
     def __getstate__(self) -> dict[str, object]:
-        """Return the state for a checkpoint, without the fields that can be computed from the
+        """Return the state of the edge cells for a checkpoint, without fields that follow from the
         region."""
         return {"region": self.region, "domain": self.domain}
 
     @cached_property
     def depth(self) -> Field:
-        """Distance of each cell of the region from the nearest cell outside, in cells (nx, ny)."""
+        """Distance of each cell of the region from the nearest cell outside (nx, ny), in cells.
+
+        The distance is zero outside the region.
+        """
         return depth_of(self.region, self.domain)
 
     @cached_property
     def fitted(self) -> tuple[Indices, Indices]:
-        """Indices of the cells nearest to the edge, whose subcell tractions come from fits of φ."""
+        """Indices of the cells nearest to the edge, whose subcell tractions come from fits of φ.
+
+        φ is a function of the traction that vanishes at the edge. Cells next to the region are
+        included, because the edge may cut them.
+        """
         touched = near(self.domain.add_frame(self.region, 1))
         i, j = np.nonzero(touched & (self.depth <= FITTED))
         return i, j
 
     @cached_property
     def adjacent(self) -> AdjacentCells:
-        """Assignment of quadratic fits of φ to the `fitted` cells, in the region and next to its
-        edge."""
+        """Assignment of local fits of φ to the `fitted` cells, inside the region and next to its
+        edge.
+
+        φ is a function of the traction that vanishes at the edge of the region.
+        """
         return AdjacentCells(self.depth, *self.fitted)
 
     @cached_property
     def deep(self) -> tuple[Indices, Indices]:
-        """Indices of deeper cells, whose subcell tractions come from second differences of the
-        means."""
+        """Indices of the cells farther inside, whose subcell tractions come from differences of
+        cell means."""
         i, j = np.nonzero((self.depth > FITTED) & (self.depth <= INSIDE))
         return i, j
 
 
 @dataclass(frozen=True)
 class SubcellTractions:
-    """Tractions in the subcells of cells along the edge of a region.
+    """Tractions in the subcells of cells along the edge of a contact area or stick zone.
 
-    region  (nx, ny) cells whose centre is inside the edge
+    Each of these cells has PARTS x PARTS subcells. The traction is the pressure or the shear
+    deficit. φ is a power of the traction that vanishes smoothly at the edge.
+
+    region  cells whose centre is inside the edge (nx, ny)
     i, j    indices of the cells (n,): fitted cells first, then deeper cells
-    parts   (n, PARTS, PARTS) mean of the traction over each subcell [force/length^2]
+    parts   mean of the traction over each subcell (n, PARTS, PARTS) [force/length^2]
     phi     quadratics of φ about the fitted cells
-    unsafe  fraction of the cells along the edge without a reliable fit
-    cells   edge cells of the fitted region
-    line    edge of a contact of layered bodies; None for the root law
-    fits    (nx, ny) cell means of φ and the fits to them; None for layered bodies
+    unsafe  fraction of the n cells and rejected cells that have no reliable fit
+    cells   edge cells of the region before the fit
+    line    points of the edge of a contact of layered bodies; None for a power of the distance
+    fits    cell means of φ (nx, ny), and the fits to them; None for layered bodies
     """
 
     region: Mask
@@ -116,25 +130,31 @@ class SubcellTractions:
 
     @property
     def domain(self) -> ReducedDomain:
-        """Domain of all fields: full window or reduced domain."""
+        """Domain of all fields of these tractions: full window or reduced domain."""
         return self.cells.domain
 
     @cached_property
     def area(self) -> float:
-        """Area of the region inside the edge and of its mirror images, as a number of cells."""
+        """Area inside the edge of the contact area or stick zone, in cells, with its mirror images.
+
+        Cells that the edge cuts count by their covered fraction.
+        """
         covered, fitted = self.cells.region.astype(float), slice(len(self.phi.f))
         covered[self.i[fitted], self.j[fitted]] = self.phi.cell_mean(0.0)
         return self.domain.images * float(np.sum(covered))
 
     @cached_property
     def outer(self) -> Mask:
-        """Partly covered cells whose centre lies outside the edge (nx, ny)."""
+        """Mask (nx, ny) of the partly covered cells whose centre lies outside the edge."""
         return (self.means > 0) & ~self.region
 
     @cached_property
     def means(self) -> Field:
-        """Mean of the traction over each cell along the edge, zero elsewhere (nx, ny)
-        [force/length^2]."""
+        """Mean of the traction over each cell along the edge, from its subcells (nx, ny)
+        [force/length^2].
+
+        The means of the other cells are zero.
+        """
         means = np.zeros(self.region.shape)
         means[self.i, self.j] = self.parts.mean(axis=(1, 2))
         return means
@@ -148,15 +168,18 @@ def fit_edge(
     domain: ReducedDomain = WINDOW,
     film: FilmLaw | None = None,
 ) -> SubcellTractions | None:
-    """Fit the edge of a region of tractions and compute the subcell tractions along the edge.
+    """Fit the edge of a contact area or stick zone and compute the subcell tractions along the
+    edge.
 
-    Return None if the region is too thin.
+    None is returned if the region is too thin for a fit.
 
-    means     (nx, ny) mean of the traction over each cell [force/length^2]
-    loaded    (nx, ny) cells with a positive traction
-    before    fitted edge of the previous iteration; cells outside that edge are not data
-    exponent  exponent α of the distance from the edge
-    domain    domain of all fields
+    means     mean of the pressure or shear deficit over each cell (nx, ny) [force/length^2]
+    loaded    cells with a positive traction (nx, ny)
+    before    fitted edge of the previous iteration; cells whose centre is outside that edge are not
+              data
+    exponent  exponent α of the traction p ~ s^α at the distance s from the edge; a number or (nx,
+              ny)
+    domain    domain of all fields: full window or reduced domain
     film      law of the pressure near the edge of layered bodies; None for a power of the distance
     """
     region = loaded if before is None else loaded & before.region
@@ -207,11 +230,13 @@ def fit_edge(
 
 
 def means_of_power(phi: Quadratic, exponent: Exponent) -> Field:
-    """Compute the means of φ_+^exponent over the subcells of each cell (n, PARTS, PARTS).
+    """Compute the mean of φ_+^exponent over each subcell of n cells (n, PARTS, PARTS).
 
-    Negative φ counts as zero. Cells are processed in chunks of CHUNK.
+    φ is the function that vanishes at the contact edge, so that the means are those of the
+    traction. Negative φ counts as zero. Cells are processed in chunks of CHUNK.
 
-    phi  quadratics of φ about the cells (n,)
+    phi       quadratics of φ about the cells (n,)
+    exponent  exponent α of the traction p = φ^α, a number or (n,)
     """
     parts = np.empty((len(phi.f), PARTS**2))
     for first in range(0, len(parts), CHUNK):
@@ -222,13 +247,13 @@ def means_of_power(phi: Quadratic, exponent: Exponent) -> Field:
 
 
 def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
-    """Compute the means of φ_+^a over the subcells of n cells (n, PARTS²), negative φ counted as
-    zero.
+    """Compute the mean of φ_+^a over each subcell of the cells of one chunk (n, PARTS²).
 
-    With the exponent a these means are tractions p = φ^a near a contact edge.
+    φ is the function that vanishes at the contact edge, so that the means are those of the
+    traction. Negative φ counts as zero.
 
     phi  quadratics of φ about the cells (n,)
-    a    exponent, a number or (n, 1)
+    a    exponent of the traction p = φ^a, a number or (n, 1)
     """
     bent = (phi.f_xx + phi.f_yy) / (24 * PARTS**2)
     factors = np.array([phi.f + bent, phi.f_x, phi.f_y, phi.f_xx, phi.f_xy, phi.f_yy])
@@ -250,15 +275,15 @@ def _means_of_power(phi: Quadratic, a: Exponent) -> Field:
 def tractions_by_differences(
     means: Field, i: Indices, j: Indices, fade: Field, domain: ReducedDomain
 ) -> Field:
-    """Compute subcell tractions (n, PARTS, PARTS) of cells away from the edge, from a local
-    quadratic.
+    """Compute the traction in each subcell of cells away from the edge (n, PARTS, PARTS).
 
-    The quadratic follows from differences of the cell means.
+    The traction in a cell is a quadratic, whose coefficients follow from differences of the means
+    over the cell and its neighbours.
 
     means   cell means of the traction (nx, ny)
     i, j    indices of the cells (n,)
     fade    weight of the second differences, from 1 near the edge to 0 inside (n,)
-    domain  domain of `means`
+    domain  domain of `means`: full window or reduced domain
     """
     i, j = i + 1, j + 1
     p = domain.add_frame(means, 1)

@@ -1,4 +1,4 @@
-"""Edge correction of solved states: the edges of contact and stick zone lie inside the cells.
+"""Edge correction of solved contact states, for edges of contact and stick zone that cut cells.
 
 The solver assumes tractions that are uniform in each cell. This package adds the variation of
 pressure and shear within the cells by deferred correction. It uses the fits of

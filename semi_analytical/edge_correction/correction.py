@@ -1,6 +1,6 @@
-"""Edge correction of the pressure and shear of a solved state.
+"""Edge correction of the pressure and shear of a solved contact state.
 
-The pressure of all bodies is corrected. The shear is corrected with a stick border inside the cells
+The pressure of all bodies is corrected. The shear is corrected with a stick border that cuts cells
 for uncoupled bodies only. The load stepping in `semi_analytical.history` calls `EdgeCorrection`.
 """
 
@@ -26,6 +26,9 @@ from semi_analytical.model import ContactModel
 class EdgeCorrection:
     """Edge correction of the solved states of a contact model; the states are not modified.
 
+    The correction adds the variation of tractions within cells along the edges of contact and stick
+    zone.
+
     model    contact model: scene, grid, operators and symmetry reduction
     coupled  True if the normal and the tangential problem of the two bodies are coupled
     """
@@ -38,7 +41,7 @@ class EdgeCorrection:
     def __call__(
         self, last: State | None, state: State, *, path_known: bool, tolerance: float
     ) -> Corrected | EdgeReport:
-        """Correct the pressure and the shear of a solved state, or report why this is impossible.
+        """Correct the pressure and the shear of a solved state, or report the cause of a failure.
 
         last        earlier state, needed for the stick border of uncoupled bodies and for the reuse
                     of a correction; None before the first contact
@@ -63,18 +66,19 @@ class EdgeCorrection:
         return corrected
 
     def _extend_state(self, state: State) -> State:
-        """Extend the fields of a state from the reduced domain to the full window."""
+        """Extend the fields of a solved contact state from the reduced domain to the full window."""
         extend, sheared = self._domain.extend_fields, state.sheared
         tangential = None if sheared is None else extend(sheared)
         return replace(state, pressing=extend(state.pressing), sheared=tangential)
 
     def _correct_pressure(self, last: State | None, state: State, extended: State) -> Corrected:
-        """Correct the pressure of a solved state.
+        """Correct the pressure of a solved state for a contact edge that cuts cells.
 
-        If the bodies are uncoupled and the previous state has an equal pressure, its correction is
-        reused.
+        The correction of the previous state is reused if the bodies are uncoupled and both states
+        have equal normal loads and pressures.
 
         last      previous state; None before the first contact
+        state     solved state on the reduced domain
         extended  `state` with its fields on the full window
         """
         sheared, law, follows = extended.sheared, self._operators.model.friction, None
@@ -96,14 +100,16 @@ class EdgeCorrection:
         corrected: Corrected,
         tolerance: float,
     ) -> CorrectedShear | None:
-        """Correct the shear of a solved state at the corrected pressure.
+        """Correct the shear of a solved state for a stick border that cuts cells.
 
-        Return None if the border of the stick zone cannot be fitted.
+        The friction limit is that of the corrected pressure. None is returned if the border of the
+        stick zone cannot be fitted.
 
         before     earlier state that determines the border of the stick zone; may be None without
                    shear and in gross slip
         solved     tangential part of the solved state on the full window
         corrected  correction of the pressure of the solved state
+        tolerance  residual tolerance of the tangential solves
         """
         model, edge = self._operators.model, corrected.edge
         bound = model.friction.limit(corrected.pressure)
@@ -154,8 +160,12 @@ class EdgeCorrection:
 def _determines_border(before: State | None, state: State, sheared: TangentialState) -> bool:
     """Return True if an earlier state determines the border of the stick zone of a later state.
 
-    The earlier state needs a corrected shear and a known tangential shift. It must have the same
-    normal load or no shear.
+    The edge correction of the shear starts from the earlier state. It needs a corrected shear and a
+    known tangential shift. It must have the same normal load or no shear.
+
+    before   earlier state with its edge correction; None if unknown
+    state    later state
+    sheared  tangential part of the later state
     """
     last = before.corrected.sheared if before and before.corrected else None
     if before is None or last is None or last.shift is None or sheared.shift is None:

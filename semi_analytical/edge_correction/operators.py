@@ -1,6 +1,7 @@
-"""Operators from tractions that vary within the cells of a contact model to surface displacements.
+"""Surface displacements by tractions that vary within the cells of a contact model.
 
-The edge correction of pressure and shear adds these displacements to those of uniform tractions.
+The edge correction of pressure and shear adds these displacements to those of tractions that are
+uniform in each cell.
 """
 
 from functools import cached_property
@@ -26,20 +27,31 @@ APART: Matrix = (((1, "zx"), (1, "zy"), (1, "zz")),)
 
 
 class EdgeOperators:
-    """Hold the operators of the edge correction of a contact model; each is built on first use."""
+    """Operators of the edge correction of a contact model; each is computed at its first use.
+
+    The operators map variations of tractions within cells to surface displacements at the cell
+    centres.
+    """
 
     def __init__(self, model: ContactModel) -> None:
         self.model = model
 
     @cached_property
     def displace_by_pressure(self) -> EdgeOperator:
-        """Operator from pressure variations within cells to u_z [length], on the reduced domain."""
+        """Operator from pressure variations within cells to the normal displacement of the surface
+        [length].
+
+        Its fields are on the reduced domain.
+        """
         return self._build_operator(PRESSURE, self.model.domain)
 
     @cached_property
     def displace_by_shear(self) -> EdgeOperator:
-        """Operator from shear variations within cells to (u_x, u_y) [length], on the full
-        window."""
+        """Operator from shear variations within cells to the tangential surface displacement
+        [length].
+
+        Its fields are on the full window. Shear and displacement have the components x and y.
+        """
         return self._build_operator(SHEAR, WINDOW)
 
     @cached_property
@@ -47,7 +59,8 @@ class EdgeOperators:
         """Operator from variations of (q_x, q_y, p) within cells to the normal displacement u_z
         [length].
 
-        Used on the full window for coupled bodies, whose shear causes normal displacements.
+        q_x and q_y are the components of the shear, p is the pressure. Used on the full window for
+        coupled bodies, whose shear causes normal displacements.
         """
         return self._build_operator(APART, WINDOW)
 
@@ -55,7 +68,8 @@ class EdgeOperators:
         """Return the law of the pressure near the contact edge of layered bodies.
 
         None is returned if no layer changes the pressure within a few cells of the edge, or if the
-        contact is narrow compared with the layers.
+        contact is narrow compared with the layers. The pressure then follows a power of the
+        distance from the edge.
 
         contact  cells in contact (nx, ny)
         domain   domain of `contact`: full window or reduced domain

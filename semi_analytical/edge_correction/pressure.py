@@ -1,4 +1,4 @@
-"""Deferred correction of the pressure for a contact edge that lies inside cells.
+"""Deferred correction of the pressure for a contact edge that cuts cells.
 
 Towards the contact edge the pressure falls like a power α of the distance. A pressure that is
 uniform in each cell then has an error of O(h), with h the cell size. Each iteration has three
@@ -54,16 +54,16 @@ MAX_UNSAFE = 0.03
 
 
 class NotFitted(Exception):
-    """Raised if the edge correction of a state is impossible; the message states the cause."""
+    """Error raised if the edge correction of a state is impossible; the message states the cause."""
 
 
 def edge_pressure(
     operators: EdgeOperators, state: State, shear: FollowingShear | None, *, coupled: bool
 ) -> Corrected:
-    """Correct the pressure of a solved state for a contact edge inside cells, by deferred
+    """Correct the pressure of a solved state for a contact edge that cuts cells, by deferred
     correction.
 
-    operators  displacement operators of tractions that vary within cells
+    operators  surface displacements by tractions that vary within cells
     state      solved state with uniform pressure in each cell, on the full window for coupled
                bodies
     shear      shear as a function of the pressure; None without friction
@@ -99,11 +99,13 @@ def edge_pressure(
 
 
 def next_change(changes: Sequence[float]) -> float:
-    """Predict the relative change of a traction in the next iteration of the edge correction.
+    """Predict the relative change of pressure or shear in the next iteration of the edge
+    correction.
 
-    The prediction multiplies the last change by the ratio of the last two changes, at most 1. The
-    first change is excluded from the ratio, because it is the discretisation error of the cells.
-    With fewer than three changes the last change is returned.
+    The iteration ends if this change is small. The prediction multiplies the last change by the
+    ratio of the last two changes, at most 1. The first change is excluded from the ratio, because
+    it is the discretisation error of the cells. With fewer than three changes the last change is
+    returned.
 
     changes  relative changes of all iterations so far, at least one
     """
@@ -112,14 +114,13 @@ def next_change(changes: Sequence[float]) -> float:
 
 
 def left_over(changes: Sequence[float]) -> float:
-    """Estimate the remaining error of the edge correction, as a ratio to the last change of its
-    iteration.
+    """Estimate the error of the edge correction after its last iteration, over the last change.
 
-    The ratio is κ/(1-κ). The contraction factor κ is the mean ratio of successive changes without
+    The result is κ/(1-κ). The contraction factor κ is the mean ratio of successive changes without
     the first change. It is 1/2 if there are too few changes. It is limited to 0.9, because ten
     iterations cannot resolve slower convergence.
 
-    changes  relative changes of all iterations
+    changes  relative changes of the traction in all iterations
     """
     _, *later = changes
     contraction = 0.5
@@ -130,28 +131,30 @@ def left_over(changes: Sequence[float]) -> float:
 
 
 def relaxation_factor(factor: float, last: Field, change: Field) -> float:
-    """Compute the next relaxation factor of an iteration by Aitken's method (Irons and Tuck 1969).
+    """Compute the relaxation factor of the next change of a traction in the edge correction.
+
+    Aitken's method (Irons and Tuck 1969) is used. The result lies between LEAST_FACTOR and 1.
 
     factor  relaxation factor that `last` was multiplied by
-    last    change of the traction in the preceding iteration, before relaxation (nx, ny)
-    change  change of the traction in the present iteration, before relaxation (nx, ny)
-
-    The result lies between LEAST_FACTOR and 1.
+    last    change of the traction in the preceding iteration, before relaxation (…, nx, ny)
+    change  change of the traction in the present iteration, before relaxation (…, nx, ny)
     """
     fall = last - change
     return float(np.clip(factor * np.sum(last * fall) / np.sum(fall**2), LEAST_FACTOR, 1.0))
 
 
 def radius_change(before: SubcellTractions, after: SubcellTractions) -> float:
-    """Compute the relative change of the radius √(area/π) of a region between two iterations.
+    """Compute the relative change of the radius of contact or stick zone between two iterations.
 
-    before, after  tractions along the edge of the region: contact area or stick zone
+    The radius is √(area/π).
+
+    before, after  tractions along the edge of the region in the two iterations
     """
     return abs((after.area / before.area) ** 0.5 - 1)
 
 
 class _NormalResult(NamedTuple):
-    """Hold the result of one normal solve of the edge correction.
+    """Result of one normal solve of the edge correction, with a fixed contact edge.
 
     pressure           mean pressure of each cell (nx, ny) [force/length^2]
     motion             rigid motion of the indenter
@@ -165,7 +168,7 @@ class _NormalResult(NamedTuple):
 
 
 class _Iterate(NamedTuple):
-    """Hold one iterate of the edge correction of the pressure.
+    """One iterate of the edge correction of the pressure.
 
     pressure  mean pressure of each cell (nx, ny) [force/length^2]
     edge      pressure in the subcells along the contact edge
@@ -179,9 +182,11 @@ class _Iterate(NamedTuple):
 
 @dataclass(frozen=True)
 class _Problem:
-    """Edge correction of the pressure of one solved state, by deferred correction.
+    """Problem of the edge correction of the pressure of one solved state.
 
-    operators  displacement operators of tractions that vary within cells
+    Methods of this class are the steps of one iteration of the deferred correction.
+
+    operators  surface displacements by tractions that vary within cells
     state      solved state with uniform pressure in each cell
     shear      shear as a function of the pressure; None without friction
     coupled    True if the shear causes normal displacements
@@ -198,13 +203,15 @@ class _Problem:
 
     @cached_property
     def contact(self) -> Mask:
-        """Cells in contact in the solved state (nx, ny)."""
+        """Mask of the cells in contact in the solved state, before the edge correction (nx, ny)."""
         return self.state.pressing.pressure > 0
 
     @cached_property
     def box(self) -> Box:
-        """Smallest box of cells around the contact area, widened by MARGIN; it bounds the normal
-        solves."""
+        """Smallest box of cells that contains the contact area and a margin of MARGIN cells.
+
+        The normal solves of the edge correction are restricted to this box.
+        """
         return box_around(self.contact, MARGIN, self.model.domain)
 
     @cached_property
@@ -215,7 +222,7 @@ class _Problem:
     def exponent(self) -> Exponent:
         """Exponent α of the pressure p ~ s^α at the distance s from the contact edge.
 
-        The exponent is 1/2 unless coupled bodies slip. It is then a field (nx, ny).
+        The exponent is 1/2. If coupled bodies slip, the exponent is a field (nx, ny).
         """
         solved = self.state.sheared
         if not self.coupled or self.shear is None or solved is None:
@@ -229,10 +236,12 @@ class _Problem:
         return self.operators.film(self.contact, self.model.domain)
 
     def fit_edge(self, p: Field, before: SubcellTractions | None) -> SubcellTractions:
-        """Fit the pressure near the contact edge; raise NotFitted if the fit fails.
+        """Fit the pressure near the contact edge, and compute its subcell values.
 
-        p       mean pressure of each cell (nx, ny)
+        p       mean pressure of each cell (nx, ny) [force/length^2]
         before  fitted edge of the preceding iteration; None in the first one
+
+        Raises NotFitted if the contact is too thin or its edge is rough.
         """
         edge = fit_edge(p, p > 0, before, self.exponent, self.model.domain, self.film)
         if edge is None:
@@ -242,27 +251,27 @@ class _Problem:
         return edge
 
     def response(self, approach: float, p: Field) -> float:
-        """Return the approach [length], or at a prescribed approach the sum of the pressure over
-        the cells.
+        """Return the scalar response of the bodies that the load does not prescribe.
 
-        The change of this number between iterations yields the error of the approach or normal
-        force.
+        The response is the approach [length], or at a prescribed approach the sum of the pressure
+        over the cells. Its change between iterations yields the error of the approach or of the
+        normal force.
 
         approach  approach of the iterate [length]
-        p         mean pressure of each cell (nx, ny)
+        p         mean pressure of each cell (nx, ny) [force/length^2]
         """
         return approach if self.state.target.approach is None else float(np.sum(p))
 
     def solve(self, p: Field, edge: SubcellTractions) -> _NormalResult:
-        """Solve the normal problem by conjugate gradients for a fixed contact edge inside the
-        cells.
+        """Solve the normal problem for a fixed contact edge that cuts cells, by conjugate
+        gradients.
 
         The problem is linear, because the edge determines the cells in contact. Partly covered
-        cells whose centre lies outside the edge carry the fitted pressure. The cells in contact
+        cells whose centre lies outside the edge have the fitted pressure. The cells in contact
         carry the rest of the load.
 
-        p     mean pressure of each cell in the preceding iteration (nx, ny)
-        edge  fitted contact edge of that pressure
+        p     mean pressure of each cell in the preceding iteration (nx, ny) [force/length^2]
+        edge  contact edge fitted to that pressure
         """
         box, operator = self.box.slices, self.model.operator(self.box.shape)
         contact, outer = edge.region[box], np.where(edge.outer, edge.means, 0.0)[box]
@@ -278,12 +287,12 @@ class _Problem:
         return _NormalResult(pressure, load.motion(inner, u + gap), edge_displacement)
 
     def edge_displacement(self, p: Field, edge: SubcellTractions) -> Field:
-        """Compute the normal surface displacement that a pressure uniform in each cell leaves out.
+        """Compute the normal surface displacement that a pressure uniform in each cell omits.
 
         The result (nx, ny) [length] is the displacement by the variation of the pressure within
         cells. For coupled bodies the displacement by the shear is added.
 
-        p     mean pressure of each cell (nx, ny)
+        p     mean pressure of each cell (nx, ny) [force/length^2]
         edge  pressure in the subcells along the contact edge
         """
         by_p = Within.from_subcells(p, edge.i, edge.j, edge.parts, edge.domain)
@@ -298,9 +307,9 @@ class _Problem:
     def assemble_result(
         self, last: _Iterate, before: _Iterate, solved: _NormalResult, changes: Sequence[float]
     ) -> Corrected:
-        """Assemble the corrected state on the full window, with estimates of its remaining errors.
+        """Assemble the corrected state on the full window, with estimates of its iteration errors.
 
-        last     last iterate
+        last     last iterate of the edge correction
         before   iterate before `last`
         solved   last normal solve
         changes  relative change of the pressure in each iteration

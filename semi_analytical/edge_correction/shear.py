@@ -1,11 +1,11 @@
-"""Deferred correction of the shear of uncoupled bodies for a stick border that lies inside cells.
+"""Deferred correction of the shear of uncoupled bodies for a stick border that cuts cells.
 
-Let n be the direction of slip and p the pressure. The shear is q = µp n - d. The deficit d from
-gross slip vanishes in the slip zone. It falls to zero towards the stick border like the pressure of
-a smaller contact (Cattaneo 1938). Fits of p and d therefore yield the shear within the cells. After
-a load reversal from the shear q' with the direction of slip n', the change of the shear obeys
-Cattaneo's law with twice the friction (Masing's rule, Mindlin and Deresiewicz 1953): q = q' + µp (n
-- n') - d.
+Let n be the direction of slip, p the pressure and µ the coefficient of friction. The shear is q =
+µp n - d. The deficit d from gross slip vanishes in the slip zone. It falls to zero towards the
+stick border like the pressure of a smaller contact (Cattaneo 1938). Fits of p and d therefore yield
+the shear within the cells. After a load reversal from the shear q' with the direction of slip n',
+the change of the shear obeys Cattaneo's law with twice the friction (Masing's rule, Mindlin and
+Deresiewicz 1953): q = q' + µp (n - n') - d.
 """
 
 from dataclasses import dataclass, replace
@@ -50,12 +50,14 @@ WithinVector = tuple[Within, Within]
 
 @dataclass(frozen=True)
 class Deficit:
-    """Deficit of the shear in the stick zone: shear of gross slip minus actual shear.
+    """Shear deficit in the stick zone: shear of gross slip minus actual shear.
+
+    The edge correction of the shear fits the deficit near the border of the stick zone.
 
     shear  deficit, zero in the slip zone (2, nx, ny) [force/length^2]
     full   shear of gross slip (2, nx, ny) [force/length^2]
     slip   direction of slip, extended to all cells (2, nx, ny)
-    stick  sticking cells, which have a deficit (nx, ny)
+    stick  cells that may have a deficit (nx, ny)
     edge   subcell values of the magnitude of the deficit along the stick border
     """
 
@@ -71,9 +73,10 @@ def sliding_shear(
 ) -> CorrectedShear:
     """Return the corrected shear in gross slip: the friction limit µp in the direction of slip.
 
-    bound   friction limit µp, mean of each cell (nx, ny) [force/length^2]
-    limit   variation of µp within the cells
-    solved  tangential state without a stick zone; supplies the direction of slip and the shift
+    operators  surface displacements by tractions that vary within cells
+    bound      friction limit µp, mean of each cell (nx, ny) [force/length^2]
+    limit      variation of µp within the cells
+    solved     tangential state without a stick zone; supplies the direction of slip and the shift
     """
     slip = direction_of_slip(solved.shear, magnitude(solved.shear) > 0)
     shear, nowhere = bound * slip, np.zeros(bound.shape, dtype=bool)
@@ -97,16 +100,21 @@ def sliding_shear(
 
 @dataclass(frozen=True)
 class ShearProblem:
-    """Tangential problem of one increment of uncoupled bodies at the corrected pressure.
+    """Tangential problem of one increment of uncoupled bodies at the pressure of the edge
+    correction.
 
-    bound          friction limit µp (nx, ny) [force/length^2]
+    The previous state is the corrected state from which the shear and the stick border of this
+    increment follow. All fields are on the full window.
+
+    operators      surface displacements by tractions that vary within cells
+    bound          friction limit µp, mean of each cell (nx, ny) [force/length^2]
     limit          variation of µp within the cells
     force          tangential force of the solved state (2,), in force and displacement control
-    target         u_t minus rigid motion of the previous state, corrected for the change of bulk
-                   strain (2, nx, ny) [length]
+    target         tangential displacement minus rigid shift of the previous state, corrected for
+                   the change of bulk strain (2, nx, ny) [length]
     before         shear of the previous state (2, nx, ny), and its variation within the cells
-    reversed_slip  direction of slip n' of the previous state (2, nx, ny) after a load reversal,
-                   else None
+    reversed_slip  direction of slip of the previous state (2, nx, ny) after a load reversal, else
+                   None
     tolerance      residual tolerance of the tangential solves
     """
 
@@ -120,14 +128,15 @@ class ShearProblem:
     tolerance: float
 
     def gross_slip_shear(self, bound: Field, slip: VectorField, before: VectorField) -> VectorField:
-        """Return the shear (2, nx, ny) that gross slip would cause at the corrected pressure.
+        """Return the shear (2, nx, ny) that gross slip would cause at the pressure of the edge
+        correction.
 
-        The shear is µp n, or after a load reversal q' + µp (n - n'), with the direction of slip n'
-        of the previous state.
+        The shear is µp n, or q' + µp (n - n') after a load reversal from the shear q' with the
+        direction of slip n'.
 
         bound   friction limit µp (nx, ny) [force/length^2]
         slip    direction of slip n (2, nx, ny)
-        before  shear q' of the previous state (2, nx, ny)
+        before  shear q' of the previous state (2, nx, ny) [force/length^2]
         """
         last = self.reversed_slip
         return bound * slip if last is None else before + bound * (slip - last)
@@ -140,13 +149,15 @@ class ShearProblem:
         stick: Mask,
         edge: SubcellTractions | None,
     ) -> Deficit | None:
-        """Compute the deficit of the shear from gross slip; None if no stick border can be fitted.
+        """Compute the shear deficit (shear of gross slip minus actual shear) and fit it at the
+        stick border.
 
-        The direction of slip in the stick zone is that of adjacent slipping cells.
+        None is returned if no stick border can be fitted. The direction of slip in the stick zone
+        is that of adjacent slipping cells.
 
         q       shear (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny) [force/length^2]
-        before  shear of the previous state (2, nx, ny)
+        before  shear of the previous state (2, nx, ny) [force/length^2]
         stick   cells that may have a deficit (nx, ny)
         edge    fitted stick border of the preceding iteration; None in the first one
         """
@@ -163,14 +174,14 @@ class ShearProblem:
         return Deficit(shear, full, slip, stick, border)
 
     def within(self, q: VectorField, deficit: Deficit) -> WithinVector:
-        """Compute the variation of both shear components within the cells.
+        """Compute the variation of both shear components within the cells, for the edge correction.
 
         Deep in the stick zone the result is the variation of the previous state plus central
-        differences of the change of the shear. Elsewhere the variations of µp and of the deficit
-        are combined.
+        differences of the change of the shear. Elsewhere the variations of the friction limit and
+        of the shear deficit are combined.
 
-        q        shear (2, nx, ny)
-        deficit  deficit of q from gross slip
+        q        cell means of the shear (2, nx, ny) [force/length^2]
+        deficit  deficit of q from gross slip, with the fitted stick border
         """
         edge = deficit.edge
         d = magnitude(deficit.shear)
@@ -199,16 +210,17 @@ class ShearProblem:
     def solve(
         self, q: VectorField, motion: Field, deficit: Deficit, u: VectorField
     ) -> TangentialSolution:
-        """Solve the tangential problem on the reduced domain for a given stick border inside the
+        """Solve the tangential problem for a given displacement by the shear variation within
         cells.
 
-        The fit of the deficit lowers the friction limit of partly sticking cells whose centre
-        slips.
+        The solution is computed on the reduced domain and extended to the full window. In cells
+        that the stick border cuts and whose centre slips, the fitted deficit lowers the friction
+        limit.
 
-        q        initial guess of the shear (2, nx, ny)
+        q        initial guess of the shear (2, nx, ny) [force/length^2]
         motion   initial guess of the rigid tangential shift (2,) [length]
-        deficit  deficit with the fitted stick border
-        u        displacement by the shear variation within cells (2, nx, ny) [length]
+        deficit  shear deficit with the fitted stick border
+        u        tangential displacement by the shear variation within cells (2, nx, ny) [length]
         """
         model = self.operators.model
         domain, operator = model.domain, model.operator(model.grid.cells)
@@ -239,13 +251,14 @@ class ShearProblem:
 def edge_shear(
     problem: ShearProblem, solved: TangentialState, before: VectorField
 ) -> CorrectedShear | None:
-    """Correct the shear of a solved state for a stick border inside the cells.
+    """Correct the shear of a solved state for a stick border that cuts cells, by fixed-point
+    iteration.
 
-    Return None if the stick border cannot be fitted or the iteration does not converge.
+    None is returned if the stick border cannot be fitted or the iteration does not converge.
 
-    problem  tangential problem at the corrected pressure
+    problem  tangential problem at the pressure of the edge correction
     solved   tangential state with uniform tractions in each cell
-    before   uncorrected shear of the previous state (2, nx, ny)
+    before   uncorrected shear of the previous state (2, nx, ny) [force/length^2]
     """
     assert solved.shift is not None
     # The deficit at the solved pressure is the initial guess of that at the corrected pressure.

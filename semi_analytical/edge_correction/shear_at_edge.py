@@ -1,11 +1,11 @@
 """Shear as a function of the pressure, and the exponent of both tractions at a slipping contact
 edge.
 
-The shear is q = µp n - d with the direction of slip n and the deficit d from gross slip. The edge
-correction changes p only. The deficit d is that of the uncorrected state times a factor, so that
-the tangential force along Σd remains unchanged. If coupled bodies slip at the edge, pressure and
-shear fall to zero like s^α. Here s is the distance from the edge, m its outward normal, β Dundurs'
-parameter of the outermost materials, and
+The shear is q = µp n - d with the pressure p, the coefficient of friction µ, the direction of slip
+n and the deficit d from gross slip. The edge correction changes p only. The deficit d is that of
+the uncorrected state times a factor, so that the tangential force along Σd remains unchanged. If
+coupled bodies slip at the edge, pressure and shear fall to zero like s^α. Here s is the distance
+from the edge, m its outward normal, β Dundurs' parameter of the outermost materials, and
 
     α = ½ + arctan(µβ q·m/|q|)/π
 
@@ -35,12 +35,12 @@ SMOOTHED = 2.0
 
 
 def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
-    """Compute the unit vector of the shear of slipping cells, extended to all cells (2, nx, ny).
+    """Compute the direction of the shear of slipping cells, and extend this direction to all cells.
 
-    Other cells take the mean direction of adjacent cells, layer by layer. Beyond LAYERS layers they
-    take the direction of the nearest cell.
+    The result (2, nx, ny) contains unit vectors. Other cells take the mean direction of adjacent
+    cells, layer by layer. Beyond LAYERS layers they take the direction of the nearest cell.
 
-    q      shear (2, nx, ny)
+    q      shear of the cells (2, nx, ny)
     slips  slipping cells (nx, ny)
     """
     nx, ny = slips.shape
@@ -71,11 +71,14 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
 
 @dataclass(frozen=True)
 class FollowingShear:
-    """Shear of a solved state as a function of the pressure; all fields on the full window.
+    """Shear of a solved state as a function of the pressure, for the edge correction of the
+    pressure.
+
+    All fields are on the full window.
 
     friction  friction law
     slip      direction of slip n (2, nx, ny)
-    deficit   shear of gross slip minus actual shear (2, nx, ny), zero in the slip zone
+    deficit   shear of gross slip minus actual shear, zero in the slip zone (2, nx, ny)
               [force/length^2]
     total     sum of the shear over the cells (2,) [force/length^2]
     """
@@ -89,14 +92,14 @@ class FollowingShear:
     def from_state(
         cls, friction: CoulombFriction, pressure: Field, shear: VectorField, stick: Mask
     ) -> FollowingShear:
-        """Decompose the shear of a solved state into its friction limit and its deficit from gross
-        slip.
+        """Decompose the shear of a solved state into gross-slip shear and shear deficit.
 
-        Without slipping cells, n is the direction of the shear.
+        The shear of gross slip is the friction limit in the direction of slip. Without slipping
+        cells the direction of slip is that of the shear.
 
         friction  friction law
-        pressure  pressure of the state (nx, ny)
-        shear     shear of the state (2, nx, ny)
+        pressure  pressure of the state (nx, ny) [force/length^2]
+        shear     shear of the state (2, nx, ny) [force/length^2]
         stick     sticking cells (nx, ny)
         """
         slips = (pressure > 0) & ~stick
@@ -105,10 +108,12 @@ class FollowingShear:
         return cls(friction, slip, deficit, np.sum(shear, axis=(1, 2)))
 
     def __call__(self, pressure: Field) -> VectorField:
-        """Compute the shear (2, nx, ny) at a given pressure (nx, ny).
+        """Compute the shear (2, nx, ny) at a given pressure, with a constant tangential force.
 
-        The deficit is scaled so that the force along the sum of the deficit is unchanged. The
+        The shear deficit is scaled so that the force along the sum of the deficit is unchanged. The
         magnitude of the shear is at most the friction limit.
+
+        pressure  pressure of the cells (nx, ny) [force/length^2]
         """
         limit = self.friction.limit(pressure)
         full, resultant = limit * self.slip, np.sum(self.deficit, axis=(1, 2))
@@ -120,8 +125,10 @@ class FollowingShear:
         return np.asarray(q * np.where(size > limit, limit / np.where(size > 0, size, 1.0), 1.0))
 
     def exponent(self, contact: Mask, beta: float) -> Field:
-        """Compute the exponent α of the tractions at the nearest contact edge of every cell (nx,
-        ny).
+        """Compute the exponent α of pressure and shear at the contact edge nearest to each cell
+        (nx, ny).
+
+        Both tractions fall like s^α at the distance s from an edge at which coupled bodies slip.
 
         contact  cells in contact (nx, ny)
         beta     Dundurs' parameter β of the outermost materials

@@ -1,11 +1,11 @@
 """Area of the stick zone of coupled bodies, from fits of the shear deficit along its border.
 
-Let n be the direction of slip. The deficit from gross slip d = µp - q·n vanishes at the border of
-the stick zone. With s the distance from the border, d ~ s^(1/2) where the slip zone grows, like the
-pressure of a smaller contact (Cattaneo 1938). Where the stick zone grows, as in normal loading, d ~
-s^(3/2), because newly sticking cells are still at the friction limit. Each border cell uses the law
-with the smaller residual. The shear normal to n is smooth across the border and is therefore
-excluded from d.
+Let n be the direction of slip. The deficit d = µp - q·n of the shear q from the friction limit µp
+vanishes at the border of the stick zone. With s the distance from the border, d ~ s^(1/2) where the
+slip zone grows, like the pressure of a smaller contact (Cattaneo 1938). Where the stick zone grows,
+as in normal loading, d ~ s^(3/2), because newly sticking cells are still at the friction limit.
+Each border cell uses the law with the smaller residual. The shear normal to n is smooth across the
+border and is therefore excluded from d.
 """
 
 from dataclasses import dataclass
@@ -32,12 +32,13 @@ CUT = 1.5
 
 @dataclass(frozen=True)
 class _LawFit:
-    """Fit of one power law of the shear deficit in the cells along the border of the stick zone
-    (n,).
+    """Fit of one power law to the shear deficit in the n cells along the border of the stick zone.
 
-    stuck     sticking fraction of each cell
+    The deficit is the friction limit minus the shear. Fits of two power laws are compared.
+
+    stuck     sticking fraction of each cell (n,)
     residual  rms residual of the fit over the change of the fitted function across a cell, times
-              the factor of the law in LAWS; infinite for unreliable fits
+              the factor of the law in LAWS; infinite for unreliable fits (n,)
     """
 
     stuck: Field
@@ -45,13 +46,13 @@ class _LawFit:
 
 
 def stick_area(shear: VectorField, bound: Field, stick: Mask, *, spreads: bool = True) -> float:
-    """Compute the area of the stick zone as a number of cells, with sub-cell accuracy.
+    """Compute the area of the stick zone in cells, with the sticking fractions of its border cells.
 
-    A cell of the stick zone counts as 1 if neither power law fits there. Zones that are too thin
-    for fits use `stuck_cells`.
+    The fractions come from fits of two power laws to the shear deficit. A cell of the stick zone
+    counts as 1 if neither law fits there. Zones that are too thin for fits use `stuck_cells`.
 
-    shear    cell means of q (2, nx, ny) at the corrected pressure
-    bound    friction limit µp (nx, ny), zero outside the contact area
+    shear    cell means of the shear q at the corrected pressure (2, nx, ny)
+    bound    friction limit µp, zero outside the contact area (nx, ny)
     stick    sticking cells (nx, ny)
     spreads  True if the stick zone may have grown; without coupling the zone grows only with the
              pressure
@@ -91,12 +92,14 @@ def _fit_power_law(
 ) -> _LawFit:
     """Fit one power law to the shear deficit in the cells along the border of the stick zone.
 
+    The deficit is the friction limit minus the shear along the direction of slip.
+
     deficit                    deficit over its largest value (nx, ny)
     stick                      sticking cells (nx, ny)
     depth                      distance of the cells from the nearest cell outside the stick zone
                                (nx, ny), in cells
     cells                      border cells and the fits that determine the deficit there
-    exponent, stencil, factor  entry of LAWS
+    exponent, stencil, factor  exponent of the law, window of the fits, and factor of the residual
     """
     shape = edge_shape(deficit, stick, stencil, rings=0, exponent=exponent, rounds=2, depth=depth)
     phi, error = shape.about_cells(cells, shape.fits(*cells.fitted))
