@@ -156,6 +156,7 @@ class _Problem:
     domain    domain of all fields: full window or reduced domain
     exponent  α in p = (ratio of the law to √s) φ^α, s the distance from the edge
     """
+
     means: Field
     region: Mask
     stencil: Stencil

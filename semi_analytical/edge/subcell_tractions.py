@@ -112,7 +112,7 @@ class SubcellTractions:
     i, j    indices of the cells (n,): fitted cells first, then deeper cells
     parts   mean of the traction over each subcell (n, PARTS, PARTS) [force/length^2]
     phi     quadratics of φ about the fitted cells
-    unsafe  fraction of the n cells and rejected cells that have no reliable fit
+    unsafe  fraction of the cells along the edge without a reliable fit
     cells   edge cells of the region before the fit
     line    points of the edge of a contact of layered bodies; None for a power of the distance
     fits    cell means of φ (nx, ny), and the fits to them; None for layered bodies

@@ -66,7 +66,10 @@ class EdgeCorrection:
         return corrected
 
     def _extend_state(self, state: State) -> State:
-        """Extend the fields of a solved contact state from the reduced domain to the full window."""
+        """Extend the fields of a solved state from the reduced domain to the full window.
+
+        state  solved contact state on the reduced domain
+        """
         extend, sheared = self._domain.extend_fields, state.sheared
         tangential = None if sheared is None else extend(sheared)
         return replace(state, pressing=extend(state.pressing), sheared=tangential)

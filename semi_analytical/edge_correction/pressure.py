@@ -54,7 +54,10 @@ MAX_UNSAFE = 0.03
 
 
 class NotFitted(Exception):
-    """Error raised if the edge correction of a state is impossible; the message states the cause."""
+    """Error raised if the edge correction of a contact state is impossible.
+
+    The message states the cause, for instance a rough contact edge.
+    """
 
 
 def edge_pressure(

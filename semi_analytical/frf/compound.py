@@ -1,8 +1,8 @@
 """Compound recursion of the surface compliance through one layer, without overflow or cancellation.
 
-In the sagittal plane the material below a depth is represented by the symmetric 2x2 compliance C
-between the displacement (U, u_z) and the traction (Q, p). The recursion propagates
-y = (det C, C11, C12, C22, 1) times a scale (second compounds or delta matrices, Dunkin 1965). It
+The material below a depth is represented by the symmetric 2x2 compliance C between the displacement
+(U, u_z) and the traction (Q, p) in the plane of the wave vector and z. The recursion propagates y =
+(det C, C11, C12, C22, 1) times a scale (second compounds or delta matrices, Dunkin 1965). It
 contains no differences of exponentials. The terms sinh x cosh x - x and sinh^2 x - x^2, which
 vanish for thin layers, are computed by series.
 """
@@ -19,9 +19,12 @@ OPAQUE = 1e4
 
 
 class Waves(NamedTuple):
-    """Hyperbolic functions of x = alpha h in one layer of thickness h, all multiplied by one scale.
+    """Hyperbolic functions of x in one layer, all multiplied by one scale, for the compound
+    recursion.
 
-    alpha is the wavenumber. With the scale exp(-2x) the functions are bounded for every x.
+    x is the wavenumber times the thickness of the layer. With the scale exp(-2x) the functions are
+    bounded for every x. The names of the fields are the functions; `one` is the scale and `xx` is
+    x² times the scale.
     """
 
     one: Array
@@ -36,7 +39,8 @@ class Waves(NamedTuple):
 def decaying_waves(x: Array) -> Waves:
     """Compute the hyperbolic functions of a layer times exp(-2x), accurately for all x >= 0.
 
-    The scale exp(-2x) prevents overflow for thick layers.
+    The functions occur in the recursion of the surface compliance. The scale exp(-2x) prevents
+    overflow for thick layers.
 
     x  wavenumber times thickness of the layer
     """
@@ -54,7 +58,9 @@ def decaying_waves(x: Array) -> Waves:
 def _thin_series(x: Array) -> tuple[Array, Array]:
     """Compute sinh x cosh x - x and sinh^2 x - x^2 for x < 1 by series, truncated at 1e-17.
 
-    For small x the closed forms would cancel.
+    For thin layers the closed forms would cancel.
+
+    x  wavenumber times thickness of the layer
     """
     z = 4 * x * x
     c = np.zeros_like(x)
@@ -67,10 +73,12 @@ def _thin_series(x: Array) -> tuple[Array, Array]:
 
 
 def echo_waves(x: Array) -> Waves:
-    """Compute the hyperbolic functions of a layer without their part of an infinitely thick layer.
+    """Compute the hyperbolic functions of a layer without their limit for an infinitely thick
+    layer.
 
-    These parts exp(2x)/4 cancel in the difference between the compliance of a layered body and that
-    of a half-space. The remaining terms are multiplied by exp(-2x).
+    These limits, such as exp(2x)/4 of sinh^2 x, cancel in the difference between the compliance of
+    a layered body and that of a half-space of its outermost material. The functions have the scale
+    1.
 
     x  wavenumber times thickness of the layer
     """
@@ -81,14 +89,15 @@ def echo_waves(x: Array) -> Waves:
 
 
 def compound_rows(y: tuple[Array, ...], nu: float, f: Waves) -> tuple[Array, ...]:
-    """Propagate the compliance (det C, C11, C12, C22, 1) from the underside of a layer to its top.
+    """Compute the compliance at the top of a layer from that at its underside, at each wavenumber.
 
-    The result has an arbitrary scale. C is in units of 1 / (2 G alpha), G the layer's shear
-    modulus; the last row is the divisor.
+    The compliance C is represented by (det C, C11, C12, C22, 1) times an arbitrary scale, in units
+    of 1 / (2 G alpha), with the layer's shear modulus G and the wavenumber alpha. The last row of
+    the result is the divisor.
 
     y   values at the underside
     nu  Poisson's ratio of the layer
-    f   wave functions of the layer
+    f   hyperbolic functions of the layer
     """
     det, c11, c12, c22, unit = y
     e = 1 / (2 * (1 - nu))

@@ -1,10 +1,11 @@
 """Displacement and traction at depth in a layered body, per unit traction on its surface.
 
-The material below a horizontal plane acts through the compliance C of the plane, which the compound
-recursion yields without cancellation. The traction at the plane is tau = M^-1 tau_0, with tau_0 at
-the surface and M of the material between. The determinant of M is the divisor of the recursion. The
-displacement at the plane is C tau. All exponentials decay, and nu = 1/2 is regular.
-Signs and frame: CONVENTIONS.md. Equilibrium and Hooke's law along z, with W = u_z, read
+All quantities are Fourier amplitudes at one wavenumber alpha. The material below a horizontal plane
+acts through the compliance C of the plane, which the compound recursion yields without
+cancellation. The traction at the plane is tau = M^-1 tau_0, with tau_0 at the surface and M of the
+material between. The determinant of M is the divisor of the recursion. The displacement at the
+plane is C tau. All exponentials decay, and nu = 1/2 is regular. Signs and frame: CONVENTIONS.md.
+Equilibrium and Hooke's law along z, with W = u_z, read
 
     U' = -tau_s/G - alpha W                tau_s' = -2G/(1-nu) alpha^2 U - nu/(1-nu) alpha tau_z
     W' = -(1-2nu)/(2G(1-nu)) tau_z + nu/(1-nu) alpha U                     tau_z' = alpha tau_s
@@ -28,19 +29,18 @@ from semi_analytical.frf.surface import (
 
 
 class DepthScalars(NamedTuple):
-    """Displacement and traction in a layered body at one depth, as real functions of the
-    wavenumber.
+    """Displacement and traction at one depth of a layered body, per unit surface traction.
 
-    The amplitudes are u_s = iU and t_s = iQ as in `surface.py`. The traction at depth is tau =
+    All values are real Fourier amplitudes as functions of the wavenumber. The displacement and
+    traction along the wave vector are u_s = iU and t_s = iQ. The traction at depth is tau =
     -(sigma_sz / i, sigma_zz). The first axis of a matrix is the component of the displacement or
     traction at depth (along the wave vector, normal). The second axis is the surface traction (Q,
     p).
 
-    displacement                                  (U, u_z), shape (2, 2, wavenumbers)
-                                                  [length^3/force]
-    traction                                      (tau_s, tau_z), shape (2, 2, wavenumbers) [1]
-    transverse_displacement, transverse_traction  u_t and -sigma_tz by the transverse traction t_t,
-                                                  shape (wavenumbers,)
+    displacement             (U, u_z), shape (2, 2, wavenumbers) [length^3/force]
+    traction                 (tau_s, tau_z), shape (2, 2, wavenumbers) [1]
+    transverse_displacement  u_t by the transverse traction t_t (wavenumbers,)
+    transverse_traction      -sigma_tz by the transverse traction t_t (wavenumbers,)
     """
 
     displacement: Array
@@ -50,12 +50,15 @@ class DepthScalars(NamedTuple):
 
 
 class PlaneScalars(NamedTuple):
-    """Stresses in a horizontal plane at one depth, per unit surface traction, in Fourier space.
+    """Stresses in a horizontal plane at one depth, per unit surface traction, as Fourier
+    amplitudes.
 
-    The axes are s along the wave vector and t across it.
+    The axes are s along the wave vector and t across it. The surface tractions are Q along the wave
+    vector, t_t across it, and the pressure p.
 
-    along, across  sigma_ss, sigma_tt by (Q, p), shape (2, wavenumbers)
-    shear          sigma_st / i by the transverse traction t_t, shape (wavenumbers,)
+    along   sigma_ss by (Q, p), shape (2, wavenumbers)
+    across  sigma_tt by (Q, p), shape (2, wavenumbers)
+    shear   sigma_st / i by the transverse traction t_t, shape (wavenumbers,)
     """
 
     along: Array
@@ -65,10 +68,10 @@ class PlaneScalars(NamedTuple):
 
 @dataclass(frozen=True)
 class Level:
-    """Depth in a given material of a layered body; an interface belongs to two materials.
+    """Depth in a body with the index of its layer, because an interface belongs to two layers.
 
     depth  depth below the surface [length]
-    layer  index of the layer; the number of layers denotes the base
+    layer  index of the layer from the surface; the number of layers denotes the base
     """
 
     depth: float
@@ -76,7 +79,9 @@ class Level:
 
 
 class Descent:
-    """Propagation of tractions from the surface of a layered body to depths, for fixed wavenumbers.
+    """Displacement and traction at the depths of a layered body by unit surface tractions.
+
+    The tractions are propagated from the surface downwards, for fixed wavenumbers.
 
     stack  layers and base of the body
     alpha  wavenumbers [1/length], > 0, shape (wavenumbers,)
@@ -98,7 +103,8 @@ class Descent:
             self._transverse.append(across * self._transverse[k])
 
     def at(self, level: Level) -> DepthScalars:
-        """Compute displacement and traction at a depth per unit surface traction, in Fourier space.
+        """Compute displacement and traction at one depth per unit surface traction, as Fourier
+        amplitudes.
 
         level  depth with the index of its layer; not inside a rigid base
         """
@@ -123,19 +129,24 @@ class Descent:
 
     @cached_property
     def _surface_remainder(self) -> tuple[Array, ...]:
-        """Surface compliances minus those of a half-space of the outermost material, times 2 G
-        alpha."""
+        """Surface compliances of the body minus those of a half-space of its outermost material.
+
+        The differences are multiplied by 2 G alpha, with the shear modulus G of this material and
+        the wavenumber alpha.
+        """
         unit = 2 * self.stack.outer.shear_modulus * self.alpha
         return tuple(unit * c for c in remainder_scalars(self.stack, self.alpha))
 
     def remainder(self, level: Level) -> DepthScalars:
-        """Compute displacement and traction at a level; in the outermost layer minus those of a
+        """Compute displacement and traction at one depth; in the outermost layer minus those of a
         half-space.
 
         The half-space has the material of the outermost layer of thickness h. The difference has no
         surface traction, and its surface displacement is computed without cancellation. The
-        difference grows with depth as exp(-alpha (2h - z)) and is exactly zero without layers. For
-        alpha h > 300, exp(alpha z) may overflow.
+        difference grows with depth z as exp(-alpha (2h - z)) and is exactly zero without layers.
+        For alpha h > 300, exp(alpha z) may overflow.
+
+        level  depth with the index of its layer
         """
         if level.layer > 0:
             return self.at(level)
@@ -157,7 +168,13 @@ class Descent:
 
 
 def material_at(stack: Stack, level: Level) -> HalfSpace:
-    """Return the elastic constants of the material at a level; raise ValueError in a rigid base."""
+    """Return the elastic constants of the material at one depth of a layered body.
+
+    stack  layers and base of the body
+    level  depth with the index of its layer
+
+    Raises ValueError in a rigid base, which has no stress.
+    """
     if level.layer < len(stack.layers):
         film = stack.layers[level.layer]
         return HalfSpace(film.shear_modulus, film.poisson_ratio)
@@ -167,8 +184,10 @@ def material_at(stack: Stack, level: Level) -> HalfSpace:
 
 
 def in_plane_stresses(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneScalars:
-    """Compute the stresses in a horizontal plane from displacement and traction by Hooke's law; nu
-    <= 1/2.
+    """Compute the stresses in a horizontal plane at one depth by Hooke's law, as Fourier
+    amplitudes.
+
+    Poisson's ratio may be 1/2.
 
     fields    displacement and traction at the depth
     material  elastic constants at the depth
@@ -185,15 +204,15 @@ def in_plane_stresses(fields: DepthScalars, material: HalfSpace, alpha: Array) -
 
 
 def _transmit_traction(below: Compliance, nu: float, x: Array) -> tuple[Array, Array]:
-    """Compute the traction at a depth per unit traction at a smaller depth within one material.
+    """Compute the traction at a depth per unit traction at a smaller depth in one material.
 
-    The results are the matrix (2, 2, wavenumbers) of the components along the wave vector and
-    normal, and the factor of the transverse component (wavenumbers,). The traction above is M times
-    that below; the matrix is the inverse of M.
+    The results are Fourier amplitudes: the matrix (2, 2, wavenumbers) of the components along the
+    wave vector and normal, and the factor of the transverse component (wavenumbers,). The traction
+    above is M times that below; the matrix is the inverse of M.
 
-    below  compliance of the material below the lower depth
+    below  compliance of the material below the larger depth
     nu     Poisson's ratio
-    x      wavenumber times the distance between the depths
+    x      wavenumber times the distance between the depths (wavenumbers,)
     """
     x = np.minimum(x, OPAQUE)
     decay, w = np.exp(-x), np.exp(-2 * x)
@@ -215,9 +234,10 @@ def _transmit_traction(below: Compliance, nu: float, x: Array) -> tuple[Array, A
 def _x_cosh_minus_sinh(x: Array, scale: Array | float = 1.0) -> Array:
     """Compute (x cosh x - sinh x) * scale, by series for x < 1, where the two terms nearly cancel.
 
-    Used for the propagation of stresses through a layer, with x the wavenumber times the distance.
+    Used for the propagation of tractions through a layer.
 
-    scale  exp(-x) to keep the result bounded, or one
+    x      wavenumber times the distance
+    scale  exp(-x) to keep the result bounded, or 1
     """
     series = np.zeros_like(x)
     small = np.minimum(x, 1.0)
@@ -231,6 +251,9 @@ def _x_cosh_minus_sinh(x: Array, scale: Array | float = 1.0) -> Array:
 
 
 def _multiply_matrices(left: Array, right: Array) -> Array:
-    """Multiply matrices over the first two axes, for each entry of the third axis."""
+    """Multiply two matrices at each wavenumber.
+
+    left, right  matrices along the first two axes, wavenumbers along the third
+    """
     result: Array = np.einsum("ijk,jlk->ilk", left, right)
     return result

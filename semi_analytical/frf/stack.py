@@ -73,12 +73,13 @@ class Stack:
 
     @property
     def is_rigid(self) -> bool:
-        """True if the body is rigid: a rigid base without layers."""
+        """True if the body is rigid, which means a rigid base without layers."""
         return self.base is None and not self.layers
 
     @property
     def outer(self) -> HalfSpace:
-        """Half-space of the outermost material, which determines the response to short waves."""
+        """Half-space of the outermost material of the body, which determines the response to short
+        waves."""
         if self.layers:
             return HalfSpace(self.layers[0].shear_modulus, self.layers[0].poisson_ratio)
         if self.base is None:
@@ -87,7 +88,7 @@ class Stack:
 
 
 def stack_of(body: Body) -> Stack:
-    """Build the stack (layers and base with elastic constants) of a body of the scene."""
+    """Return the layers and the base of a body of the scene, with their elastic constants."""
     base = body.material
     return Stack(
         [(*_elastic_constants(layer.material), layer.thickness) for layer in body.layers],
@@ -96,11 +97,16 @@ def stack_of(body: Body) -> Stack:
 
 
 def _elastic_constants(material: IsotropicMaterial) -> HalfSpace:
+    """Return the shear modulus and Poisson's ratio of an isotropic material."""
     return HalfSpace(material.shear_modulus, material.poisson_ratio)
 
 
 def _check_material(shear_modulus: float, poisson_ratio: float) -> None:
-    """Raise ValueError for elastic constants whose strain energy is not positive."""
+    """Raise ValueError unless the elastic constants of a material have a positive strain energy.
+
+    shear_modulus  must be positive and finite [force/length^2]
+    poisson_ratio  must be above -1 and at most 1/2
+    """
     if not (isfinite(shear_modulus) and shear_modulus > 0):
         raise ValueError(f"shear modulus is {shear_modulus}, expected a finite value > 0")
     if not -1 < poisson_ratio <= 0.5:

@@ -21,9 +21,12 @@ from semi_analytical.frf.stack import HalfSpace, Stack
 
 
 class Compliance(NamedTuple):
-    """Compliance (displacement per traction) of the material below a horizontal plane.
+    """Compliance (displacement per traction) of the material below a horizontal plane of a body.
 
-    rows   (det C, C11, C12, C22, 1) in units of 1/(2 G alpha)
+    The wavenumber is alpha, and G is the shear modulus of the material at the plane.
+
+    rows   (det C, C11, C12, C22, 1) of the compliance C along the wave vector and z, in units of
+           1/(2 G alpha)
     shear  transverse compliance in units of 1/(G alpha)
     """
 
@@ -49,12 +52,13 @@ class SurfaceScalars(NamedTuple):
 
 
 def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
-    """Compute the surface compliance of a half-space: transforms of the Boussinesq and Cerruti
-    solutions.
+    """Compute the surface compliance of a homogeneous half-space at given wavenumbers.
 
-    See Johnson (1985, section 3.2).
+    The compliances are the transforms of the Boussinesq and Cerruti solutions (Johnson 1985,
+    section 3.2).
 
-    alpha  wavenumbers [1/length], > 0
+    material  shear modulus and Poisson's ratio
+    alpha     wavenumbers [1/length], > 0
     """
     G, nu = material
     unit = 1 / (G * _check_wavenumbers(alpha))
@@ -62,11 +66,13 @@ def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
-    """Compute the surface compliance of layers on a half-space or a rigid base by the compound
-    recursion.
+    """Compute the surface compliance of layers on a half-space or a rigid base at given
+    wavenumbers.
 
-    The error is a few units in the last place, for c12 relative to sqrt(c11 c22).
+    The compound recursion is used. The error is a few units in the last place, for c12 relative to
+    sqrt(c11 c22).
 
+    stack  layers and base of the body
     alpha  wavenumbers [1/length], > 0
 
     Raises ValueError for alpha = 0: the displacement of an infinite body under uniform load is
@@ -86,11 +92,13 @@ def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
-    """Compute the surface compliance minus that of a half-space of the outermost material.
+    """Compute the surface compliance of a body minus that of a half-space of its outermost
+    material.
 
-    The differences vanish as exp(-2 alpha h), h the outermost thickness, and are computed with full
-    relative accuracy. They are exactly zero without layers.
+    The differences vanish as exp(-2 alpha h), with the thickness h of the outermost layer, and are
+    computed with full relative accuracy. They are exactly zero without layers.
 
+    stack  layers and base of the body
     alpha  wavenumbers [1/length], > 0
     """
     alpha = _check_wavenumbers(alpha)
@@ -107,11 +115,11 @@ def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def _remainder_of_thick_layer(stack: Stack, alpha: Array) -> SurfaceScalars:
-    """Compute the surface compliance of a body minus that of a half-space of its outermost
-    material.
+    """Compute the surface compliance of a body minus that of a half-space, for thick outermost
+    layers.
 
-    The difference is computed without cancellation for thick layers: the parts of an infinitely
-    thick layer are omitted from the hyperbolic functions.
+    The half-space has the material of the outermost layer. The parts of an infinitely thick layer
+    are omitted from the hyperbolic functions, so that the difference does not cancel.
 
     stack  layers and base of the body
     alpha  wavenumbers (n,) [1/length]
@@ -137,9 +145,10 @@ def _remainder_of_thick_layer(stack: Stack, alpha: Array) -> SurfaceScalars:
 
 
 def _compliance_below_layer(stack: Stack, alpha: Array) -> Compliance:
-    """Compute the compliance of the material below the outermost layer, in units 1/(2 G alpha).
+    """Compute the compliance of the material below the outermost layer, in units of 1/(2 G alpha).
 
-    G is the shear modulus of the outermost layer.
+    G is the shear modulus of the outermost layer. Without layers the compliance is that of the
+    base.
 
     stack  layers and base of the body
     alpha  wavenumbers (n,) [1/length]
@@ -150,8 +159,8 @@ def _compliance_below_layer(stack: Stack, alpha: Array) -> Compliance:
 def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
     """Compute the compliance of the material below each layer of a body.
 
-    The list begins with the outermost layer and ends with the base. Each compliance is in units
-    1/(2 G alpha), with G the shear modulus of its layer, for the last one of the base.
+    The list begins with the outermost layer and ends with the base itself. Each compliance is in
+    units of 1/(2 G alpha), with the shear modulus G of its layer, for the last one of the base.
 
     stack  layers and base of the body
     alpha  wavenumbers (n,) [1/length]
@@ -176,7 +185,8 @@ def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
 
 
 def compliance_above(below: Compliance, nu: float, x: Array) -> Compliance:
-    """Compute the compliance at a plane from the compliance at a deeper plane, in one material.
+    """Compute the compliance below a horizontal plane from that below a deeper plane, in one
+    material.
 
     below  compliance of the material below the deeper plane
     nu     Poisson's ratio of the material between the planes
@@ -192,7 +202,12 @@ def compliance_above(below: Compliance, nu: float, x: Array) -> Compliance:
 
 
 def _check_wavenumbers(alpha: ArrayLike) -> Array:
-    """Convert wavenumbers to an array; raise ValueError unless all are positive and finite."""
+    """Convert wavenumbers to an array of positive, finite numbers.
+
+    Raises ValueError otherwise: the surface compliance is unbounded at the wavenumber zero.
+
+    alpha  wavenumbers [1/length]
+    """
     alpha = np.asarray(alpha, dtype=np.float64)
     if not (np.all(alpha > 0) and np.all(np.isfinite(alpha))):
         raise ValueError("wavenumbers must be positive and finite: alpha = 0 has no response")

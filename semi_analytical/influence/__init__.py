@@ -1,2 +1,1 @@
-"""Influence coefficients: displacement at a cell centre by a unit traction on one cell of the
-surface."""
+"""Influence coefficients: surface displacement at a cell centre by a unit traction on one cell."""

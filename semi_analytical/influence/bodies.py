@@ -15,7 +15,9 @@ def influence_coefficients(
     offsets: tuple[int, int],
     rig: Rig | None = None,
 ) -> InfluenceCoefficients:
-    """Compute the influence coefficients of the relative displacement of two bodies.
+    """Return the influence coefficients of the relative displacement of two bodies.
+
+    The coefficients are displacements of cell centres by a unit traction on one cell.
 
     lower, upper  the two bodies
     spacing       cell sides [length]
@@ -39,6 +41,13 @@ def _body_coefficients(
     integrals: RectangleIntegrals,
     offsets: tuple[int, int],
 ) -> tuple[InfluenceCoefficients, ...]:
+    """Return the influence coefficients of one body as a tuple; an empty tuple for a rigid body.
+
+    body       body with or without layers
+    spacing    cell sides [length]
+    integrals  integrals over the loaded cell, for a homogeneous half-space
+    offsets    number of offsets along x and y, including zero
+    """
     if not body.deforms:
         return ()
     if body.layers or not isinstance(body.material, IsotropicMaterial):

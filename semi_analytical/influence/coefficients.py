@@ -20,15 +20,19 @@ PARITY = {
 
 
 class InfluenceCoefficients(Protocol):
-    """Displacement at the offset (i dx, j dy), i, j >= 0, by unit traction on the cell at the
-    origin.
+    """Displacement of a surface cell centre by a unit traction on one cell, for all cell offsets.
 
-    Other offsets follow from PARITY. By Maxwell-Betti reciprocity u_x by unit pressure is minus
-    u_z by unit q_x.
+    The offsets (i dx, j dy), i, j >= 0, point from the loaded cell to the displaced cell. Other
+    offsets follow from PARITY. By Maxwell-Betti reciprocity u_x by unit pressure is minus u_z by
+    unit q_x.
     """
 
     def __getitem__(self, component: str) -> Field:
-        """Return one component at all cell offsets (nx, ny) [length^3/force]."""
+        """Return one component of the influence coefficients at all cell offsets (nx, ny)
+        [length^3/force].
+
+        component  displacement and traction, e.g. "zx" for the normal displacement by the shear q_x
+        """
 
 
 @dataclass(frozen=True)
@@ -36,8 +40,8 @@ class Composite:
     """Influence coefficients of the relative displacement of two bodies under opposite tractions.
 
     lower, upper  influence coefficients of each body; empty for a rigid body
-    along, down   rigid tangential and normal displacement by a unit traction on one cell, by the
-                  springs of a test rig [length^3/force]
+    along, down   rigid tangential and normal displacement of all cells by a unit traction on one
+                  cell, due to the springs of a test rig [length^3/force]
     """
 
     lower: tuple[InfluenceCoefficients, ...]
@@ -47,15 +51,24 @@ class Composite:
     _known: dict[str, Field] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __getitem__(self, component: str) -> Field:
-        """Return one component at all cell offsets (nx, ny) [length^3/force]."""
+        """Return one component of the influence coefficients of two bodies at all cell offsets (nx,
+        ny).
+
+        The coefficients are relative displacements per unit traction on one cell [length^3/force].
+        They are stored after the first call.
+
+        component  displacement and traction, e.g. "zx" for the normal displacement by the shear q_x
+        """
         if component not in self._known:
             self._known[component] = self._combined(component)
         return self._known[component]
 
     def _combined(self, component: str) -> Field:
-        """Add the coefficients of both bodies and of the springs of a test rig.
+        """Add the influence coefficients of both bodies and of the springs of a test rig (nx, ny).
 
-        The coupling of the upper body has the opposite sign: its z axis points upwards.
+        The coupling of the upper body has the opposite sign, because its z axis points upwards.
+
+        component  displacement and traction, e.g. "zx" for the normal displacement by the shear q_x
         """
         sign = -1.0 if component in ("zx", "zy") else 1.0
         bodies = [body[component] for body in self.lower]

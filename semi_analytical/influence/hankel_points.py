@@ -23,10 +23,11 @@ FADE_CENTRE, FADE_WIDTH = 96.0, 16.0
 def hankel_points(r: float, limit: float) -> tuple[Array, Array]:
     """Return Gauss points and weights for Hankel transforms on the wavenumbers 0 < alpha < limit.
 
-    Panels double in width, so that layers of all thicknesses are resolved. Beyond PANEL_PHASE / r
-    they have equal widths, which resolve the Bessel functions.
+    The transforms yield the response of a layered body to a point force. Panels double in width, so
+    that layers of all thicknesses are resolved. Beyond PANEL_PHASE / r they have equal widths,
+    which resolve the Bessel functions.
 
-    r      largest distance of the transform [length]
+    r      largest distance from the force [length]
     limit  largest wavenumber [1/length]
     """
     step = PANEL_PHASE / r
@@ -43,10 +44,10 @@ def hankel_points(r: float, limit: float) -> tuple[Array, Array]:
 def faded_points(low: float, high: float, limit: float = inf) -> tuple[Array, Array]:
     """Return quadrature points and weights for Hankel transforms at distances that are not zero.
 
-    A smooth window removes wavenumbers that are large compared with the inverse of the smallest
-    distance.
+    The transforms yield the response of a layered body to a point force. A smooth window removes
+    wavenumbers that are large compared with the inverse of the smallest distance.
 
-    low, high  smallest and largest distance of the transform [length]
+    low, high  smallest and largest distance from the force [length]
     limit      wavenumber beyond which the integrand is zero [1/length]
     """
     alpha, weight = hankel_points(high, min(limit, (FADE_CENTRE + 6 * FADE_WIDTH) / low))

@@ -1,6 +1,6 @@
 """Influence coefficients of a layered body: integrals of its point response over the loaded cell.
 
-The rule depends on the distance from the loaded cell and is exact to rounding:
+The rule of integration depends on the distance from the loaded cell and is exact to rounding:
 
     at the origin   closed form of the outer material plus Gauss points for the smooth remainder;
     near            Gauss points on boxes that are small compared with their distance;
@@ -41,14 +41,14 @@ FOLDERS = ("frf", "influence")
 class LayeredCoefficients:
     """Influence coefficients of layers on a half-space or a rigid base, exact up to rounding.
 
-    Displacement per unit traction [length^3/force], with an error of about 1e-15 of the value at
-    the loaded cell (1e-12 if the cell is large compared with the layers on a rigid base). Each
-    component is computed on first use.
+    The coefficients are surface displacements per unit traction on one cell [length^3/force]. Their
+    error is about 1e-15 of the value at the loaded cell (1e-12 if the cell is large compared with
+    the layers on a rigid base). Each component is computed on first use.
 
     stack     body with at least one layer
     spacing   cell sides [length]
     shape     number of offsets along x and y, including zero
-    remember  cache of arrays, for instance `disk_cache.remembered`
+    remember  cache of arrays, for instance `disk_cache.cached_array`
     """
 
     stack: Stack
@@ -58,7 +58,14 @@ class LayeredCoefficients:
     _known: dict[str, Field] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __getitem__(self, component: str) -> Field:
-        """Return one component at all cell offsets (nx, ny) [length^3/force]."""
+        """Return one component of the influence coefficients of a layered body at all cell offsets
+        (nx, ny).
+
+        The coefficients are surface displacements per unit traction on one cell [length^3/force].
+        They come from the cache if it contains them.
+
+        component  displacement and traction, e.g. "zx" for the normal displacement by the shear q_x
+        """
         if component not in self._known:
             (dx, dy), (nx, ny) = self.spacing, self.shape
             given = (self.stack.layers, self.stack.base, float(dx), float(dy), int(nx), int(ny))
@@ -69,12 +76,22 @@ class LayeredCoefficients:
 
     @cached_property
     def _remainder_table(self) -> RadialTable:
-        """Table of the remainder by the layers, up to the farthest point that is averaged."""
+        """Table of the surface displacement under a point force that the layers add to a
+        half-space.
+
+        The table extends to the farthest point of the integration over cells.
+        """
         sides = ((n + MARGIN) * d for n, d in zip(self.shape, self.spacing, strict=True))
         return remainder_table(self.stack, hypot(*sides))
 
     def _integrate_component(self, component: str) -> Field:
-        """Integrate the point response of one component over the loaded cell (nx, ny)."""
+        """Integrate the surface displacement under a point force over the loaded cell, for all
+        offsets.
+
+        The result (nx, ny) is one component of the influence coefficients [length^3/force].
+
+        component  displacement and force, e.g. "zx"
+        """
         outer, parity, by_layers = self.stack.outer, PARITY[component], self._remainder_table
         response = partial(point_response, component, by_layers, half_space_response(outer))
         (result,) = cell_integrals(response, [parity], self.spacing, self.shape)
@@ -90,7 +107,10 @@ class LayeredCoefficients:
 
 @cache
 def sources_digest(package: Path = PACKAGE) -> str:
-    """Compute a digest of the source files in FOLDERS and of the library versions, for cache keys.
+    """Compute a digest of the source files of the influence coefficients, for the key of their
+    cache.
+
+    The digest includes the versions of the libraries. Coefficients of other sources are not reused.
 
     package  folder that contains FOLDERS
     """

@@ -1,8 +1,9 @@
 """Integrals over the cells of a grid of the response of a layered body to a point force.
 
-The integration in real space has neither aliasing nor periodic images. Cells near the singularity
-of the response are divided into boxes that are small compared with their distance from it, and
-integrated by Gauss points. On other cells the response at cell centres is averaged.
+These integrals are the influence coefficients. The integration in real space has neither aliasing
+nor periodic images. Cells near the singularity of the response are divided into boxes that are
+small compared with their distance from it, and integrated by Gauss points. On other cells the
+response at cell centres is averaged.
 """
 
 from collections.abc import Callable, Sequence
@@ -45,7 +46,8 @@ def cell_integrals(
     shape: tuple[int, int],
     clearance: float = 0.0,
 ) -> Field:
-    """Integrate components of a response over the cells at all offsets i < nx, j < ny.
+    """Integrate the response of a layered body to a point force over cells at offsets i < nx, j <
+    ny.
 
     The result has the shape (components, nx, ny). Without a clearance the integral over the cell at
     the origin, which contains the singularity, is not computed.
@@ -53,7 +55,7 @@ def cell_integrals(
     response   function of x and y relative to the force that returns (components, *x.shape)
     parities   parity of each component along x and y: 1 even, -1 odd
     spacing    cell sides [length]
-    shape      number of offsets along x and y
+    shape      number of offsets nx, ny along x and y
     clearance  height of the singularity above the origin [length]
     """
     result = _average_cells(response, parities, spacing, shape)
@@ -77,9 +79,16 @@ def _average_cells(
     spacing: tuple[float, float],
     shape: tuple[int, int],
 ) -> Field:
-    """Average the response at cell centres over each cell, times the cell area.
+    """Integrate a point-force response over cells far from its singularity, from values at cell
+    centres.
 
-    The result (components, nx, ny) is accurate only for cells far from the singularity.
+    The integral is a weighted average over nine cell centres along each axis, times the cell area.
+    The result (components, nx, ny) is not accurate for cells near the singularity.
+
+    response  function of x and y relative to the force that returns (components, *x.shape)
+    parities  parity of each component along x and y: 1 even, -1 odd
+    spacing   cell sides [length]
+    shape     number of offsets nx, ny along x and y
     """
     x, y = ((np.arange(n + MARGIN) * d) for n, d in zip(shape, spacing, strict=True))
     points = np.empty((len(parities), len(x), len(y)))
@@ -95,11 +104,14 @@ def _average_cells(
 
 
 def _average_along_axis(field: Field, axis: int, parity: int) -> Field:
-    """Average a response over the cells along one axis, from point values at offsets >= 0.
+    """Compute the average of a point-force response over each cell along one axis, from centre
+    values.
 
-    The result is shorter by MARGIN.
+    The result is shorter than the input by MARGIN.
 
-    parity  parity of the response along the axis
+    field   values at cell offsets >= 0
+    axis    0 for x, 1 for y
+    parity  parity of the response along the axis: 1 even, -1 odd
     """
     mirrored = parity * np.flip(np.take(field, range(1, MARGIN + 1), axis), axis)
     averaged = correlate1d(np.concatenate([mirrored, field], axis), CELL_AVERAGE, axis)
@@ -109,12 +121,14 @@ def _average_along_axis(field: Field, axis: int, parity: int) -> Field:
 def integrals_near(
     response: Response, cells: Indices, spacing: tuple[float, float], clearance: float
 ) -> Any:
-    """Integrate a response over cells near its singularity (components, n); 0 without cells.
+    """Integrate the response to a point force over cells near its singularity (components, n).
 
     Cells are divided into four boxes until each box is small compared with its distance from the
-    singularity.
+    singularity. The result is 0 if there are no cells.
 
+    response   function of x and y relative to the force that returns (components, *x.shape)
     cells      offsets (i, j) of the cells (n, 2)
+    spacing    cell sides [length]
     clearance  height of the singularity above the origin [length]
     """
     half, centres, cell = np.array(spacing) / 2, cells * np.array(spacing), np.arange(len(cells))

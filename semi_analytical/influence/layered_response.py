@@ -1,14 +1,16 @@
 """Surface displacement of a layered body at a point by unit forces at the origin.
 
 The response is that of a half-space of the outermost material plus a remainder by the layers. With
-the difference of the two surface FRFs (frequency response functions) the remainder is
+the difference of the two surface FRFs (frequency response functions, functions of the wavenumber
+alpha) the remainder is
 
     zz    K0 = 1/2pi  int  C22 J0(alpha r) alpha d alpha,
     mean  P  = 1/4pi  int (C11 + Csh) J0(alpha r) alpha d alpha,
     twist Q  = 1/4pi  int (C11 - Csh) J2(alpha r) alpha d alpha,
     cross C  = 1/2pi  int  C12 J1(alpha r) alpha d alpha,
 
-with u_z = K0 p, u_x = (P - cos 2phi Q) q_x - sin 2phi Q q_y, u_z = cos phi C q_x.
+with u_z = K0 p, u_x = (P - cos 2phi Q) q_x - sin 2phi Q q_y, u_z = cos phi C q_x. (r, phi) are the
+polar coordinates of the point.
 """
 
 from math import pi
@@ -23,11 +25,14 @@ from semi_analytical.influence.radial_table import RadialTable, tabulate
 
 
 def remainder_table(stack: Stack, reach: float) -> RadialTable:
-    """Tabulate the remainder (zz, mean, twist, cross) of a layered body up to a distance.
+    """Compute a table of the surface displacement under a point force that layers add to a
+    half-space.
 
-    Its nearest singularity is the image of the force in the first interface, at twice the
-    thickness of the outermost layer.
+    The table holds four functions (zz, mean, twist, cross) of the distance from the force. Their
+    nearest singularity is the image of the force in the first interface, at twice the thickness of
+    the outermost layer.
 
+    stack  layers and base of the body
     reach  largest distance from the force [length]
     """
 
@@ -43,10 +48,13 @@ def remainder_table(stack: Stack, reach: float) -> RadialTable:
 
 
 def half_space_response(material: HalfSpace) -> Array:
-    """Return r times the radial functions (zz, mean, twist, cross) of a homogeneous half-space
+    """Return the surface displacement of a half-space under a point force, times the distance r
     (4,).
 
-    The products are constants. r is the distance from a point force on the surface.
+    The displacement has four radial functions (zz, mean, twist, cross). Their products with r are
+    constants.
+
+    material  shear modulus G and Poisson's ratio
     """
     G, nu = material
     return np.array([2 - 2 * nu, 2 - nu, -nu, 1 - 2 * nu]) / (4 * pi * G)
@@ -55,15 +63,16 @@ def half_space_response(material: HalfSpace) -> Array:
 def point_response(
     component: str, remainder: RadialTable, half_space: Array, x: Field, y: Field
 ) -> Field:
-    """Compute the surface displacement at points (x, y) by a unit force at the origin
-    [length/force].
+    """Compute one component of the surface displacement at points (x, y) by a unit force at the
+    origin.
 
-    At the origin the part of the half-space is not defined; a finite number is returned.
+    The result has the shape (1, *x.shape) and the dimension [length/force]. At the origin the
+    displacement of the half-space is not defined; a finite number is returned.
 
     component   displacement and force, e.g. "zx"
-    remainder   table of the remainder by the layers
+    remainder   table of the displacement that the layers add to a half-space
     half_space  r times the response of the half-space (4,); zeros for the remainder alone
-    returns     shape (1, *x.shape)
+    x, y        coordinates of the points [length]
     """
     r = np.hypot(x, y)
     away = np.where(r > 0, r, 1.0)

@@ -1,8 +1,8 @@
 """Tables of radial functions of the response of a layered body to a point force.
 
-Chebyshev interpolation on panels of the distance from the force. The first panel begins at the
-force. The bounds of the others grow by the factor sqrt(2), so that powers of the distance are
-equally smooth on each panel.
+The functions depend on the distance from the force. They are interpolated by Chebyshev polynomials
+on panels of the distance. The first panel begins at the force. The bounds of the others grow by the
+factor sqrt(2), so that powers of the distance are equally smooth on each panel.
 """
 
 from collections.abc import Callable
@@ -27,9 +27,11 @@ Transforms = Callable[[Array, Array, Array], Array]
 
 @dataclass(frozen=True)
 class RadialTable:
-    """Table of functions of the distance r from a point force, on 0 <= r <= edges[-1].
+    """Table of several functions of the distance r from a point force, on 0 <= r <= edges[-1].
 
-    edges         panel bounds [length], shape (panels + 1,), edges[0] = 0
+    The functions are displacements or stresses of a layered body.
+
+    edges         panel bounds, edges[0] = 0, shape (panels + 1,) [length]
     coefficients  Chebyshev coefficients, shape (panels, NODES, functions)
     """
 
@@ -37,7 +39,11 @@ class RadialTable:
     coefficients: Array
 
     def __call__(self, r: Array) -> Array:
-        """Interpolate the functions at distances r (n,), shape (functions, n)."""
+        """Interpolate the tabulated functions at distances from the point force; shape (functions,
+        n).
+
+        r  distances from the force (n,) [length]
+        """
         panels = np.clip(np.searchsorted(self.edges, r) - 1, 0, len(self.edges) - 2)
         values = np.empty((self.coefficients.shape[2], len(r)))
         for panel in np.flatnonzero(np.bincount(panels)):
@@ -53,12 +59,16 @@ class RadialTable:
 
 
 def tabulate(transforms: Transforms, clearance: float, reach: float) -> tuple[Array, Array]:
-    """Return panel bounds and Chebyshev coefficients (..., panels, NODES, functions) of functions.
+    """Compute the table of functions of the distance from a point force, given as Hankel
+    transforms.
+
+    Return the panel bounds (panels + 1,) and the Chebyshev coefficients (..., panels, NODES,
+    functions).
 
     transforms  function of distances (n,), wavenumbers and quadrature weights that returns the
                 Hankel transforms (..., n, functions)
     clearance   distance d of the force from the nearest singularity of the functions [length]; the
-                integrands fall like exp(-alpha d)
+                integrands fall like exp(-alpha d) with the wavenumber alpha
     reach       largest distance of the table [length]
     """
     core, limit = min(clearance / 2, reach), LARGEST_PHASE / clearance
@@ -77,10 +87,11 @@ def tabulate(transforms: Transforms, clearance: float, reach: float) -> tuple[Ar
 
 
 def _chebyshev_polynomials(place: Array) -> Array:
-    """Evaluate the first NODES Chebyshev polynomials T_k at positions in [-1, 1], (NODES,
-    positions).
+    """Evaluate the first NODES Chebyshev polynomials T_k at n positions in one panel (NODES, n).
 
     The recursion T_{m+k} = 2 T_m T_k - T_{m-k} doubles the number of polynomials in each step.
+
+    place  positions between the ends of the panel, from -1 to 1 (n,)
     """
     found = np.empty((NODES, len(place)))
     found[0], found[1] = 1.0, place

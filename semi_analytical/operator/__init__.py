@@ -1,1 +1,4 @@
-"""Displacement operators and their approximate inverses on the full window or a reduced domain."""
+"""Operators from tractions to surface displacements, and their approximate inverses.
+
+The fields are on the full window or on a reduced domain.
+"""

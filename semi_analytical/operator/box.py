@@ -1,5 +1,7 @@
-"""Box of cells around a contact; tractions are zero outside. Smaller boxes make convolutions
-cheaper."""
+"""Box of cells around a contact, outside of which the tractions are zero.
+
+Convolutions on a smaller box cost less.
+"""
 
 from dataclasses import dataclass
 
@@ -25,25 +27,32 @@ class Box:
 
     @classmethod
     def whole(cls, cells: tuple[int, int]) -> "Box":
-        """Return the box that contains all cells (nx, ny) of a window or reduced domain."""
+        """Return the box that contains all cells of a window or reduced domain.
+
+        cells  number of cells along x and y
+        """
         return cls((0, 0), cells)
 
     @property
     def slices(self) -> tuple[slice, slice]:
-        """Slices of the box for arrays whose last two axes are the cells of the window."""
+        """Slices that select the box from fields whose last two axes are the cells."""
         (i, j), (nx, ny) = self.first, self.shape
         return slice(i, i + nx), slice(j, j + ny)
 
     def embed(self, values: Field, cells: tuple[int, int]) -> Field:
-        """Extend values on the box (..., *shape) by zeros to the window (..., *cells)."""
+        """Extend a field from the box to the domain, with zeros outside of the box.
+
+        values  field on the box (…, *shape)
+        cells   number of cells of the domain along x and y
+        """
         field = np.zeros((*values.shape[:-2], *cells))
         field[..., self.slices[0], self.slices[1]] = values
         return field
 
     def mask(self, cells: tuple[int, int]) -> Mask:
-        """Return a mask (nx, ny) that is True for the cells in the box.
+        """Return a mask (nx, ny) that is True in the cells of the box.
 
-        cells  number of cells of the domain along x and y
+        cells  number of cells nx, ny of the domain along x and y
         """
         inside = np.zeros(cells, dtype=bool)
         inside[self.slices] = True
@@ -51,7 +60,8 @@ class Box:
 
 
 def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
-    """Return the smallest box around given cells and a margin, with sides in multiples of QUANTUM.
+    """Return the smallest box that contains given cells and a margin, with sides in multiples of
+    16.
 
     Convolutions are restricted to this box. A side that does not fit becomes the side of the
     window. On a reduced domain the box surrounds the cells and their mirror images and is then
@@ -59,7 +69,7 @@ def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
 
     cells   cells that the box must contain, such as those in contact (nx, ny)
     margin  number of cells around them
-    domain  domain of `cells`
+    domain  domain of `cells`: full window or reduced domain
     """
     sides = [
         (_half_box_side if mirrored else _box_side)(np.any(cells, axis=1 - axis), margin)
@@ -69,7 +79,9 @@ def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
 
 
 def _box_side(marked: Mask, margin: int) -> tuple[int, int]:
-    """Return the first index and the number of cells of the box `box_around` along one axis.
+    """Compute the first index and the number of cells of a box of cells along one axis.
+
+    The box contains given cells and a margin. Its number of cells is a multiple of QUANTUM.
 
     marked  True at indices along the axis with cells that the box must contain
     margin  number of cells on both sides of them
@@ -85,10 +97,9 @@ def _box_side(marked: Mask, margin: int) -> tuple[int, int]:
 
 
 def _half_box_side(marked: Mask, margin: int) -> tuple[int, int]:
-    """Return first index and number of cells of the box `box_around` along an axis with a mirror
-    plane.
+    """Compute the first index and the number of cells of a box along an axis with a mirror plane.
 
-    The plane lies before cell 0, so that the box begins there.
+    The plane lies before cell 0, so that the half of the box in the reduced domain begins there.
 
     marked  True at indices along the axis with cells that the box must contain
     margin  number of cells around them

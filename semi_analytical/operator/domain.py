@@ -1,5 +1,8 @@
-"""Symmetry reduction: full window, or its half or quarter between mirror planes of the contact
-problem."""
+"""Symmetry reduction of the contact problem to a half or quarter of the window.
+
+The full window is the domain without mirror planes. Fields are restricted to the reduced domain,
+and extended to the window by their mirror images.
+"""
 
 from dataclasses import dataclass, fields, replace
 from typing import Any, TypeVar
@@ -22,11 +25,12 @@ ROUND_OFF = 1e-9
 
 @dataclass(frozen=True)
 class ReducedDomain:
-    """Domain of the computation: the window, its half x > 0 or y > 0, or its quarter x > 0, y > 0.
+    """Domain of the computation: the full window, or its half or quarter between mirror planes.
 
-    Scalar fields (pressure, gap, u_z) are even about mirror planes. Indices count from the planes.
+    The domain is x > 0, y > 0, or both. Scalar fields (pressure, gap, u_z) are even about mirror
+    planes. Cell indices count from the planes.
 
-    mirrors  True for x = 0 and y = 0 if the plane is a mirror plane
+    mirrors  True for x = 0 and for y = 0 if the plane is a mirror plane
     shear    for each plane, 1 if reflection preserves the shear field, -1 if it reverses the field
     """
 
@@ -40,7 +44,7 @@ class ReducedDomain:
 
     @property
     def _side_ratios(self) -> Pair:
-        """Ratio of the window's side to the domain's side along x and y: 2 with a mirror plane,
+        """Length of the window over length of the domain, along x and y: 2 with a mirror plane,
         else 1."""
         x, y = self.mirrors
         return 1 + x, 1 + y
@@ -53,64 +57,73 @@ class ReducedDomain:
 
     @property
     def scalar(self) -> Parity:
-        """Parity of scalar fields about x = 0 and y = 0: 1 (even) about a mirror plane, 0
-        without one."""
+        """Parity of scalar fields about the planes x = 0 and y = 0.
+
+        The parity is 1 (even) about a mirror plane, and 0 about a plane that is not a mirror plane.
+        """
         x, y = self.mirrors
         return int(x), int(y)
 
     @property
     def vector(self) -> tuple[Parity, Parity]:
-        """Parities of the x and the y component of tangential fields about x = 0 and y = 0.
+        """Parities of the x and the y component of tangential fields about the planes x = 0 and y =
+        0.
 
-        1 is even, -1 odd, 0 no mirror plane.
+        1 is even, -1 is odd, 0 means that the plane is not a mirror plane.
         """
         (x, y), (s_x, s_y) = self.scalar, self.shear
         return (-s_x * x, s_y * y), (s_x * x, -s_y * y)
 
     @property
     def binned_slip(self) -> Parity:
-        """Parity about x = 0 and y = 0 of the bins of slip compliance, which act on slip
-        directions.
+        """Parity about x = 0 and y = 0 of the shear changes in bins of slip compliance.
 
-        A bin holds changes of the shear perpendicular to the slip, whose sign is that of a
-        rotation. The parity is -1 (odd) about a mirror plane and 0 without one.
+        The preconditioner of the tangential problem uses these bins. A bin holds changes of the
+        shear perpendicular to the slip, whose sign is that of a rotation. The parity is therefore
+        -1 (odd) about a mirror plane, and 0 without one.
         """
         x, y = self.scalar
         return -x, -y
 
     @property
     def summed(self) -> tuple[bool, bool]:
-        """True for x and y if this component of tangential fields has a resultant; odd
-        components have none."""
+        """True for x and y if the sum of this component of tangential fields can be non-zero.
+
+        Components that are odd about a mirror plane have the sum 0.
+        """
         x, y = (-1 not in parity for parity in self.vector)
         return x, y
 
     def cells(self, window: Pair) -> Pair:
-        """Return the number of cells of the domain along x and y.
+        """Return the number of cells of the reduced domain along x and y.
 
-        window  number of cells of the window along x and y
+        window  number of cells of the full window along x and y
         """
         x, y = self._side_ratios
         return window[0] // x, window[1] // y
 
     def window(self, cells: Pair) -> Pair:
-        """Return the number of cells of the window along x and y.
+        """Return the number of cells of the full window along x and y.
 
-        cells  number of cells of the domain along x and y
+        cells  number of cells of the reduced domain along x and y
         """
         x, y = self._side_ratios
         return x * cells[0], y * cells[1]
 
     def restrict(self, field: AnyField) -> AnyField:
-        """Restrict a field of the full window (…, nx, ny) to the reduced domain."""
+        """Restrict a field of the full window to the reduced domain.
+
+        field  field on the window (…, nx, ny)
+        """
         nx, ny = self.cells((field.shape[-2], field.shape[-1]))
         return np.ascontiguousarray(field[..., field.shape[-2] - nx :, field.shape[-1] - ny :])
 
     def extend(self, field: AnyField) -> AnyField:
-        """Extend a scalar (nx, ny) or tangential field (2, nx, ny) from the reduced domain to the
-        window.
+        """Extend a field from the reduced domain to the full window by its mirror images.
 
         The mirror images have the parities `scalar` and `vector`.
+
+        field  scalar field (nx, ny) or tangential field (2, nx, ny)
         """
         if not any(self.mirrors):
             return field
@@ -121,33 +134,46 @@ class ReducedDomain:
         )
 
     def extend_fields(self, record: Record) -> Record:
-        """Return a dataclass with all its fields (arrays of two or three axes) extended to the
-        window."""
+        """Return a copy of a dataclass whose fields are extended from the reduced domain to the
+        window.
+
+        Arrays of two axes are scalar fields, arrays of three axes tangential fields. Other
+        attributes do not change.
+
+        record  dataclass instance, such as a solved state
+        """
         found = {one.name: getattr(record, one.name) for one in fields(record)}  # type: ignore[arg-type]
         arrays = {n: v for n, v in found.items() if isinstance(v, np.ndarray) and v.ndim > 1}
         return replace(record, **{name: self.extend(v) for name, v in arrays.items()})  # type: ignore[type-var]
 
     def resultant(self, field: Field) -> Field:
-        """Compute the sums of both components of a tangential field (2, nx, ny) over the domain
-        (2,).
+        """Compute the sum of each component of a tangential field over the domain (2,).
 
-        Odd components have the sum 0.
+        Odd components have the sum 0 over the window, and this value is returned.
+
+        field  tangential field (2, nx, ny)
         """
         return np.where(self.summed, np.sum(field, axis=(1, 2)), 0.0)
 
     def rim(self, values: AnyField) -> AnyField:
-        """Return the values of a field (nx, ny) in the cells at the border of the window, as a flat
-        array.
+        """Return the values of a field in the cells at the border of the window, as a flat array.
 
-        Cells at a mirror plane are not at the border of the window.
+        Cells at a mirror plane are not at the border. Used to detect contacts that reach the
+        border.
+
+        values  field on the domain (nx, ny)
         """
         (x, y), (nx, ny) = self.mirrors, values.shape
         rows, columns = [0] * (not x) + [nx - 1], [0] * (not y) + [ny - 1]
         return np.concatenate([values[rows].ravel(), values[:, columns].ravel()])
 
     def add_frame(self, field: AnyField, width: int) -> AnyField:
-        """Add a frame of `width` cells to a scalar field (nx, ny): mirror images beyond planes,
-        else zeros."""
+        """Add a frame of cells around a scalar field: mirror images beyond mirror planes, else
+        zeros.
+
+        field  scalar field (nx, ny)
+        width  number of cells of the frame on each side
+        """
         nx, ny = field.shape
         framed = np.zeros((nx + 2 * width, ny + 2 * width), dtype=field.dtype)
         framed[width : width + nx, width : width + ny] = field
@@ -159,10 +185,10 @@ class ReducedDomain:
         return framed
 
     def fold_frame(self, framed: Field, width: int) -> Field:
-        """Remove a frame of `width` cells from a displacement field of a reduced domain.
+        """Remove the frame of cells around a displacement field of a reduced domain.
 
         The displacement beyond a mirror plane is added to that of the mirror cell in the domain.
-        The operation is the adjoint of `framed`.
+        The operation is the adjoint of `add_frame`.
 
         framed  displacement with its frame (nx + 2 width, ny + 2 width)
         width   number of cells of the frame on each side
@@ -175,9 +201,11 @@ class ReducedDomain:
         return framed[width:-width, width:-width]
 
     def differences(self, field: Field) -> Field:
-        """Compute the change per cell of a scalar field (nx, ny) along both axes (2, nx, ny).
+        """Compute the slopes of a scalar field along x and y (2, nx, ny), as changes per cell.
 
         Differences are central, and one-sided at the border of the window.
+
+        field  scalar field (nx, ny)
         """
         framed, slopes = self.add_frame(field, 1), np.empty((2, *field.shape))
         np.subtract(framed[2:, 1:-1], framed[:-2, 1:-1], out=slopes[0])
@@ -191,7 +219,10 @@ class ReducedDomain:
         return slopes
 
     def require_even(self, gap: Field) -> None:
-        """Raise ValueError unless a gap of the window (nx, ny) is even about the mirror planes."""
+        """Raise ValueError unless a gap is even about the mirror planes of the reduced domain.
+
+        gap  gap on the full window (nx, ny); may be infinite
+        """
         for axis in self.planes:
             image = np.flip(gap, axis)
             if np.array_equal(gap, image):  # the usual case, and fast
@@ -204,6 +235,11 @@ class ReducedDomain:
 
 
 def _extend_by_parity(field: AnyField, parity: Parity) -> AnyField:
+    """Append mirror images to a field beyond the planes x = 0 and y = 0.
+
+    field   field on the reduced domain (nx, ny)
+    parity  sign of the mirror image about each plane; 0 without a mirror plane
+    """
     for axis, sign in enumerate(parity):
         if sign:
             image = np.flip(field, axis)

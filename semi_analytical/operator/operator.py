@@ -1,5 +1,7 @@
-"""Displacement operator: convolution of tractions with influence coefficients, and approximate
-inverses."""
+"""Operator from tractions to surface displacements, and its approximate inverses.
+
+The operator is a convolution of the tractions with influence coefficients.
+"""
 
 from __future__ import annotations
 
@@ -26,10 +28,11 @@ BINS = "".join(str(number) for number in range(len(COMPLIANCES)))
 
 
 def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Response:
-    """Compute the real factors between the Fourier amplitudes of a traction and a displacement
-    component.
+    """Compute the real factors from the amplitudes of a traction component to those of a
+    displacement.
 
-    The factors follow from the spectrum of the influence coefficients.
+    Fields are represented by Fourier, cosine or sine amplitudes. The factors follow from the
+    spectrum of the influence coefficients.
 
     transforms  transforms of the domain
     pair        names of the displacement and the traction component, e.g. "zx"
@@ -50,8 +53,7 @@ def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Res
 
 
 def _sort_factors(lines: Field, one: int, other: int) -> Field:
-    """Sort the factors of a traction-displacement pair along one axis in the order of the
-    amplitudes.
+    """Sort the factors from traction to displacement amplitudes in the order of the amplitudes.
 
     Fourier transforms (no mirror plane) have two real amplitudes per wavenumber. Sine transforms
     have the largest wavenumber in the place of 0, where the factor between a sine and a cosine
@@ -97,11 +99,20 @@ class Product:
         self._entries = {name: entries[name] for row in self._rows for _, name in row}
 
     def __call__(self, values: Array) -> Array:
-        """Convolve input fields (inputs, nx, ny) with the matrix of kernels; return (outputs, nx,
-        ny)."""
+        """Compute the convolution of fields with the matrix of kernels (outputs, nx, ny).
+
+        values  input fields (inputs, nx, ny)
+        """
         return self._transforms.filter_fields(values, *self._sides, self._multiply_amplitudes)
 
     def _multiply_amplitudes(self, amplitudes: Sequence[Array], columns: slice) -> list[Array]:
+        """Multiply the amplitudes of the input fields by the matrix of factors.
+
+        The results are the amplitudes of the output fields.
+
+        amplitudes  amplitudes of each input field at some wavenumbers along y
+        columns     slice of these wavenumbers
+        """
         dtype = amplitudes[0].dtype  # mixed products would be slower
         entries = self._entries.items()
         some = {name: entry[columns].astype(dtype, copy=False) for name, entry in entries}
@@ -116,14 +127,15 @@ class Product:
 
 
 class DisplacementOperator:
-    """Operator from tractions on a box of cells to surface displacements of these cells.
+    """Operator from tractions on a box of cells to the surface displacements of these cells.
 
-    A call counts as 1/2 convolution per transformed component. Spectra, responses and approximate
-    inverses are built on first use.
+    Displacements are relative: those of the lower minus those of the upper body. A call counts as
+    1/2 convolution per transformed component. Spectra, factors and approximate inverses are
+    computed on first use.
 
     coefficients  influence coefficients of both bodies
     shape         number of cells of the box along x and y
-    domain        reduced domain that contains the box
+    domain        full window or reduced domain that contains the box
     counter       counter of convolutions
     """
 
@@ -141,31 +153,58 @@ class DisplacementOperator:
         self._products: dict[tuple[str, str], Product] = {}
 
     def normal(self, pressure: Field) -> Field:
-        """Compute the normal surface displacement u_z (nx, ny) [length] caused by a pressure
-        (nx, ny)."""
+        """Compute the normal surface displacement u_z of each cell caused by a pressure (nx, ny)
+        [length].
+
+        pressure  pressure of the cells (nx, ny) [force/length^2]
+        """
         return self._apply_product("z", "z", pressure[None])[0]
 
     def tangential(self, shear: Field) -> Field:
-        """Compute the tangential surface displacement (2, nx, ny) [length] caused by a shear (2,
-        nx, ny)."""
+        """Compute the tangential surface displacement of each cell caused by a shear (2, nx, ny)
+        [length].
+
+        shear  shear of the cells (2, nx, ny) [force/length^2]
+        """
         return self._apply_product("xy", "xy", shear)
 
     def normal_by_shear(self, shear: Field) -> Field:
-        """Compute the normal surface displacement u_z (nx, ny) [length] caused by a shear (2,
-        nx, ny)."""
+        """Compute the normal surface displacement u_z of each cell caused by a shear (nx, ny)
+        [length].
+
+        The displacement is zero for two identical bodies.
+
+        shear  shear of the cells (2, nx, ny) [force/length^2]
+        """
         return self._apply_product("xy", "z", shear)[0]
 
     def tangential_by_pressure(self, pressure: Field) -> Field:
-        """Compute the tangential surface displacement (2, nx, ny) [length] caused by a pressure
-        (nx, ny)."""
+        """Compute the tangential surface displacement of each cell caused by a pressure (2, nx, ny)
+        [length].
+
+        The displacement is zero for two identical bodies.
+
+        pressure  pressure of the cells (nx, ny) [force/length^2]
+        """
         return self._apply_product("z", "xy", pressure[None])
 
     def together(self, tractions: Field) -> Field:
-        """Compute all surface displacements (u_x, u_y, u_z) [length] caused by (q_x, q_y, p), both
-        (3, nx, ny)."""
+        """Compute all three surface displacements of each cell caused by all tractions (3, nx, ny)
+        [length].
+
+        The displacements are (u_x, u_y, u_z). The cost is that of six transforms.
+
+        tractions  (q_x, q_y, p) of the cells (3, nx, ny) [force/length^2]
+        """
         return self._apply_product("xyz", "xyz", tractions)
 
     def _apply_product(self, inputs: str, outputs: str, values: Field) -> Field:
+        """Compute some displacement components from some traction components, by convolution.
+
+        inputs   names of the traction components, e.g. "xy"
+        outputs  names of the displacement components
+        values   tractions of the cells (inputs, nx, ny)
+        """
         self.transforms.counter.count += 0.5 * (len(inputs) + len(outputs))
         if (inputs, outputs) not in self._products:
             pairs = {"".join(sorted(a + b)) for a in inputs for b in outputs}
@@ -177,7 +216,7 @@ class DisplacementOperator:
         return self._products[inputs, outputs](values)
 
     def spectrum(self, pair: str) -> KernelSpectrum:
-        """Compute the real Fourier spectrum of the influence coefficients of two components.
+        """Compute the real Fourier spectrum of one component of the influence coefficients.
 
         The spectrum has the zero-padded period. It is stored after the first call.
 
@@ -192,22 +231,33 @@ class DisplacementOperator:
 
     @property
     def self_compliance(self) -> float:
-        """Tangential displacement of a cell under unit shear, mean of x and y [length^3/force]."""
+        """Tangential displacement of a cell by a unit shear on the same cell, mean of x and y.
+
+        The dimension is [length^3/force].
+        """
         return float(0.5 * (self._coefficients["xx"][0, 0] + self._coefficients["yy"][0, 0]))
 
     def precondition(self, displacement: Field) -> Field:
-        """Apply the approximate inverse of `normal` to a normal displacement; return a pressure
-        (nx, ny)."""
+        """Apply the approximate inverse of the map from pressure to normal displacement.
+
+        The result is a pressure (nx, ny). Used to precondition the conjugate gradients of the
+        normal problem.
+
+        displacement  normal displacement of the cells (nx, ny)
+        """
         return self._pressure_inverse(displacement[None])[0]
 
     @cached_property
     def _pressure_inverse(self) -> ApproximateInverse:
+        """Approximate inverse of the map from pressure to normal displacement."""
         return ApproximateInverse(self.transforms, {"zz": self._inverse_normal()})
 
     @cached_property
     def shear_inverse(self) -> ApproximateInverse:
-        """Approximate inverse of the map from shear to tangential displacement, with bins of
-        slip compliance."""
+        """Approximate inverse of the map from shear to tangential displacement.
+
+        It includes the bins of slip compliance, and preconditions the tangential problem.
+        """
         return ApproximateInverse(self.transforms, self._inverse_tangential())
 
     @cached_property
@@ -220,9 +270,20 @@ class DisplacementOperator:
         return ApproximateInverse(self.transforms, spectra, SINGLE)
 
     def _inverse_normal(self) -> Field:
+        """Compute the spectrum of the approximate inverse of the normal displacement operator.
+
+        The spectrum of the influence coefficients without zero padding is inverted at each
+        wavenumber.
+        """
         return positive_inverse(self.spectrum("zz").quarter[::2, ::2])
 
     def _inverse_tangential(self) -> dict[str, Field]:
+        """Compute the spectra of the approximate inverse of the tangential displacement operator.
+
+        The results are the components xx, yy, xy, and one scalar spectrum per bin of slip
+        compliance. A scalar spectrum inverts the mean tangential compliance plus the compliance of
+        the bin.
+        """
         xx, yy, xy = (self.spectrum(pair).quarter[::2, ::2] for pair in ("xx", "yy", "xy"))
         found = dict(zip(("xx", "yy", "xy"), inverse_2x2(xx, yy, xy), strict=True))
         mean = np.abs(0.5 * (xx + yy))
@@ -232,16 +293,16 @@ class DisplacementOperator:
 
 
 class ApproximateInverse:
-    """Approximate inverse of the displacement operator without normal-tangential coupling
-    (preconditioner).
+    """Approximate inverse of the displacement operator, without normal-tangential coupling.
 
-    The input are displacements, the output tractions. The spectra are those of the influence
+    This preconditioner maps displacements to tractions. The spectra are those of the influence
     coefficients without zero padding. A component costs 1/4 convolution. Components are x, y and z
     if they have spectra, then the bins of slip compliance. A bin is a scalar shear, for which the
     mean tangential compliance plus the compliance of the bin is inverted.
 
-    spectra  spectra of the inverse (quarters) by pairs of components; real and symmetric
-    dtype    precision of the transforms
+    transforms  transforms of the domain
+    spectra     spectra of the inverse (quarters) by pairs of components; real and symmetric
+    dtype       precision of the transforms
     """
 
     def __init__(
@@ -258,21 +319,24 @@ class ApproximateInverse:
         self._apply_product = Product(transforms, entries, names, names, padded=False, dtype=dtype)
 
     def __call__(self, displacements: Array) -> Array:
-        """Compute tractions (components, nx, ny) from displacements of the same shape.
+        """Compute approximate tractions that cause given surface displacements (components, nx,
+        ny).
 
-        The displacements must be within the range of `dtype`.
+        displacements  displacement components and bins (components, nx, ny), within the range of
+                       `dtype`
         """
         tractions = self._apply_product(np.asarray(displacements, dtype=self._dtype))
         tractions *= 1 / self._unit
         return tractions
 
     def with_compliance(self, compliance: float) -> ApproximateInverse:
-        """Build the approximate inverse for surfaces with an additional compliance in each cell.
+        """Return the approximate inverse for surfaces with an additional compliance in each cell.
 
         The proximal-point method adds this compliance. The compliances of the bins increase in
         proportion to the self-compliance of a cell.
 
-        compliance  additional displacement of a cell by its own unit traction [length^3/force]
+        compliance  additional displacement of a cell by unit traction on the same cell
+                    [length^3/force]
         """
         xx, yy, xy = (self._spectra[pair] for pair in ("xx", "yy", "xy"))
         # (F + ρ)⁻¹ = F⁻¹ (1 + ρ F⁻¹)⁻¹
@@ -290,21 +354,27 @@ class ApproximateInverse:
 
 
 def positive_inverse(spectrum: Field) -> Field:
-    """Compute 1/|S| of a spectrum S, with a lower bound on |S| that keeps the result finite.
+    """Compute 1/|S| of a Fourier spectrum S, with a lower bound on |S| that keeps the result
+    finite.
 
     Used for preconditioners: conjugate gradients require a positive matrix. Values of S can be
     negative for films much stiffer than their base, because the displacements reach beyond the
     period.
+
+    spectrum  spectrum of influence coefficients, by wavenumber
     """
     size = np.abs(spectrum)
     return np.asarray(1 / np.maximum(size, np.finfo(float).eps * np.max(size)))
 
 
 def inverse_2x2(xx: Field, yy: Field, xy: Field) -> tuple[Field, Field, Field]:
-    """Invert the tangential spectrum, a symmetric matrix [[xx, xy], [xy, yy]], at every wavenumber.
+    """Invert the tangential spectrum, a symmetric matrix [[xx, xy], [xy, yy]], at each wavenumber.
 
-    Return the entries xx, yy, xy of the inverse. Eigenvalues are replaced by their magnitudes, with
-    a lower bound, because conjugate gradients require a positive matrix.
+    The results are the entries xx, yy, xy of the inverse, used for preconditioners. Eigenvalues are
+    replaced by their magnitudes, with a lower bound, because conjugate gradients require a positive
+    matrix.
+
+    xx, yy, xy  spectra of the tangential influence coefficients, by wavenumber
     """
     mean, half = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
     least = np.finfo(float).eps * np.max(mean + half)

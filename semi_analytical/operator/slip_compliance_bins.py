@@ -1,9 +1,9 @@
 """Bins of the local slip compliance, for the preconditioner of the tangential problem.
 
 In a slipping cell a change of the shear direction has a compliance d in addition to that of the
-surface. It grows from zero at the stick border to many times the self-compliance K₀. Bins have the
-compliances d_j = K₀ 8^(j-1); χ_0 has none. The weights χ_j² are hat functions of log d with the
-sum 1.
+surface. It grows from zero at the stick border to many times the self-compliance K₀, the
+displacement of a cell by unit shear on the cell. Bin j has the compliance d_j = K₀ 8^(j-1); bin 0
+has none. The squared weights χ_j² of a cell in the bins are hat functions of log d with the sum 1.
 """
 
 import numpy as np
@@ -16,10 +16,10 @@ COMPLIANCES: Vector = np.array([1.0, RATIO])
 
 
 def shares(compliance: Field) -> Field:
-    """Compute the weights χ of each cell in the bins of slip compliance (1 + bins, …).
+    """Compute the weights of slipping cells in the bins of slip compliance (1 + bins, …).
 
     The preconditioner of the tangential problem divides slipping cells among a few bins of the slip
-    compliance d. The sum of χ² is 1 up to the last bin.
+    compliance d. The sum of the squared weights is 1 up to the last bin.
 
     compliance  d/K₀ (…): slip compliance over the self-compliance of a cell
     """

@@ -1,4 +1,5 @@
-"""Fourier spectra of influence coefficients on a zero-padded grid.
+"""Fourier spectra of influence coefficients on a zero-padded grid, for the convolution of
+tractions.
 
 The coefficients are even or odd along each axis. Their transforms are therefore real or imaginary,
 and even or odd. One quarter of a real array represents each transform.
@@ -16,17 +17,17 @@ from contact_scene.array_types import Field
 class KernelSpectrum:
     """Real Fourier spectrum of influence coefficients; only non-negative wavenumbers are stored.
 
-    quarter  (my + 1, mx + 1) values at non-negative wavenumbers along y and x
-    mirror   parity along x, 1 or -1
+    quarter  values at non-negative wavenumbers along y and x (my + 1, mx + 1)
+    mirror   parity of the coefficients along x: 1 even, -1 odd
     """
 
     quarter: Field
     mirror: int
 
     def __getitem__(self, columns: slice) -> Field:
-        """Return the spectrum at some wavenumbers along y and all 2 mx wavenumbers along x.
+        """Return the spectrum at some wavenumbers along y and at all wavenumbers along x.
 
-        The shape is (number of columns, 2 mx).
+        The shape is (number of columns, 2 mx), with both signs of the wavenumber along x.
 
         columns  slice of the wavenumbers along y
         """
@@ -37,13 +38,14 @@ class KernelSpectrum:
 def kernel_spectrum(
     values: Field, parity: tuple[int, int], reach: tuple[slice, slice]
 ) -> KernelSpectrum:
-    """Compute the real Fourier spectrum S of a kernel that is even or odd along each axis.
+    """Compute the real Fourier spectrum S of influence coefficients that are even or odd along each
+    axis.
 
     The Fourier spectrum is S if both parities are equal, else -i S. The convolution does not use
     the last offset; its true value makes the periodic continuation of even kernels continuous, and
     the spectrum of a positive kernel positive.
 
-    values  kernel at offsets 0 … m along each axis
+    values  influence coefficients at offsets 0 … m along each axis
     parity  parity along x and y: 1 even, -1 odd
     reach   slices of the offsets along x and y that are transformed
     """

@@ -1,12 +1,13 @@
-"""Transforms of fields on a domain: cosines and sines along axes with a mirror plane, else waves.
+"""Transforms of fields on the full window or a reduced domain, for the convolution of tractions.
 
-Cell centres are at (i + ½) h from a mirror plane, with h the cell side. Even fields are sums of
-cosines, odd fields sums of sines (DCT-II, DST-II; Martucci 1994). Along an axis without a mirror
-plane the FFT is used. Padding to twice the cells of the window yields the linear convolution
-without periodicity error (DC-FFT; Liu, Wang and Liu 2000).
+Along axes with a mirror plane, even fields are sums of cosines and odd fields sums of sines
+(DCT-II, DST-II; Martucci 1994). Cell centres are at (i + ½) h from the plane, with h the cell side.
+Along an axis without a mirror plane the FFT is used. Padding to twice the cells of the window
+yields the linear convolution without periodicity error (DC-FFT; Liu, Wang and Liu 2000).
 
 A spectrum is a phase times the amplitudes. The phases make the responses between amplitudes real.
-Amplitudes of waves are complex on the full window and pairs of real numbers on its half.
+Amplitudes of Fourier transforms are complex on the full window and pairs of real numbers on its
+half.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -47,7 +48,11 @@ class Convolutions:
     _memory: Array = field(default_factory=lambda: np.empty(0, dtype=np.complex128))
 
     def work_space(self, size: int, dtype: Dtype) -> Array:
-        """Return scratch memory for `size` numbers of a data type, valid until the next call."""
+        """Return scratch memory for the transforms of an operator, valid until the next call.
+
+        size   number of array entries
+        dtype  data type of the entries
+        """
         if self._memory.nbytes < size * dtype.itemsize:
             self._memory = np.empty(0, dtype=np.complex128)  # release before the new allocation
             self._memory = np.empty(-(-size * dtype.itemsize // 16), dtype=np.complex128)
@@ -55,7 +60,7 @@ class Convolutions:
 
 
 class Waves:
-    """Fourier transform along an axis without a mirror plane; values are zero-padded to the period.
+    """Fourier transform along an axis without a mirror plane, zero-padded to the period.
 
     cells       number of cells along the axis
     period      period in cells
@@ -78,7 +83,11 @@ class Waves:
         self.count = (period if of_complex else period // 2 + 1) * (1 + in_pairs)
 
     def forward(self, values: Array, out: Array) -> Array:
-        """Fourier transform the values of cells (…, cells) to amplitudes (…, count) in `out`."""
+        """Fourier transform values of cells along one axis to amplitudes, with zero padding.
+
+        values  field on the cells (…, cells)
+        out     array for the amplitudes, which is returned (…, count)
+        """
         spectrum = _as_complex(out) if self._in_pairs else out
         self._forward(values, n=self._period, axis=-1, out=spectrum)
         if self._has_factor_i:
@@ -86,7 +95,10 @@ class Waves:
         return out
 
     def back(self, amplitudes: Array) -> Array:
-        """Transform Fourier amplitudes (…, count) to values of the cells (…, cells)."""
+        """Transform Fourier amplitudes along one axis to values of the cells (…, cells).
+
+        amplitudes  amplitudes by wavenumber (…, count)
+        """
         spectrum = _as_complex(np.ascontiguousarray(amplitudes)) if self._in_pairs else amplitudes
         if self._has_factor_i:
             spectrum = -1j * spectrum
@@ -94,18 +106,20 @@ class Waves:
 
 
 def _as_complex(pairs: Array) -> Array:
+    """View pairs of real numbers along the last axis as complex numbers."""
     return pairs.view(np.result_type(pairs.dtype, np.complex64))
 
 
 class MirroredWaves:
-    """Cosine or sine transform along an axis with a mirror plane.
+    """Cosine or sine transform of a field along an axis with a mirror plane.
 
     Values are zero-padded to half the period m. Cosines have the wavenumbers 0 … m - 1. Sines have
     m, 1 … m - 1: the wavenumber m takes the place of 0, so that the others keep their places.
 
     cells   number of cells of the domain along the axis
     period  period of the window in cells
-    sign    parity of the field: 1 for cosines, -1 for sines
+    sign    parity of the field about the plane: 1 for cosines, -1 for sines
+    dtype   precision of the transform
     """
 
     def __init__(self, cells: int, period: int, sign: int, dtype: Dtype) -> None:
@@ -121,8 +135,11 @@ class MirroredWaves:
             self._inverse[0] /= 2
 
     def forward(self, values: Array, out: Array) -> Array:
-        """Cosine or sine transform the values of cells (…, cells) to amplitudes (…, count) in
-        `out`."""
+        """Cosine or sine transform values of cells along one axis to amplitudes.
+
+        values  field on the cells (…, cells)
+        out     array for the amplitudes, which is returned (…, count)
+        """
         if self._matrix is not None:
             np.matmul(values, self._matrix, out=out)
         elif self._even:
@@ -133,7 +150,10 @@ class MirroredWaves:
         return out
 
     def back(self, amplitudes: Array) -> Array:
-        """Transform cosine or sine amplitudes (…, count) to values of the cells (…, cells)."""
+        """Transform cosine or sine amplitudes along one axis to values of the cells (…, cells).
+
+        amplitudes  amplitudes by wavenumber (…, count)
+        """
         if self._matrix is not None:
             return np.asarray(amplitudes @ self._inverse)
         if self._even:
@@ -148,10 +168,9 @@ _mirrored = lru_cache(maxsize=64)(MirroredWaves)
 
 
 def offsets_for(window: Pair) -> Pair:
-    """Return the number of cell offsets along x and y for which influence coefficients are
-    required.
+    """Return the number of cell offsets along x and y at which influence coefficients are required.
 
-    The offsets are 0 to half the zero-padded period of the convolution.
+    The offsets are 0 to half the zero-padded period of the convolution of tractions.
 
     window  number of cells of the window along x and y
     """
@@ -160,10 +179,14 @@ def offsets_for(window: Pair) -> Pair:
 
 
 class Transforms:
-    """Transforms of the components of fields on a box of `shape` cells of a domain.
+    """Transforms of scalar and vector fields on a box of cells, along x and y.
 
-    Components are x and y (tangential), z (scalar) and bins of slip compliance, named by digits.
+    The box is part of the full window or of a reduced domain. The components of fields are named x
+    and y (tangential), z (scalar) and by digits (bins of slip compliance).
 
+    shape        number of cells of the box along x and y
+    domain       full window or reduced domain that contains the box
+    counter      counter of convolutions and work space
     half_period  (m_x, m_y) in cells of the window, even, equal on all domains: period of the
                  approximate inverses and half the period of the convolutions
     whole        True without mirror planes
@@ -177,32 +200,43 @@ class Transforms:
 
     @property
     def reach(self) -> tuple[slice, slice]:
-        """Slices of the offsets along x and y of the influence coefficients that an operator
+        """Slices of the cell offsets along x and y whose influence coefficients a convolution
         needs."""
         m_x, m_y = self.half_period
         return slice(m_x + 1), slice(m_y + 1)
 
     def parity(self, component: str) -> Parity:
-        """Return the parity of a component about x = 0 and y = 0: 1 even, -1 odd, 0 without
-        mirror plane."""
+        """Return the parity of a field component about the planes x = 0 and y = 0.
+
+        1 is even, -1 is odd, 0 means that the plane is not a mirror plane.
+
+        component  "x" or "y" of a tangential field, "z" for a scalar field, or a bin of slip
+                   compliance
+        """
         x, y = self.domain.vector
         return {"x": x, "y": y, "z": self.domain.scalar}.get(component, self.domain.binned_slip)
 
     def phase(self, component: str) -> complex:
-        """Return the ratio of the spectrum of a component to its amplitudes.
+        """Return the ratio of the Fourier spectrum of a field component to its amplitudes.
 
-        The ratio has a factor -i per sine, and -i for a component whose amplitudes have the factor
-        i.
+        The ratio has a factor -i for each sine transform, and a factor -i for a component whose
+        amplitudes have the factor i.
+
+        component  "x" or "y" of a tangential field, "z" for a scalar field, or a bin of slip
+                   compliance
         """
         turned = self._has_factor_i(component)
         phase: complex = (-1j) ** (self.parity(component).count(-1) + turned)
         return phase
 
     def _has_factor_i(self, component: str) -> bool:
-        """Return True for components whose amplitudes have an additional factor i.
+        """Return True for field components whose Fourier amplitudes are multiplied by i.
 
         The factor makes the responses between components real. Scalars on the full window have the
         factor, and the even component of vectors on half the window.
+
+        component  "x" or "y" of a tangential field, "z" for a scalar field, or a bin of slip
+                   compliance
         """
         if component in "xy":
             return sorted(self.parity(component)) == [0, 1]
@@ -211,8 +245,7 @@ class Transforms:
     def axis_transforms(
         self, inputs: str, outputs: str, *, padded: bool = True, dtype: Dtype = DOUBLE
     ) -> tuple[list[Sides], list[Sides]]:
-        """Return the one-dimensional transforms along x and y of each input and each output
-        component.
+        """Return the transforms along x and along y of each input and each output component.
 
         inputs, outputs  names of the components, e.g. "xyz"
         padded           True for zero padding to twice the window
@@ -235,6 +268,14 @@ class Transforms:
     def _axis_transform(
         self, component: str, axis: int, period: int, turned: bool, dtype: Dtype
     ) -> Side:
+        """Return the transform of one field component along one axis.
+
+        component  name of the component
+        axis       0 for x, 1 for y
+        period     period of the transform in cells of the window
+        turned     True if amplitudes are i times the spectrum
+        dtype      precision of the transform
+        """
         sign, cells = self.parity(component)[axis], self.shape[axis]
         if sign:
             return _mirrored(cells, period, sign, dtype)
@@ -244,11 +285,13 @@ class Transforms:
     def filter_fields(
         self, values: Array, inputs: Sequence[Sides], outputs: Sequence[Sides], multiply: Multiply
     ) -> Array:
-        """Transform fields, multiply their Fourier amplitudes by a function, and transform the
+        """Apply a filter to fields: transform them, multiply the amplitudes, and transform the
         products back.
 
+        With the spectra of influence coefficients as factors, the filter is a convolution.
+
         values           input fields (inputs, nx, ny)
-        inputs, outputs  transforms along x and y of each component, from `sides`
+        inputs, outputs  transforms along x and y of each component, from `axis_transforms`
         multiply         function from amplitudes of the inputs to amplitudes of the outputs
         returns          output fields (outputs, nx, ny)
         """

@@ -1,5 +1,4 @@
-"""Displacement and stress below and at the surface of a body, from tractions on cells of the
-surface."""
+"""Displacement and stress below and at the surface of a body, from tractions on surface cells."""
 
 from semi_analytical.frf.depth import Level
 from semi_analytical.stress.depths import (

@@ -1,8 +1,9 @@
-"""Stress at the edge of a contact and near it, from tractions that vary within the edge cells.
+"""Stress at the contact edge and near it, from tractions that vary within the edge cells.
 
-p = √φ near the edge, with a quadratic φ. The place at which the stress is computed is the observer.
-At the surface, √φ in a box of cells about the observer is integrated along rays. Farther cells at
-the edge are divided into subcells with point forces. All other cells act by mean and slope.
+Near the edge the pressure is √φ, with a quadratic φ. The observer is the point at which the stress
+is computed. At the surface, √φ in a box of cells about the observer is integrated along rays.
+Farther cells at the edge are divided into subcells with point forces. All other cells act by mean
+and slope.
 """
 
 import numpy as np
@@ -30,12 +31,12 @@ OBSERVERS, SEEN = 64, 1 << 15
 def stress_at_surface(
     edged: EdgedTractions, phi: Quadratic, plane: Field, material: HalfSpace, spacing: Spacing
 ) -> Field:
-    """Compute the surface stress (6, n) [force/length^2] near the contact edge.
+    """Compute the surface stress (6, n) [force/length^2] at n points near the contact edge.
 
     edged     tractions with their variation within the edge cells
-    phi       quadratics of φ about the n positions, in index coordinates
-    plane     (6, nx, ny) surface stress at the cell centres caused by the uniform tractions
-              `edged.cells`
+    phi       quadratics of φ about the points, as cell indices; the pressure is √φ
+    plane     surface stress at the cell centres caused by the uniform tractions `edged.cells` (6,
+              nx, ny)
     material  outermost material of the body
     spacing   cell sides [length]
     """
@@ -54,13 +55,13 @@ def stress_at_surface(
 def change_at_depth(
     edged: EdgedTractions, x: Field, y: Field, depth: float, material: HalfSpace, spacing: Spacing
 ) -> Field:
-    """Compute the change of the stress (6, n) at a depth caused by the variation of tractions
-    within cells.
+    """Compute the change of the stress (6, n) at a depth caused by the variation of tractions in
+    cells.
 
-    The stress by tractions that are uniform in each cell is the reference.
+    The change is relative to the stress by tractions that are uniform in each cell.
 
     edged     tractions with their variation within the edge cells
-    x, y      positions (n,) in index coordinates
+    x, y      points as cell indices (n,)
     depth     z > 0 [length], within the outermost material; accurate from a quarter of a cell on
     material  outermost material of the body
     spacing   cell sides [length]
@@ -81,14 +82,14 @@ def change_at_depth(
 def _stress_in_box(
     edged: EdgedTractions, phi: Quadratic, material: HalfSpace, spacing: Spacing
 ) -> Field:
-    """Compute the surface stress (6, n) by the tractions in a box of cells about each of n
-    positions.
+    """Compute the surface stress (6, n) at n points by the tractions in a box of cells about each
+    point.
 
-    The root √φ of the fitted φ = p² is integrated along rays. The difference between the cell means
-    of the traction and those of the root acts uniformly on each cell.
+    The root √φ of the fitted squared pressure φ is integrated along rays. The difference between
+    the cell means of the traction and those of the root acts uniformly on each cell.
 
     edged     tractions with their variation within the edge cells
-    phi       quadratics of φ about the n positions
+    phi       quadratics of φ about the points
     material  outermost material of the body
     spacing   cell sides [length]
     """
@@ -132,14 +133,17 @@ def _stress_by_points(
     *,
     slopes_alone: bool = False,
 ) -> Field:
-    """Compute the stress (6, n) by the cells near each of n positions, with tractions linear in
-    each cell.
+    """Compute the stress (6, n) at n points by cells near each point, as point forces at Gauss
+    points.
 
-    Mean and slope of a cell act as point forces at Gauss points. The cells lie at a distance of
-    more than BOX and at most PATCH cells from the position.
+    The tractions are linear in each cell, with its mean and slope. The cells lie at a distance of
+    more than BOX and at most PATCH cells from the point.
 
-    x, y          positions (n,) in index coordinates
+    edged         tractions with their variation within the edge cells
+    x, y          points as cell indices (n,)
     depth         z >= 0 [length]
+    material      outermost material of the body
+    spacing       cell sides [length]
     points        number of Gauss points along a cell side
     slopes_alone  omit the means, and include the cells within BOX
     """
@@ -178,15 +182,18 @@ def _stress_by_subcells(
     count: int,
     within: tuple[int, int],
 ) -> Field:
-    """Compute the stress (6, n) by the variation of tractions within the edge cells, at n
-    positions.
+    """Compute the stress (6, n) at n points by the variation of tractions within the edge cells.
 
-    Each subcell acts as a point force: its traction minus the uniform traction of its cell.
+    Each subcell acts as a point force: its traction minus the uniform traction of its cell, times
+    its area.
 
-    x, y    positions (n,) in index coordinates
-    depth   z >= 0 [length]
-    count   number of subcells along a cell side
-    within  least and largest distance in cells of the edge cells that are included
+    edged     tractions with their variation within the edge cells
+    x, y      points as cell indices (n,)
+    depth     z >= 0 [length]
+    material  outermost material of the body
+    spacing   cell sides [length]
+    count     number of subcells along a cell side
+    within    least and largest distance in cells of the edge cells that are included
     """
     i, j = np.rint(x).astype(int), np.rint(y).astype(int)
     pairs = []
@@ -211,10 +218,12 @@ def _stress_by_subcells(
 
 
 def _sum_over_sources(stress: Field, observer: Indices, count: int) -> Field:
-    """Sum the stresses of pairs of a position and a source over all sources of each position.
+    """Sum the stresses at each observed point over all sources that act on the point.
+
+    The result has the shape (6, count). Each pair consists of a point and a source.
 
     stress    stress of each pair (6, pairs)
-    observer  index of the position of each pair
-    count     number of positions; the result has the shape (6, count)
+    observer  index of the point of each pair
+    count     number of points
     """
     return np.stack([np.bincount(observer, component, count) for component in stress])

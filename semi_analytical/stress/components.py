@@ -17,7 +17,10 @@ PRESSURE = TRACTIONS[2:]
 
 
 def acting(sheared: bool) -> tuple[str, ...]:
-    """Return the names of the traction components: "z" for pressure alone, or all of `TRACTIONS`.
+    """Return the names of the traction components that act: "z" for pressure alone, or all of
+    `TRACTIONS`.
+
+    The names select the responses that are computed.
 
     sheared  True with shear
     """
@@ -25,13 +28,13 @@ def acting(sheared: bool) -> tuple[str, ...]:
 
 
 def parity(field: str, traction: str) -> tuple[int, int]:
-    """Return the parity of a field component by a traction component along x and y: +1 even, -1
-    odd.
+    """Return the parity along x and y of the response of a field component to a traction component.
 
-    Each occurrence of an axis in the two names is one change of sign under reflection.
+    1 is even, -1 is odd. Each occurrence of an axis in the two names is one change of sign under
+    reflection.
 
-    field     entry of FIELDS
-    traction  entry of TRACTIONS
+    field     name of a displacement or stress component, entry of FIELDS
+    traction  name of a traction component, entry of TRACTIONS
     """
     axes = field + traction
     return (-1) ** axes.count("x"), (-1) ** axes.count("y")
@@ -40,10 +43,10 @@ def parity(field: str, traction: str) -> tuple[int, int]:
 def each_response(
     coefficients: NDArray[np.float64],
 ) -> Iterator[tuple[NDArray[np.float64], tuple[int, int]]]:
-    """Iterate over the responses of every displacement and stress component to every traction
+    """Iterate over the response of each displacement or stress component to each traction
     component.
 
-    Each response (nx, ny) comes with its parity along x and y: 1 even, -1 odd.
+    Each response (nx, ny) is yielded with its parity along x and y: 1 even, -1 odd.
 
     coefficients  responses (FIELDS, acting tractions, nx, ny)
     """
@@ -54,5 +57,11 @@ def each_response(
 
 
 def empty_response(shape: tuple[int, ...], *, sheared: bool = True) -> NDArray[np.float64]:
-    """Return an uninitialised array for responses (FIELDS, acting tractions, *shape)."""
+    """Return an uninitialised array for the displacements and stresses by unit tractions.
+
+    The array has the shape (FIELDS, acting tractions, *shape).
+
+    shape    shape of each response
+    sheared  True with responses to shear, False with those to pressure alone
+    """
     return np.empty((len(FIELDS), len(acting(sheared)), *shape))

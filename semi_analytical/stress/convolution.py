@@ -1,8 +1,8 @@
-"""Linear convolution of tractions with response coefficients at one depth, on planes or rows of
-cells.
+"""Linear convolution of surface tractions with displacement and stress coefficients at one depth.
 
-Zero padding to at least twice the largest offset avoids periodic images. About a mirror plane of
-the tractions, sine and cosine transforms on half of the window replace the Fourier transform.
+The fields are computed on planes or on rows of cells. Zero padding to at least twice the largest
+offset avoids periodic images. About a mirror plane of the tractions, sine and cosine transforms on
+half of the window replace the Fourier transform.
 """
 
 from collections.abc import Callable
@@ -21,11 +21,12 @@ ROUND_OFF = 1e-14  # between mirror images, relative to the largest traction
 
 
 def offsets_between(tractions: Field, rows: Indices) -> tuple[int, int]:
-    """Return the number of cell offsets along x and y at which response coefficients are required.
+    """Return the number of cell offsets along x and y at which displacement and stress are
+    required.
 
     These are the offsets, from 0, between loaded cells and the cells of some rows.
 
-    tractions  (acting tractions, nx, ny)
+    tractions  tractions of the cells (acting tractions, nx, ny)
     rows       indices along y of the rows where stresses are required
     """
     loaded = np.any(tractions, axis=0)
@@ -38,9 +39,13 @@ def offsets_between(tractions: Field, rows: Indices) -> tuple[int, int]:
 
 
 def mirror_planes(tractions: Field) -> tuple[bool, bool]:
-    """Determine whether x = 0 and y = 0 are mirror planes of tractions (acting tractions, nx, ny).
+    """Return True for each of the planes x = 0 and y = 0 that is a mirror plane of surface
+    tractions.
 
-    The reflected traction vectors must be equal up to round-off.
+    The reflected traction vectors must be equal up to round-off. Mirror planes halve the
+    convolution.
+
+    tractions  tractions of the cells (acting tractions, nx, ny)
     """
     size = ROUND_OFF * float(np.max(np.abs(tractions), initial=0.0))
     found = []
@@ -54,9 +59,10 @@ def mirror_planes(tractions: Field) -> tuple[bool, bool]:
 
 @dataclass(frozen=True)
 class _AxisTransform:
-    """Fourier, sine or cosine transforms along the last axis of a field.
+    """Fourier, sine or cosine transform along the last axis of a field, for the subsurface stress.
 
-    Amplitudes have wavenumbers 0 … half, or all of a period.
+    Amplitudes have the wavenumbers 0 … half for real fields, all wavenumbers of a period for
+    complex ones.
 
     cells     number of cells of the window along the axis
     half      half the period in cells
@@ -68,9 +74,10 @@ class _AxisTransform:
     mirrored: bool
 
     def forward(self, values: Array, odd: bool) -> Array:
-        """Transform values on the window (…, cells) to amplitudes.
+        """Transform values of a field on the window (…, cells) to amplitudes along one axis.
 
-        odd  True if the field changes its sign at the mirror plane
+        values  field on the cells
+        odd     True if the field changes its sign at the mirror plane
         """
         if not self.mirrored:
             return (fft if np.iscomplexobj(values) else rfft)(values, 2 * self.half)
@@ -78,10 +85,11 @@ class _AxisTransform:
         return np.pad(transformed, [(0, 0), (int(odd), int(not odd))])
 
     def factor(self, odd_response: bool, odd_traction: bool) -> complex:
-        """Return the phase factor of a response in the product of Fourier amplitudes along this
-        axis.
+        """Return the phase factor in the product of the amplitudes of a traction and a response
+        coefficient.
 
-        The response is represented by sums of cosines (even) or sines (odd).
+        Response coefficients are represented by sums of cosines (even) or sines (odd) along the
+        axis.
 
         odd_response  True if the response coefficient is odd along the axis
         odd_traction  True if the traction component changes its sign at the mirror plane
@@ -91,9 +99,10 @@ class _AxisTransform:
         return -1j if odd_response else 1.0
 
     def back(self, amplitudes: Array, odd: bool) -> Array:
-        """Transform amplitudes to values on the window (…, cells).
+        """Transform amplitudes along one axis to values of a field on the window (…, cells).
 
-        odd  True if the field changes its sign at the mirror plane
+        amplitudes  amplitudes by wavenumber along the last axis
+        odd         True if the field changes its sign at the mirror plane
         """
         if not self.mirrored:
             inverse = irfft if amplitudes.shape[-1] == self.half + 1 else ifft
@@ -105,11 +114,12 @@ class _AxisTransform:
 
 
 def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution:
-    """Return a function that convolves tractions with response coefficients on the whole plane.
+    """Return a function that computes displacement and stress on a whole horizontal plane.
 
-    The function maps coefficients (FIELDS, acting tractions, offsets) to fields (FIELDS, nx, ny).
+    The function convolves the tractions with response coefficients at one depth. It maps
+    coefficients (FIELDS, acting tractions, offsets) to fields (FIELDS, nx, ny).
 
-    tractions  (acting tractions, nx, ny)
+    tractions  tractions of the surface cells (acting tractions, nx, ny)
     offsets    number of offsets of the coefficients, at least those of `offsets_between`
     """
     x, y = (
@@ -147,10 +157,10 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
 
 
 def _cosine_or_sine_sums(response: Field, parity: int) -> Field:
-    """Compute the cosine (even) or sine (odd) transform of a response over the offsets of a period.
+    """Compute the cosine or sine transform of an even or odd response coefficient over one period.
 
-    response  (…, half + 1) values at offsets >= 0; also the shape of the result
-    parity    1 for cosines, -1 for sines
+    response  values at offsets >= 0 (…, half + 1); also the shape of the result
+    parity    1 for cosines (even), -1 for sines (odd)
     """
     if parity > 0:
         return np.asarray(dct(response, type=1))
@@ -158,12 +168,12 @@ def _cosine_or_sine_sums(response: Field, parity: int) -> Field:
 
 
 def row_convolution(tractions: Field, rows: Indices) -> Convolution:
-    """Return a function that convolves tractions with response coefficients on some rows of cells.
+    """Return a function that computes displacement and stress on some rows of cells at one depth.
 
-    The function maps coefficients (FIELDS, acting tractions, offsets) to fields (FIELDS, nx,
-    len(rows)).
+    The function convolves the tractions with response coefficients. It maps coefficients (FIELDS,
+    acting tractions, offsets) to fields (FIELDS, nx, len(rows)).
 
-    tractions  (acting tractions, nx, ny)
+    tractions  tractions of the surface cells (acting tractions, nx, ny)
     rows       indices of the rows along y
     """
     nx = tractions.shape[1]

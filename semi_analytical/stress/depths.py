@@ -1,4 +1,4 @@
-"""Depths of the displacements and stresses below the surface, and the layer to which a depth
+"""Depths of displacements and stresses below the surface, and the layer to which each depth
 belongs."""
 
 from collections.abc import Sequence
@@ -21,10 +21,13 @@ ON_SAMPLE = 1e-9  # of the spacing
 
 
 def levels_of(stack: Stack, depths: Sequence[float | Level]) -> tuple[Level, ...]:
-    """Convert depths [length] to levels; a number at an interface means its upper side.
+    """Convert depths to levels, which are depths with the index of their layer.
 
-    A level is a depth with the index of its layer. Raises ValueError for a depth that is negative,
+    A number at an interface means its upper side. Raises ValueError for a depth that is negative,
     not finite or in a rigid base, and for a level outside of its layer.
+
+    stack   layers and base of the body
+    depths  depths [length], or levels
     """
     return tuple(
         _check_level(stack, depth)
@@ -35,9 +38,11 @@ def levels_of(stack: Stack, depths: Sequence[float | Level]) -> tuple[Level, ...
 
 
 def interfaces(body: Body | Stack) -> tuple[tuple[Level, ...], ...]:
-    """Return the levels on both sides of each interface of a body, upper side first.
+    """Return the two levels of each interface between materials of a body, upper side first.
 
-    A rigid base has no lower side.
+    A level is a depth with the index of its layer. A rigid base has no lower side.
+
+    body  body, or its layers and base
     """
     stack = _stack_of_body(body)
     pairs = []
@@ -53,6 +58,7 @@ def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ..
 
     The depths include both sides of each interface, and three depths within each layer.
 
+    body            body, or its layers and base
     contact_radius  length over which the tractions act [length]
     """
     stack = _stack_of_body(body)
@@ -69,14 +75,23 @@ def default_depths(body: Body | Stack, contact_radius: float) -> tuple[Level, ..
 
 
 def _stack_of_body(body: Body | Stack) -> Stack:
+    """Return the layers and base of a body."""
     return body if isinstance(body, Stack) else stack_of(body)
 
 
 def _layer_bottoms(stack: Stack) -> tuple[float, ...]:
+    """Return the depth of the underside of each layer of a body [length]."""
     return tuple(float(z) for z in np.cumsum([film.thickness for film in stack.layers]))
 
 
 def _level_at_depth(stack: Stack, depth: float) -> Level:
+    """Find the layer to which a depth belongs; a depth at an interface belongs to the upper layer.
+
+    stack  layers and base of the body
+    depth  depth below the surface [length]
+
+    Raises ValueError for a depth that is negative, not finite, or in a rigid base.
+    """
     if not (np.isfinite(depth) and depth >= 0):
         raise ValueError(f"depth is {depth}, expected a finite length >= 0 (the body is z >= 0)")
     bottoms = _layer_bottoms(stack)
@@ -94,6 +109,11 @@ def _level_at_depth(stack: Stack, depth: float) -> Level:
 
 
 def _check_level(stack: Stack, level: Level) -> Level:
+    """Return a level if its depth is in its layer; else raise ValueError.
+
+    stack  layers and base of the body
+    level  depth with the index of its layer
+    """
     bottoms = (0.0, *_layer_bottoms(stack), np.inf)
     last = len(stack.layers) if stack.base is not None else len(stack.layers) - 1
     if not 0 <= level.layer <= last:
@@ -107,7 +127,9 @@ def _check_level(stack: Stack, level: Level) -> Level:
 def line_weights(samples: NDArray[np.float64], at: float) -> NDArray[np.float64]:
     """Compute the weights of cubic Lagrange interpolation between equally spaced samples.
 
-    samples  equally spaced, increasing [length]
+    Displacements and stresses between cell centres are interpolated by these weights.
+
+    samples  positions of the samples, equally spaced, increasing [length]
     at       position of the interpolated value [length]
     returns  shape of the samples, at most four not zero; fewer samples give a lower degree
     raises   ValueError outside the samples

@@ -1,10 +1,12 @@
-"""Surface stress by tractions that fall like a square root, as integrals along rays.
+"""Surface stress by tractions that fall like a square root at the contact edge, integrated along
+rays.
 
-Near the observer, the place of the stress, φ = p² is a quadratic. Along a ray of direction e at the
-distance r, φ is Q = f + b r + c r², with b = grad·e, c = e·H·e/2 and the Hessian H. The surface
-stress of a point force falls with 1/r². The contribution of a ray is therefore its angular function
-times the finite part of the integral of √Q+/r, which has a closed form. The singular parts cancel,
-because the angular functions have zero mean.
+The observer is the point at which the stress is computed. Near the observer φ = p², with the
+pressure p, is a quadratic. Along a ray of direction e at the distance r, φ is Q = f + b r + c r²,
+with b = grad·e, c = e·H·e/2 and the Hessian H. The surface stress of a point force falls with 1/r².
+The contribution of a ray is therefore its angular function times the finite part of the integral of
+√Q+/r, which has a closed form. The singular parts cancel, because the angular functions have zero
+mean.
 """
 
 from math import pi
@@ -23,13 +25,15 @@ STRAIGHT = 1e-9
 
 
 def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
-    """Compute the stress (6, n) at z = 0 by the tractions p = √φ+ and q = slip p within a box.
+    """Compute the surface stress (6, n) at n points by root-like tractions in a box about each
+    point.
 
-    The box surrounds the position of the stress (observer). Its sides are parallel to x and y.
+    The tractions are the pressure p = √φ, zero where φ is negative, and the shear q = slip p. The
+    sides of the box are parallel to x and y.
 
-    phi   quadratics of φ about the observers (n,); lengths in the unit of the box
-    box   (4, n): positive distances of its sides at -x, +x, -y, +y from the observers
-    slip  (2, n) shear over pressure
+    phi   quadratics of φ about the points (n,); lengths in the unit of the box
+    box   distances of the sides at -x, +x, -y, +y from the points, positive (4, n)
+    slip  shear over pressure (2, n)
     nu    Poisson's ratio
     """
     angle, weight = _ray_directions(phi, box)
@@ -57,13 +61,14 @@ def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
 
 
 def _ray_directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
-    """Choose angles and quadrature weights of the rays from each observer (n, rays).
+    """Choose angles and quadrature weights of the rays from each of n points (n, rays).
 
-    Gauss points lie between the corners of the box and the directions near which the integral along
-    a ray varies rapidly.
+    The surface stress near the contact edge is an integral over the angle. Gauss points are placed
+    on panels between the corners of the box and the directions near which the integral along a ray
+    varies rapidly.
 
-    phi  quadratics of φ about the observers (n,)
-    box  (4, n) distances of the sides of the box from the observers
+    phi  quadratics of φ = p² about the points (n,), with the pressure p
+    box  distances of the sides of the box of integration from the points (4, n)
     """
     left, right, down, up = box
     corners = [np.arctan2(y, x) for x in (-left, right) for y in (-down, up)]
@@ -92,10 +97,14 @@ def _ray_directions(phi: Quadratic, box: Field) -> tuple[Field, Field]:
 
 
 def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
-    """Integrate √max(Q, 0)/r along rays over 0 < r < reach, with Q = f + b r + c r².
+    """Integrate the pressure over the distance from the observed point, p/r, along rays 0 < r <
+    reach.
 
-    r is the distance from the observer, and Q the squared pressure p² along the ray. The result is
-    the Hadamard finite part of the integral, of the shape of b.
+    The squared pressure along a ray is Q = f + b r + c r² at the distance r; the pressure is zero
+    where Q is negative. The result is the Hadamard finite part of the integral, of the shape of b.
+
+    f, b, c  coefficients of Q
+    reach    length of each ray
     """
     root = np.sqrt(np.maximum(b * b - 4 * f * c, 0.0))
     q = -(b + np.where(b < 0, -root, root)) / 2
@@ -114,10 +123,14 @@ def _along_ray(f: Field, b: Field, c: Field, reach: Field) -> Field:
 
 
 def _integrate_between(f: Field, b: Field, c: Field, low: Field, high: Field) -> Field:
-    """Integrate √Q/r along a loaded part of a ray, low < r < high, with Q = f + b r + c r² >= 0.
+    """Integrate the pressure over the distance, √Q/r, along a loaded section low < r < high of a
+    ray.
 
-    Q is the squared pressure at the distance r from the observer. The singular part of the integral
-    is omitted if `low` is 0.
+    Q = f + b r + c r² >= 0 is the squared pressure at the distance r from the observed point. The
+    singular part of the integral is omitted if `low` is 0.
+
+    f, b, c    coefficients of Q
+    low, high  ends of the section
     """
     at_low, at_high = (np.sqrt(np.maximum(f + (b + c * r) * r, 0.0)) for r in (low, high))
     whole = at_high - at_low + b / 2 * _inverse_tangent_term(c, high - low, at_low + at_high)
@@ -134,8 +147,8 @@ def _integrate_between(f: Field, b: Field, c: Field, low: Field, high: Field) ->
 def _inverse_tangent_term(k: Field, n: Field, d: Field) -> Field:
     """Compute 2 arctan(√-k n/d)/√-k for k < 0, and 2 artanh(√k n/d)/√k for k > 0.
 
-    Both are branches of one primitive, used in the closed form of ∫ √Q/r dr along a ray, with a
-    quadratic Q.
+    The two formulas are branches of one primitive. They occur in the integral of √Q/r along a ray,
+    with a quadratic Q in the distance r from the observed point.
     """
     size = np.sqrt(np.abs(k))
     flat = size * n <= STRAIGHT * d

@@ -1,8 +1,9 @@
-"""Tractions within the cells at the edge of a contact: pressure p = √φ+, shear q = slip p.
+"""Tractions within the cells at the contact edge, for the stress at and near the edge.
 
 Tractions that are uniform in each cell form a staircase along the edge, which affects the stress
-nearby. A fit of φ yields the traction within cells at the edge, as deviations on subcells. Lengths
-are in cells and positions in index coordinates.
+nearby. A fit of φ yields the pressure p = √φ+ within cells at the edge. The shear is q = slip p.
+The tractions of subcells are stored as deviations from the uniform traction of their cell. Lengths
+are in cells and positions are cell indices.
 """
 
 from dataclasses import dataclass
@@ -25,16 +26,19 @@ UNSURE, STUCK = 0.05, 1e-8
 
 @dataclass(frozen=True)
 class EdgedTractions:
-    """Tractions (q_x, q_y, p) of a contact with their variation within the cells at its edge.
+    """Tractions (q_x, q_y, p) of a contact with their variation within the cells at the contact
+    edge.
 
-    cells         (3, nx, ny) given uniform tractions of the cells [force/length^2]
-    means         (3, nx, ny) cell means; in rejected rings those of the fit
+    The pressure near the edge is √φ with a fitted function φ.
+
+    cells         given uniform tractions of the cells (3, nx, ny) [force/length^2]
+    means         cell means of the tractions; in rejected rings those of the fit (3, nx, ny)
     shape         cell means of φ and fits near the edge
-    ratio         (2, nx, ny) shear over pressure
-    ratio_weight  (nx, ny) weight of the ratio in fits
-    i, j          (k,) indices of the cells that are divided into subcells
+    ratio         shear over pressure (2, nx, ny)
+    ratio_weight  weight of the ratio in fits (nx, ny)
+    i, j          indices of the cells that are divided into subcells (k,)
     here          quadratics of φ about the divided cells
-    slip          (2, k) shear over pressure at the divided cells
+    slip          shear over pressure at the divided cells (2, k)
     """
 
     cells: Field
@@ -48,14 +52,18 @@ class EdgedTractions:
     slip: Field
 
     def slip_at(self, x: Field, y: Field) -> Field:
-        """Compute the ratio of shear to pressure (2, n) at positions (n,) by linear fits."""
+        """Compute the ratio of shear to pressure (2, n) at points near the contact edge, by linear
+        fits.
+
+        x, y  points as cell indices (n,)
+        """
         return _slip_at(self.shape, self.ratio, self.ratio_weight, x, y)
 
     def subcell_deviations(self, count: int) -> Field:
         """Compute the traction of each subcell minus the uniform traction of its cell.
 
-        The shape is (3, k, count, count) for k cells along the edge. The sum of `cells` and the
-        result is the traction.
+        The shape is (3, k, count, count) for k cells along the contact edge and the components
+        (q_x, q_y, p). The sum of `cells` and the result is the traction.
 
         count  number of subcells along a cell side
         """
@@ -71,9 +79,9 @@ class EdgedTractions:
 
     @property
     def slopes(self) -> tuple[Field, Field]:
-        """Slopes of the uniform tractions `cells` along x and y, each (3, nx, ny), per cell.
+        """Slopes of the tractions `cells` along x and y, each (3, nx, ny), as changes per cell.
 
-        The slopes are zero in divided cells and in cells without pressure.
+        The slopes are zero in cells without pressure, and in cells that are divided into subcells.
         """
         whole = self.cells[2] > 0
         whole[self.i, self.j] = False
@@ -82,21 +90,28 @@ class EdgedTractions:
 
 
 def part_centres(count: int) -> Field:
-    """Compute the subcell centres along a cell side, relative to the cell centre (count,), in
-    cells."""
+    """Compute the positions of the subcell centres along a cell side (count,), in cells.
+
+    The cell centre has the position 0.
+
+    count  number of subcells along a cell side
+    """
     return (np.arange(count) + 0.5) / count - 0.5
 
 
 def fit_edge_tractions(
     pressure: Field, shear: Field | None, stuck: Mask | None, stencil: Stencil, rings: int
 ) -> EdgedTractions:
-    """Fit the pressure near the contact edge, and divide the edge cells into subcells.
+    """Fit the pressure near the contact edge, and divide the cells along the edge into subcells.
 
-    pressure        (nx, ny) [force/length²]
-    shear           (2, nx, ny) [force/length²]; None without shear
-    stuck           (nx, ny) cells of the contact that stick; None in gross slip
-    stencil, rings  as in `edge_shape`; with two rings or more, the tractions of rejected rings are
-                    replaced by those of the fit
+    The result yields the stress near the edge.
+
+    pressure  pressure of the cells (nx, ny) [force/length²]
+    shear     shear of the cells (2, nx, ny) [force/length²]; None without shear
+    stuck     cells of the contact that stick (nx, ny); None in gross slip
+    stencil   window and weights of the fits
+    rings     number of outermost layers of cells that are not data; from two on, the tractions of
+              these layers are replaced by those of the fit
 
     Raises ValueError where no cell is available for the fit.
     """
@@ -123,6 +138,14 @@ def fit_edge_tractions(
 
 
 def _slip_at(shape: EdgeShape, ratio: Field, weight: Field, x: Field, y: Field) -> Field:
+    """Compute the ratio of shear to pressure (2, n) at points near the contact edge, by linear
+    fits.
+
+    shape   shape of the contact edge; supplies nearest cells and the window of the fits
+    ratio   shear over pressure of the cells (2, nx, ny)
+    weight  weight of the cells in the fits (nx, ny)
+    x, y    points as cell indices (n,)
+    """
     if not np.any(ratio):
         return np.zeros((2, len(x)))
     i, j = shape.nearest_to(x, y)

@@ -1,4 +1,7 @@
-"""Displacement and stress in the lower body by tractions on the cells of a surface grid."""
+"""Displacement and stress in the lower body by tractions on the cells of a surface grid.
+
+The subsurface stress of a contact result is computed by this module.
+"""
 
 from __future__ import annotations
 
@@ -36,15 +39,17 @@ FIXED = 100 << 20
 
 @dataclass(frozen=True)
 class SubsurfaceField:
-    """Displacement and stress in one body at the cell centres of several levels; z points into the
-    body.
+    """Displacement and stress in one body below the cell centres of a surface grid, at several
+    levels.
 
-    A level is a depth in one layer. Each side of an interface is a separate level.
+    A level is a depth in one layer. Each side of an interface is a separate level. z points into
+    the body.
 
-    x, y          positions, shapes (nx,) and (ny,) [length]
+    x, y          positions of the cell centres, shapes (nx,) and (ny,) [length]
     levels        depth and layer of each level, in the order of the request
     displacement  (u_x, u_y, u_z), zero far away, shape (nz, 3, nx, ny) [length]
-    stress        tensile stress positive, shape (nz, 6, nx, ny), order xx, yy, zz, yz, xz, xy
+    stress        order xx, yy, zz, yz, xz, xy, tensile stress positive, shape (nz, 6, nx, ny)
+                  [force/length^2]
     """
 
     x: Field
@@ -55,7 +60,10 @@ class SubsurfaceField:
 
     @classmethod
     def joined(cls, parts: Iterable[SubsurfaceField]) -> SubsurfaceField:
-        """Join fields at equal positions x, y and successive levels into one field."""
+        """Combine fields at different levels into one field.
+
+        parts  fields at equal positions x, y, in the order of their levels
+        """
         each = list(parts)
         return cls(
             each[0].x,
@@ -71,9 +79,12 @@ class SubsurfaceField:
         return np.array([level.depth for level in self.levels])
 
     def along_x(self, y: float = 0.0) -> SubsurfaceField:
-        """Interpolate displacement and stress to the section at y, by cubics between rows of cells.
+        """Interpolate displacement and stress to the vertical section y = const.
 
-        The arrays of the result have the shape (…, nx, 1).
+        Cubic interpolation between rows of cells is used. The arrays of the result have the shape
+        (…, nx, 1).
+
+        y  coordinate of the section [length]
         """
         weights = line_weights(self.y, y)[:, None]
         return SubsurfaceField(
@@ -81,8 +92,13 @@ class SubsurfaceField:
         )
 
     def below(self, x: float = 0.0, y: float = 0.0) -> tuple[Field, Field]:
-        """Return displacement (nz, 3) and stress (nz, 6) on the vertical line at (x, y), by
-        cubic interpolation."""
+        """Interpolate displacement (nz, 3) and stress (nz, 6) to the vertical line below one
+        surface point.
+
+        Cubic interpolation between cell centres is used. The rows are the levels.
+
+        x, y  coordinates of the surface point [length]
+        """
         section = self if len(self.y) == 1 and self.y[0] == y else self.along_x(y)
         weights = line_weights(self.x, x)
         return (
@@ -156,11 +172,12 @@ def fields_by_level(
 ) -> Iterator[SubsurfaceField]:
     """Iterate over displacement and stress in the lower body, one depth at a time.
 
-    A depth at a time limits the memory.
+    The computation of one depth at a time limits the memory.
 
     body             body, or scene whose lower body is used
     grid             cells that carry the tractions
-    pressure, shear  (nx, ny) and (2, nx, ny), traction on the body; None is no shear
+    pressure, shear  tractions on the body, (nx, ny) and (2, nx, ny) [force/length^2]; None is no
+                     shear
     depths           depths [length], or levels where the side of an interface matters
     rows             indices along y of the required rows of cells; None for all
     """
@@ -189,14 +206,17 @@ def depth_coefficients(
     *,
     sheared: bool = True,
 ) -> Iterator[Field]:
-    """Iterate over the displacement and stress by unit tractions on one cell, at each depth.
+    """Iterate over displacement and stress in a body by unit tractions on one surface cell, by
+    depth.
 
     A closed form is used in the outermost material, to which layers add their contribution. Below
     the outermost material the whole response is tabulated. Entry (i, j) belongs to the offset (i
     dx, j dy) with i, j >= 0; other quadrants follow by `components.parity`. Displacements are in
     [length^3/force], stresses are dimensionless.
 
-    spacing  cell sides [length]
+    stack    layers and base of the body
+    levels   depths, each with the index of its layer
+    spacing  cell sides dx, dy [length]
     shape    number of offsets along x and y, including zero
     sheared  include the responses to shear, before those to pressure
     yields   shape (FIELDS, acting tractions, nx, ny)
@@ -221,11 +241,17 @@ def _half_space_coefficients(
     shape: tuple[int, int],
     sheared: bool,
 ) -> Field:
-    """Compute displacement and stress by unit tractions on a cell of a homogeneous half-space.
+    """Compute displacement and stress by unit tractions on one surface cell of a homogeneous
+    half-space.
 
-    The half-space has the material of the stack at this level.
+    The half-space has the material of the body at this depth. The result (FIELDS, acting tractions,
+    nx, ny) belongs to cell offsets >= 0.
 
-    shape  number of offsets along x and y
+    stack    layers and base of the body
+    level    depth with the index of its layer
+    spacing  cell sides [length]
+    shape    number of offsets along x and y
+    sheared  include the responses to shear, before those to pressure
     """
     x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]
     y = (np.arange(shape[1] + 1, dtype=np.float64) - 0.5) * spacing[1]
@@ -233,7 +259,12 @@ def _half_space_coefficients(
 
 
 def _deformable_stack(body: Body | Scene | Stack) -> Stack:
-    """Return the layers and base of a body; raise ValueError for a rigid body."""
+    """Return the layers and base of a body that is not rigid.
+
+    body  body, its layers and base, or a scene, of which the lower body is used
+
+    Raises ValueError for a rigid body, which has no subsurface stress.
+    """
     if isinstance(body, Scene):
         body = body.body
     stack = body if isinstance(body, Stack) else stack_of(body)
@@ -243,8 +274,14 @@ def _deformable_stack(body: Body | Scene | Stack) -> Stack:
 
 
 def _checked_tractions(grid: SurfaceGrid, pressure: Field, shear: Field | None) -> Field:
-    """Check the shapes of pressure and shear, and return (q_x, q_y, p); p alone if the shear is
-    zero."""
+    """Check the shapes of pressure and shear, and combine both into one array of tractions.
+
+    The array has the components (q_x, q_y, p), shape (3, nx, ny). It has the pressure alone, shape
+    (1, nx, ny), if the shear is zero.
+
+    grid             cells that carry the tractions
+    pressure, shear  tractions on the body, (nx, ny) and (2, nx, ny); None is no shear
+    """
     for name, field, expected in (
         ("pressure", pressure, grid.cells),
         ("shear", shear, (2, *grid.cells)),

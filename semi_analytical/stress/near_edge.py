@@ -1,8 +1,8 @@
-"""Stress near the edge of a contact from fitted tractions, with a test of the fit.
+"""Stress at and near the edge of a contact, from tractions that are fitted near the edge.
 
 The tensile stress is largest at the edge and falls with the square root of the distance on both
 sides. If the tractions are uniform in each cell, the stress at cell centres is 10 % too low at 128
-cells.
+cells. Two fits are compared in order to reject edges that cannot be fitted.
 """
 
 from __future__ import annotations
@@ -48,8 +48,9 @@ NOT_SMOOTH = "the square of the pressure is not smooth at {} of the edge"
 
 
 class EdgeNotSeen(Exception):
-    """Raised if the tractions do not determine the stress at the contact edge; the message states
-    the cause.
+    """Error raised if the tractions do not determine the stress at the contact edge.
+
+    The message states the cause.
 
     candidate  fitted edge, where the tensile stress may still be largest; None where the fit failed
     """
@@ -61,12 +62,12 @@ class EdgeNotSeen(Exception):
 
 @dataclass(frozen=True)
 class NearEdge:
-    """Surface of a body with tractions and the fitted edge of the contact.
+    """Surface stress of a body near the contact edge, from tractions that are fitted near the edge.
 
     stack      layers and base of the body
-    grid       grid of the tractions
+    grid       cells that carry the tractions
     tractions  tractions with their variation within the edge cells
-    phi        quadratics of φ about points of the edge (n,)
+    phi        quadratics of φ about points of the edge (n,), with the pressure √φ
     apart      largest difference between two fits of the largest principal stress at the edge, over
                `size`
     size       scale of stress [force/length²]: the larger of that principal stress and the pressure
@@ -94,14 +95,17 @@ class NearEdge:
         return np.asarray(self.grid.y[0] + self.phi.y * self.grid.spacing[1])
 
     def stress(self) -> Field:
-        """Compute the surface stress at the edge points, as the limit from within the contact
-        (6, n)."""
+        """Compute the surface stress (6, n) [force/length^2] at the fitted points of the contact
+        edge.
+
+        The stress at an edge point is the limit from within the contact.
+        """
         return _surface_stress(self, self.phi)
 
     def at(self, x: Field, y: Field) -> Field:
-        """Compute the surface stress (6, n) [force/length^2] at n positions near the contact edge.
+        """Compute the surface stress (6, n) [force/length^2] at n points near the contact edge.
 
-        x, y  coordinates of the positions (n,) [length]
+        x, y  coordinates of the points (n,) [length]
         """
         of_cells = (
             (p - c[0]) / side
@@ -113,8 +117,10 @@ class NearEdge:
 
     @property
     def beside(self) -> Mask:
-        """Cells (nx, ny) near the contact edge in which the stress is corrected for the edge
-        inside cells."""
+        """Mask (nx, ny) of the cells near the contact edge whose stress is corrected.
+
+        The stress of these cells uses the variation of the tractions within the edge cells.
+        """
         shape = self.tractions.shape
         away = distance_transform_edt(shape.depth == 0)
         beside = (shape.depth <= BESIDE + 0.5) & (away <= BESIDE)
@@ -123,9 +129,7 @@ class NearEdge:
         return np.asarray(beside & inner)
 
     def corrected(self, field: SubsurfaceField) -> SubsurfaceField:
-        """Return displacement and stress whose stress near the contact edge is corrected.
-
-        The stress by tractions uniform in each cell is replaced by that of the fitted tractions.
+        """Replace the stress near the contact edge by the stress of the fitted tractions.
 
         field  displacement and stress by tractions uniform in each cell, on all or some rows of
                cells
@@ -150,9 +154,10 @@ class NearEdge:
         return replace(field, stress=stress)
 
     def reaches(self, level: Level) -> bool:
-        """Return True if the stress at a depth is corrected for the contact edge inside cells.
+        """Return True if the stress at a depth is corrected for the variation of tractions at the
+        contact edge.
 
-        The depth must lie in the outermost layer and near the surface.
+        The depth must be in the outermost layer and near the surface.
 
         level  depth with the index of its layer
         """
@@ -160,7 +165,11 @@ class NearEdge:
 
 
 def near_surface(depth: float, spacing: tuple[float, float]) -> bool:
-    """Return True if the stress at a depth is affected by the edge and can be corrected.
+    """Return True if the stress at a depth is corrected for the variation of tractions in edge
+    cells.
+
+    The surface is corrected. Other depths are not corrected if they are too deep for an effect, or
+    so close to the surface that the subcells are too coarse.
 
     depth    z >= 0 [length]
     spacing  cell sides [length]
@@ -177,14 +186,16 @@ def near_edge(
     *,
     corrected: bool = False,
 ) -> NearEdge:
-    """Fit the contact edge of a smooth contact, for the surface stress at and near the edge.
+    """Fit the pressure at the edge of a smooth contact, for the surface stress at and near the
+    edge.
 
     The pressure must fall like a square root towards the edge. Raises EdgeNotSeen, and the errors
     of `subsurface`.
 
     stack            layers and base of the body
     grid             cells that carry the tractions
-    pressure, shear  (nx, ny) and (2, nx, ny), traction on the body; None is no shear
+    pressure, shear  tractions on the body, (nx, ny) and (2, nx, ny) [force/length^2]; None is no
+                     shear
     corrected        True if the tractions are cell means with edge correction
     """
     if shear is not None and np.max(np.abs(shear)) <= NO_SHEAR * np.max(pressure):
@@ -240,9 +251,12 @@ def near_edge(
 
 
 def _stick_cells(pressure: Field, shear: Field) -> Mask:
-    """Return the cells of the contact that stick, from the ratio of shear to pressure (nx, ny).
+    """Return a mask (nx, ny) of the sticking cells, from the ratio of shear to pressure.
 
     A cell sticks if its ratio is below SLIPPING times the largest ratio.
+
+    pressure  pressure of the cells (nx, ny)
+    shear     shear of the cells (2, nx, ny)
     """
     region = pressure > 0
     size = np.hypot(*shear)
@@ -251,7 +265,9 @@ def _stick_cells(pressure: Field, shear: Field) -> Mask:
 
 
 def _set_on_edge(phi: Quadratic) -> Quadratic:
-    """Set φ at the fitted edge points, where it is zero up to rounding, to exactly zero.
+    """Set the constant term of fits about points of the contact edge to exactly zero.
+
+    The fitted function φ, the squared pressure, is zero there up to rounding.
 
     phi  quadratics of φ about the edge points
     """
@@ -259,15 +275,22 @@ def _set_on_edge(phi: Quadratic) -> Quadratic:
 
 
 def _surface_stress(found: NearEdge, phi: Quadratic) -> Field:
+    """Compute the surface stress (6, n) [force/length^2] near the contact edge at n points.
+
+    found  tractions with their fit near the edge
+    phi    quadratics of φ about the points, with the pressure √φ
+    """
     return stress_at_surface(
         found.tractions, phi, found.plane, found.stack.outer, found.grid.spacing
     )
 
 
 def _largest_principal_stress(stress: Field) -> Field:
-    """Compute the largest in-plane principal stress of the surface (n,) from the stress (6, n).
+    """Compute the largest in-plane principal stress of the surface at n points (n,).
 
     At the contact edge the surface is free of traction.
+
+    stress  stress in the order xx, yy, zz, yz, xz, xy (6, n)
     """
     xx, yy, xy = stress[0], stress[1], stress[5]
     return np.asarray((xx + yy) / 2 + np.hypot((xx - yy) / 2, xy))

@@ -1,7 +1,8 @@
-"""Surface stress between cell centres by all cells outside a patch about the place of the stress.
+"""Surface stress between cell centres that is caused by all cells beyond a patch about the point.
 
 The contribution of the patch is subtracted at the cell centres. The remaining stress, which
-includes that of the layers, is smooth and is interpolated.
+includes that of the layers, is smooth and is interpolated. The stress at the contact edge is the
+sum of this stress and that of the patch.
 """
 
 from functools import lru_cache
@@ -25,15 +26,15 @@ def stress_from_beyond(
     material: HalfSpace,
     spacing: tuple[float, float],
 ) -> Field:
-    """Compute the surface stress (6, n) at positions x, y (n,) by the cells outside a patch about
-    each.
+    """Compute the surface stress (6, n) at n points by the cells outside a square patch about each
+    point.
 
     The patch is centred at the nearest cell, which is at least NODES cells from the border of the
-    plane.
+    grid.
 
-    cells     (3, nx, ny) tractions
-    plane     (6, nx, ny) stress at the cell centres by all tractions
-    x, y      positions in index coordinates
+    cells     tractions (q_x, q_y, p) of the cells (3, nx, ny) [force/length^2]
+    plane     surface stress at the cell centres by all tractions (6, nx, ny) [force/length^2]
+    x, y      points as cell indices (n,)
     material  outermost material of the body
     spacing   cell sides [length]
     """
@@ -48,10 +49,11 @@ def stress_from_beyond(
 
 
 def _cell_patches(cells: Field, i: Indices, j: Indices) -> Field:
-    """Return the tractions on a square patch of cells about each of n cells, shape (n, 3, side,
-    side).
+    """Return the tractions on the square patch of cells about each of n cells (n, 3, side, side).
 
-    cells  tractions (3, nx, ny)
+    Cells beyond the grid have zero traction. side is 2 PATCH + 1 cells.
+
+    cells  tractions (q_x, q_y, p) of the cells (3, nx, ny)
     i, j   indices of the central cell of each patch (n,)
     """
     shift = np.arange(2 * PATCH + 1)
@@ -62,9 +64,14 @@ def _cell_patches(cells: Field, i: Indices, j: Indices) -> Field:
 
 @lru_cache(4)
 def _patch_kernel(material: HalfSpace, spacing: tuple[float, float]) -> Field:
-    """Compute the stress at each interpolation node by each traction of a patch (3 side², 6 nodes).
+    """Compute the surface stress at each interpolation node by each unit traction of a patch of
+    cells.
 
-    side is the number of cells along a side of the patch.
+    The shape is (3 side², 6 nodes), with the number `side` of cells along a side of the patch. The
+    nodes are cell centres about the centre of the patch.
+
+    material  outermost material of the body
+    spacing   cell sides [length]
     """
     reach = PATCH + NODES
     x, y = ((np.arange(-reach, reach + 2.0) - 0.5) * side for side in spacing)
@@ -80,8 +87,12 @@ def _patch_kernel(material: HalfSpace, spacing: tuple[float, float]) -> Field:
 
 
 def _lagrange_weights(at: Field) -> Field:
-    """Compute the Lagrange interpolation weights of the nodes (n, 2 NODES + 1) for positions
-    `at` (n,)."""
+    """Compute the weights of the nodes for one-dimensional Lagrange interpolation (n, 2 NODES + 1).
+
+    The nodes are the integers from -NODES to NODES.
+
+    at  positions of the interpolated values (n,)
+    """
     nodes = np.arange(-NODES, NODES + 1)
     weights = np.ones((len(at), len(nodes)))
     for column, node in enumerate(nodes):

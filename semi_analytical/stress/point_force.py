@@ -12,14 +12,15 @@ from contact_scene.array_types import Field
 
 
 def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -> Field:
-    """Compute stress times area (6, …) in a half-space under point forces on its surface.
+    """Compute the stress, times an area, in a half-space under point forces on its surface (6, …).
 
-    The components are in the order of CONVENTIONS.md. Points of action are excluded.
+    The forces are tractions times area. Points of action are excluded. The components have the
+    order xx, yy, zz, yz, xz, xy.
 
-    x, y   observer minus force (…), not both zero at depth zero [length]
-    depth  z >= 0 [length]
+    x, y   vector from each force to the observed point (…), not both zero at depth zero [length]
+    depth  depth z >= 0 of the observed points [length]
     nu     Poisson's ratio
-    force  (q_x, q_y, p) as traction times area, shape (3, …)
+    force  (q_x, q_y, p) times area, shape (3, …)
     """
     q_x, q_y, p = force / (2 * pi)
     sheared = bool(q_x.any() or q_y.any())
@@ -61,10 +62,12 @@ def stress_by_force(x: Field, y: Field, depth: float, nu: float, force: Field) -
 def _stress_at_surface(
     x: Field, y: Field, nu: float, force: tuple[Field, Field, Field], sheared: bool
 ) -> Field:
-    """Compute stress times area (6, …) at depth zero under point forces; only xx, yy and xy are not
-    zero.
+    """Compute the stress, times an area, on the surface of a half-space under point forces (6, …).
 
-    x, y     observer minus force (…) [length]
+    Only the components xx, yy and xy are not zero. Used for depth zero, where the formulas are
+    shorter.
+
+    x, y     vector from each force to the observed point (…) [length]
     nu       Poisson's ratio
     force    (q_x, q_y, p) as traction times area, divided by 2π
     sheared  True if q_x or q_y is not zero

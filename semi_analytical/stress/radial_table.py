@@ -38,12 +38,13 @@ BY_PRESSURE = 6  # number of functions for pressure, which are first
 
 
 def clearance(stack: Stack, level: Level) -> float:
-    """Return the distance from a depth to the nearest singularity of the tabulated functions
-    [length].
+    """Return the distance from a depth on the load axis to the nearest singularity of the response.
 
-    In the outermost layer of thickness h the singularity is an image source at 2h - z. Below this
-    layer the singularity is the force at the surface.
+    The response of a layered body to a point force is tabulated, and the distance [length] is the
+    length scale of the table. In the outermost layer of thickness h the singularity is an image
+    source at 2h - z. Below this layer the singularity is the force at the surface.
 
+    stack  layers and base of the body
     level  depth z with the index of its layer
     """
     if level.layer == 0:
@@ -54,10 +55,15 @@ def clearance(stack: Stack, level: Level) -> float:
 def depth_tables(
     stack: Stack, levels: tuple[Level, ...], reach: float, *, sheared: bool = True
 ) -> list[RadialTable]:
-    """Tabulate displacement and stress of a layered body at some depths, up to a distance from the
-    force.
+    """Compute tables of the displacement and stress of a layered body under a point force, at some
+    depths.
 
-    reach    largest distance [length]
+    Each table holds the radial functions of one depth up to a distance from the force. In the
+    outermost layer the response of a half-space of its material is excluded.
+
+    stack    layers and base of the body
+    levels   depths, each with the index of its layer
+    reach    largest distance from the force [length]
     sheared  include the responses to shear
     """
     orders = ORDERS if sheared else ORDERS[:BY_PRESSURE]
@@ -76,8 +82,13 @@ def _hankel_transforms(
     alpha: Array,
     weight: Array,
 ) -> Array:
-    """Compute the Hankel transforms of all radial functions, shape (levels, len(r), functions).
+    """Compute the radial functions of displacement and stress under a point force by Hankel
+    transforms.
 
+    The functions are integrals over the wavenumber. The shape is (levels, len(r), functions).
+
+    stack          layers and base of the body
+    levels         depths, each with the index of its layer
     orders         order of the Bessel function of each radial function
     r              distances from the force [length]
     alpha, weight  wavenumbers and quadrature weights
@@ -100,9 +111,11 @@ def _hankel_transforms(
 
 
 def _bessel_functions(x: Array) -> tuple[Array, Array, Array, Array]:
-    """Compute the Bessel functions J_0 to J_3 of x.
+    """Compute the Bessel functions J_0 to J_3 of x, for the Hankel transforms.
 
     The recurrence cancels at small x, where the weight alpha d alpha of the integral vanishes.
+
+    x  wavenumber alpha times distance from the force
     """
     first, second = j0(x), j1(x)
     third = 2 * second / x - first
@@ -112,7 +125,8 @@ def _bessel_functions(x: Array) -> tuple[Array, Array, Array, Array]:
 def integrands(fields: DepthScalars, plane: PlaneScalars) -> Array:
     """Compute the integrands of the 15 Hankel transforms of displacement and stress at one depth.
 
-    The shape is (functions, wavenumbers).
+    The transforms yield the radial functions of the response to a point force. The shape is
+    (functions, wavenumbers).
 
     fields  displacement and traction at the depth, in Fourier space
     plane   stress in the horizontal plane at the depth, in Fourier space
@@ -133,10 +147,13 @@ def integrands(fields: DepthScalars, plane: PlaneScalars) -> Array:
 
 
 def in_scene_axes(functions: Array, cos: Array, sin: Array) -> Array:
-    """Compute displacement and stress by unit forces; shape (FIELDS, acting tractions, *cos.shape).
+    """Compute displacement and stress by unit forces in the scene's axes, from their radial
+    functions.
+
+    The shape is (FIELDS, acting tractions, *cos.shape).
 
     functions  values of all radial functions, or of those for pressure (functions, *cos.shape)
-    cos, sin   direction cosines of the observer, seen from the force
+    cos, sin   direction cosines of the vector from the force to the observed point
     """
     ur_p, uz_p, n_p, s_p, mean_p, half_p, *by_shear = functions
     cos2, sin2 = (cos - sin) * (cos + sin), 2 * cos * sin
@@ -175,10 +192,11 @@ def layered_coefficients(
     *,
     sheared: bool,
 ) -> Iterator[Field]:
-    """Iterate over the response of a layered body to unit tractions on one cell, at each depth.
+    """Iterate over displacement and stress in a layered body by unit tractions on one cell, by
+    depth.
 
-    The response are displacements [length^3/force] and stresses [1] at all cell offsets >= 0. At a
-    depth in the outermost layer, the response of a half-space of its material is excluded.
+    Displacements [length^3/force] and stresses [1] are those at all cell offsets >= 0. At a depth
+    in the outermost layer, the response of a half-space of its material is excluded.
 
     stack    layers and base of the body
     levels   depths, each with the index of its layer
@@ -201,9 +219,13 @@ def layered_coefficients(
 
 
 def _point_response(table: RadialTable, x: Field, y: Field) -> Field:
-    """Compute displacement and stress at (x, y) by unit point forces at the origin.
+    """Compute displacement and stress at points (x, y) of one depth by unit point forces at the
+    origin.
 
     The result has the shape (FIELDS times acting tractions, *x.shape).
+
+    table  radial functions of the response at this depth
+    x, y   coordinates of the points [length]
     """
     r = np.hypot(x, y)
     away = np.where(r > 0, r, 1.0)  # on the axis functions of the direction vanish

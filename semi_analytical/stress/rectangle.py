@@ -21,11 +21,13 @@ from semi_analytical.stress.components import empty_response
 
 
 class AxisPotentials:
-    """Integrals over a loaded rectangle of derivatives of the potentials A, B, C along one surface
-    axis s.
+    """Integrals over a loaded rectangle of derivatives of three potentials along one surface axis
+    s.
 
-    With the distance ρ from the source point, A = 1/ρ, B = -ln(ρ + z) and C = z ln(ρ + z) - ρ. Each
-    integral has shape (…, nx, ny).
+    The potentials are A = 1/ρ, B = -ln(ρ + z) and C = z ln(ρ + z) - ρ, with the distance ρ from the
+    source point. Displacement and stress in a half-space are sums of such integrals. The property
+    `b_sso` is the integral of the derivative of B twice along s and once along the other axis o,
+    divided by 2π. Each integral has the shape (…, nx, ny).
 
     s, o   corner offsets of the observers along this and the other axis, which broadcast [length]
     depth  z >= 0 [length]
@@ -39,20 +41,22 @@ class AxisPotentials:
 
     @cached_property
     def log(self) -> Field:
-        """Primitive of the derivative A_s of the potential A = 1/ρ, at the corners of the
+        """Primitive of the derivative A_s of the potential A = 1/ρ, at the corners of a loaded
         rectangle.
 
-        s is the coordinate along the axis and ρ the distance from the source point.
+        s is the coordinate along the axis and ρ the distance from the source point. The difference
+        over the corners is the integral of A_s over the rectangle.
         """
         return np.arcsinh(self._o / np.sqrt(self._sz))
 
     @cached_property
     def angle(self) -> Field:
-        """Primitive of the derivative -B_ss of the potential B = -ln(ρ + z), at the corners of the
+        """Primitive of the derivative -B_ss of the potential B = -ln(ρ + z), at the corners of a
         rectangle.
 
-        s is the coordinate along the axis and ρ the distance from the source point. The formula
-        contains ρ - z without cancellation.
+        s is the coordinate along the axis and ρ the distance from the source point. The difference
+        over the corners is the integral of -B_ss over the loaded rectangle. The formula contains ρ
+        - z without cancellation.
         """
         s, o, z, rho = self._s, self._o, self._z, self._rho
         return np.arctan(s * o * (s**2 + o**2) / (self._deep * (s**2 * rho + o**2 * z)))
@@ -101,18 +105,26 @@ class AxisPotentials:
 
 
 def _corner_differences(primitive: Field) -> Field:
-    """Evaluate an integral over a rectangle, divided by 2 pi, from its primitive at the corners."""
+    """Evaluate an integral over a loaded rectangle, divided by 2π, from its primitive at the
+    corners.
+
+    The result is the second difference of the primitive along the last two axes.
+
+    primitive  values at the corners of adjacent rectangles (…, nx + 1, ny + 1)
+    """
     return np.diff(np.diff(primitive, axis=-2), axis=-1) / (2 * pi)
 
 
 def half_space_response(
     x: Field, y: Field, depth: float, material: HalfSpace, *, sheared: bool = True
 ) -> Field:
-    """Compute displacement and stress in a half-space by unit tractions on a rectangle.
+    """Compute displacement and stress in a half-space by unit tractions on a rectangle of its
+    surface.
 
     The shape is (FIELDS, acting tractions, …, nx, ny). The fields are in equilibrium and regular at
     nu = 1/2. The divergence of the displacement is 2 (1 - 2 nu) / 2G times A_z under pressure, A_x
-    and A_y under shear. Every normal stress includes 2 nu times these derivatives.
+    and A_y under shear, with the integral A of 1/(2π rho) over the rectangle. Every normal stress
+    includes 2 nu times these derivatives.
 
     x, y      corner offsets of the observers from the loaded rectangles, minus and plus half a
               side, shared by neighbours; shapes (…, nx + 1), (…, ny + 1), none zero at depth zero
