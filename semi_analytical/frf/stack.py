@@ -13,7 +13,7 @@ from contact_scene.material import IsotropicMaterial
 
 
 class HalfSpace(NamedTuple):
-    """Isotropic half-space.
+    """Elastic constants of a homogeneous isotropic half-space.
 
     shear_modulus  G [force/length^2]
     poisson_ratio  Poisson's ratio
@@ -24,7 +24,7 @@ class HalfSpace(NamedTuple):
 
 
 class Film(NamedTuple):
-    """Isotropic layer of uniform thickness, bonded to the next material.
+    """Isotropic layer of uniform thickness, bonded to the material below.
 
     shear_modulus  G [force/length^2]
     poisson_ratio  Poisson's ratio

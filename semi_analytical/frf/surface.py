@@ -23,7 +23,8 @@ from semi_analytical.frf.stack import HalfSpace, Stack
 class Compliance(NamedTuple):
     """Compliance (displacement per traction) of the material below a horizontal plane of a body.
 
-    The wavenumber is alpha, and G is the shear modulus of the material at the plane.
+    The compliance is a function of the wavenumber alpha. G is the shear modulus of the material to
+    which the plane is assigned, above or below the plane.
 
     rows   (det C, C11, C12, C22, 1) of the compliance C along the wave vector and z, in units of
            1/(2 G alpha)

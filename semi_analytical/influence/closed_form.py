@@ -101,6 +101,8 @@ class RectangleIntegrals:
 class HalfSpaceCoefficients:
     """Influence coefficients of a homogeneous half-space (Johnson 1985, eqs 3.19 and 3.75-3.77).
 
+    They are surface displacements at cell centres by a unit traction on one cell.
+
     integrals      integrals over the loaded cell
     shear_modulus  G [force/length^2]
     poisson_ratio  Poisson's ratio nu

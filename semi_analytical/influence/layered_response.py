@@ -28,7 +28,8 @@ def remainder_table(stack: Stack, reach: float) -> RadialTable:
     """Compute a table of the surface displacement under a point force that layers add to a
     half-space.
 
-    The table holds four functions (zz, mean, twist, cross) of the distance from the force. Their
+    The table holds four functions of the distance from the force: zz (normal displacement by a
+    normal force), mean and twist (tangential by tangential), cross (normal by tangential). Their
     nearest singularity is the image of the force in the first interface, at twice the thickness of
     the outermost layer.
 
@@ -48,10 +49,10 @@ def remainder_table(stack: Stack, reach: float) -> RadialTable:
 
 
 def half_space_response(material: HalfSpace) -> Array:
-    """Return the surface displacement of a half-space under a point force, times the distance r
-    (4,).
+    """Return the surface displacement of a half-space under a point force, times the distance (4,).
 
-    The displacement has four radial functions (zz, mean, twist, cross). Their products with r are
+    The displacement has four radial functions: zz (normal by a normal force), mean and twist
+    (tangential by tangential), cross (normal by tangential). Their products with the distance are
     constants.
 
     material  shear modulus G and Poisson's ratio

@@ -48,7 +48,7 @@ def each_response(
 
     Each response (nx, ny) is yielded with its parity along x and y: 1 even, -1 odd.
 
-    coefficients  responses (FIELDS, acting tractions, nx, ny)
+    coefficients  3 displacements and 6 stresses by each traction component (9, tractions, nx, ny)
     """
     tractions = acting(coefficients.shape[1] > 1)
     for responses, field in zip(coefficients, FIELDS, strict=True):
@@ -59,9 +59,9 @@ def each_response(
 def empty_response(shape: tuple[int, ...], *, sheared: bool = True) -> NDArray[np.float64]:
     """Return an uninitialised array for the displacements and stresses by unit tractions.
 
-    The array has the shape (FIELDS, acting tractions, *shape).
+    The array has the shape (9, tractions, *shape), for 3 displacements and 6 stresses.
 
     shape    shape of each response
-    sheared  True with responses to shear, False with those to pressure alone
+    sheared  True for the three tractions q_x, q_y, p; False for the pressure p alone
     """
     return np.empty((len(FIELDS), len(acting(sheared)), *shape))

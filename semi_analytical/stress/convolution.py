@@ -24,9 +24,10 @@ def offsets_between(tractions: Field, rows: Indices) -> tuple[int, int]:
     """Return the number of cell offsets along x and y at which displacement and stress are
     required.
 
-    These are the offsets, from 0, between loaded cells and the cells of some rows.
+    These are the offsets, from 0, between loaded cells and the cells of some rows. Response
+    coefficients are computed at these offsets.
 
-    tractions  tractions of the cells (acting tractions, nx, ny)
+    tractions  tractions of the cells, q_x, q_y, p or p alone (tractions, nx, ny)
     rows       indices along y of the rows where stresses are required
     """
     loaded = np.any(tractions, axis=0)
@@ -39,13 +40,13 @@ def offsets_between(tractions: Field, rows: Indices) -> tuple[int, int]:
 
 
 def mirror_planes(tractions: Field) -> tuple[bool, bool]:
-    """Return True for each of the planes x = 0 and y = 0 that is a mirror plane of surface
-    tractions.
+    """Return True for each of the planes x = 0 and y = 0 about which surface tractions are
+    symmetric.
 
-    The reflected traction vectors must be equal up to round-off. Mirror planes halve the
+    The reflected traction vectors must be equal up to round-off. Symmetry halves the cost of the
     convolution.
 
-    tractions  tractions of the cells (acting tractions, nx, ny)
+    tractions  tractions of the cells, q_x, q_y, p or p alone (tractions, nx, ny)
     """
     size = ROUND_OFF * float(np.max(np.abs(tractions), initial=0.0))
     found = []
@@ -117,9 +118,10 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
     """Return a function that computes displacement and stress on a whole horizontal plane.
 
     The function convolves the tractions with response coefficients at one depth. It maps
-    coefficients (FIELDS, acting tractions, offsets) to fields (FIELDS, nx, ny).
+    coefficients (9, tractions, offsets along x, along y) to 3 displacements and 6 stresses (9, nx,
+    ny).
 
-    tractions  tractions of the surface cells (acting tractions, nx, ny)
+    tractions  tractions of the surface cells, q_x, q_y, p or p alone (tractions, nx, ny)
     offsets    number of offsets of the coefficients, at least those of `offsets_between`
     """
     x, y = (
@@ -170,10 +172,10 @@ def _cosine_or_sine_sums(response: Field, parity: int) -> Field:
 def row_convolution(tractions: Field, rows: Indices) -> Convolution:
     """Return a function that computes displacement and stress on some rows of cells at one depth.
 
-    The function convolves the tractions with response coefficients. It maps coefficients (FIELDS,
-    acting tractions, offsets) to fields (FIELDS, nx, len(rows)).
+    The function convolves the tractions with response coefficients. It maps coefficients (9,
+    tractions, offsets along x, along y) to 3 displacements and 6 stresses (9, nx, len(rows)).
 
-    tractions  tractions of the surface cells (acting tractions, nx, ny)
+    tractions  tractions of the surface cells, q_x, q_y, p or p alone (tractions, nx, ny)
     rows       indices of the rows along y
     """
     nx = tractions.shape[1]

@@ -114,7 +114,7 @@ def subsurface(
     shear: Field | None,
     depths: Sequence[float | Level],
 ) -> SubsurfaceField:
-    """Compute displacement and stress of the lower body at all cell centres of some depths.
+    """Compute displacement and stress of the lower body below all cell centres at some depths.
 
     The tractions are uniform in each cell. There is no other approximation (no periodic images, no
     truncated spectrum): the relative error of the fields of these tractions is about 1e-12.
@@ -151,11 +151,14 @@ def subsurface_section(
     depths: Sequence[float | Level],
     y: float = 0.0,
 ) -> SubsurfaceField:
-    """Compute displacement and stress of `subsurface` on the vertical section at y.
+    """Compute displacement and stress of the lower body on the vertical section at a coordinate y.
 
+    The arguments are those of `subsurface`: body, grid of the loaded cells, tractions and depths.
     The section costs a fraction of the time and memory of whole planes. Cubic interpolation between
     rows of cells has an error of 0.02 dy^4 times the fourth derivative. Raises the errors of
     `subsurface`.
+
+    y  coordinate of the section [length]
     """
     rows = np.flatnonzero(line_weights(grid.y, y))
     near = fields_by_level(body, grid, pressure, shear, depths, rows)
@@ -217,9 +220,10 @@ def depth_coefficients(
     stack    layers and base of the body
     levels   depths, each with the index of its layer
     spacing  cell sides dx, dy [length]
-    shape    number of offsets along x and y, including zero
-    sheared  include the responses to shear, before those to pressure
-    yields   shape (FIELDS, acting tractions, nx, ny)
+    shape    number of offsets nx, ny along x and y, including zero
+    sheared  include the responses to the shear components, before those to pressure
+    yields   shape (9, tractions, nx, ny): 3 displacements and 6 stresses, by each traction
+             component
     """
     if not stack.layers:
         for level in levels:
@@ -241,17 +245,17 @@ def _half_space_coefficients(
     shape: tuple[int, int],
     sheared: bool,
 ) -> Field:
-    """Compute displacement and stress by unit tractions on one surface cell of a homogeneous
-    half-space.
+    """Compute displacement and stress in a half-space by unit tractions on one surface cell.
 
-    The half-space has the material of the body at this depth. The result (FIELDS, acting tractions,
-    nx, ny) belongs to cell offsets >= 0.
+    The half-space is homogeneous, with the material of the body at the depth. The result (9,
+    tractions, nx, ny) has 3 displacements and 6 stresses by each traction component, at cell
+    offsets >= 0.
 
     stack    layers and base of the body
     level    depth with the index of its layer
     spacing  cell sides [length]
-    shape    number of offsets along x and y
-    sheared  include the responses to shear, before those to pressure
+    shape    number of offsets nx, ny along x and y
+    sheared  include the responses to the shear components, before those to pressure
     """
     x = (np.arange(shape[0] + 1, dtype=np.float64) - 0.5) * spacing[0]
     y = (np.arange(shape[1] + 1, dtype=np.float64) - 0.5) * spacing[1]

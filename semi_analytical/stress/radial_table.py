@@ -147,10 +147,11 @@ def integrands(fields: DepthScalars, plane: PlaneScalars) -> Array:
 
 
 def in_scene_axes(functions: Array, cos: Array, sin: Array) -> Array:
-    """Compute displacement and stress by unit forces in the scene's axes, from their radial
+    """Compute displacement and stress by unit forces in the scene's axes from their radial
     functions.
 
-    The shape is (FIELDS, acting tractions, *cos.shape).
+    The result (9, tractions, *cos.shape) has 3 displacements and 6 stresses by each force
+    component.
 
     functions  values of all radial functions, or of those for pressure (functions, *cos.shape)
     cos, sin   direction cosines of the vector from the force to the observed point
@@ -201,9 +202,10 @@ def layered_coefficients(
     stack    layers and base of the body
     levels   depths, each with the index of its layer
     spacing  cell sides [length]
-    shape    number of offsets along x and y, including zero
-    sheared  include the responses to shear, before those to pressure
-    yields   shape (FIELDS, acting tractions, nx, ny)
+    shape    number of offsets nx, ny along x and y, including zero
+    sheared  include the responses to the shear components, before those to pressure
+    yields   shape (9, tractions, nx, ny): 3 displacements and 6 stresses, by each traction
+             component
     """
     reach = hypot(*((n + MARGIN) * d for n, d in zip(shape, spacing, strict=True)))
     parities = [parity(field, traction) for field in FIELDS for traction in acting(sheared)]
@@ -219,10 +221,10 @@ def layered_coefficients(
 
 
 def _point_response(table: RadialTable, x: Field, y: Field) -> Field:
-    """Compute displacement and stress at points (x, y) of one depth by unit point forces at the
-    origin.
+    """Compute displacement and stress at points (x, y) of one depth by unit forces at the origin.
 
-    The result has the shape (FIELDS times acting tractions, *x.shape).
+    The forces act on the surface of a layered body. The result (9 times tractions, *x.shape) has 3
+    displacements and 6 stresses by each force component.
 
     table  radial functions of the response at this depth
     x, y   coordinates of the points [length]

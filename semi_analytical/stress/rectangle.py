@@ -118,20 +118,20 @@ def _corner_differences(primitive: Field) -> Field:
 def half_space_response(
     x: Field, y: Field, depth: float, material: HalfSpace, *, sheared: bool = True
 ) -> Field:
-    """Compute displacement and stress in a half-space by unit tractions on a rectangle of its
-    surface.
+    """Compute displacement and stress in a half-space by unit tractions on a surface rectangle.
 
-    The shape is (FIELDS, acting tractions, …, nx, ny). The fields are in equilibrium and regular at
-    nu = 1/2. The divergence of the displacement is 2 (1 - 2 nu) / 2G times A_z under pressure, A_x
-    and A_y under shear, with the integral A of 1/(2π rho) over the rectangle. Every normal stress
-    includes 2 nu times these derivatives.
+    The result (9, tractions, …, nx, ny) has 3 displacements and 6 stresses by each traction
+    component. The fields are in equilibrium and regular at nu = 1/2. The divergence of the
+    displacement is 2 (1 - 2 nu) / 2G times A_z under pressure, A_x and A_y under shear, with the
+    integral A of 1/(2π rho) over the rectangle. Every normal stress includes 2 nu times these
+    derivatives.
 
     x, y      corner offsets of the observers from the loaded rectangles, minus and plus half a
               side, shared by neighbours; shapes (…, nx + 1), (…, ny + 1), none zero at depth zero
               [length]
     depth     z >= 0 [length]
     material  elastic constants (G, nu)
-    sheared   include the responses to shear, before those to pressure
+    sheared   include the responses to the shear components, before those to pressure
     """
     x, y = x[..., :, None], y[..., None, :]
     along = AxisPotentials(x, y, depth), AxisPotentials(y, x, depth)
