@@ -1,4 +1,8 @@
-"""Answer of another code to a challenge: numbers and fields on several refinement levels, in SI."""
+"""Data classes of the answer of another code to a challenge: numbers and tractions on several
+levels.
+
+A challenge is a contact problem with a known reference. All values are in SI.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +20,11 @@ SAMPLINGS = ("point", "cell")
 
 @dataclass(frozen=True)
 class Field:
-    """Traction of an answer at points that the other code has chosen.
+    """Traction that another code computed, given at points that this code has chosen.
 
-    x, y   coordinates of the points [m]
-    value  traction at the points [Pa]
-    area   area of the surface that each point represents [m²]
+    x, y   coordinates of the points (points,) [m]
+    value  one traction component at the points (points,) [Pa]
+    area   area of the surface that each point represents (points,) [m²]
 
     Raises ValueError for arrays of unequal lengths, without points, or areas that are not positive.
     """
@@ -46,17 +50,18 @@ class Field:
 
 @dataclass(frozen=True)
 class Answer:
-    """Answer of another code to a challenge on one refinement level.
+    """Answer of another code to a challenge, computed on one refinement level.
 
-    h         size of a cell or element at the contact edge, or √area if its sides differ [m]
-    scalars   values by quantity and load step, or pairs of a value and its standard uncertainty
-              [SI]
-    fields    tractions on the lower body, by quantity and load step [Pa]
+    Numbers are identified by a key: the pair of quantity name and load step, counted from 1.
+
+    h         side of a cell or element at the contact edge, or √area if its sides differ [m]
+    scalars   numbers by key; a value, or a pair of the value and its standard uncertainty [SI]
+    fields    tractions on the lower body by key [Pa]
     gave_up   reason for a missing answer, by load step; step 0 stands for all steps
-    unknowns  number of unknowns of the level; None if it is not given
-    seconds   computing time of the level [s]; None if it is not given
+    unknowns  number of unknowns of the discrete problem; None if it is not given
+    seconds   computing time of this level [s]; None if it is not given
     label     name of the level
-    points    numbers at the required points, in their order, by quantity and load step [SI]
+    points    numbers at the points that the challenge prescribes, in their order, by key [SI]
     """
 
     h: float
@@ -69,25 +74,28 @@ class Answer:
     points: Mapping[Key, Vector] = field(default_factory=dict)
 
     def value(self, key: Key) -> float | None:
-        """Return the value of a number; None if the answer does not contain the number.
+        """Return the value that the answer gives for a required number; None if the number is
+        missing.
 
-        key  quantity and load step
+        key  name of the quantity, and load step
         """
         found = self.scalars.get(key)
         return found[0] if isinstance(found, tuple) else found
 
     def has(self, key: Key) -> bool:
-        """Return True if the answer contains the given number, numbers at points, or field.
+        """Return True if the answer contains a number, numbers at points, or a field for a
+        quantity.
 
-        key  quantity and load step
+        key  name of the quantity, and load step
         """
         return key in self.scalars or key in self.points or key in self.fields
 
     def uncertainty(self, key: Key) -> float | None:
-        """Return the standard uncertainty that the other code states for a number; None if it
-        states none.
+        """Return the standard uncertainty that the other code states for a number.
 
-        key  quantity and load step
+        The result is None if the code states no uncertainty or the number is missing.
+
+        key  name of the quantity, and load step
         """
         found = self.scalars.get(key)
         return found[1] if isinstance(found, tuple) else None
@@ -95,10 +103,12 @@ class Answer:
 
 @dataclass(frozen=True)
 class Solver:
-    """Description of a code that answers challenges.
+    """Description of a code that answers challenges, and of the accuracy that it claims.
 
-    sampling         meaning of field values: "point", or "cell" for means over squares
-    claimed_grade    accuracy class that the code claims; None: no claim
+    sampling         meaning of the values of a traction field: "point" for values at points, "cell"
+                     for
+                     means over squares around the points
+    claimed_grade    accuracy class "A", "B" or "C" that the code claims; None: no claim
     claimed_orders   convergence orders that the code claims, by quantity
     """
 

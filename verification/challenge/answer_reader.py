@@ -1,4 +1,7 @@
-"""Reader of the answer files of a challenge. Each mistake is reported with its file and line."""
+"""Reader of the files in which another code returns its answer to a challenge.
+
+Each mistake in a file is reported with the file, the line, the found and the expected value.
+"""
 
 from __future__ import annotations
 
@@ -51,12 +54,13 @@ MAX_BYTES = 100_000_000
 def rows(
     folder: Path, table: str, columns: tuple[str, ...]
 ) -> Iterator[tuple[str, dict[str, str]]]:
-    """Yield the file position and the cells of every row of a CSV file of levels or answers.
+    """Yield file position and cells of every row of a CSV file that another code has filled in.
 
-    Raises Refused if the file cannot be read or its columns do not fit.
+    The cells are texts by column name. Raises Refused if the file cannot be read or has other
+    columns.
 
-    folder   folder of the answer
-    table    name of the file
+    folder   folder of the answer to a challenge
+    table    name of the file, for levels or for answers
     columns  names of the required columns
     """
     path = folder / table
@@ -73,10 +77,11 @@ def rows(
 
 
 def require_columns(where: str, found: Sequence[str], expected: Sequence[str]) -> None:
-    """Check that a table has all expected columns; raise Refused with the found columns if not.
+    """Raise Refused if a table of an answer lacks an expected column; the message lists the columns
+    found.
 
-    where     file and line
-    found     column names of the file
+    where     file and line of the header, for the message
+    found     column names of the table
     expected  required column names
     """
     missing = [name for name in expected if name not in found]
@@ -115,12 +120,13 @@ Columns = Mapping[str, Any]
 def read_fields(
     folder: Path, challenge: Challenge, levels: Mapping[str, Any]
 ) -> dict[str, dict[Key, Field]]:
-    """Read the tractions of an answer from the files of its field folder.
+    """Read the traction fields of an answer to a challenge from the CSV files of its field folder.
 
-    Returns the fields by level, and by quantity and load step. Raises Refused for a mistake.
+    Returns the fields by level name; for each level by quantity and load step. Raises Refused for a
+    file with a mistake.
 
     folder  folder of the answer
-    levels  levels of the answer, by name
+    levels  refinement levels of the answer, by name
     """
     found: dict[str, dict[Key, Field]] = {}
     for where, level, step, columns in _field_files(folder):
@@ -154,8 +160,14 @@ def read_fields(
 
 
 def _field_files(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
-    """Yield file position, level, load step and columns of every field file in the folder of an
-    answer."""
+    """Read every traction file LEVEL_STEP.csv of an answer to a challenge.
+
+    Yields the file position, the level name, the load step as text, and the columns by header.
+    Raises
+    Refused for a wrong file name or table.
+
+    folder  folder of the answer
+    """
     tables = folder / FIELDS
     for path in sorted(tables.glob("*")) if tables.is_dir() else ():
         level, _, step = path.stem.rpartition("_")
@@ -186,10 +198,10 @@ SOLVED, GAVE_UP = "solved", "gave up"
 
 
 def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]]:
-    """Read the answer to a challenge from its folder.
+    """Read the answer of another code to a challenge from its folder.
 
-    Returns the challenge, the description of the code, and the answers on all levels, coarse to
-    fine. Raises Refused with file, line, found and expected value.
+    Returns the challenge, the description of the code, and one `Answer` per refinement level, from
+    coarse to fine. Raises Refused with file, line, found and expected value.
     """
     challenge = _read_challenge(directory)
     file = directory / ANSWERS
@@ -324,10 +336,12 @@ def _read_levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, A
 def _read_values(
     folder: Path, challenge: Challenge
 ) -> Iterator[tuple[str, str, Key, int, float | tuple[float, float]]]:
-    """Yield the filled-in numbers of the answer file.
+    """Yield the numbers that another code has filled in into the file of answers.
 
-    Each item has the file position, the level, quantity and load step, the number of the point (0
-    for a number without points), and the value, as a pair with its uncertainty if one is given.
+    Rows without a value are left out. Each item has the file position, the level name, the quantity
+    with its load step, the number of the point (0 for a number without points), and the value [SI].
+    The
+    value is a pair with its standard uncertainty if the code gives one.
     """
     for where, row in rows(folder, ANSWERS, ANSWER_COLUMNS):
         if not row["value"]:
@@ -375,9 +389,11 @@ def _parsed_number(where: str, text: str) -> float:
 
 
 def _positive_number(where: str, name: str, text: str) -> float | None:
-    """Read a positive number from a cell of a table; None for an empty cell. Raises Refused.
+    """Read a number that must not be negative from a cell of a table of an answer.
 
-    where  file and line
+    An empty cell returns None. Raises Refused for a negative or infinite number.
+
+    where  file and line, for the message
     name   name of the column
     text   content of the cell
     """
@@ -390,14 +406,16 @@ def _positive_number(where: str, name: str, text: str) -> float | None:
 
 
 def _number_in_si(where: str, text: str, unit: str, kind: Kind) -> float:
-    """Convert a number with a unit from a table to SI; raise Refused for an unsuitable unit.
+    """Convert a number with a unit, from a table of an answer, to SI.
 
-    A number that is not finite is returned unchanged and fails when it is judged.
+    Raises Refused for a missing or unsuitable unit. A number that is not finite is returned and
+    fails
+    later, in the judgement.
 
-    where  file and line
-    text   number
-    unit   unit of the number
-    kind   physical dimension that is expected
+    where  file and line, for the message
+    text   number as text
+    unit   unit of the number, as text
+    kind   physical dimension that the required quantity has
     """
     value = _parsed_number(where, text)
     if not unit:

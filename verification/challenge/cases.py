@@ -1,7 +1,7 @@
-"""Challenges for other codes: problems with accurately known answers.
+"""Challenges for other codes: contact problems with accurately known solutions.
 
-Geometries differ along x and y, and bodies differ from each other, where equal ones would hide an
-exchange of axes or bodies.
+Where equal axes or equal bodies would hide that a code exchanges them, the geometries differ along
+x and y, and the bodies differ from each other.
 """
 
 from __future__ import annotations
@@ -76,9 +76,11 @@ def tilted_indenters() -> Iterator[Challenge]:
 
 
 def tilted_punch() -> Challenge:
-    """Create the challenge of a flat punch that is pressed and tilted.
+    """Create the challenge of a flat punch that is pressed and tilted by a prescribed slope.
 
-    The punch remains in contact over its whole end, whose displacement is a plane.
+    The punch remains in contact over its whole end, whose displacement is a plane. The approach and
+    the
+    moments are required.
     """
     arm = (
         4 / 3 * CONTACT_MODULUS * PUNCH_RADIUS**3 / NORMAL_FORCE
@@ -93,9 +95,11 @@ def tilted_punch() -> Challenge:
 
 
 def tilted_ball() -> Challenge:
-    """Create the challenge of a ball that is pressed and tilted by φ.
+    """Create the challenge of a ball that is pressed and tilted by the slope φ.
 
-    A tilted paraboloid is a shifted paraboloid: x²/2R - φx = (x - Rφ)²/2R - Rφ²/2.
+    A tilted paraboloid is a shifted paraboloid: x²/2R - φx = (x - Rφ)²/2R - Rφ²/2. The approach,
+    the
+    contact radius and the moments are required.
     """
     drop = 0.5 * RADIUS * (BALL_TILT[0] ** 2 + BALL_TILT[1] ** 2)
     return _tilted_challenge(
@@ -149,9 +153,9 @@ MEANINGS = {
 
 
 def scene_of(poisson_ratio: float) -> Scene:
-    """Create the scene of two identical bodies with Poisson's ratio ν under changing loads.
+    """Create the scene of a ball on a body of the same material under changing forces and a torque.
 
-    The contact modulus E* is that of the standard ball for every ν.
+    The modulus E* of the contact is that of the standard ball for every Poisson's ratio.
     """
     modulus = 2 * CONTACT_MODULUS * (1 - poisson_ratio**2)
     material = IsotropicMaterial(young_modulus=modulus, poisson_ratio=poisson_ratio)
@@ -185,14 +189,15 @@ def changing_loads() -> Iterator[Challenge]:
 def _changing_load_value(
     step: str, name: str, value: float, ends: dict[str, dict[str, float]]
 ) -> AskedValue:
-    """Create a required number of the changing loads, with its error scale and uncertainty.
+    """Create a required number of a challenge with changing loads, with its error scale and
+    uncertainty.
 
-    The scale is the largest shift, twist or energy of the history.
+    The error scale is the largest shift, twist or dissipated energy of the load history.
 
     step   number of the load step, as text
-    name   name of the quantity
+    name   name of the quantity, such as "shift_x"
     value  reference value
-    ends   reference values by load step and name
+    ends   reference values at the ends of the load steps, by step and name
     """
     kind = name.partition("_")[0]
     scale = max(
@@ -214,9 +219,11 @@ UNCERTAINTY = 1e-4
 
 
 def paper_figure() -> Challenge:
-    """Create the challenge of a rigid ball on a coating, pressed with friction and then sheared.
+    """Create the challenge of a rigid ball on a coated body, pressed with friction and then
+    sheared.
 
-    The coating is twice as stiff as its substrate and as thick as the Hertz contact radius.
+    The coating is twice as stiff as its substrate and as thick as the Hertz contact radius. The
+    approach and the tangential shifts are required.
     """
     pushes = (LoadStep(tangential_force=(part * FRICTION_LIMIT, 0.0)) for part in SHIFTS)
     title = "Coated body under a rigid ball, pressed with friction, then sheared"
@@ -250,7 +257,7 @@ SERIES = 24
 
 @cache
 def challenges() -> dict[str, Challenge]:
-    """Return all challenges, by name."""
+    """Return all challenges for other codes, by name."""
     classical = (hertz_point(), hertz_elliptical(), cone(), punch(), cattaneo_mindlin(), loop())
     return {
         one.name: one
@@ -262,14 +269,16 @@ def challenges() -> dict[str, Challenge]:
 
 
 def hertz_point() -> Challenge:
-    """Create the challenge of a frictionless ball on a half-space (Hertz)."""
+    """Create the challenge of a frictionless ball on a half-space, with the Hertz solution."""
     pressure = round_halves((HERTZ.contact_radius, HERTZ.peak_pressure))
     return _pressed_challenge("hertz_point", "Hertz: a ball on a half-space", BALL, pressure)
 
 
 def hertz_elliptical() -> Challenge:
-    """Create the challenge of a barrel with an elliptical contact, whose square window reveals
-    exchanged axes."""
+    """Create the challenge of a barrel on a half-space, whose Hertz contact is an ellipse.
+
+    The window is square, so that a code that exchanges x and y gets wrong semi-axes.
+    """
     exact = BARREL.ends[0]
     a, b = exact.semi_axes
     axes = (
@@ -283,15 +292,17 @@ def hertz_elliptical() -> Challenge:
 
 
 def cone() -> Challenge:
-    """Create the challenge of a frictionless cone on a half-space, whose peak pressure is
-    infinite."""
+    """Create the challenge of a frictionless cone on a half-space. No pressure is required, because
+    the
+    peak pressure is infinite.
+    """
     return _pressed_challenge("cone_contact", "A cone on a half-space", CONE, None)
 
 
 def punch() -> Challenge:
-    """Create the challenge of a frictionless flat punch; only the approach is required.
+    """Create the challenge of a frictionless flat punch on a half-space.
 
-    The contact radius is prescribed by the geometry.
+    Only the approach is required, because the punch prescribes the contact radius.
     """
     exact = PUNCH.ends[0]
     return Challenge(
@@ -315,7 +326,12 @@ def coated_balls() -> Iterator[Challenge]:
 
 
 def cattaneo_mindlin() -> Challenge:
-    """Create the challenge of a ball that is pressed and then sheared in several load steps."""
+    """Create the challenge of a ball that is pressed and then sheared in 4 load steps (Cattaneo,
+    Mindlin).
+
+    The approach, and at each step the tangential shift, the stick radius and the shear are
+    required.
+    """
     problem = sheared("Ball pressed and sheared, ν = 0", PARTS)
     values, fields = [approach(HERTZ.approach)], []
     for step, end in enumerate(problem.ends[1:], start=2):
@@ -328,7 +344,12 @@ def cattaneo_mindlin() -> Challenge:
 
 
 def loop() -> Challenge:
-    """Create the challenge of a fretting loop, as a list of equilibria at prescribed forces."""
+    """Create the challenge of a ball under constant load and an alternating tangential force.
+
+    Each load step of the fretting loop prescribes a force. The tangential shift, stick radius and
+    shear
+    of each step, and the energy per cycle are required.
+    """
     turns = (*QUARTERS, *reversed(QUARTERS[:-1]), 0.0, *(-q for q in QUARTERS))
     turns += (*(-q for q in reversed(QUARTERS[:-1])), 0.0, *QUARTERS)
     problem = sheared("Fretting loop, ν = 0", tuple(AMPLITUDE * part for part in turns))
@@ -367,10 +388,10 @@ def _pressed_challenge(
     more: tuple[AskedValue, ...] = (),
     shares: str = "",
 ) -> Challenge:
-    """Create a challenge with one load step to a normal force of 1 kN.
+    """Create a challenge with one load step, in which a normal force of 1 kN presses the indenter.
 
     name      name of the challenge
-    problem   problem with its exact answer
+    problem   verification problem with its exact solution
     pressure  exact pressure; None if no pressure is required
     more      required numbers in place of the contact radius
     shares    parts that the reference has in common with our own solvers

@@ -23,7 +23,8 @@ from verification.challenge.requested_quantities import Challenge, Patch
 
 
 def toml_text(scene: Scene | Patch) -> str:
-    """Return the text of a scene file in TOML, with all values that differ from the defaults."""
+    """Return a scene as the text of a TOML scene file, with all values that differ from the
+    defaults."""
     if isinstance(scene, Patch):
         tables = scene.document(exclude_defaults=True)
         return "\n".join(_toml_lines(tables, ())).lstrip("\n") + "\n"
@@ -34,9 +35,10 @@ def toml_text(scene: Scene | Patch) -> str:
 
 
 def _toml_lines(content: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
-    """Yield the TOML lines of a table: first its values, then its subtables and arrays of tables.
+    """Yield the TOML lines of a table of a scene file: its values, then its subtables and table
+    arrays.
 
-    content  values by key
+    content  values of the table by key
     path     keys of the enclosing tables
     """
     deeper = {name: v for name, v in content.items() if _is_table(v) or _is_tables(v)}
@@ -86,7 +88,9 @@ GIVEN = ("scene.toml", "asked.csv", POINTS)
 
 
 def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
-    """Write the files of a challenge to a folder; raise Refused if it already contains answers.
+    """Write the files of a challenge, which another code reads and fills in, to a folder.
+
+    Raises Refused if the folder already contains answers.
 
     blind  True if the reference values are withheld
     """
@@ -119,7 +123,12 @@ def export(challenge: Challenge, directory: Path, *, blind: bool) -> None:
 
 
 def digest(text: str) -> str:
-    """Return the SHA-256 digest of a text, by which changes of an exported file are detected."""
+    """Compute the SHA-256 digest of the text of an exported file.
+
+    The digest is stored in the manifest of the challenge. The reader of answers compares the digest
+    to
+    detect a changed file.
+    """
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -154,7 +163,10 @@ def _empty_answers(challenge: Challenge) -> list[Sequence[Any]]:
 
 
 def _point_rows(challenge: Challenge) -> Iterator[Sequence[Any]]:
-    """Yield the rows of the table of required points, numbered from 1 for each quantity."""
+    """Yield the rows of the CSV table of the points at which a challenge requires numbers.
+
+    The points of each quantity are numbered from 1.
+    """
     for p in challenge.points:
         for n, place in enumerate(p.places, start=1):
             yield p.quantity, p.step, n, *(f"{x:.10g}" for x in place)
@@ -172,7 +184,10 @@ def _problem_text(challenge: Challenge) -> str:
 
 
 def _field_instructions(challenge: Challenge) -> str:
-    """Return the instructions for tractions at self-chosen points; "" if no field is required."""
+    """Return the instructions for the tractions that a code gives at points of its own choice.
+
+    The text is empty if the challenge requires no traction field.
+    """
     if not challenge.fields:
         return ""
     step, heads = challenge.fields[0].step, list(FIELD_COLUMNS)
@@ -181,9 +196,10 @@ def _field_instructions(challenge: Challenge) -> str:
 
 
 def _prescribed_ends(ramp: LoadRamp) -> Iterator[str]:
-    """Yield the prescribed loads and motions at the end of a load step as text.
+    """Yield the forces, moments or motions that a load step prescribes at its end, as text with
+    units.
 
-    Rotations that are prescribed as zero are left out.
+    Twist and tilt that are prescribed as zero are left out.
     """
     for words, control in (
         (("W", "N", "approach", "m"), ramp.normal),

@@ -1,7 +1,8 @@
-"""Challenges with friction but without tangential force, and stresses and patches at given points.
+"""Challenges with friction but without tangential force, and challenges with numbers at given
+points.
 
 The problems are torsion, indentation with friction, full stick, the stress below a sliding ball,
-and layered half-spaces under a uniform patch of traction.
+and layered half-spaces under a uniform traction on a square.
 """
 
 from __future__ import annotations
@@ -96,7 +97,10 @@ def frictional() -> Iterator[Challenge]:
 
 
 def torsion() -> Challenge:
-    """Create the challenge of a pressed ball that is twisted to three torques (Lubkin)."""
+    """Create the challenge of a pressed ball that is twisted to increasing torques (Lubkin).
+
+    The twist, the stick radius and the circumferential shear at each torque are required.
+    """
     values, fields = [], []
     for step, end in enumerate(TWISTED.ends[1:], start=2):
         values += [
@@ -120,12 +124,18 @@ def torsion() -> Challenge:
 
 
 def circumferential_shear(end: TorsionalPartialSlip) -> RoundTable:
-    """Tabulate the circumferential shear of a ball in torsion over the radius."""
+    """Tabulate the exact circumferential shear of a twisted ball over the distance from the axis.
+
+    end  exact solution at the end of a load step
+    """
     return tabulated(end.shear, end.stick_radius, end.contact_radius)
 
 
 def torsion_loop() -> Challenge:
-    """Create the challenge of a pressed ball under a torque that alternates between two limits."""
+    """Create the challenge of a pressed ball under a torque that alternates between two limits.
+
+    The twist at the end of each load step and the energy lost in one cycle are required.
+    """
     values = [
         _required_twist(step, end.twist, LARGEST.twist, OVER_TWIST)
         for step, end in enumerate(TORSION_LOOP.ends[1:], start=2)
@@ -143,10 +153,14 @@ def torsion_loop() -> Challenge:
 
 
 def pressed_with_friction(one: Indentation) -> Challenge:
-    """Create the challenge of a rigid ball that is pressed with friction, from a tabulated
+    """Create the challenge of a rigid ball that is pressed with friction, with a tabulated
     reference.
 
-    Tractions are required at radii away from the contact edge and the stick edge.
+    Pressure and radial shear are required at radii that keep a distance from the contact edge and
+    from
+    the stick edge.
+
+    one  indentation with friction, with its tabulated reference solution
     """
     problem, a = one.problem(one.increments), one.contact_radius
     scene = problem.scene.model_copy(update={"loading": (pressing(),)})
@@ -177,13 +191,15 @@ def pressed_with_friction(one: Indentation) -> Challenge:
 def interpolate_profile(
     one: Indentation, profile: str, r: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Interpolate a tabulated profile of a traction to distances r from the axis.
+    """Interpolate the tabulated pressure or shear of an indentation to other distances from the
+    axis.
 
-    Cubic splines inside and outside the stick zone interpolate the profile, divided by its square
-    root at the contact edge.
+    The profile is divided by √(1 - r²/a²), with the contact radius a, because its slope is infinite
+    at
+    the contact edge. Cubic splines inside and outside the stick zone interpolate the quotient.
 
-    one      tabulated contact
-    profile  name of the column
+    one      indentation with friction, with its tabulated reference solution
+    profile  name of the tabulated traction
     r        distances from the axis [length]
     """
     part, values = np.array(one.row["r_over_a"]), np.array(one.row[profile])
@@ -199,7 +215,7 @@ def interpolate_profile(
 def stuck_punch(nu: float) -> Challenge:
     """Create the challenge of a flat punch in full stick on a half-space with Poisson's ratio nu.
 
-    The answer is Mossakovskii's factor on the contact stiffness.
+    The required approach is that of the frictionless punch divided by Mossakovskii's factor.
     """
     punch = FlatPunch(radius=PUNCH_RADIUS, material=RIGID)
     scene = pressed("Flat punch that does not slip", punch, half_space(nu), pressing(1),
@@ -215,7 +231,10 @@ def stuck_punch(nu: float) -> Challenge:
 
 def stuck_ball(nu: float) -> Challenge:
     """Create the challenge of a rigid ball in full stick on a half-space with Poisson's ratio nu
-    (Spence)."""
+    (Spence).
+
+    The approach and the contact radius are required.
+    """
     scene = pressed("Rigid ball that does not slip", rigid_ball(), half_space(nu), pressing(),
                     friction=FRICTION)  # fmt: skip
     over_a_squared, over_load = BALL[nu]
@@ -258,15 +277,16 @@ MOVED = {
 
 
 def at_places() -> Iterator[Challenge]:
-    """Yield the challenges whose numbers are required at given points."""
+    """Yield the challenges that require numbers at given points: stresses and surface
+    displacements."""
     yield sliding_stress()
     yield from layered_patches()
 
 
 def sliding_stress() -> Challenge:
-    """Create the challenge of the stress below a ball in gross slip along x.
+    """Create the challenge of the stress below a ball in gross slip along x (Hamilton).
 
-    The tractions are the Hertz pressure and µ times this pressure along x.
+    The surface tractions are the Hertz pressure, and a shear along x of µ times this pressure.
     """
     scene = Scene(
         title="Ball that slides on a half-space",
@@ -293,9 +313,12 @@ def sliding_stress() -> Challenge:
 
 
 def layered_patches() -> Iterator[Challenge]:
-    """Yield challenges of a uniform traction on a square of a layered half-space, without contact.
+    """Yield the challenges of a layered half-space under a uniform traction on a square, without
+    contact.
 
-    The references are dimensionless; the layer is given a thickness of 1 mm.
+    The displacements at given points of the surface are required. The references are dimensionless;
+    the
+    layer is given a thickness of 1 mm.
     """
     rows = load_reference("influence_coefficients")["rows"]
     for ratio in dict.fromkeys(row["G1"] / row["G2"] for row in rows):

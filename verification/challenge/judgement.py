@@ -1,4 +1,8 @@
-"""Judgement of an answer to a challenge: verdicts on all numbers and fields, and their summary."""
+"""Judgement of the answer of a code to a challenge: a verdict on every number and traction field.
+
+Errors are compared with the bounds of accuracy classes A, B and C. Convergence, stated
+uncertainties, and the areas of field points are judged, too.
+"""
 
 from __future__ import annotations
 
@@ -32,11 +36,13 @@ SCATTER = 3.0
 def field_sums(
     asked: AskedField, field: Field
 ) -> Iterator[tuple[str, str, float, float, float, float]]:
-    """Yield the sums over the points of a traction field that must agree with the exact field.
+    """Yield sums over the points of an answered traction field that must agree with the exact
+    traction.
 
-    The sums are the load, its second moment, and the covered contact area. Each item has a name, a
-    description, the value, the expected value, the scale of the difference, and the unavoidable
-    scatter of the points.
+    The sums are the force, its second moment, and the covered contact area. Each item has a name, a
+    description, the value, the expected value, the scale of the difference, and the largest
+    deviation
+    (dimensionless) that the discrete points make unavoidable.
     """
     forces, exact = field.value * field.area, asked.traction
     yield "load carried", "Σ value·area", float(np.sum(forces)), asked.total, asked.scale, 0.0
@@ -50,9 +56,12 @@ def field_sums(
 def _covered_area(field: Field, semi_axes: tuple[float, float]) -> tuple[float, float]:
     """Compute the fraction of the contact area that the points of a field cover, and its tolerance.
 
-    The areas of the points are summed outwards, each centred at its point, up to the contact edge
-    between two points. For rings, given by points on one ray, the sum may end half a ring before
-    the edge. For cell centres it scatters. The second number is this unavoidable deviation from 1.
+    The areas of the points are summed outwards, each area centred at its point, and interpolated to
+    the
+    contact edge. Points on one ray represent rings; their sum may end half a ring before the edge.
+    For
+    cell centres the sum scatters. The second result is this unavoidable deviation of the fraction
+    from 1.
 
     semi_axes  semi-axes of the contact ellipse around the origin, along x and y [length]
     """
@@ -83,18 +92,19 @@ WHOLE = "–"  # in place of a loading step
 
 @dataclass(frozen=True)
 class Row:
-    """Verdict on one number, one field or one property of an answer.
+    """Verdict on one number, one field or one property of an answer to a challenge.
 
-    quantity   name of the quantity
+    quantity   name of the quantity, or "quantity: property"
     step       number of the load step; None for the whole history
-    level      refinement level
+    level      name of the refinement level
+    status     pass, fail or inconclusive
     because    reason for the status
-    value      value in the required unit; None if there is no number
+    value      answered value in the required unit; None if there is no number
     reference  reference value in the required unit
-    error      error relative to its scale
-    bound      accepted error; None if a property other than the error is judged
+    error      error divided by its scale
+    bound      largest accepted error; None if a property other than the error is judged
     grade      best accuracy class whose bound the error meets; None for no class
-    order      observed order of convergence and half-width of its interval
+    order      observed order of convergence and half-width of its 95 % interval
     errors     pairs of size h and error of all levels
     """
 
@@ -115,11 +125,12 @@ class Row:
 def rows_of(
     challenge: Challenge, solver: Solver, answers: Sequence[Answer], asked: Grade | None
 ) -> Iterator[Row]:
-    """Yield the verdicts on the finest level of an answer, and on the convergence over all levels.
+    """Yield all verdicts on the answers of a code: errors on its finest level, and convergence.
 
-    answers  levels in any order
-    asked    accuracy class that all errors must meet; None: the class that the solver claims, else
-             the default class of each quantity
+    answers  one answer per refinement level, in any order
+    asked    accuracy class that all errors must meet; None: the class that the code claims, else
+             the
+             default class of each quantity
     """
     levels = sorted(answers, key=lambda one: -one.h)
     demanded = asked or (Grade(solver.claimed_grade) if solver.claimed_grade else None)
@@ -132,11 +143,12 @@ def rows_of(
 
 
 def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
-    """List the required and optional quantities that the finest level of an answer does not
-    contain.
+    """List the quantities of a challenge that the finest level of an answer does not contain.
 
     Each item has the quantity, the load step, and True if the quantity is required. Load steps that
     the solver gave up are not listed.
+
+    answers  one answer per refinement level
     """
     finest = min(answers, key=lambda one: one.h)
     if 0 in finest.gave_up:
@@ -153,9 +165,14 @@ def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, 
 def _judge_quantity(
     asked: AskedQuantity, solver: Solver, levels: Sequence[Answer], grade: Grade
 ) -> Iterator[Row]:
-    """Yield the verdicts on one required quantity: its error, convergence, and own properties.
+    """Yield the verdicts on one quantity of an answer: its error, convergence, and other
+    properties.
 
-    levels  answers, coarse to fine
+    Other properties are the stated uncertainty of a number and the areas of the points of a field.
+
+    asked   required quantity
+    levels  answers of the code, from coarse to fine
+    grade   accuracy class that the error must meet
     """
     key = asked.quantity, asked.step
     found = [(one, given) for one in levels if (given := _given_value(asked, one)) is not None]
@@ -178,7 +195,10 @@ def _judge_quantity(
 
 
 def _given_value(asked: AskedQuantity, answer: Answer) -> Any:
-    """Return the number, field or numbers at points of an answer; None if it has none."""
+    """Return the number, field or numbers at points that an answer gives for a required quantity.
+
+    The result is None if the quantity is missing.
+    """
     key = asked.quantity, asked.step
     if isinstance(asked, AskedValue):
         return answer.value(key)
@@ -186,9 +206,13 @@ def _given_value(asked: AskedQuantity, answer: Answer) -> Any:
 
 
 def _relative_error(asked: AskedQuantity, given: Any, sampling: str) -> float:
-    """Return the error of a required quantity over its scale, or a field's over its own norm.
+    """Compute the relative error of an answered quantity.
 
-    given     number, field or numbers at points
+    The error of a number is divided by the error scale of the challenge; of numbers at points, the
+    largest error counts. The error of a field is that of `_field_error`.
+
+    asked     required quantity with its reference
+    given     answered number, field or numbers at points
     sampling  meaning of the values of a field: "point", or "cell" for means over squares
     """
     if isinstance(asked, AskedField):
@@ -205,7 +229,14 @@ def _relative_error(asked: AskedQuantity, given: Any, sampling: str) -> float:
 
 
 def _field_error(asked: AskedField, field: Field, sampling: str) -> float:
-    """Return the L2 or L1 error of a traction at the points of an answer."""
+    """Compute the relative L2 or L1 error of an answered traction field over its points.
+
+    The L2 error is divided by the L2 norm of the exact traction, the L1 error by the force scale of
+    the
+    challenge. With sampling "cell", the field is compared with means of the exact traction over
+    squares
+    around the points.
+    """
     side = np.sqrt(field.area)
     if sampling == "cell":
         exact = cell_means(asked.traction.at, field.x, field.y, (side, side))
@@ -224,13 +255,16 @@ def _judge_claimed_uncertainty(
     claims: Sequence[tuple[float | None, float]],
     grade: Grade,
 ) -> Iterator[Row]:
-    """Judge the uncertainty that the solver states for a number: twice this must cover the error.
+    """Judge the standard uncertainty that a code states for a number: twice its value must cover
+    the error.
 
-    The verdict is inconclusive if the uncertainty exceeds the bound of the class and is far above
-    the error on every level.
+    The verdict is inconclusive if the stated uncertainty exceeds the bound of the accuracy class
+    and is
+    far above the error on every level.
 
-    level   finest level
-    claims  standard uncertainty in the required unit, and error over its scale, for each level
+    level   name of the finest level
+    claims  stated standard uncertainty in the required unit (None: none), and error divided by its
+            scale, for each level from coarse to fine
     """
     claimed, error = claims[-1]
     if claimed is None:
@@ -249,21 +283,26 @@ def _judge_claimed_uncertainty(
 
 
 def order_text(order: tuple[float, float]) -> str:
-    """Return an order of convergence with its interval as text; "not known" if the interval is too
-    wide."""
+    """Format an observed order of convergence with its interval, such as "1.98 ± 0.05".
+
+    The text is "not known" if the half-width of the interval is 0.5 or more.
+
+    order  observed order and half-width of its 95 % interval
+    """
     value, half = order
     # Zero has no sign.
     return f"{round(value, 2) + 0.0:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
 
 
 def _judge_point_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
-    """Judge the areas of the points of a field: load, second moment and contact area must be
-    correct.
+    """Judge the areas of the points of an answered field by sums that the exact traction
+    determines.
 
-    Without these checks an answer could omit the points with the largest errors.
+    The force, its second moment and the covered contact area must be correct. Without this check an
+    answer could omit the points with the largest errors.
 
-    level  refinement level
-    bound  accepted relative difference
+    level  name of the refinement level
+    bound  largest accepted relative difference of a sum
     """
     for name, sums, has, should, scale, least in field_sums(asked, field):
         missed, allowed = abs(has - should) / scale, max(bound, least)
@@ -279,12 +318,14 @@ def _judge_point_areas(asked: AskedField, field: Field, level: str, bound: float
 
 
 def _missing_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
-    """Yield an inconclusive verdict if a quantity is missing on the finest level of an answer.
+    """Yield an inconclusive verdict if the finest level of an answer lacks a quantity that coarser
+    levels
+    have.
 
-    Without this verdict an answer that omits its worst numbers would be judged by the rest.
+    Without this verdict a code could hide its worst numbers by omitting them.
 
     key     quantity and load step
-    judged  finest level that has the quantity
+    judged  finest level that contains the quantity
     finest  finest level of the answer
     """
     quantity, step = key
@@ -303,13 +344,17 @@ def _judge_error(
     uncertainty: float,
     hint: str,
 ) -> Row:
-    """Judge the error of the finest level against the bound of an accuracy class.
+    """Judge the error of a quantity on the finest level against the bound of an accuracy class.
 
-    The verdict allows for twice the uncertainty of the reference.
+    The verdict is inconclusive where twice the uncertainty of the reference decides.
 
     key          quantity and load step
-    errors       pairs of size h and relative error, coarse to fine
-    uncertainty  standard uncertainty of the reference, over the error scale
+    level        name of the finest level
+    value        answered number; None for fields and points
+    reference    reference value; None for fields and points
+    errors       pairs of size h and relative error, from coarse to fine
+    grade        accuracy class that the error must meet
+    uncertainty  standard uncertainty of the reference, divided by the error scale
     hint         explanation that is added to a failure
     """
     error, wide = errors[-1][1], 2 * uncertainty
@@ -330,12 +375,12 @@ def _judge_error(
 def _judge_convergence(
     key: Key, solver: Solver, errors: Sequence[tuple[float, float]], uncertainty: float
 ) -> Iterator[Row]:
-    """Yield verdicts on the convergence: errors must not stall, and a claimed order must be
-    correct.
+    """Yield verdicts on the convergence of a quantity: errors must decrease, and a claimed order
+    must hold.
 
     key          quantity and load step
-    errors       pairs of size h and relative error, coarse to fine
-    uncertainty  standard uncertainty of the reference, over the error scale
+    errors       pairs of size h and relative error, from coarse to fine
+    uncertainty  standard uncertainty of the reference, divided by the error scale
     """
     quantity, step = key
     fit = _fitted_order(errors, 2 * uncertainty)
@@ -358,13 +403,13 @@ def _judge_convergence(
 
 
 def _fitted_order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, float] | None:
-    """Fit the order of convergence to the errors that are well above the uncertainty of the
+    """Fit the order of convergence to those errors that are well above the uncertainty of the
     reference.
 
-    Returns the order and the half-width of its interval; None if fewer than 3 levels remain.
+    Returns the order and the half-width of its 95 % interval; None if fewer than 3 sizes remain.
 
     errors  pairs of size h and relative error
-    wide    twice the standard uncertainty of the reference
+    wide    twice the standard uncertainty of the reference, divided by the error scale
     """
     told = [(h, e) for h, e in errors if e > 1.5 * wide and e > 0 and math.isfinite(e)]
     if len({h for h, _ in told}) < FEWEST_LEVELS:
@@ -374,8 +419,12 @@ def _fitted_order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[f
 
 
 def _slip_hint(value: float, asked: AskedValue) -> str:
-    """Return a hint if another sign, a factor of 2 or a unit would explain a wrong value; else
-    ""."""
+    """Return a hint that another sign, a factor of 2 or another unit would explain a wrong number.
+
+    The hint is added to the message of a failed verdict. It is empty if no such mistake explains
+    the
+    number.
+    """
     slips = {"with the other sign": -1.0, "halved": 0.5, "doubled": 2.0}
     slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
     for words, factor in slips.items():
@@ -390,8 +439,9 @@ COLOURS = {"A": "brightgreen", "B": "green", "C": "yellowgreen"}
 
 @dataclass(frozen=True)
 class Judgement:
-    """Result of the judgement of one solver on one challenge.
+    """Result of the judgement of one code on one challenge.
 
+    answers  judged answers, one per refinement level
     rows     verdicts
     omitted  missing quantities: name, load step, True if required
     """
@@ -435,12 +485,13 @@ class Judgement:
         return f"{self.challenge.name} | {self.solver.name} | {grade} | {counts}, {left_out}"
 
     def exit_code(self, *, strict: bool = False, partial: bool = False) -> int:
-        """Return the exit code of the judgement for a command line.
+        """Return the exit code of the command that judges an answer.
 
         0: all verdicts passed. 1: a verdict failed, or a required quantity is missing. 3: the
-        solver gave up, and nothing else failed. 6: with `strict`, a verdict is inconclusive.
+        solver gave
+        up, and nothing else failed. 6: with `strict`, a verdict is inconclusive.
 
-        strict   True if inconclusive verdicts are reported
+        strict   True if inconclusive verdicts are reported as code 6
         partial  True if missing quantities are accepted
         """
         failed = [row for row in self.rows if row.status is Status.FAIL]
@@ -451,7 +502,8 @@ class Judgement:
         return INCONCLUSIVE if strict and self.count(Status.INCONCLUSIVE) else PASSED
 
     def badge(self) -> str:
-        """Return the JSON text of a status badge, in the endpoint format of shields.io."""
+        """Return the JSON text of a status badge of the judgement, in the endpoint format of
+        shields.io."""
         passed, all_rows = self.count(Status.PASS), len(self.rows)
         colour = "red" if self.count(Status.FAIL) else COLOURS.get(self.grade, "lightgrey")
         content: dict[str, Any] = {
@@ -464,11 +516,12 @@ class Judgement:
 def judged(
     challenge: Challenge, solver: Solver, answers: Sequence[Answer], grade: Grade | None = None
 ) -> Judgement:
-    """Judge the answers of a solver to a challenge.
+    """Judge the answers of a code to a challenge and return the verdicts.
 
     answers  one answer for each refinement level
-    grade    accuracy class that all errors must meet; None: the class that the solver claims, else
-             the default class of each quantity
+    grade    accuracy class that all errors must meet; None: the class that the code claims, else
+             the
+             default class of each quantity
     """
     rows = tuple(rows_of(challenge, solver, answers, grade))
     return Judgement(challenge, solver, tuple(answers), rows, tuple(omitted(challenge, answers)))

@@ -1,4 +1,7 @@
-"""Python interface of the challenge: a solver is a function, and no files are needed."""
+"""Python interface of the challenge, for a solver that is a function and needs no files.
+
+The function receives a challenge and a refinement level, and returns an `Answer`.
+"""
 
 from __future__ import annotations
 
@@ -30,22 +33,25 @@ LEVELS = 4
 
 
 class CannotDo(Exception):
-    """Exception that a solver raises for a challenge outside its scope."""
+    """Exception that a solver function raises for a challenge outside its scope."""
 
 
 @dataclass(frozen=True)
 class Posed:
-    """Challenge without its reference, as the argument of a solver function.
+    """Challenge without its reference solution, as passed to a solver function.
+
+    A key is the pair of quantity name and load step, counted from 1.
 
     scene   scene as in a scene file, in SI; a body and a `patch` if the traction is given
-    loads   normal and tangential force at the end of every load step [N], NaN for a prescribed
-            motion; `scene["loading"]` contains the other loads
-    asked   unit of each required number, by quantity and load step
-    since   load step from whose end a number counts, for numbers that do not count from the
-            beginning
-    places  points (points, 3) with x, y and depth z at which numbers are required, by quantity and
-            load step [m]
-    fields  tractions that are required at points of the solver's choice
+    loads   normal and tangential force at the end of every load step [N]; NaN for a prescribed
+            motion;
+            `scene["loading"]` contains moments and motions
+    asked   unit of each required number, by key
+    since   load step from whose end a number counts, by key, for numbers that count from there and
+            not
+            from the beginning
+    places  points (points, 3) with x, y and depth z at which numbers are required, by key [m]
+    fields  keys of the tractions that are required at points of the solver's choice
     window  side of a square that contains the contact with a margin [m]
     """
 
@@ -60,8 +66,10 @@ class Posed:
 
 
 def posed(name: str) -> Posed:
-    """Return a challenge without its reference; raise KeyError with all names for an unknown
-    name."""
+    """Return the challenge of a given name, without its reference solution.
+
+    Raises KeyError with all names for an unknown name.
+    """
     if name not in challenges():
         raise KeyError(f"no challenge {name!r}; there are {', '.join(challenges())}")
     challenge = challenges()[name]
@@ -130,9 +138,14 @@ def judge(
 
 
 def _checked_answer(answer: object, challenge: Challenge, level: int) -> Answer:
-    """Check the answer of a solver function on one level and convert its numbers; raise Refused.
+    """Check the answer of a solver function to a challenge on one level, and convert its numbers to
+    float.
 
-    A quantity that only another challenge requires is accepted. Other names are refused.
+    Raises Refused for an invalid answer. A quantity that only another challenge requires is
+    accepted;
+    other names are refused.
+
+    level  number of the refinement level, for the message
     """
     if not isinstance(answer, Answer):
         raise Refused(f"level {level}: {type(answer).__name__} came back, expected an Answer")
@@ -173,7 +186,7 @@ def _required_keys(challenge: Challenge) -> list[Key]:
 
 @cache
 def _known_quantities() -> frozenset[str]:
-    """Return the names of all quantities that any challenge requires."""
+    """Return the names of all quantities that any challenge requires, to refuse misspelt names."""
     return frozenset(name for one in challenges().values() for name, _ in _required_keys(one))
 
 
@@ -181,14 +194,17 @@ EXPECTED = "expected FILE.py:FUNCTION or MODULE:FUNCTION"
 
 
 def names_a_solver(text: str) -> bool:
-    """Return True if a command-line text names a solver function as FILE:FUNCTION, not a folder."""
+    """Return True if an argument of the command line names a solver function as FILE.py:FUNCTION.
+
+    The alternative is the folder of an answer. A text with a colon is a folder only if it exists.
+    """
     return ":" in text and not Path(text).exists()
 
 
 def named_solver(text: str) -> Callable[[Posed, int], Answer]:
-    """Import the solver function that a text FILE.py:FUNCTION or MODULE:FUNCTION names.
+    """Import the solver function that an argument FILE.py:FUNCTION or MODULE:FUNCTION names.
 
-    Raises Refused if there is no such function, and any exception of the executed file.
+    Raises Refused if there is no such function, and passes on any exception of the executed file.
     """
     place, _, name = text.rpartition(":")
     module = module_of(Path(place)) if place.endswith(".py") else _import_module(place, text)
@@ -199,9 +215,11 @@ def named_solver(text: str) -> Callable[[Posed, int], Answer]:
 
 
 def module_of(path: Path) -> ModuleType:
-    """Execute a Python file and return its module; the file can import modules of its folder.
+    """Execute the Python file of a user's solver function and return its module.
 
-    Raises Refused if the file cannot be read or imports a missing module.
+    The file can import modules of its own folder. Raises Refused if the file cannot be read or
+    imports
+    a missing module.
     """
     if not path.is_file():
         raise Refused(f"{path}: no such file; {EXPECTED}")

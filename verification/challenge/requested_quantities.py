@@ -1,4 +1,8 @@
-"""Quantities that a challenge requires from other codes, with references and accuracy classes."""
+"""Data classes of a challenge: required quantities, their reference solutions, and accuracy
+classes.
+
+The other codes get the description of a quantity; the judgement uses its reference.
+"""
 
 from __future__ import annotations
 
@@ -30,13 +34,15 @@ NODES = 64
 
 @dataclass(frozen=True)
 class Half:
-    """Traction over an ellipse: a half-ellipsoid times a Chebyshev series.
+    """Reference traction over an ellipse: a half-ellipsoid times a Chebyshev series.
 
-    With s = (x/b_x)² + (y/b_y)², the traction is coefficient · √(1 - s) Σ c_k T_k(2 s - 1).
+    With s = (x/b_x)² + (y/b_y)², the traction is coefficient · √(1 - s) Σ c_k T_k(2 s - 1), with
+    the
+    Chebyshev polynomials T_k. A Hertz pressure has the single term c_0 = 1.
 
-    semi_axes    b_x, b_y of the ellipse [length]
+    semi_axes    semi-axes b_x, b_y of the ellipse [length]
     coefficient  amplitude of the traction [force/length²]
-    series       c_0, c_1, …
+    series       coefficients c_0, c_1, …
     """
 
     semi_axes: tuple[float, float]
@@ -63,10 +69,12 @@ class Half:
         return 0.5 * (self.semi_axes[0] ** 2 + self.semi_axes[1] ** 2) * self._integral(1)
 
     def _integral(self, power: int) -> float:
-        """Compute the integral π b_x b_y ∫ s^power √(1 - s) Σ c_k T_k(2 s - 1) ds, times the
-        coefficient.
+        """Integrate s^power times the traction over the ellipse, where s is 0 at the centre and 1
+        at the edge.
 
-        The integral extends from s = 0 at the centre to s = 1 at the edge.
+        Computes π b_x b_y coefficient ∫ s^power √(1 - s) Σ c_k T_k(2 s - 1) ds by Gauss quadrature
+        in
+        √(1 - s). Power 0 gives the force; power 1 enters the second moment.
         """
         nodes, weights = np.polynomial.legendre.leggauss(NODES)
         root = 0.5 * (nodes + 1)  # √(1 - s); the integrand is smooth in it
@@ -78,7 +86,12 @@ class Half:
 
 @dataclass(frozen=True)
 class HalfEllipsoids:
-    """Traction as a sum of half-ellipsoids times Chebyshev series."""
+    """Reference traction that is a sum of half-ellipsoids, each times a Chebyshev series.
+
+    Represents Hertz pressures and the shear of partial slip, in which the stick zone is one term.
+
+    terms  half-ellipsoids, all centred at the origin
+    """
 
     terms: tuple[Half, ...]
 
@@ -112,7 +125,7 @@ class HalfEllipsoids:
 
 
 def round_halves(*terms: tuple[float, float]) -> HalfEllipsoids:
-    """Create a traction as a sum of half-ellipsoids over circles.
+    """Create a reference traction as a sum of half-ellipsoids over circles around the origin.
 
     terms  pairs of radius [length] and amplitude [force/length²]
     """
@@ -120,12 +133,12 @@ def round_halves(*terms: tuple[float, float]) -> HalfEllipsoids:
 
 
 def fitted(pressure: Callable[[Field], Field], radius: float, terms: int) -> HalfEllipsoids:
-    """Approximate a round pressure with a square root at the edge by one half-ellipsoid with a
-    series.
+    """Approximate a rotationally symmetric pressure by one half-ellipsoid times a Chebyshev series.
 
-    The series is an interpolation at Chebyshev points.
+    The pressure must go to zero like a square root at the contact edge. The series interpolates the
+    quotient of pressure and half-ellipsoid at Chebyshev points.
 
-    pressure  function of the distance from the axis [force/length²]
+    pressure  pressure as a function of the distance from the axis [force/length²]
     radius    contact radius [length]
     terms     number of terms of the series
     """
@@ -143,11 +156,12 @@ INTERVALS = 200
 
 @dataclass(frozen=True, eq=False)
 class RoundTable:
-    """Traction over a circle as a table over the radius, linear between the radii.
+    """Rotationally symmetric reference traction as a table over the radius, linear between the
+    radii.
 
-    Used in place of `HalfEllipsoids` for tractions that no series of half-ellipsoids represents.
+    Used for tractions that `HalfEllipsoids` cannot represent, such as the shear in torsion.
 
-    radii   radii from 0 to the edge [length]
+    radii   radii from 0 to the contact edge [length]
     values  traction at these radii [force/length²]
     """
 
@@ -175,9 +189,12 @@ class RoundTable:
         return self._integral(2)
 
     def _integral(self, power: int) -> float:
-        """Compute 2π ∫ q r^power dr by the three-point Gauss rule between the radii.
+        """Compute 2π ∫ q r^power dr of the tabulated traction q over the radius r, by Gauss
+        quadrature.
 
-        The rule is exact, because q is linear between the radii and power is at most 3.
+        Power 1 gives the force, 2 the torque, 3 the second moment. Three points between two radii
+        make the
+        rule exact, because q is linear between the radii and power is at most 3.
         """
         nodes, weights = np.polynomial.legendre.leggauss(3)
         width, middle = np.diff(self.radii), 0.5 * (self.radii[1:] + self.radii[:-1])
@@ -187,7 +204,7 @@ class RoundTable:
 
     @property
     def semi_axes(self) -> tuple[float, float]:
-        """Semi-axes of the loaded circle: twice its radius as a pair [length]."""
+        """Semi-axes of the loaded circle along x and y, both equal to its radius [length]."""
         return float(self.radii[-1]), float(self.radii[-1])
 
     def document(self) -> dict[str, Any]:
@@ -196,11 +213,11 @@ class RoundTable:
 
 
 def tabulated(traction: Callable[[Field], Field], *kinks: float) -> RoundTable:
-    """Tabulate a traction over the radius, with closely spaced radii at its kinks.
+    """Tabulate a rotationally symmetric traction over the radius, with dense radii near its kinks.
 
-    traction  function of the distance from the axis [force/length²]
-    kinks     radii at which the function or its slope jumps, in increasing order; the last is the
-              edge of the contact [length]
+    traction  traction as a function of the distance from the axis [force/length²]
+    kinks     radii at which the traction or its slope jumps, in increasing order; the last is the
+              contact edge [length]
     """
     crowded = 0.5 * (1 - np.cos(np.pi * np.arange(INTERVALS + 1) / INTERVALS))  # at both ends
     parts, start = [np.zeros(1)], 0.0
@@ -232,16 +249,20 @@ class Grade(StrEnum):
 
 @dataclass(frozen=True)
 class AskedValue:
-    """Number that a challenge requires at the end of a load step.
+    """Number that a challenge requires at the end of a load step, with its reference.
+
+    Errors are divided by the error scale, and compared with the bound of an accuracy class.
 
     quantity     name of the quantity
     step         number of the load step, from 1
+    unit         SI unit in which the number is required
+    meaning      definition of the quantity for the other code
     value        reference value
     scale        error scale, in the unit of the number
     over         description of the error scale
-    par          accuracy class that is required by default
+    par          accuracy class that the error must meet if the user selects no class
     required     False if the number is optional
-    uncertainty  standard uncertainty of the reference, over the scale
+    uncertainty  standard uncertainty of the reference, divided by the error scale
     since        load step from whose end the number counts; None: it counts from the beginning
     """
 
@@ -260,16 +281,19 @@ class AskedValue:
 
 @dataclass(frozen=True)
 class AskedField:
-    """Traction that a challenge requires at points of the solver's choice, with the area of each
-    point.
+    """Traction field that a challenge requires, at points that the other code chooses, each with an
+    area.
 
+    quantity     name of the traction component
+    step         number of the load step, from 1
+    meaning      definition of the traction for the other code
     traction     exact traction
-    norm         norm of the error: "L2", relative to the norm of the exact field, or "L1", relative
-                 to the scale
-    scale        scale of the L1 norm [force]
+    norm         error norm: "L2", relative to the L2 norm of the exact field, or "L1", divided by
+                 scale
+    scale        scale of the L1 norm, and of the checked sums [force]
     total        force that the traction carries, which Σ value·area must equal [force]
-    par          accuracy class that is required by default
-    uncertainty  standard uncertainty of the reference
+    par          accuracy class that the error must meet if the user selects no class
+    uncertainty  standard uncertainty of the reference, as a relative error
     """
 
     quantity: str
@@ -285,17 +309,22 @@ class AskedField:
 
 @dataclass(frozen=True, eq=False)
 class AskedPoints:
-    """Numbers that a challenge requires at given points at the end of a load step.
+    """Numbers that a challenge requires at given points at the end of a load step, with their
+    references.
 
     The largest error of all points is judged.
 
+    quantity     name of the quantity
+    step         number of the load step, from 1
+    unit         SI unit in which the numbers are required
+    meaning      definition of the quantity for the other code
     places       points (points, 3): x, y and depth z [length]
-    values       reference values at the points
+    values       reference values at the points (points,)
     scale        error scale, in the unit of the numbers
     over         description of the error scale
-    par          accuracy class that is required by default
+    par          accuracy class that the error must meet if the user selects no class
     required     False if the numbers are optional
-    uncertainty  standard uncertainty of the reference, over the scale
+    uncertainty  standard uncertainty of the references, divided by the error scale
     """
 
     quantity: str
@@ -313,7 +342,11 @@ class AskedPoints:
 
 @dataclass(frozen=True)
 class Patch:
-    """Body without contact under a uniform traction on a square of its surface around the origin.
+    """Layered body without contact, under a uniform traction on a square of its surface.
+
+    Replaces the scene of a challenge that requires surface displacements. The square is centred at
+    the
+    origin.
 
     side      side of the square [length]
     traction  magnitude of the traction [force/length²]
@@ -334,13 +367,13 @@ class Patch:
 
 @dataclass(frozen=True)
 class Challenge:
-    """Problem for other codes: a scene, the required quantities, and their references.
+    """Problem for other contact codes: a scene, the required quantities, and their references.
 
-    problem  description in words
+    problem  description in words for the other code
     scene    contact scene, or body under a given traction
-    source   source of the references
+    source   origin of the references
     values   required numbers
-    fields   required tractions
+    fields   required traction fields
     window   side of a square that contains the contact with a margin [length]
     shares   parts that the references have in common with our own solvers; empty: none
     points   required numbers at given points
@@ -359,8 +392,11 @@ class Challenge:
 
     @property
     def version(self) -> str:
-        """Digest of the scene, the required quantities and the references, rounded to be equal on
-        all machines."""
+        """Digest of the scene, the required quantities and the references, which identifies a
+        version.
+
+        Numbers are rounded to 10 digits, so that the digest is equal on all machines.
+        """
         text = json.dumps([self.document, self.reference()], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
@@ -414,21 +450,26 @@ class Challenge:
 
     @property
     def loads(self) -> list[tuple[float, tuple[float, float]]]:
-        """Normal and tangential force at the end of every load step [force]; NaN for prescribed
-        motions."""
+        """Normal force and tangential force (T_x, T_y) at the end of every load step [force].
+
+        A force is NaN where the load step prescribes the motion instead.
+        """
         return [
             (_end_force(r.normal, nan), _end_force(r.tangential, (nan, nan))) for r in self.ramps
         ]
 
     def one(self, quantity: str, step: int) -> AskedValue | AskedPoints | None:
-        """Return the required number, or numbers at points, of a quantity in a load step; None if
-        none."""
+        """Find the number, or numbers at points, that the challenge requires of a quantity in a
+        load step.
+
+        Returns None if the challenge does not require the quantity in this step.
+        """
         found = (v for v in self.numbers if (v.quantity, v.step) == (quantity, step))
         return next(found, None)
 
     @property
     def numbers(self) -> tuple[AskedValue | AskedPoints, ...]:
-        """Required numbers and required numbers at points, without fields."""
+        """Required numbers and required numbers at points, without the traction fields."""
         return (*self.values, *self.points)
 
 
@@ -437,7 +478,10 @@ def _end_force(control: Control[Value], unknown: Value) -> Value:
 
 
 def _rounded(value: Any) -> Any:
-    """Round all numbers in nested lists and records to 10 digits."""
+    """Round all numbers in nested lists and records to 10 significant digits.
+
+    Used for the digest of a challenge, which must not depend on the machine.
+    """
     if isinstance(value, float):
         return float(f"{value:.{DIGITS}g}")
     if isinstance(value, list):
@@ -454,23 +498,39 @@ CLOSED = 1e-12  # relative uncertainty of closed and semi-closed forms
 
 
 def approach(value: float, uncertainty: float = CLOSED, step: int = 1) -> AskedValue:
-    """Create a required number for the approach, with errors relative to the approach."""
+    """Create a required number for the rigid approach, with the approach itself as error scale.
+
+    value        reference approach [length]
+    uncertainty  standard uncertainty of the reference, relative to the value
+    step         number of the load step, from 1
+    """
     meaning = "approach of points far from the contact in both bodies; positive when pressed"
     return AskedValue("approach", step, "m", meaning, value, value, "itself",
                       uncertainty=uncertainty)  # fmt: skip
 
 
 def contact_radius(value: float, uncertainty: float = CLOSED) -> AskedValue:
-    """Create a required number for the contact radius, with errors relative to the contact
-    radius."""
+    """Create a required number for the contact radius after the first load step.
+
+    The error scale is the contact radius itself.
+
+    value        reference contact radius [length]
+    uncertainty  standard uncertainty of the reference, relative to the value
+    """
     meaning = "radius of the contact, or √(contact area / π)"
     return AskedValue("contact_radius", 1, "m", meaning, value, value, "itself",
                       uncertainty=uncertainty)  # fmt: skip
 
 
 def stick_radius(value: float, step: int, uncertainty: float = CLOSED) -> AskedValue:
-    """Create an optional number for the stick radius, with errors relative to the Hertz contact
-    radius."""
+    """Create an optional number for the radius of the stick zone at the end of a load step.
+
+    The error scale is the Hertz contact radius.
+
+    value        reference stick radius [length]
+    step         number of the load step, from 1
+    uncertainty  standard uncertainty of the reference, divided by the error scale
+    """
     return AskedValue(
         "stick_radius", step, "m", "radius of the zone that has not slipped since the last turn",
         value, HERTZ.contact_radius, "the contact radius", Grade.C, required=False,
