@@ -1,1 +1,1 @@
-"""Charts, tables and texts of numbers for reports, as plain data records."""
+"""Charts, tables and texts of numbers for verification reports, as data records without drawing."""

@@ -1,4 +1,7 @@
-"""Data of charts and tables, independent of their drawing, and texts of numbers."""
+"""Data records of charts and tables of a verification report, and texts of its numbers.
+
+The records are independent of the drawing, which `verification.report` does.
+"""
 
 from __future__ import annotations
 
@@ -78,9 +81,11 @@ def curve(
     look: Look = Look.COMPUTED,
     series: int = 0,
 ) -> Curve:
-    """Create a curve of a chart from its coordinates, which are rounded to 6 significant digits.
+    """Create the record of a chart curve; coordinates are rounded to 6 significant digits.
 
-    look    meaning of the curve, which determines its line style
+    label   text of the legend; empty for none
+    x, y    coordinates of the points (points,)
+    look    meaning of the curve, such as computed or reference, which determines its line style
     series  number that determines its colour
     """
     return Curve(
@@ -93,7 +98,11 @@ def _rounded_coordinates(values: Iterable[float]) -> tuple[float, ...]:
 
 
 def stacked(name: str, title: str, caption: str, *rows: Panel | tuple[Panel, ...]) -> Chart:
-    """Create a chart of panels one above the other; a tuple of panels makes one row."""
+    """Create a chart of panels one above the other, where a tuple of panels is placed side by side.
+
+    name     identifier of the chart
+    rows     panels, from top to bottom
+    """
     beside = tuple(row if isinstance(row, tuple) else (row,) for row in rows)
     return Chart(name=name, title=title, caption=caption, rows=beside)
 
@@ -115,9 +124,11 @@ def log_chart(
     height: float = HEIGHT,
     y_places: tuple[str, ...] = (),
 ) -> Chart:
-    """Create a chart of one panel with logarithmic axes.
+    """Create a chart of one panel with logarithmic axes, for instance for errors against cell size.
 
-    y_places  names of the positions 0, 1, … along y, for a y axis without numbers
+    x_label, y_label  labels of the axes
+    height            height of the panel; the unit is 1.5 inches
+    y_places          names of the positions 0, 1, … along y, for a y axis without numbers
     """
     panel = Panel(
         x_label=x_label, y_label=y_label, curves=tuple(curves), logarithmic=True, height=height,
@@ -127,7 +138,7 @@ def log_chart(
 
 
 def drawable(points: Iterable[tuple[float | None, float | None]]) -> Points:
-    """Return the points (x, |y|) that logarithmic axes can show.
+    """Return the points (x, |y|) of a curve that logarithmic axes can show.
 
     Points with a zero, unknown or non-finite coordinate are removed.
     """
@@ -135,9 +146,10 @@ def drawable(points: Iterable[tuple[float | None, float | None]]) -> Points:
 
 
 def point_curves(lines: Iterable[tuple[str, Points]], look: Look = Look.POINTS) -> list[Curve]:
-    """Create one curve of a chart for each label that has points.
+    """Create one chart curve for each label that has points.
 
     lines  pairs of a label and its points (x, y); the position in the list selects the colour
+    look   style of all curves
     """
     return [
         curve(label, [x for x, _ in points], [y for _, y in points], look, series)
@@ -147,9 +159,12 @@ def point_curves(lines: Iterable[tuple[str, Points]], look: Look = Look.POINTS) 
 
 
 def slope_line(points: Points, order: float) -> list[Curve]:
-    """Return a curve proportional to x^order below the points, to show a convergence order.
+    """Return the line C x^order below the points of a curve, to show an expected convergence order.
 
-    The list is empty without points.
+    The result is a list with one curve, or an empty list without points.
+
+    points  points (x, y) of the curve; C places the line at 0.6 of the first point
+    order   expected convergence order
     """
     if not points:
         return []
@@ -176,7 +191,13 @@ NOT_FINITE = "not finite"
 
 
 def value_text(value: float | None, unit: str, digits: int = 6) -> str:
-    """Format a value with its unit and an engineering prefix; "not finite" for None."""
+    """Format a value with its unit and an engineering prefix, such as "1.23 µm".
+
+    The text is "not finite" for None.
+
+    unit    SI unit; empty for a number without unit
+    digits  number of significant digits
+    """
     if value is None:
         return NOT_FINITE
     if value == 0:
@@ -188,7 +209,10 @@ def value_text(value: float | None, unit: str, digits: int = 6) -> str:
 
 
 def plain(value: float | None, digits: int = 3) -> str:
-    """Format a number without unit, such as 0.0123 or 1.2e-5; "not finite" for None."""
+    """Format a number without unit, such as 0.0123 or 1.2e-5; the text is "not finite" for None.
+
+    digits  number of significant digits
+    """
     if value is None:
         return NOT_FINITE
     mantissa, e, exponent = f"{value:.{digits}g}".partition("e")
@@ -196,7 +220,7 @@ def plain(value: float | None, digits: int = 3) -> str:
 
 
 def percent(part: float) -> str:
-    """Format a fraction in per cent with two significant digits."""
+    """Format a fraction of 1 as per cent with two significant digits, such as "25 %"."""
     return f"{plain(100 * part, 2)} %"
 
 
@@ -232,10 +256,12 @@ def table_of(
     note: str = "",
     units: Mapping[str, str] = NONE,
 ) -> Table:
-    """Build a table of a report with one row per item; the first column names the row.
+    """Build the record of a report table with one row per object; the first column names the row.
 
-    columns  functions that return the text of an item, by heading of the column
+    columns  by heading of the column: function that returns the text of an object
     items    objects of the rows
+    note     explanation below the table
+    units    units of the numbers, by heading of the column
     """
     return Table(
         title=title,

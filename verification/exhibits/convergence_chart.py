@@ -1,4 +1,7 @@
-"""Chart of errors against cell size on logarithmic axes, with fitted lines and expected slopes."""
+"""Chart of relative errors against cell size on logarithmic axes.
+
+The chart shows fitted lines with their confidence bands, and lines of the expected orders.
+"""
 
 from collections.abc import Mapping, Sequence
 
@@ -28,12 +31,16 @@ def convergence_chart(
     """Create a chart of errors against cell size, with fitted lines and lines of the expected
     orders.
 
-    spacings  cell sides, dimensionless; errors of equal sides count by their root mean square
-    errors    errors at these cell sides, of either sign, by name
-    slopes    expected convergence order by name of the error
-    judged    number of finest levels on which the order of an error is judged, by name; the line is
-              fitted to these if there are at least 3; without an entry, to all levels if there are
-              at least 4
+    spacings  cell sides over the contact radius (solves,); errors of equal sides are replaced by
+              their
+              root mean square
+    errors    relative errors (solves,) at these cell sides, of either sign, by name of the quantity
+    slopes    expected convergence order, by name of the quantity
+    judged    number of finest levels to which the line of a quantity is fitted, by name, because
+              the
+              order is judged on these; no line is drawn for fewer than 3 levels. Without an entry,
+    all
+              levels are fitted if there are at least 4
     """
     curves: list[Curve] = []
     for series, (label, values) in enumerate(errors.items()):
@@ -54,10 +61,14 @@ def _error_curves(
     label: str, sizes: list[float], errors: list[float], count: int, expected: float | None,
     series: int,
 ) -> list[Curve]:  # fmt: skip
-    """Return the curves of one error: points, fitted line with 95 % band, and expected slope.
+    """Return the chart curves of one error: points, fitted line with 95 % band, and expected slope.
 
-    count     number of finest levels to which the line is fitted
-    expected  expected convergence order; None for no line
+    label     name of the quantity, for the legend
+    sizes     cell sides over the contact radius
+    errors    magnitudes of the relative error at these sizes
+    count     number of finest levels to which the line is fitted; with fewer than 3, points only
+    expected  expected convergence order; None for no slope line
+    series    number that determines the colour
     """
     ends = np.array([max(sizes), min(sizes)])
     fitted = slice(len(sizes) - count, None)
@@ -87,9 +98,10 @@ def _order_text(observed: ObservedOrder) -> str:
 
 
 def _confidence_band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
-    """Return the outline of the 95 % confidence band of a line fitted to errors, as a curve of a
-    chart.
+    """Return the outline of the 95 % confidence band of a line that is fitted to errors, as a chart
+    curve.
 
+    line    line fitted to the logarithms of errors and cell sizes
     ends    largest and smallest cell size
     series  number that determines the colour
     """

@@ -1,4 +1,7 @@
-"""Charts of computed and exact profiles along y = 0, with their difference in a panel below."""
+"""Charts of computed and exact traction profiles along the row of cells nearest to y = 0.
+
+A second panel below shows their difference.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,8 +18,11 @@ SHOWN = 1.15  # contact radii to each side of the axis
 
 @dataclass(frozen=True)
 class Section:
-    """Row of cells of a surface grid nearest to y = 0, up to 1.15 contact radii from the axis.
+    """Row of cells of a surface grid nearest to y = 0, along which a profile chart shows fields.
 
+    The row extends to 1.15 contact radii on both sides of the axis.
+
+    grid    surface grid
     radius  contact radius [length]
     """
 
@@ -33,29 +39,34 @@ class Section:
 
     @property
     def x(self) -> Field:
-        """Positions of the cell centres along the row [length]."""
+        """x coordinates of the cell centres along the row [length]."""
         return np.asarray(self.grid.x[self._plotted_cells])
 
     @property
     def y(self) -> float:
-        """Distance of the row of cells from y = 0 [length]: half a cell for an even number of
-        cells.
-        """
+        """y coordinate of the row of cells [length]: half a cell for an even number of cells, else
+        0."""
         return float(self.grid.y[self._section_row])
 
     @property
     def r(self) -> Field:
-        """Distances of the cell centres from the axis of the contact [length]."""
+        """Distances of the cell centres of the row from the axis of the contact [length]."""
         return np.asarray(np.hypot(self.x, self.y))
 
     def of(self, field: Field) -> Field:
-        """Return the values of a field (nx, ny) at the cells of the row."""
+        """Return the values of a surface field (nx, ny) at the cells of the row."""
         return np.asarray(field[self._plotted_cells, self._section_row])
 
 
 @dataclass(frozen=True)
 class Profile:
-    """Computed and exact dimensionless values of a quantity at the cells of a section."""
+    """Computed and exact values of one dimensionless quantity at the cells of a section, for a
+    chart.
+
+    label     text of the legend
+    computed  computed values (cells of the row,)
+    exact     values of the closed form at the same cells
+    """
 
     label: str
     computed: Field
@@ -74,7 +85,8 @@ class ProfileLabels:
 
     @property
     def difference_label(self) -> str:
-        """Label of the difference panel: the quantity of the y axis with a Δ in front."""
+        """Label of the y axis of the panel of differences: the label of the profile with Δ in
+        front."""
         return f"Δ{self.y_label}"
 
 
@@ -84,7 +96,9 @@ def profile_chart(
     """Create a chart of computed and exact profiles, with computed minus exact values in a panel
     below.
 
-    scale  length by which x is divided; None for the contact radius of the section
+    section   row of cells at which the profiles are known
+    profiles  computed and exact values of each quantity
+    scale     length by which x is divided; None for the contact radius of the section
     """
     x = section.x / (section.radius if scale is None else scale)
     exact = [

@@ -1,4 +1,4 @@
-"""Verification report: its pages, its table for machines (JUnit) and its texts.
+"""Verification report: HTML pages, JUnit table and Markdown summary.
 
 All are rendered from the record `report.json`, so that a report can be rendered again from that
 file alone.

@@ -1,5 +1,8 @@
-"""Changes of results since the recorded baseline, as rows for pages, summary and
-log of a report."""
+"""Changes of verification results since the recorded baseline, for pages, summary and log of a
+report.
+
+The baseline contains the accepted results of an earlier version of the program.
+"""
 
 from __future__ import annotations
 
@@ -41,12 +44,18 @@ RANK = {
 
 @dataclass(frozen=True)
 class ChangeRow:
-    """A difference between a result of the report and its recorded baseline, in words.
+    """Difference between a result of a verification report and its recorded baseline, as texts of a
+    table.
 
+    case      name of the verification case
+    name      name of the quantity
+    run       name of the run of the case
+    kind      kind of the change, such as worse, better or new
     was, now  recorded and present value
     moved     size of the change in words
-    since     name of the origin of the recorded value
-    size      size of the change, in tolerances or as fraction of a count
+    since     name of the origin (commit) of the recorded value
+    remark    explanation of the change
+    size      size of the change, in tolerances or as fraction of a count, for sorting
     """
 
     case: str
@@ -62,7 +71,7 @@ class ChangeRow:
 
     @property
     def line(self) -> str:
-        """Change of a result since its recorded value, as one line of a log."""
+        """Text of the change as one line of a log."""
         moved = "" if self.moved == "–" else f" ({self.moved})"
         remark = f"; {self.remark}" if self.remark else ""
         return (
@@ -72,16 +81,17 @@ class ChangeRow:
 
 
 def change_rows(report: Report) -> list[ChangeRow]:
-    """Return all relevant changes of results since the recorded baseline.
+    """Return the changes of results since the recorded baseline that matter to a reader of the
+    report.
 
-    They are sorted by severity of their kind, then by size.
+    The changes are sorted by severity of their kind, then by size.
     """
     rows = [row for row in _all_rows(report) if row.kind.matters]
     return sorted(rows, key=lambda row: (RANK[row.kind], -row.size))
 
 
 def moved_rows(report: Report) -> list[ChangeRow]:
-    """Return the relevant changes of results since the baseline, without new results.
+    """Return the changes since the baseline that matter to a reader, without results that are new.
 
     New results have no recorded value to compare with.
     """
@@ -89,16 +99,16 @@ def moved_rows(report: Report) -> list[ChangeRow]:
 
 
 def worse_rows(report: Report) -> list[ChangeRow]:
-    """Return the results that are worse than recorded in the baseline: larger errors or higher
-    cost.
-    """
+    """Return the results that are worse than in the recorded baseline, for instance in error or
+    cost."""
     return [row for row in change_rows(report) if row.kind.regresses]
 
 
 def _all_rows(report: Report) -> Iterator[ChangeRow]:
-    """Yield all changes of a report, including new and removed cases.
+    """Yield all changes of a report since the recorded baseline, including new and removed cases.
 
-    New cases are left out if nothing at all is recorded, because the report states that separately.
+    New cases are left out if no case has recorded results, because the report states that
+    separately.
     """
     some = report.gone or len(without_baseline(report)) < len(report.cases)
     for case in report.cases:
@@ -114,9 +124,10 @@ def _all_rows(report: Report) -> Iterator[ChangeRow]:
 
 
 def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
-    """Yield the changes of a case since its recorded baseline.
+    """Yield the changes of the numbers and counts of one verification case since its recorded
+    baseline.
 
-    They include recorded numbers that the case lacks.
+    Recorded numbers that the case now lacks are included.
     """
     if case.baseline is None:
         return
@@ -153,7 +164,7 @@ def without_baseline(report: Report) -> list[str]:
 
 
 def origins(report: Report) -> list[tuple[Origin, list[str]]]:
-    """Return the origins (commit and date) of the recorded baselines, each with the names of its
+    """Return the origins (commit and date) of the recorded baselines, with the names of their
     cases.
 
     The origin with the most cases comes first.
@@ -166,7 +177,7 @@ def origins(report: Report) -> list[tuple[Origin, list[str]]]:
 
 
 def changes_text(report: Report) -> str:
-    """Summarise the changes of results since the recorded baseline in one line."""
+    """Summarise the changes of a report since the recorded baseline in one line of text."""
     absent = without_baseline(report)
     parts = [", ".join(f"{number} {kind}" for kind, number in change_counts(report).items())]
     if report.cases and len(absent) == len(report.cases):

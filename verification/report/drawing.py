@@ -1,4 +1,4 @@
-"""Drawing of charts with matplotlib from their data."""
+"""Drawing of the charts of a verification report with matplotlib."""
 
 from __future__ import annotations
 
@@ -31,8 +31,9 @@ MANY_PLACES = 12  # along y: the legend then stands at the top, where reading be
 
 
 def draw(chart: Chart) -> Figure:
-    """Draw a chart with matplotlib and return its figure. Call this function within
-    `style.figure_style`.
+    """Draw a chart of a report with matplotlib and return its figure.
+
+    This function must be called within `style.figure_style`.
     """
     heights = [row[0].height for row in chart.rows]
     columns = max(len(row) for row in chart.rows)
@@ -85,9 +86,11 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
 
 
 def _label_decades(ax: Any, most: int) -> None:
-    """Label logarithmic axes at powers of ten, and also at 2 and 5 times these on a short axis.
+    """Label the logarithmic axes of a panel at powers of ten; a short axis also at 2 and 5 times
+    these.
 
-    most  largest number of labels
+    ax    axes of matplotlib
+    most  largest number of labels per axis
     """
     for axis in (ax.xaxis, ax.yaxis):
         if axis.get_scale() == "log":
@@ -100,7 +103,7 @@ def _label_decades(ax: Any, most: int) -> None:
 
 
 def look_of(curve: Curve) -> dict[str, Any]:
-    """Return the matplotlib arguments of a curve: colour, marker and line style.
+    """Return the matplotlib arguments of a chart curve: colour, marker and line style.
 
     When the colours repeat, the markers are shifted by one, so that 36 series look different.
     """
@@ -151,13 +154,18 @@ def _draw_legend(ax: Any, panel: Panel) -> None:
 
 
 def _is_long(labelled: Sequence[Curve]) -> bool:
-    """Determine if the legend texts are too long to be placed on the right of the plot."""
+    """Return True if the legend texts of a panel are too long to be placed on the right of the
+    plot.
+
+    labelled  curves of the panel that have a label
+    """
     return len(labelled) > 1 and any(len(curve.label) > LONGEST_BESIDE for curve in labelled)
 
 
 def _legend_below(ax: Any, longest: int) -> None:
-    """Draw the legend below a chart, in two columns if the longest text fits.
+    """Draw the legend of a panel below the chart, in two columns if the longest text fits.
 
+    ax       axes of matplotlib
     longest  number of letters of the longest text
     """
     columns = 1 if longest > LONGEST_OF_TWO else 2

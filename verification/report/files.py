@@ -1,4 +1,8 @@
-"""Files of a report and of a study, each written atomically. The record is written last."""
+"""Writing of the files of a verification report and of a study.
+
+Each file is written atomically. The record is written last, so that its presence marks complete
+files.
+"""
 
 from __future__ import annotations
 
@@ -28,9 +32,10 @@ CASES = "cases"  # of the directory: the records of finished cases
 
 
 def refuse_if_unwritable(directory: Path) -> None:
-    """Create the output directory and test that files can be written, before long computations.
+    """Create the output directory of a report and test that files can be written into the
+    directory.
 
-    Raises OutputRefused.
+    Called before long computations. Raises OutputRefused.
     """
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -42,17 +47,22 @@ def refuse_if_unwritable(directory: Path) -> None:
 
 
 def record_in(directory: Path) -> Path:
-    """Return the path of a report's record: the compressed file if the plain one is absent."""
+    """Return the path of the record of a report in a directory.
+
+    The compressed record is used if the uncompressed record is absent.
+    """
     packed = directory / PACKED
     return packed if packed.is_file() and not (directory / RECORD).is_file() else directory / RECORD
 
 
 def set_aside_report(directory: Path) -> None:
-    """Move an earlier report into the folder `earlier`, before a new report is computed.
+    """Move the files of an earlier report into the subfolder `earlier`, before a new report is
+    computed.
 
     If the computation is interrupted, no file can be mistaken for its result, and the earlier
-    results are preserved. The record is moved first. The remaining files are then an incomplete
-    report, which the next call removes.
+    results
+    are preserved. The record is moved first. The files that remain after an interruption have no
+    record, and the next call removes them.
     """
     with _locked_directory(directory):
         record = record_in(directory).name
@@ -60,9 +70,9 @@ def set_aside_report(directory: Path) -> None:
 
 
 def set_aside(directory: Path, names: Sequence[str] = STUDY_FILES) -> None:
-    """Move the files of a report or study into the folder `earlier`, beginning with the record.
+    """Move the files of a report or study into the subfolder `earlier`, beginning with the record.
 
-    Without a record the other files are removed, and those in `earlier` stay.
+    Without a record the other files are removed, and the files in `earlier` stay.
 
     names  file names, with the record first
     """
@@ -84,9 +94,9 @@ def set_aside(directory: Path, names: Sequence[str] = STUDY_FILES) -> None:
 
 
 def draw_again(report: Report, directory: Path) -> None:
-    """Render the pages of a report again from its stored record.
+    """Render the pages of a verification report again from its record.
 
-    A compressed record stays as it is; a plain record is written again.
+    A compressed record in the directory stays as it is; an uncompressed record is written again.
     """
     packed = record_in(directory).name == PACKED
     record = {} if packed else {RECORD: dump_report(report)}
@@ -95,18 +105,18 @@ def draw_again(report: Report, directory: Path) -> None:
 
 
 def write_report(report: Report, directory: Path) -> None:
-    """Render all files of a report and replace those of an earlier report, including those moved
-    aside.
+    """Write all files of a verification report, and remove the other files of an earlier report.
 
-    A different record is removed first and the new one is written last. A directory with
-    `report.json` therefore contains files that belong together.
+    Files that were moved aside are removed. A different record is removed first and the new record
+    is
+    written last. A directory with `report.json` therefore contains files that belong together.
     """
     _replace_files(_rendered_files(report) | {RECORD: dump_report(report)}, directory)
 
 
 def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -> None:
-    """Write the page, the tables and the record of a study, and remove its files moved aside
-    earlier.
+    """Write the page, the tables and the record of a study, and remove the files that were moved
+    aside.
 
     rows  texts of the CSV tables by file name
     """
@@ -119,8 +129,7 @@ def write_study(record: StudyRecord, rows: Mapping[str, str], directory: Path) -
 
 
 def _rendered_files(report: Report) -> dict[str, str]:
-    """Render the files of a report except its record: pages, JUnit table and
-    summary, by file name."""
+    """Render the pages, the JUnit table and the summary of a report, as texts by file name."""
     # Drawing takes long to import: a command that only prepares a directory does without.
     from verification.report.page import render_page, render_sheets
     from verification.report.summary_text import render_junit, render_summary
@@ -132,9 +141,10 @@ def _rendered_files(report: Report) -> dict[str, str]:
 
 
 def _replace_files(texts: Mapping[str, str], directory: Path, kept: Sequence[str] = ()) -> None:
-    """Replace the files of an earlier report, except those in `kept`.
+    """Write new files of a report into a directory and remove the other files of an earlier report.
 
-    texts  contents by file name; the last one is the record, whose presence marks a complete report
+    texts  contents by file name; the last is the record, whose presence marks a complete report
+    kept   names of files that stay as they are
     """
     with _locked_directory(directory), stop_signals_held():
         record = directory / RECORD
@@ -160,8 +170,9 @@ def _remove_set_aside(directory: Path, names: Sequence[str]) -> None:
 
 
 def _remove_files(directory: Path, names: Sequence[str]) -> None:
-    """Remove files in the given order, so that the record, which marks a complete report, goes
-    first.
+    """Remove files of a report or study from a directory, in the given order, if they exist.
+
+    The record comes first, because its presence marks a complete report.
     """
     for name in names:
         (directory / name).unlink(missing_ok=True)
@@ -169,7 +180,10 @@ def _remove_files(directory: Path, names: Sequence[str]) -> None:
 
 @contextmanager
 def _locked_directory(directory: Path) -> Iterator[None]:
-    """Lock an output directory for a block; wait while another process writes a report there."""
+    """Lock the output directory of a report for a block of code.
+
+    The call waits while another process holds the lock to write a report there.
+    """
     descriptor = os.open(directory, os.O_RDONLY)
     try:
         with suppress(OSError):  # the file system has no locks

@@ -1,5 +1,6 @@
-"""Page of the judgement of a code on a challenge: verdicts, levels, and errors by fineness and
-cost.
+"""HTML page of the judgement of a code on a challenge.
+
+The page shows verdicts, refinement levels, and errors against element size and computing time.
 """
 
 from __future__ import annotations
@@ -15,8 +16,10 @@ MAX_CURVES = 8
 
 
 def row_texts(row: Row) -> tuple[str, ...]:
-    """Return the table row of a verdict on a code: quantity, load step, level, error, bound and
+    """Return the table cells of a verdict: quantity, load step, level, status, error, bound and
     others.
+
+    row  verdict on one quantity of an answer to a challenge
     """
     return (
         row.quantity,
@@ -67,7 +70,10 @@ def _level_table(judgement: Judgement) -> Table:
 
 
 def _error_charts(judgement: Judgement) -> list[Chart]:
-    """Return charts of the largest errors of a code against element size and against CPU time."""
+    """Return charts of the largest errors of a code against element size and against CPU time.
+
+    A chart is left out if no quantity has errors at two levels.
+    """
     fallen = [row for row in judgement.rows if len(row.errors) > 1]
     fallen.sort(key=lambda row: -(row.error or 0.0))
     seconds = {one.h: one.seconds for one in judgement.answers}

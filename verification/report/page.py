@@ -1,4 +1,4 @@
-"""HTML pages of a report and of a study, which require neither network nor scripts."""
+"""HTML pages of a verification report and of a study, which need neither network nor scripts."""
 
 from __future__ import annotations
 
@@ -54,12 +54,12 @@ def render_page(report: Report) -> str:
 
 
 def render_sheets(report: Report) -> str:
-    """Render the page with one sheet per case, in the order of the record, as HTML."""
+    """Render the page of a verification report with one section (sheet) per case as HTML."""
     return _render_template("sheets.html", report=report, brief=report.level == "quick")
 
 
 def render_study(record: StudyRecord) -> str:
-    """Render the page of a study as HTML."""
+    """Render the page of a study as HTML from the record of the study."""
     return _render_template("study.html", study=record, brief=False)
 
 
@@ -69,7 +69,7 @@ def _render_template(template: str, **shown: object) -> str:
 
 @cache
 def environment() -> jinja2.Environment:
-    """Return the Jinja environment with all templates, filters and functions of the pages."""
+    """Return the Jinja environment with the templates, filters and functions of all HTML pages."""
     made = jinja2.Environment(
         loader=jinja2.PackageLoader("verification.report"),
         autoescape=True,
@@ -96,10 +96,12 @@ def environment() -> jinja2.Environment:
 
 
 def line_of(case: CaseOutcome) -> str:
-    """Summarise a case in one line: the number of passed verdicts and the verdict nearest to its
+    """Summarise a verification case in one line: passed verdicts, and the verdict nearest to its
     limit.
 
-    A failed verdict has priority, and a verdict on a quantity has priority over one on residuals.
+    For the second part, a failed verdict has priority, and a verdict on a quantity has priority
+    over
+    one on residuals.
     """
     total, passed = len(case.verdicts), case.count(Status.PASS)
     counted = f"{total} verdicts" if passed == total else f"{passed} of {total} verdicts passed"
@@ -116,9 +118,9 @@ def line_of(case: CaseOutcome) -> str:
 
 
 def shared_reasons(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:
-    """Return the texts on references and tolerances that at least two cases share.
+    """Return the texts on references and tolerances that at least two verification cases share.
 
-    The values are the names of the verdicts with the text.
+    A page prints these texts once. The values are the names of the verdicts with the text.
     """
     found = [reasons_of(case) for case in cases]
     times = Counter(text for reasons in found for text in reasons)
@@ -130,8 +132,9 @@ def shared_reasons(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:
 
 
 def reasons_of(case: CaseOutcome) -> dict[str, list[str]]:
-    """Return the texts on references and tolerances of a case, with the names of the verdicts of
-    each.
+    """Return the texts on the references and tolerances of a verification case.
+
+    The values are the names of the verdicts to which a text applies.
     """
     found: dict[str, list[str]] = {}
     for v in case.verdicts:
@@ -146,7 +149,11 @@ def reasons_of(case: CaseOutcome) -> dict[str, list[str]]:
 
 
 def alignment(table: Table, column: int) -> str:
-    """Return the style class of a table column: numbers are aligned right, words left.
+    """Return the style class of a table column of a page: "number" for short cells with digits,
+    else
+    "words".
+
+    Numbers are aligned right.
 
     column  index of the column
     """
@@ -157,8 +164,9 @@ def alignment(table: Table, column: int) -> str:
 
 
 def heading(table: Table, column: int) -> str:
-    """Return the heading of a table column, with the unit of its numbers if the cells do not name
-    units.
+    """Return the heading of a table column of a page, with the unit of its numbers in brackets.
+
+    The unit is left out if the cells name units themselves.
 
     column  index of the column
     """

@@ -1,4 +1,4 @@
-"""Sections of studies in a report: their records, their commands, and the program's promises."""
+"""Sections of the report page on studies, and the main claims about the program."""
 
 from __future__ import annotations
 
@@ -35,6 +35,8 @@ PLACES = (Path("reports/studies"), Path("out"))  # where records are looked for
 class StudySection:
     """Section of the report page for one study.
 
+    name     name of the study
+    title    heading of the section
     record   record of the study; None if none was found
     command  command that makes the record
     """
@@ -47,7 +49,7 @@ class StudySection:
 
 @dataclass(frozen=True)
 class Feature:
-    """A main claim about the program (a promise to users), with measured figures that support it.
+    """One of the main claims about the program on the report page, with measured figures.
 
     promise  text of the claim
     status   outcome of the case or study that judges the claim; None if the report lacks it
@@ -62,7 +64,11 @@ class Feature:
 
 
 def study_section(report: Report, name: str) -> StudySection:
-    """Return the section of a study for the report page; raises KeyError if the page has none."""
+    """Return the section of a study for the report page; raises KeyError if the page has no such
+    section.
+
+    name  name of the study
+    """
     command = f"slipstick maintain study {name} --level {report.level}"
     record = next((record for record in report.studies if record.name == name), None)
     return StudySection(name, TITLES[name], record, command)
@@ -110,7 +116,7 @@ def _study_feature(section: StudySection, promise: str) -> Feature:
 
 
 def claims_line(record: StudyRecord) -> str:
-    """Return a text with the number of judged claims of a study that hold."""
+    """Return a text with the numbers of fulfilled and of judged claims of a study."""
     judged = [s.outcome for s in record.conclusion.statements if s.outcome is not None]
     good = judged.count(Status.PASS)
     return f"{good} of its {len(judged)} judged claims hold (level {record.level})"
@@ -119,11 +125,13 @@ def claims_line(record: StudyRecord) -> str:
 def stored_records(
     places: Iterable[Path] = PLACES, left_out: Callable[[str], None] | None = None
 ) -> tuple[StudyRecord, ...]:
-    """Return the preferred record of every study that has a section on the page, sorted by name.
+    """Return one stored record of every study that has a section on the report page, sorted by
+    name.
 
-    Records of the current sources have priority over others, then the higher level, then the later
-    date. Records with a number of cells chosen by the user are left out.
+    Records of the current source code have priority, then the higher level, then the later date.
+    Records with a number of cells that the user chose are left out.
 
+    places    directories that are searched
     left_out  function called with a message for each record that is damaged or of another version;
               None raises ValueError instead
     """

@@ -1,5 +1,4 @@
-"""Summary of a report in Markdown for a pull request, JUnit table, and lines for
-the command line."""
+"""Texts of a verification report: Markdown summary for a pull request, JUnit table, and log lines."""
 
 from __future__ import annotations
 
@@ -33,8 +32,8 @@ OUTSIDE = {
 
 
 def counts_text(report: Report) -> str:
-    """Summarise the numbers of passed and failed verdicts, stated errors and
-    studies in one line."""
+    """Summarise a report in one line: numbers of verdicts by status, covering stated errors, and
+    studies."""
     found = [verdict.covered for _, verdict in judged_errors(report.cases)]
     failed = len(report.failed_studies)
     older = sum(study.status is Status.FAIL for study in report.studies) - failed
@@ -52,8 +51,8 @@ def counts_text(report: Report) -> str:
 
 
 def uncovered_lines(report: Report) -> list[str]:
-    """Return one line for each stated error that does not cover the difference from
-    the reference."""
+    """Return one log line for each stated error that is smaller than the difference from the
+    reference."""
     return [
         f"UNCOVERED {case.name}/{verdict.name} [{verdict.run}]: "
         f"{value_text(abs((verdict.value or 0.0) - verdict.reference), verdict.unit)} from the "
@@ -64,18 +63,23 @@ def uncovered_lines(report: Report) -> list[str]:
 
 
 def failure_lines(report: Report) -> list[str]:
-    """Return one line for each failed verdict, and for each failed study of the current sources."""
+    """Return one log line for each failed verdict, and for each failed study of the current source
+    code.
+
+    If the stated errors of the report fail as a whole, each that is too small has a line, too.
+    """
     lines = [failure_line(case.name, verdict, report.level) for case, verdict in report.failures]
     lines += uncovered_lines(report) if report.errors_too_small else []
     return lines + [study_failure_line(study) for study in report.failed_studies]
 
 
 def power_text(report: Report) -> str:
-    """Describe the sensitivity of the verdicts: the share that would pass with 3 or 10 times the
-    error.
+    """Describe the sensitivity of the verdicts of a report to larger errors, in one line.
 
-    Only passed verdicts with an independent reference count. The text is empty without such
-    verdicts.
+    The text states the share of verdicts that would still pass if the error were 3 or 10 times as
+    large. Only passed verdicts with an independent reference count. Without such verdicts the text
+    is
+    empty.
     """
     judged = [
         (verdict.error, verdict.allowed)
@@ -102,8 +106,8 @@ def power_text(report: Report) -> str:
 
 
 def render_summary(report: Report) -> str:
-    """Render the summary of a report in Markdown: status, failures, changes, and
-    one row per case."""
+    """Render the Markdown summary of a report: status, failures, changes, and one table row per
+    case."""
     return "\n".join(_summary_lines(report)) + "\n"
 
 
@@ -144,7 +148,8 @@ def _status_text(status: Status) -> str:
 
 
 def _closest_verdict_text(case: CaseOutcome) -> str:
-    """Describe the verdict of a case that is nearest to its tolerance."""
+    """Describe the verdict of a verification case that is nearest to its tolerance, for the
+    summary."""
 
     def use(verdict: Verdict) -> float:
         return verdict.clearance or 0.0
@@ -155,7 +160,7 @@ def _closest_verdict_text(case: CaseOutcome) -> str:
 
 
 def _change_lines(report: Report) -> Iterator[str]:
-    """Yield the Markdown lines on changes since the recorded baseline."""
+    """Yield the Markdown lines of the summary on changes of results since the recorded baseline."""
     yield f"Since the baseline: {changes_text(report)}."
     for origin, names in origins(report):
         text = f"- {len(names)} of the cases: {origin.name}, {origin.date[:10]}, {origin.reason}"
@@ -179,11 +184,14 @@ Made = tuple[str, Status, str, str]  # name, outcome, message, text
 
 
 def render_junit(report: Report) -> str:
-    """Render a report as JUnit XML: one suite per case with one test case per verdict, and one of
+    """Render a verification report as JUnit XML, with one test suite per case and one suite of
     studies.
 
-    Only studies of the current sources are included. Times are left out, because they differ
-    between runs. Changes since the baseline are text output of a suite and not failures.
+    Each verdict is a test case. Only studies of the current source code are included. Times are
+    left
+    out, because they differ between runs. Changes since the baseline are text output of a suite and
+    not
+    failures.
     """
     root = ElementTree.Element("testsuites", name=f"slipstick verify, {report.level}")
     for case in report.cases:

@@ -1,5 +1,6 @@
-"""Charts as compact SVG elements of a page, with colours of the page, searchable text and unique
-ids.
+"""Charts of a report as compact SVG elements of an HTML page.
+
+The elements use the colours of the page, have searchable text, and ids that are unique in the page.
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ REFERENCE = re.compile(r'(?:xlink:href="#|url\(#)([^")]*)')
 
 
 def inline_svg(chart: Chart, prefix: str = "") -> str:
-    """Draw a chart and return it as an SVG element; equal charts give equal text.
+    """Draw a chart of a report and return its SVG element for an HTML page; equal charts give equal
+    text.
 
     prefix  prefix of the ids, for a chart that a page shows twice
     """
@@ -57,8 +59,9 @@ def inline_svg(chart: Chart, prefix: str = "") -> str:
 def image_address(picture: Picture) -> str:
     """Return a data address that contains a picture as an SVG image.
 
-    A page shows it as an image, so that nothing in the picture can run, refer to the page or load
-    data.
+    A page shows the picture as an image, so that nothing in the picture can run, refer to the page
+    or
+    load data.
     """
     svg = compact(picture.svg, picture.name)
     if not svg.startswith("<svg "):  # no drawing: a browser shows the text of the image
@@ -67,7 +70,7 @@ def image_address(picture: Picture) -> str:
 
 
 def compact(svg: str, name: str) -> str:
-    """Remove the parts of an SVG text by matplotlib that a page does not need.
+    """Remove the parts of the SVG text of matplotlib that an HTML page does not need.
 
     name  name that is unique in the page, so that diagrams cannot refer to each other's elements
     """
@@ -82,7 +85,7 @@ def compact(svg: str, name: str) -> str:
 
 
 def _with_own_ids(svg: str, name: str) -> str:
-    """Rename the ids in an SVG text that are referred to, and remove the others.
+    """Rename those ids in the SVG text of a diagram that are referred to, and remove the other ids.
 
     The new ids contain a digest of `name`, so that several diagrams on a page do not share ids.
     """
@@ -95,8 +98,12 @@ def _with_own_ids(svg: str, name: str) -> str:
 
 
 def _short_style(match: re.Match[str]) -> str:
-    """Shorten the style attribute of an SVG element, without the font family, which
-    the page sets."""
+    """Return the style attribute of an SVG element without spaces and without the font family.
+
+    The page sets the font family.
+
+    match  match of the attribute in the SVG text
+    """
     parts = [part.strip().replace(": ", ":") for part in match[1].split(";")]
     return f' style="{";".join(p for p in parts if p and not p.startswith("font-family"))}"'
 

@@ -33,29 +33,37 @@ LARGEST_RECORD = 100_000_000  # bytes; those of full verifications have a few hu
 
 
 class DamagedRecord(Exception):
-    """The stored record of a case is unreadable, damaged, or belongs to another case."""
+    """Exception for a stored case record that is unreadable, damaged, or belongs to another case."""
 
 
 @dataclass(frozen=True)
 class CaseStore:
-    """Directory with one record file per case of a study; all records have the type
-    `record_type`."""
+    """Store of case records on disk: a directory with one file per case of a study.
+
+    An interrupted study reads the records of its finished cases from the store.
+
+    record_type  type of all records
+    """
 
     directory: Path
     record_type: type[Description] = CaseRecord
 
     def path(self, case: StudyCase, code: bytes | None = None) -> Path:
-        """Return the path of the stored record of a case, which includes a digest of case and
-        source code.
+        """Return the path of the stored record of a case.
+
+        The file name contains a digest of the case and the source code, so that a changed case or
+        code has
+        another file.
 
         code  digest of the source code that computes the case; None for that of this process
         """
         return self.directory / f"{case.name}-{content_hash(case, code)}.json"
 
     def load(self, case: StudyCase) -> Description | None:
-        """Read the stored record of a case; None if there is none.
+        """Read the stored record of a case; None if the store has no record of this case and source
+        code.
 
-        Raises DamagedRecord, which names the file.
+        Raises DamagedRecord, which names the file, if the file cannot be used.
         """
         path = self.path(case)
         try:
@@ -78,7 +86,7 @@ class CaseStore:
             raise DamagedRecord(f"{path} is damaged: no whole record of this version") from error
 
     def save(self, case: StudyCase, record: Description, code: bytes | None = None) -> None:
-        """Write the record of a case atomically: a complete file or none.
+        """Write the record of a case to the store, as a complete file or none.
 
         code  digest of the source code that computed the record; None for that of this process
         """
@@ -89,9 +97,9 @@ class CaseStore:
 
 
 def content_hash(case: StudyCase, code: bytes | None = None) -> str:
-    """Return a digest of a case and its source code, which identifies the stored record.
+    """Compute a digest of the type and values of a case and of the source code.
 
-    The digest includes the type and values of the case.
+    The digest is part of the name of the stored record.
 
     code  digest of the source code; None for that of this process
     """
@@ -112,7 +120,12 @@ T = TypeVar("T")
 
 
 class LocalWorkers:
-    """Worker processes on this machine, at most `processes` at a time."""
+    """Pool of worker processes on this machine, which compute the cases of a study.
+
+    A worker that is killed affects only its own case.
+
+    processes  largest number of workers
+    """
 
     elsewhere = False
 
@@ -126,14 +139,15 @@ class LocalWorkers:
         self._all: list[ProcessPoolExecutor] = []
 
     def submit(self, compute: Callable[..., T], *arguments: object) -> Future[T]:
-        """Call a function in a worker process. The future raises BrokenProcessPool if the worker
-        dies.
+        """Call a function in a worker process and return the future of its result.
+
+        The future raises BrokenProcessPool if the worker dies.
         """
         return self._threads.submit(self._call, compute, *arguments)
 
     def lost(self) -> list[str]:
-        """Return an empty list of dead workers: a local worker that dies is
-        reported with its case."""
+        """Return an empty list: a local worker that dies is reported with its case and not as a
+        lost worker."""
         return []
 
     def close(self) -> None:
@@ -159,8 +173,10 @@ class LocalWorkers:
 
 
 class ThisProcess:
-    """Executor that calls functions in the current process, without the cost of
-    starting workers."""
+    """Pool without worker processes, which calls functions in the current process.
+
+    Used where starting workers would cost more than the computation.
+    """
 
     elsewhere = False
 
@@ -174,7 +190,7 @@ class ThisProcess:
         return future
 
     def lost(self) -> list[str]:
-        """Return an empty list of dead workers, because this executor has no workers."""
+        """Return an empty list of dead workers, because this pool has no worker processes."""
         return []
 
     def close(self) -> None:
@@ -209,9 +225,8 @@ def cores() -> int:
 
 
 def _obey_parent() -> None:
-    """Initialise a worker process: ignore terminal interrupts, and exit when the parent process
-    ends.
-    """
+    """Initialise a worker process, which ignores terminal interrupts and exits when its parent
+    ends."""
     with suppress(ValueError):
         signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
@@ -230,13 +245,14 @@ OTHER_CODE = "its worker has other sources of slipstick, or other libraries: ins
 
 @dataclass(frozen=True)
 class CaseEnd:
-    """Outcome of a case: its record, or the reason why there is no record.
+    """Outcome of one case of a study: its record, or the reason why there is no record.
 
+    case     case of the study
     record   record of the case; None if it was not computed
-    lost     reason why there is no record; None if there is one
+    lost     reason why there is no record; None if there is a record
     stored   True if the record was read from the store
     damaged  message on a stored file that could not be used; empty if there was none
-    workers  addresses of workers found dead meanwhile; their cases go to other workers
+    workers  network addresses of workers found dead since the last outcome
     """
 
     case: StudyCase
@@ -248,9 +264,7 @@ class CaseEnd:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Messages on problems of the case that only cost time: a damaged record file, and dead
-        workers.
-        """
+        """Messages on problems that only cost time: a damaged record file, and dead workers."""
         dead = (f"worker {one} has died: its cases go to other workers" for one in self.workers)
         return (*((f"{self.damaged}; computed again",) if self.damaged else ()), *dead)
 
@@ -260,9 +274,9 @@ Observer = Callable[[CaseEnd], None]
 
 @dataclass(frozen=True)
 class Answer:
-    """Reply of a worker for one case.
+    """Reply of a worker process for one case of a study.
 
-    record  record of the case, or the reason as text why there is none
+    record  record of the case, or as text the reason why there is no record
     code    digest of the source code that the worker used
     """
 
@@ -280,13 +294,13 @@ class Workers(Protocol):
     def elsewhere(self) -> bool: ...
 
     def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
-        """Call a function with a case in a worker and return the future of its reply."""
+        """Call a function with a case of a study in a worker and return the future of its reply."""
 
     def lost(self) -> Sequence[str]:
         """Return the network addresses of workers that have died since the last call."""
 
     def close(self) -> None:
-        """Cancel the calls that have not started, and release the workers."""
+        """Cancel the calls that have not started, and release the workers of the pool."""
 
 
 def run_cases(
@@ -297,9 +311,11 @@ def run_cases(
     *,
     fresh: bool = False,
 ) -> tuple[CaseEnd, ...]:
-    """Return the outcomes of all cases, in their order: records from the store, or computed and
-    stored.
+    """Compute the cases of a study that have no stored record, and store their records.
 
+    Returns the outcomes of all cases, in the order of the cases.
+
+    store    store of case records
     workers  number of processes on this machine, >= 1, or a pool of workers, which is closed at the
              end
     observe  function called in this thread with the outcome of every case; stored cases come first
@@ -331,9 +347,9 @@ def run_cases(
 
 
 def _stored_end(case: StudyCase, store: CaseStore) -> CaseEnd:
-    """Return the outcome of a case from its stored record, or an outcome without record.
+    """Read the stored record of a case and return the outcome of the case.
 
-    The outcome has a message if a file exists that cannot be used.
+    The outcome has no record if none is stored, and a message if a stored file cannot be used.
     """
     try:
         record = store.load(case)
@@ -343,7 +359,12 @@ def _stored_end(case: StudyCase, store: CaseStore) -> CaseEnd:
 
 
 def _received_answer(future: Future[Answer], pool: Workers) -> Answer:
-    """Return the reply of a worker for a case, or the reason why no reply was received."""
+    """Wait for the reply of a worker for a case, and return the reply.
+
+    If no reply is received, or the worker has other source code, the returned reply contains the
+    reason
+    in place of the record.
+    """
     try:
         answer = future.result()
     except BrokenProcessPool:
@@ -356,10 +377,14 @@ def _received_answer(future: Future[Answer], pool: Workers) -> Answer:
 
 
 def _computed_end(end: CaseEnd, answer: Answer, store: CaseStore) -> CaseEnd:
-    """Complete the outcome of a case by the reply of its worker, and store the record.
+    """Store the record that a worker has computed and return the completed outcome of the case.
 
-    The record is stored under the digest of the sources that computed it, because a source file may
+    The record is stored under the digest of the source code that computed it, because a source file
+    may
     have been edited since this process was started.
+
+    end     outcome of the case, still without record
+    answer  reply of the worker
     """
     if isinstance(answer.record, str):
         return replace(end, lost=LostCase(name=end.case.name, reason=answer.record))
@@ -368,9 +393,10 @@ def _computed_end(end: CaseEnd, answer: Answer, store: CaseStore) -> CaseEnd:
 
 
 def _compute_case(case: StudyCase) -> Answer:
-    """Compute a case in a worker and return its record, or the error as text.
+    """Compute a case in a worker process and return its record, or the error as text.
 
-    An exception that cannot be unpickled in the parent process would look like a dead worker.
+    Errors are returned as text, because an exception that cannot be unpickled in the parent process
+    would look like a dead worker.
     """
     code, started = code_digest(), time.process_time()  # before the sources are used
     try:

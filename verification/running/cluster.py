@@ -1,4 +1,4 @@
-"""Workers of an existing dask.distributed cluster."""
+"""Worker pool of an existing dask.distributed cluster, for the cases of a study."""
 
 from __future__ import annotations
 
@@ -17,17 +17,21 @@ SECONDS_TO_CONNECT = 10
 
 
 class ClusterUnavailable(Exception):
-    """No dask scheduler answers at the address, the address is invalid, or dask.distributed is
-    missing.
+    """Exception for a dask scheduler that does not answer, an invalid address, or missing
+    dask.distributed.
     """
 
 
 class ClusterWorkers:
-    """Workers of a dask scheduler at an address tcp://host:port or tls://host:port.
+    """Pool of the workers of a dask cluster, which compute the cases of a study.
 
     The workers must have the same sources of slipstick; they need no common disk. Certificates for
-    tls are those of dask's configuration (`distributed.comm.tls`). If a worker dies, dask gives its
-    case to another worker, a limited number of times. Raises ClusterUnavailable.
+    tls
+    are those of dask's configuration (`distributed.comm.tls`). If a worker dies, dask gives its
+    case to
+    another worker, a limited number of times. Raises ClusterUnavailable.
+
+    address  address of the dask scheduler, tcp://host:port or tls://host:port
     """
 
     elsewhere = True
@@ -54,13 +58,13 @@ class ClusterWorkers:
         self._known = set(self._client.nthreads())
 
     def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
-        """Run a function with a case in a worker of the cluster; return the future of its reply."""
+        """Call a function with a case of a study in a worker of the cluster; return the future of
+        its reply."""
         future: Future[Answer] = self._executor.submit(compute, case)
         return future
 
     def lost(self) -> list[str]:
-        """Return the network addresses of workers that have left the cluster since
-        the last call."""
+        """Return the network addresses of workers that have left the cluster since the last call."""
         try:
             now = set(self._client.nthreads())
         except OSError:  # the scheduler has gone: every case that is left tells so
@@ -69,8 +73,7 @@ class ClusterWorkers:
         return sorted(gone)
 
     def close(self) -> None:
-        """Cancel the cases that have not ended and disconnect from the cluster, which keeps
-        running.
-        """
+        """Cancel the cases that have not ended, and disconnect from the cluster, which continues to
+        run."""
         self._executor.shutdown(wait=False)
         self._client.close()

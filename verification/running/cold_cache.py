@@ -1,4 +1,4 @@
-"""Timing of solvers with empty caches, so that no result of an earlier run shortens the time."""
+"""CPU time of solvers with empty caches, so that no result of an earlier run shortens the time."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ T = TypeVar("T")
 
 @contextmanager
 def cache_directory(path: str) -> Iterator[None]:
-    """Run a block with another directory of the solvers' cache on disk.
+    """Run a block of code with another directory for the solvers' cache on disk.
 
-    path  the directory; `os.devnull` for no cache on disk
+    path  directory of the cache; `os.devnull` for no cache on disk
     """
     before = os.environ.get(CACHE)
     os.environ[CACHE] = path
@@ -37,9 +37,9 @@ def cache_directory(path: str) -> Iterator[None]:
 
 @contextmanager
 def cold_cache() -> Iterator[None]:
-    """Run a block with empty caches of all solvers, on disk and in memory.
+    """Run a block of code with empty caches of all solvers, on disk and in memory.
 
-    The cache on disk is a temporary directory, which is removed afterwards.
+    The cache on disk is a temporary directory, which is removed after the block.
     """
     clear_caches(*SOLVERS)
     with TemporaryDirectory() as empty, cache_directory(empty):
@@ -47,7 +47,10 @@ def cold_cache() -> Iterator[None]:
 
 
 def clear_caches(*packages: str) -> None:
-    """Clear the caches of functions and methods in all loaded modules of the given packages."""
+    """Clear the caches of functions and methods in all loaded modules of the given packages.
+
+    packages  beginnings of the module names
+    """
     for name, module in list(sys.modules.items()):
         for value in list(vars(module).values()) if name.startswith(packages) else ():
             members = vars(value).items() if isinstance(value, type) else ()
@@ -58,10 +61,10 @@ def clear_caches(*packages: str) -> None:
 
 
 def timed(compute: Callable[[], T]) -> tuple[T, float, int]:
-    """Call a function with cold caches until its CPU time is measured well enough.
+    """Measure the CPU time of a function with empty solver caches.
 
-    The calls stop after 5 calls or 1 s of CPU time in total. Returns the last result, the median
-    CPU seconds and the number of calls.
+    The function is called repeatedly, until 5 calls or 1 s of CPU time in total. Returns the last
+    result, the median CPU time [s] and the number of calls.
     """
     seconds: list[float] = []
     while True:

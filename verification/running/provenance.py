@@ -1,4 +1,7 @@
-"""Provenance of a report: the only part that differs between repeated runs."""
+"""Provenance of a stored record: versions, command, date, machine, and times of its run.
+
+Only these values differ between repeated runs of the same code.
+"""
 
 from __future__ import annotations
 
@@ -47,9 +50,9 @@ def provenance(
     seconds: dict[str, float],
     modules: Sequence[str] = (),
 ) -> Provenance:
-    """Collect the versions, machine, commit and times of this process.
+    """Collect the versions, machine, commit and date of this process, to be stored with a record.
 
-    command  command that makes the same report again
+    command  command that makes the same record again
     seconds  wall seconds by case
     modules  modules that compute the numbers; the digest includes all modules that these import
     """
@@ -70,7 +73,10 @@ def provenance(
 
 
 def _git(*arguments: str) -> str | None:
-    """Run git on the source and return its output; None without a repository or without git."""
+    """Run git in the source folder and return its output; None without a repository or without git.
+
+    arguments  command of git with its options
+    """
     if not (SOURCE / ".git").exists():
         return None
     try:

@@ -1,4 +1,7 @@
-"""Stored records of the studies and of the full verification report, with their date and cost."""
+"""Stored records of the studies and of the full verification report in the repository.
+
+Used to list and to regenerate all records.
+"""
 
 from __future__ import annotations
 
@@ -18,11 +21,11 @@ EARLIER = "earlier"  # folder with the previous files until the new ones are com
 
 @dataclass(frozen=True)
 class StoredRecord:
-    """Stored record of a study or of the full report in the repository.
+    """Stored record of a study or of the full verification report in the repository.
 
     path        file of the record
     provenance  version, date and times of the run that made the record
-    arguments   arguments of `slipstick` that make the record again
+    arguments   arguments of the command `slipstick` that makes the record again
     """
 
     path: Path
@@ -40,9 +43,9 @@ class StoredRecord:
         return sum(self.provenance.seconds.values())
 
     def pack(self) -> None:
-        """Compress the record of a newly made report and delete the plain file.
+        """Compress the record of a newly made report by xz and delete the uncompressed file.
 
-        Nothing is done if the stored record is not a compressed one.
+        Nothing is done for the record of a study, which is stored uncompressed.
         """
         if self.path.suffix == PACKED_SUFFIX:
             plain = self.path.with_suffix("")
@@ -51,18 +54,22 @@ class StoredRecord:
 
 
 def stored_records(folder: Path = REPORTS) -> list[StoredRecord]:
-    """Return the stored records of studies and of the full report, in ascending order of computing
-    time.
+    """Return the stored records of all studies and of the full report, the cheapest to compute
+    first.
 
     Raises ValueError for a damaged record.
+
+    folder  folder of the reports in the repository
     """
     return sorted(_records(folder), key=lambda record: record.seconds)
 
 
 def _records(folder: Path) -> Iterator[StoredRecord]:
-    """Yield all stored records of studies and of the full report.
+    """Yield the stored records of all studies and of the full verification report, unsorted.
 
     Records that an interrupted regeneration has moved aside are included.
+
+    folder  folder of the reports in the repository
     """
     studies = folder / "studies"
     for place in (studies, *sorted(studies.glob("*"))):

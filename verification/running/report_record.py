@@ -83,17 +83,16 @@ class Report(Description):
 
     @property
     def errors_too_small(self) -> bool:
-        """Determine if the stated errors of a verification report are too small.
+        """Return True if too few stated errors cover the difference between result and reference.
 
-        This is the case if too few of them cover the difference between result and reference. Only
-        reports of all cases at the full level are judged.
+        Only reports of all cases at the full level are judged.
         """
         whole = self.level == Level.FULL.name.lower() and not self.chosen
         return whole and share_covered(self.cases) < LEAST_SHARE
 
     @property
     def failures(self) -> tuple[tuple[CaseOutcome, Verdict], ...]:
-        """Failed verdicts of the report, each with its verification case."""
+        """Failed verdicts of the report, as pairs of a verification case and its verdict."""
         return tuple(
             (case, verdict)
             for case in self.cases
@@ -103,7 +102,7 @@ class Report(Description):
 
     @property
     def failed_studies(self) -> tuple[StudyRecord, ...]:
-        """Failed studies whose records were computed by the present source code."""
+        """Failed studies of the report whose records were computed by the present source code."""
         return tuple(
             study
             for study in self.studies
@@ -112,7 +111,8 @@ class Report(Description):
 
 
 def count(cases: tuple[CaseOutcome, ...]) -> dict[Status, int]:
-    """Count the verdicts of all cases by status; every status is a key, even with count 0."""
+    """Count the verdicts of all verification cases by status; every status is a key, even with
+    count 0."""
     return {status: sum(case.count(status) for case in cases) for status in Status}
 
 
@@ -121,15 +121,16 @@ def _counts_text(counts: dict[Status, int]) -> str:
 
 
 def dump_report(report: Report) -> str:
-    """Convert a report to JSON text with all keys, including those with default values."""
+    """Convert a verification report to JSON text with all keys, including those with default
+    values."""
     return json_text(report.model_dump(mode="json"))
 
 
 def load_report(path: Path) -> Report:
-    """Read a report from its JSON file, which may be compressed by xz.
+    """Read a verification report from its JSON file, which may be compressed by xz.
 
     Raises ValueError with a message of one line if the file is damaged, inconsistent or of another
-    version, and OSError if it cannot be read.
+    version, and OSError if the file cannot be read.
     """
     content = _unpacked(path) if path.suffix == PACKED_SUFFIX else path.read_bytes()
     try:
@@ -142,7 +143,10 @@ def load_report(path: Path) -> Report:
 
 
 def _unpacked(path: Path) -> bytes:
-    """Decompress an xz file up to the size limit of a report; raises ValueError above the limit."""
+    """Decompress an xz file of a verification report and return its content.
+
+    Raises ValueError for a damaged file, or if the content is larger than 100 MB.
+    """
     try:
         with lzma.open(path) as packed:
             content = packed.read(LARGEST_RECORD + 1)
@@ -154,6 +158,6 @@ def _unpacked(path: Path) -> bytes:
 
 
 def report_schema() -> dict[str, Any]:
-    """Return the JSON Schema of `report.json`."""
+    """Return the JSON Schema of the record `report.json` of a verification report."""
     schema = Report.model_json_schema(mode="serialization")
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -1,6 +1,6 @@
 """Digest of the source code that a stored record depends on, to detect records of older code.
 
-The digest includes all modules that the modules of the record import from the project.
+The digest includes the modules that made the record and all project modules that they import.
 """
 
 from __future__ import annotations
@@ -50,22 +50,30 @@ def source_digest(*modules: str) -> str:
 
 
 def is_current(made: Provenance) -> bool:
-    """Determine if a stored record was computed by the present source code.
+    """Return True if a stored record was computed by the present source code.
 
     The result is False if the record does not name its source code.
+
+    made  provenance of the record
     """
     return bool(made.modules) and made.sources == source_digest(*made.modules)
 
 
 def age_text(made: Provenance) -> str:
-    """Return a note for a record that is older than the source code; empty for a current record."""
+    """Return the note "older than the code" for a record of older source code; empty for a current
+    record.
+
+    made  provenance of the record
+    """
     return "" if is_current(made) else "older than the code"
 
 
 def closure(modules: Iterable[str]) -> set[str]:
-    """Return the source files of modules and of all project modules that they import.
+    """Return the paths of the source files of modules and of all project modules that they import.
 
-    Indirect imports are included.
+    Indirect imports are included. The paths are relative to the repository.
+
+    modules  dotted names of modules or packages
     """
     found: set[str] = set()
     left = [path for module in modules for path in _module_files(module, whole=True)]
@@ -92,9 +100,13 @@ def _imported_files(path: str) -> tuple[str, ...]:
 
 
 def _module_files(module: str, *, whole: bool = False) -> Iterator[str]:
-    """Yield the files of a module and of the packages that contain it.
+    """Yield the source files that importing a module executes: its own file and its packages'
+    files.
 
-    whole  if True, also yield all files of a package
+    The paths are relative to the repository. A module of another project has none.
+
+    module  dotted name
+    whole   if True, also yield all files of a package
     """
     parts = module.split(".")
     if parts[0] not in PACKAGES:
@@ -109,10 +121,12 @@ def _module_files(module: str, *, whole: bool = False) -> Iterator[str]:
 
 @cache
 def _file_digest(path: str) -> str:
-    """Compute the digest of a file.
+    """Compute a digest of a source file that does not depend on comments, docstrings and spaces.
 
-    For a Python module, comments, docstrings and spaces are left out. Repeated braces count as one,
-    because Python 3.12 and later split an f-string into tokens.
+    Other files than Python modules are read as they are. Repeated braces count as one, because
+    Python 3.12 and later split an f-string into tokens.
+
+    path  path relative to the repository
     """
     data = (ROOT / path).read_bytes()
     if path.endswith(".py"):

@@ -1,4 +1,7 @@
-"""Data model of a study: its cases, their records, statements, conclusion and stored files."""
+"""Data model of a study: its cases, their records, statements, conclusion and stored files.
+
+A study measures one property of the program on many cases, such as cost or stability.
+"""
 
 from __future__ import annotations
 
@@ -57,9 +60,9 @@ class Row(Description):
 
 
 def value_of(row: Row, name: str) -> float:
-    """Return a measured value of a row by name.
+    """Return a measured value of a study row by name, where the value must be known.
 
-    Raises KeyError if the row lacks it, ValueError if it is null.
+    Raises KeyError if the row has no such value, and ValueError if the value is null.
     """
     value = row.measures[name]
     if value is None:
@@ -86,10 +89,11 @@ class CaseRecord(Row):
 
 
 class TypedRow(Description):
-    """Row of a study with declared names and types of its values.
+    """Base class of study rows with declared names and types of their values.
 
-    In the stored `Row`, texts and enumeration members become words, integers and booleans become
-    counters, and other numbers become measures.
+    A study stores such an object as a `Row`: texts and enumeration members become `words`, integers
+    and
+    booleans become `counters`, other numbers become `measures`.
     """
 
     PARAMETERS: ClassVar[tuple[str, ...]] = ()
@@ -98,7 +102,8 @@ class TypedRow(Description):
     UNITS: ClassVar[Mapping[str, str]] = {}
 
     def row(self) -> Row:
-        """Convert the typed values to a `Row`, the form in which they are stored."""
+        """Convert the object with typed values to a `Row`, the form in which a study stores its
+        rows."""
         values = self.model_dump(mode="json")
         parameters = {name: values.pop(name) for name in self.PARAMETERS}
         words = {name: value for name, value in values.items() if isinstance(value, str)}
@@ -113,7 +118,7 @@ class TypedRow(Description):
 
     @classmethod
     def of(cls, row: Row) -> Self:
-        """Create the object with typed values from the `Row` in which they are stored."""
+        """Create the object with typed values from a stored `Row` of a study."""
         known: dict[str, Any] = {**row.parameters, **row.measures, **row.counters, **row.words}
         return cls.model_validate({name: known[name] for name in cls.model_fields if name in known})
 
@@ -129,22 +134,29 @@ C = TypeVar("C", bound=Named)
 
 
 def found(cases: Iterable[C], records: Mapping[str, CaseRecord]) -> dict[C, CaseRecord]:
-    """Return the available records of cases, in the order of the cases.
+    """Return the records of those cases of a study that have one, by case, in the order of the
+    cases.
 
-    records  records by name of the case; some cases may be missing
+    records  available records by name of the case
     """
     return {case: records[case.name] for case in cases if case.name in records}
 
 
 def rows_of(cases: Iterable[C], known: Mapping[C, CaseRecord]) -> list[CaseRecord]:
-    """Return the records of the given cases; cases without a record are left out."""
+    """Return the records of the given cases of a study; cases without a record are left out.
+
+    known  available records by case
+    """
     return [known[case] for case in cases if case in known]
 
 
 def parameters_of(case: Any) -> dict[str, Value]:
-    """Return the fields of a dataclass as plain values by name, with nested dataclasses flattened.
+    """Return the fields of a case (a dataclass) as plain values by name, with nested dataclasses
+    flattened.
 
-    Enumeration members become their values; tuples become texts joined by " x ".
+    Enumeration members become their values; tuples become texts joined by " x ". Used for the
+    columns
+    of the stored tables.
     """
     values: dict[str, Value] = {}
     for field in fields(case):
@@ -171,7 +183,11 @@ def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -
     """Return the texts of the CSV files of a study by file name, without empty files.
 
     `rows.csv` has one line per case, `parts.csv` one per part of a case, `findings.csv` one per row
-    of the conclusion, `seconds.csv` the measured times.
+    of
+    the conclusion, `seconds.csv` the CPU times.
+
+    records   records by name of the case
+    findings  rows of the conclusion
     """
     clock = [(name, record.seconds, record.repeats) for name, record in records.items()]
     files: dict[str, Sequence[Cells]] = {
@@ -186,15 +202,19 @@ def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -
 
 
 def _rows_by_case(rows: Iterable[tuple[str, Row]]) -> list[Cells]:
-    """Convert rows to lines of a CSV file that begin with the name of their case."""
+    """Convert rows of a study to lines of a CSV file, where the first column names the case.
+
+    rows  pairs of the name of a case and one of its rows
+    """
     return [{CASE: name, **_csv_line(row)} for name, row in rows]
 
 
 def _csv_line(row: Row) -> Cells:
-    """Convert a row to a line of a CSV file, by column name.
+    """Convert a row of a study to a line of a CSV file: cells by column name.
 
-    The names are those of parameters and words, "name [unit]" for measures and "name [count]" for
-    counters.
+    The columns have the names of parameters and words, "name [unit]" for measures and "name
+    [count]"
+    for counters.
     """
     return {
         **row.parameters,
@@ -207,7 +227,7 @@ def _csv_line(row: Row) -> Cells:
 def _csv_text(lines: Iterable[Cells]) -> str:
     """Write lines as CSV text, with a column for every name that occurs in any line.
 
-    lines  values by column name
+    lines  cells by column name
     """
     lines = tuple(lines)
     text = io.StringIO()
@@ -222,8 +242,9 @@ STUDY_VERSION = 1
 
 
 class StudyCase(Protocol):
-    """Interface of a case of a study: a frozen dataclass of plain values, which is sent to a
-    worker.
+    """Interface of one case of a study: a frozen dataclass of plain values, which can be sent to a
+    worker
+    process.
     """
 
     @property
@@ -231,14 +252,15 @@ class StudyCase(Protocol):
         """Unique name of the case in its study, of letters, digits and hyphens."""
 
     def compute(self) -> Description:
-        """Compute the case and return its record, a `CaseRecord` in studies. Raises the errors of
-        solvers.
+        """Compute the case and return its record, which is a `CaseRecord` in studies.
+
+        Raises the errors of solvers.
         """
 
 
 @dataclass(frozen=True)
 class Settings:
-    """Extent of a study.
+    """Extent of a study, as chosen on the command line.
 
     level   quick, standard or full; determines all values that are None
     cells   cells per side of the finest grid; None for the value of the level
@@ -297,8 +319,10 @@ Records = Mapping[str, CaseRecord]
 
 @dataclass(frozen=True)
 class Study:
-    """A study of the catalogue.
+    """Definition of a study in the catalogue: the cases to compute and the evaluation of their
+    records.
 
+    name      name on the command line
     title     one line for lists and for the head of the page
     question  question that the study answers, for readers
     cases     function that returns the cases to compute
@@ -353,15 +377,17 @@ def dump_study(record: StudyRecord) -> str:
 
 
 def json_text(values: dict[str, Any]) -> str:
-    """Return indented JSON text, in which lists and objects without nested ones take one line."""
+    """Return indented JSON text of a record, in which lists and objects without nested ones take
+    one line."""
     text = json.dumps(values, indent=1, ensure_ascii=False, allow_nan=False)
     # No text of JSON has a line's end in it: only the space between values is changed.
     return re.sub(r"[\[{]\n[^\[\]{}]*[\]}]", lambda m: re.sub(r"\n *", " ", m[0]), text) + "\n"
 
 
 def study_failure_line(study: StudyRecord) -> str:
-    """Describe the first failed claim or lost case of a study in one line, with the command to
-    repeat it.
+    """Describe the first failed claim or lost case of a study in one line of a log.
+
+    The line contains the command that repeats the study.
     """
     failed = [s for s in study.conclusion.statements if s.outcome is Status.FAIL]
     found = [f"{s.claim}: {s.measured}" for s in failed]
@@ -371,8 +397,9 @@ def study_failure_line(study: StudyRecord) -> str:
 
 
 def measured_text(study: StudyRecord) -> str:
-    """Return the commit of a study record that is older than the source code; empty for a current
-    one.
+    """Return a note with the commit of a study record that is older than the source code.
+
+    The note is empty for a record of the present source code.
     """
     made = study.provenance
     age = age_text(made)
@@ -385,7 +412,7 @@ RECORD = "study.json"
 def stored_studies(
     directory: Path, left_out: Callable[[str], None] | None = None
 ) -> tuple[StudyRecord, ...]:
-    """Read the study records in all folders of a directory, sorted by name.
+    """Read the study records in all subfolders of a directory, sorted by name of the study.
 
     left_out  function called with a message for each record that is damaged or of another version;
               None raises ValueError with the path instead
@@ -406,7 +433,8 @@ RESIDUAL = "largest_residual"  # measure: largest residual of any increment of a
 
 
 def judged(good: bool, *, complete: bool = True) -> Status:
-    """Return the outcome of a claim: PASS or FAIL, or INCONCLUSIVE if required cases are missing.
+    """Return the outcome of a claim of a study: PASS, FAIL, or INCONCLUSIVE if required cases are
+    missing.
 
     good      True if the available records fulfil the claim
     complete  True if all required cases are available
@@ -417,10 +445,11 @@ def judged(good: bool, *, complete: bool = True) -> Status:
 
 
 def largest(rows: Iterable[Row], name: str) -> float:
-    """Return the largest magnitude of a measured value over the rows that have it.
+    """Return the largest magnitude of a measured value over the rows of a study that have this
+    value.
 
-    The result is infinite if a value is null, which represents a number that is not finite. It is 0
-    without rows.
+    The result is infinite if a value is null, which represents a number that is not finite. Without
+    such rows it is 0.
 
     name  name of the measured value
     """
@@ -429,12 +458,15 @@ def largest(rows: Iterable[Row], name: str) -> float:
 
 
 def total(rows: Iterable[Row], counter: str) -> int:
-    """Return the sum of a counter (such as "iterations") over all rows; rows without it add 0."""
+    """Return the sum of a counter, such as "iterations", over the rows of a study.
+
+    Rows without the counter add 0.
+    """
     return sum(row.counters.get(counter, 0) for row in rows)
 
 
 def solved(claim: str, count: int, asked: int, what: str = "") -> Statement:
-    """Judge the claim that all requested cases have a record.
+    """Create the statement of a study that all requested cases have a record, with its outcome.
 
     claim  text of the claim
     count  number of cases with a record
@@ -457,11 +489,14 @@ def converged(
     claim: str = "every increment converged",
     asked: int = 0,
 ) -> Statement:
-    """Judge the claim that the residuals of all increments of all cases are within the tolerance.
+    """Create the statement of a study that all increments converged, with its outcome.
+
+    The claim holds if the largest residual of each case is within the tolerance.
 
     rows       records with the largest residual of each case
     tolerance  largest residual that is allowed [1]
     where      words appended to the residual
+    claim      text of the claim
     asked      number of required rows; with fewer rows the outcome is inconclusive
     """
     worst = largest(rows, RESIDUAL)
@@ -477,10 +512,13 @@ def converged(
 def within(
     what: str, rows: Sequence[Row], allowed: Mapping[str, float], because: str, *, asked: int = 0
 ) -> Statement:
-    """Judge the claim that no measure exceeds its limit in any row; a row may lack measures.
+    """Create the statement of a study that no measured value exceeds its limit in any row, with
+    outcome.
+
+    A row may lack measured values.
 
     what     start of the claim
-    allowed  limits by name of the measure
+    allowed  limits by name of the measured value
     because  reason for the limits
     asked    number of required rows; with fewer rows the outcome is inconclusive
     """
