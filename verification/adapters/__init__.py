@@ -1,1 +1,1 @@
-"""Adapters that let each code solve the challenges by one interface, one module per code."""
+"""Adapters by which this program's solvers and other codes solve the challenges, in one form."""

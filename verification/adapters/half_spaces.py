@@ -1,6 +1,6 @@
-"""Adapters of half-space codes with cells to the challenges: aspher, tamaas and ContactMechanics.
+"""Adapters of other half-space codes to the challenges: aspher, tamaas and ContactMechanics.
 
-The codes run in their own environment by the drivers in `verification.peers`.
+The codes run in their own Python environment by the drivers in `verification.peers`.
 """
 
 from __future__ import annotations
@@ -28,10 +28,15 @@ SOURCES = Path(__file__).parents[2]
 
 
 def run_driver(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str, Any]:
-    """Run the driver of another code in a process with one thread, and return its answer.
+    """Run the driver of another contact code in a process with one thread, and return its solution.
 
-    Raises CannotDo if the driver refuses the request, and RuntimeError with the last line of its
-    error output if it fails.
+    Raises CannotDo if the driver refuses the problem, and RuntimeError with the last line of the
+    error
+    output if the driver fails.
+
+    python   interpreter of the environment in which the code is installed
+    peer     other contact code
+    request  problem, as `_driver_request` returns it
     """
     done = subprocess.run(
         [str(python), "-m", "verification.peers.drivers", peer.module],
@@ -51,9 +56,12 @@ COARSEST, TOLERANCE = 32, 1e-8
 
 
 def make_answer_function(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
-    """Return a function that solves a challenge on a refinement level with another code.
+    """Return a function that solves a challenge with another code on a given refinement level.
+
+    The grid has 32 cells per side on level 0, and twice as many on each further level.
 
     python  interpreter of the environment in which the code is installed
+    peer    other contact code
     """
 
     def solve(posed: Posed, level: int) -> Answer:
@@ -65,10 +73,14 @@ def make_answer_function(python: Path, peer: Peer) -> Callable[[Posed, int], Ans
 
 
 def _driver_request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any], float, float]:
-    """Return the request of a challenge for a driver, and the units of length and stress.
+    """Convert a challenge to a dimensionless problem for the driver of another contact code.
 
-    The request is dimensionless, because tamaas is sensitive to the units. Raises CannotDo for
-    problems outside the scope of the code.
+    Returns the problem, and the units of length and stress. The problem is dimensionless, because
+    tamaas is sensitive to the units. Raises CannotDo for problems outside the scope of the code.
+
+    posed  challenge without its reference
+    cells  cells per side of the window
+    peer   other contact code
     """
     scene = posed.scene
     if "indenter" not in scene:

@@ -1,4 +1,7 @@
-"""Adapters of this program's solvers to the challenges: cells, finite elements and rings."""
+"""Adapters by which this program's solvers answer the challenges.
+
+The solvers use surface cells with or without edge correction, finite elements, or rings.
+"""
 
 from __future__ import annotations
 
@@ -43,10 +46,13 @@ TOLERANCE = 1e-8
 
 
 def scene_on_level(posed: Posed, level: int) -> Scene:
-    """Return the scene of a challenge, with increments that double at each refinement level.
+    """Return the contact scene of a challenge with the number of increments of a refinement level.
 
-    Load steps with a prescribed number of increments keep the number. Raises CannotDo for
-    prescribed tractions.
+    Load steps without a prescribed number of increments get 10 times 2^level. Without friction the
+    scene is not changed. Raises CannotDo for a challenge of prescribed tractions.
+
+    posed  challenge without its reference
+    level  refinement level, from 0
     """
     if "indenter" not in posed.scene:
         raise CannotDo("contacts only, no given tractions")
@@ -59,19 +65,23 @@ def scene_on_level(posed: Posed, level: int) -> Scene:
 
 
 def given_up(posed: Posed, fineness: int, error: Exception) -> Answer:
-    """Return the answer to a challenge on a level whose load history did not converge, without
-    results.
+    """Return an answer without results, for a refinement level on which the solver did not
+    converge.
 
-    posed     challenge: a problem with a known solution
-    fineness  cells or elements over a contact radius, which is about a third of the window
+    posed     challenge without its reference
+    fineness  cells or elements over a contact radius, which is taken as a third of the window
+    error     error of the solver, whose text is the reason
     """
     return Answer(posed.window / 3 / fineness, gave_up={0: str(error)})
 
 
 def scalar_result(posed: Posed, key: Key, steps: Sequence[State]) -> float | None:
-    """Return a scalar result at the end of a load step; None if the solver does not provide it.
+    """Return a number that a challenge requires from the states of a solver.
 
-    key    name of the quantity and number of the load step, from 1
+    The result is None if the solver does not provide the number.
+
+    posed  challenge without its reference
+    key    name of the quantity, and number of the load step from 1
     steps  states at the ends of all load steps
     """
     quantity, step = key
@@ -97,10 +107,12 @@ TRACTIONS = {
 
 
 def answer_on_rings(posed: Posed, steps: Any, h: float) -> Answer:
-    """Build the answer to a challenge from results on rings (finite elements or radial solver).
+    """Build the answer to a challenge from the results on rings, of finite elements or radial
+    solver.
 
-    Quantities that the solver does not provide are left out. Raises CannotDo if none is left.
+    Quantities that the solver does not provide are left out. Raises CannotDo if none is provided.
 
+    posed  challenge without its reference
     steps  states at the ends of all load steps
     h      size of an element or ring [length]
     """
@@ -128,11 +140,12 @@ def answer_on_rings(posed: Posed, steps: Any, h: float) -> Answer:
 
 
 def ring_traction(steps: Any, key: Key) -> Vector | None:
-    """Return a traction on the rings as a function of the radius at the end of a load step.
+    """Return a traction (rings,) that a challenge requires, at the end of a load step.
 
-    The result is None if the traction is absent or depends on the angle.
+    The result is None if the solver has no such traction or the traction depends on the angle.
 
-    key  name of the traction and number of the load step, from 1
+    steps  states at the ends of all load steps
+    key    name of the traction, and number of the load step from 1
     """
     end = steps[key[1] - 1]
     found = getattr(end, TRACTIONS.get(key[0], ""), None)
@@ -140,12 +153,13 @@ def ring_traction(steps: Any, key: Key) -> Vector | None:
 
 
 def field_between_rings(end: Any, traction: Vector) -> Field:
-    """Interpolate a traction from rings to Gauss points between the rings in the contact.
+    """Interpolate a traction from the rings to Gauss points, as the field of an answer to a
+    challenge.
 
-    Returns the points with the traction and the area of each.
+    The points lie between the rings in the contact. The area of each point is that of its annulus.
 
     end       state at the end of a load step
-    traction  values at the rings [stress]
+    traction  values at the rings (rings,) [stress]
     """
     inside = end.radii <= 1.05 * end.contact_radius
     r0 = end.radii[:-1][inside[:-1]]
@@ -157,7 +171,8 @@ def field_between_rings(end: Any, traction: Vector) -> Field:
 
 
 def answer_on_elements(posed: Posed, level: int) -> Answer:
-    """Solve a challenge with finite elements, 16 per contact radius, doubled at each level.
+    """Answer a challenge with finite elements, 16 per contact radius on level 0, doubled at each
+    level.
 
     Raises CannotDo if the finite elements do not support the scene.
     """
@@ -176,9 +191,9 @@ def answer_on_elements(posed: Posed, level: int) -> Answer:
 
 
 def answer_on_radii(posed: Posed, level: int) -> Answer:
-    """Solve a challenge with the radial solver on 32 rings over the contact, doubled at each level.
+    """Answer a challenge with the radial solver, with 32 rings on level 0, doubled at each level.
 
-    Raises CannotDo if the solver does not support the scene.
+    Raises CannotDo if the radial solver does not support the scene.
     """
     rings = RINGS * 2**level
     try:
@@ -200,12 +215,13 @@ MOVED = {
 
 
 def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
-    """Compute the stress components (6, n) at points below the surface [force/length²].
+    """Compute the stress components (6, n) at n points below the surface [force/length²].
 
-    Values at the cell centres are interpolated by cubic splines.
+    Stresses at the cell centres are interpolated by cubic splines.
 
+    result  result of the semi-analytical solver
     end     state at the end of a load step
-    places  coordinates of the points (n, 3) [length]
+    places  coordinates x, y, z of the points (n, 3) [length]
     """
     grid = result.grid
     depths, of = np.unique(places[:, 2], return_inverse=True)
@@ -222,10 +238,12 @@ def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
 
 
 def under_a_patch(posed: Posed) -> Answer:
-    """Compute displacements by a uniform traction on a square patch, for a challenge.
+    """Answer a challenge of surface displacements by a uniform traction on a square, without
+    contact.
 
-    The patch is a cell and the points are centres of other cells, so that the displacements are
-    influence coefficients.
+    The square is one cell and the points are centres of other cells. The displacements are
+    therefore
+    influence coefficients times the traction.
     """
     side, traction = (posed.scene["patch"][name] for name in ("side", "traction"))
     body = Body.model_validate(posed.scene["body"])
@@ -241,18 +259,18 @@ def under_a_patch(posed: Posed) -> Answer:
 
 
 def answer_on_cells(posed: Posed, level: int) -> Answer:
-    """Solve a challenge with 32 cells per side, doubled at each level, without edge correction.
+    """Answer a challenge with the semi-analytical solver without edge correction of the pressure.
 
-    Raises the errors of the semi-analytical solver, except that a history that does not converge is
-    reported in the answer.
+    The grid has 32 cells per side on level 0, doubled at each level. A load history that does not
+    converge is reported in the answer; other errors of the solver are raised.
     """
     return _solve_on_cells(posed, level, "off")
 
 
 def answer_with_edges(posed: Posed, level: int) -> Answer:
-    """Solve a challenge on cells, with the edge correction of the pressure where it is supported.
+    """Answer a challenge with the semi-analytical solver with edge correction of the pressure.
 
-    The grids are those of `answer_on_cells`.
+    The grid has 32 cells per side on level 0, doubled at each level.
     """
     return _solve_on_cells(posed, level, "last")
 
@@ -286,9 +304,12 @@ def _solve_on_cells(posed: Posed, level: int, edge: EdgeCorrection) -> Answer:
 
 
 def cell_traction(quantity: str, end: Increment, grid: SurfaceGrid) -> Vector:
-    """Return a traction that a challenge requires, at the cell centres at the end of a load step.
+    """Return a traction that a challenge requires, at the cell centres (nx, ny), from the state of
+    a step.
 
-    quantity  "pressure", "shear_x", "shear_radial" or "shear_around"
+    quantity  "pressure", "shear_x", "shear_radial" or "shear_around" (circumferential)
+    end       state at the end of a load step
+    grid      surface grid of the result
     """
     x, y = grid.coordinates()
     q_x, q_y = shear_of(end)
@@ -299,11 +320,15 @@ def cell_traction(quantity: str, end: Increment, grid: SurfaceGrid) -> Vector:
 
 
 def _values_at_points(places: Vector, key: Key, result: Result) -> Vector:
-    """Evaluate a traction at the radii of points of a round contact, or a stress component at
-    points.
+    """Compute the numbers that a challenge requires at given points, from a result on cells.
 
-    places  coordinates of the points [length]
-    key     name of the quantity and number of the load step, from 1
+    A traction is interpolated to the distance of each point from the axis and averaged over the
+    angle.
+    A stress component is computed at the points.
+
+    places  coordinates x, y, z of the points (n, 3) [length]
+    key     name of the quantity, and number of the load step from 1
+    result  result of the semi-analytical solver
     """
     quantity, end, grid = key[0], result.steps[key[1] - 1], result.grid
     if quantity.startswith("stress"):
@@ -313,9 +338,12 @@ def _values_at_points(places: Vector, key: Key, result: Result) -> Vector:
 
 
 def cell_scalar(posed: Posed, key: Key, result: Result) -> float | None:
-    """Return a scalar that a challenge requires from a result on cells; None if there is none.
+    """Return a number that a challenge requires from a result on cells; None if the result has
+    none.
 
-    key  name of the quantity and number of the load step, from 1
+    posed   challenge without its reference
+    key     name of the quantity, and number of the load step from 1
+    result  result of the semi-analytical solver
     """
     quantity, end, grid = key[0], result.steps[key[1] - 1], result.grid
     if quantity.startswith("semi_axis"):

@@ -124,7 +124,7 @@ def torsion() -> Challenge:
 
 
 def circumferential_shear(end: TorsionalPartialSlip) -> RoundTable:
-    """Tabulate the exact circumferential shear of a twisted ball over the distance from the axis.
+    """Create a table of the exact circumferential shear of a twisted ball over the radius.
 
     end  exact solution at the end of a load step
     """

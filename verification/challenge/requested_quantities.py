@@ -133,7 +133,7 @@ def round_halves(*terms: tuple[float, float]) -> HalfEllipsoids:
 
 
 def fitted(pressure: Callable[[Field], Field], radius: float, terms: int) -> HalfEllipsoids:
-    """Approximate a rotationally symmetric pressure by one half-ellipsoid times a Chebyshev series.
+    """Fit a rotationally symmetric pressure by one half-ellipsoid times a Chebyshev series.
 
     The pressure must go to zero like a square root at the contact edge. The series interpolates the
     quotient of pressure and half-ellipsoid at Chebyshev points.
@@ -213,7 +213,7 @@ class RoundTable:
 
 
 def tabulated(traction: Callable[[Field], Field], *kinks: float) -> RoundTable:
-    """Tabulate a rotationally symmetric traction over the radius, with dense radii near its kinks.
+    """Create a table of an axisymmetric traction over the radius, with dense radii near its kinks.
 
     traction  traction as a function of the distance from the axis [force/length²]
     kinks     radii at which the traction or its slope jumps, in increasing order; the last is the

@@ -1,1 +1,2 @@
-"""Defects that are planted in the solvers to test if the verification detects them."""
+"""Seeded defects: errors that are planted in the solvers to test if the verification detects
+them."""

@@ -1,4 +1,5 @@
-"""Defects of the program for tests of the verification: temporary replacements of its functions."""
+"""Machinery of seeded defects: functions of the program are replaced by wrong ones for a test
+run."""
 
 from __future__ import annotations
 
@@ -35,13 +36,16 @@ Change = Callable[..., Any]
 
 @dataclass(frozen=True)
 class Replacement:
-    """Replacement of a function, method, property or constant of the program by a wrong one.
+    """Replacement of one function, method, property or constant of the program by a wrong one.
 
-    owner   module or class that defines it
-    name    name in the owner
-    change  function of the original and of the arguments of a call; of the original alone for a
-            constant
-    local   True if the modules that have imported a function keep the original
+    Seeded defects consist of such replacements.
+
+    owner   module or class that defines the original
+    name    name of the original in the owner
+    change  wrong function; it receives the original and the arguments of a call, or for a constant
+            the
+            original alone
+    local   True if modules that have imported the original function keep it
     """
 
     owner: type | ModuleType
@@ -50,7 +54,8 @@ class Replacement:
     local: bool = False
 
     def plant(self) -> Callable[[], None]:
-        """Make the replacement, and return the function that undoes it."""
+        """Put the wrong function in place of the original, and return the function that undoes the
+        change."""
         module = isinstance(self.owner, ModuleType)
         before = getattr(self.owner, self.name) if module else vars(self.owner)[self.name]
         after = self._replacement_of(before)
@@ -83,18 +88,24 @@ Replacements = tuple[Replacement, ...]
 def replaces(
     owner: type | ModuleType, name: str, *, local: bool = False
 ) -> Callable[[Change], Replacements]:
-    """Return a decorator that makes a function the replacement of another one."""
+    """Return a decorator that turns a wrong function into the replacement of an original of the
+    program.
+
+    owner  module or class that defines the original
+    name   name of the original in the owner
+    local  True if modules that have imported the original function keep it
+    """
     return lambda change: (Replacement(owner, name, change, local),)
 
 
 @dataclass(frozen=True)
 class Defect:
-    """Seeded error of the program, for tests of the verification.
+    """Seeded defect: an error of the program that is planted on purpose to test the verification.
 
-    name          letters, digits and hyphens
+    name          name, of letters, digits and hyphens
     broken        one sentence that describes the error
-    cases         inexpensive cases of the catalogue that must detect the error
-    replacements  wrong functions in place of the right ones
+    cases         inexpensive verification cases that must detect the error
+    replacements  wrong functions in place of the original ones
     """
 
     name: str
@@ -105,10 +116,11 @@ class Defect:
 
 @contextmanager
 def planted(defect: Defect) -> Iterator[None]:
-    """Run a block of code with an error planted in the solvers on purpose, to test the
-    verification.
+    """Run a block of code with a seeded defect planted in the program.
 
-    The caches of the solver functions are cleared before and after the block.
+    The caches of the solver functions are cleared before and after the block, because cached
+    numbers
+    depend on the defect.
     """
     with ExitStack() as undo:
         undo.callback(clear_caches, *REMEMBERING)
@@ -121,7 +133,7 @@ def planted(defect: Defect) -> Iterator[None]:
 def product_modules() -> list[ModuleType]:
     """Return all loaded modules of the program, except those that run studies.
 
-    A planted defect replaces functions in these modules.
+    A seeded defect is planted in these modules, wherever they have imported a replaced function.
     """
     return [
         module

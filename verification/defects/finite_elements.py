@@ -1,4 +1,5 @@
-"""Seeded defects of the finite-element solver and of the radial solver."""
+"""Seeded defects of the finite-element solver and of the radial solver, to test the
+verification."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ DRAWN_IN = 4e-3
 
 @replaces(section_basis, "displacement_basis")
 def _weight_of_element(whole: Any, section: Any, *more: Any) -> Any:
-    """Plant an error in the finite-element weak form: energies have the weight of the element's
+    """Plant a wrong weight in the axisymmetric energies of the finite elements: the radius of the
     centre.
 
     The correct weight is the radius of each integration point.
@@ -40,9 +41,8 @@ def _weight_of_element(whole: Any, section: Any, *more: Any) -> Any:
 
 @replaces(hat_functions, "hats_on")
 def _resultant_weight(whole: Any, nodes: Any, reach: float = np.inf) -> Any:
-    """Plant an error in the resultant force: each ring of finite elements is weighted by its outer
-    radius.
-    """
+    """Plant a wrong weight in the normal force on finite elements: each ring counts with its outer
+    radius."""
     right = whole(nodes, reach)
     lengths = np.zeros_like(right.radii)
     lengths[:-1] += np.diff(right.radii) / 2
@@ -186,7 +186,7 @@ WEAKER = 0.99  # coupling of pressure and shear
 
 
 def _scaled_results(*names: str, factor: float) -> Replacements:
-    """Return the replacement of the radial solver by one with a wrong factor in its results.
+    """Return a seeded defect that multiplies results of the radial solver by a wrong factor.
 
     names   results of every increment that are multiplied, such as "pressure"
     factor  wrong factor; 1 is correct

@@ -1,5 +1,7 @@
-"""Seeded defects of load reversals, unloading, loads off the x axis, energies and
-derived results."""
+"""Seeded defects of load histories, energies and derived results, to test the verification.
+
+The wrong functions concern load reversals, unloading, prescribed motions, and stresses.
+"""
 
 from __future__ import annotations
 
@@ -66,15 +68,17 @@ def _reversal_forgotten(
 
 @replaces(admissible_shear, "magnitude")
 def _limit_by_direction(whole: Any, v: Any) -> Any:
-    """Plant an elliptic friction limit instead of a circular one.
+    """Plant an elliptic friction limit: the shear along y is limited to 1 % less than the shear
+    along x.
 
-    The limit of the shear along y is 1 % smaller than that along x.
+    The correct limit is a circle.
     """
     return whole(np.stack([v[0], 1.01 * v[1]]))
 
 
 def _zero_residuals(*names: str) -> Replacements:
-    """Return replacements of the named residuals of cells by zero."""
+    """Return a seeded defect by which the named residuals of the semi-analytical solver are always
+    zero."""
     return tuple(Replacement(residuals, name, lambda *given: 0.0) for name in names)
 
 
@@ -90,10 +94,10 @@ def _approach_when_unloading(whole: Any, model: Any, before: Any, state: Any, *p
 
 
 def _scaled_slip_increase(name: str, factor: float) -> Replacements:
-    """Return a wrong factor in the increase of a field of slip in an increment.
+    """Return a seeded defect: an increment adds a wrong amount to a field that accumulates slip.
 
-    name    field of the tangential state, such as "dissipation"
-    factor  factor of the increase; 1 is correct
+    name    field of the tangential state, such as "dissipation" or "slip_distance"
+    factor  factor of the amount that an increment adds; 1 is correct
     """
 
     @replaces(stick_slip, "end_state")
@@ -286,13 +290,15 @@ def _force_not_met(whole: Any, self: Any, p: Any) -> Any:
 
 @replaces(normal_problem, "solve_normal")
 def _inaccurate_pressure(whole: Any, *given: Any) -> Any:
-    """Plant inaccurate pressures, with a tolerance of at least 1 %."""
+    """Plant an inaccurate pressure: the normal problem is solved with a tolerance of at least 1
+    %."""
     return whole(*given[:-1], max(given[-1], 1e-2))
 
 
 @replaces(tangential_solve, "shear")
 def _inaccurate_shear(whole: Any, *given: Any) -> Any:
-    """Plant inaccurate shear tractions, with a tolerance of at least 3 %."""
+    """Plant an inaccurate shear: the tangential problem is solved with a tolerance of at least
+    3 %."""
     return whole(*given[:-1], max(given[-1], 3e-2))
 
 
@@ -327,9 +333,9 @@ def _shear_stress_sign(whole: Any, grid: Any, pressure: Any, shear: Any) -> Any:
 
 
 def _wrong_stress(change: Callable[[Any], Any]) -> Replacements:
-    """Return an error of the stress components (nz, 6, nx, ny) below the surface.
+    """Return a seeded defect that changes the stress below the surface.
 
-    change  function that returns the wrong components
+    change  function of the correct components (nz, 6, nx, ny) that returns the wrong ones
     """
     return (
         Replacement(
@@ -445,9 +451,11 @@ def _indenter_couples_in_elements(whole: Any, lower: Any, upper: Any, motion: An
 # The package exports a function of the name of this module.
 @replaces(import_module("fem_reference.plan"), "coupling", local=True)
 def _elements_look_at_bases(whole: Any, scene: Scene) -> Any:
-    """Plant a wrong test of elastic coupling in the finite elements: the coating is ignored.
+    """Plant a wrong test of elastic coupling in the finite elements, which ignores the coating.
 
-    A coated indenter on a body of its base material is then treated as equal to the body.
+    A coated indenter on a body of its base material is then treated as equal to the body. Equal
+    bodies
+    have no coupling of pressure and shear.
     """
     body, indenter = scene.body, scene.indenter
     if indenter.layers and not body.layers and body.material == indenter.material:
@@ -462,11 +470,11 @@ def _no_tilt_about_y(_: Any, self: ContactModel) -> Any:
 
 
 def _wrong_start_of_step(kind: ControlKind) -> Replacements:
-    """Return a wrong initial value of a controlled force or displacement in a load step.
+    """Return a seeded defect: the ramp of a load step starts at a value 2 % above that of the
+    preceding
+    step.
 
-    The value is 2 % too large.
-
-    kind  control of the load step, by force or by displacement
+    kind  affected load steps: those that prescribe a force, or those that prescribe a displacement
     """
 
     @replaces(Control, "prescribed")

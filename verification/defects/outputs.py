@@ -1,4 +1,4 @@
-"""Seeded defects of results: wrong values, incomplete results, and wrong reports."""
+"""Seeded defects of results: wrong values, incomplete results, and wrong texts of reports."""
 
 from __future__ import annotations
 
@@ -110,9 +110,10 @@ Change = Callable[[Any], Any]
 
 
 def _changed_results(change: Change) -> Replacements:
-    """Return an error of the results of the semi-analytical and the finite-element solver.
+    """Return a seeded defect that changes the results of the semi-analytical and finite-element
+    solvers.
 
-    change  function that returns the wrong result
+    change  function of the correct result that returns the wrong result
     """
 
     def solve(whole: Any, *given: Any, **named: Any) -> Any:
@@ -122,7 +123,8 @@ def _changed_results(change: Change) -> Replacements:
 
 
 def _scaled_results(factor: Callable[[Any], float]) -> Change:
-    """Return a function that multiplies displacements, tractions and twist of a result by a factor.
+    """Return a function that multiplies approach, shift, twist and tractions of a result by a wrong
+    factor.
 
     factor  function of the result that returns the factor
     """
@@ -148,21 +150,27 @@ def _scaled_increment(increment: Any, by: float) -> Any:
 
 
 def _relative_cell_size(result: Any) -> float:
-    """Return the side of a surface cell or of a finite element over the contact radius, h/a [1]."""
+    """Compute the side of a surface cell or finite element over the contact radius, h/a, for a
+    result.
+
+    The seeded defects of first order have an error proportional to this ratio.
+    """
     if isinstance(result, semi_analytical.Result):
         return max(result.grid.spacing) / result.increments[-1].contact_radius
     return 1 / float(result.discretisation.elements_per_radius)
 
 
 def _first_order_factor(result: Any) -> float:
-    """Return the factor 1 + 0.1 h/a: an error proportional to the cell side h over the contact
-    radius a.
+    """Return the wrong factor 1 + 0.1 h/a, with the cell side h and the contact radius a of a
+    result.
+
+    Multiplied results have an error of first convergence order, which the verification must detect.
     """
     return 1 + FIRST_ORDER * _relative_cell_size(result)
 
 
 def _error_floor_factor(result: Any) -> float:
-    """Return the factor 1 ± 0.0005: an error that refinement does not reduce.
+    """Return the wrong factor 1 ± 0.0005 for results: refinement does not reduce this error.
 
     The sign depends on the parity of the number of cells per contact radius.
     """
@@ -189,8 +197,8 @@ def _last_step_missing(result: Any) -> Any:
 
 @replaces(case_pool.CaseStore, "save")
 def _half_record_written(whole: Any, self: Any, case: Any, record: Any) -> None:
-    """Plant an incomplete write: each stored record of a case has only the first
-    half of its text."""
+    """Plant an incomplete file: each stored record of a case contains only the first half of its
+    text."""
     whole(self, case, record)
     path = self.path(case)
     text = path.read_text(encoding="utf-8")

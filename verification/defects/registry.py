@@ -1,4 +1,4 @@
-"""Registry of all seeded defects by name, in the order of the report."""
+"""Registry of all seeded defects by name, in the order of the report on seeded defects."""
 
 from verification.defects.defect import Defect
 from verification.defects.finite_elements import FINITE_ELEMENTS, RADII

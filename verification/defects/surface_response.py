@@ -1,5 +1,6 @@
-"""Seeded defects of the elastic surface response (influence coefficients) of the semi-analytical
-method.
+"""Seeded defects of the elastic response of the surface in the semi-analytical method.
+
+The wrong functions concern influence coefficients and the frequency response of layered bodies.
 """
 
 from __future__ import annotations
@@ -25,9 +26,10 @@ COUPLING: tuple[str, ...] = ("xz", "yz")
 
 
 def scaled_coefficients(pairs: tuple[str, ...], factor: float) -> Replacements:
-    """Return a wrong factor of components of the influence coefficients (traction to displacement).
+    """Return a seeded defect: influence coefficients (displacement per traction) have a wrong
+    factor.
 
-    pairs   components, named by displacement and traction, such as "zz" or "xz"
+    pairs   affected components, named by displacement and traction, such as "zz" or "xz"
     factor  wrong factor; 1 is correct
     """
 
@@ -88,10 +90,11 @@ def _coupling_added(whole: Any, self: Composite, component: str) -> Any:
 
 @replaces(surface, "_compliance_below_layer")
 def _kappa_for_chi(whole: Any, body: stack.Stack, alpha: Any) -> Any:
-    """Plant the reflection coefficient κ = (k-1)/(k+3-4ν) for shear waves instead of χ =
-    (k-1)/(k+1).
+    """Plant a wrong reflection of shear waves at the interface of a layer: κ in place of χ.
 
-    k is the stiffness below the layer over that of the layer, ν its Poisson's ratio.
+    χ = (k-1)/(k+1) and κ = (k-1)/(k+3-4ν), where k is the stiffness below the layer over that of
+    the
+    layer, and ν Poisson's ratio of the layer.
     """
     y, k = whole(body, alpha)
     if not body.layers:

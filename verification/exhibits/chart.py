@@ -191,7 +191,7 @@ NOT_FINITE = "not finite"
 
 
 def value_text(value: float | None, unit: str, digits: int = 6) -> str:
-    """Format a value with its unit and an engineering prefix, such as "1.23 µm".
+    """Return the text of a value with its unit and an engineering prefix, such as "1.23 µm".
 
     The text is "not finite" for None.
 
@@ -209,7 +209,9 @@ def value_text(value: float | None, unit: str, digits: int = 6) -> str:
 
 
 def plain(value: float | None, digits: int = 3) -> str:
-    """Format a number without unit, such as 0.0123 or 1.2e-5; the text is "not finite" for None.
+    """Return the text of a number without unit, such as 0.0123 or 1.2e-5.
+
+    The text is "not finite" for None.
 
     digits  number of significant digits
     """
@@ -220,7 +222,7 @@ def plain(value: float | None, digits: int = 3) -> str:
 
 
 def percent(part: float) -> str:
-    """Format a fraction of 1 as per cent with two significant digits, such as "25 %"."""
+    """Return the text of a fraction of 1 in per cent with two significant digits, as "25 %"."""
     return f"{plain(100 * part, 2)} %"
 
 

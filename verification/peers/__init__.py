@@ -1,1 +1,1 @@
-"""Other contact codes on the challenges that they can solve, in a separate Python environment."""
+"""Other contact codes that solve the challenges, installed in a separate Python environment."""

@@ -1,6 +1,8 @@
-"""Drivers of other codes, run in their environment: `python -m verification.peers.drivers CODE`.
+"""Drivers of other contact codes, run in their environment: `python -m verification.peers.drivers
+CODE`.
 
-A driver reads a request as JSON and writes its answer with the CPU time.
+A driver reads a contact problem as JSON from standard input, and writes the solution with the CPU
+time as JSON to standard output.
 """
 
 from __future__ import annotations
@@ -28,14 +30,18 @@ ABOVE = 1.0  # the gap beside a punch: far above any approach of small strains
 
 
 class CannotDo(Exception):
-    """The contact code cannot solve a problem of this kind, with the reason."""
+    """Exception of a driver for a problem that the other contact code cannot solve, with the
+    reason."""
 
 
 def gap_of(request: Request) -> Array:
-    """Compute the gap below the indenter at the cell centres (n, n) before loading [length].
+    """Compute the gap below the undeformed indenter at the cell centres (n, n) before loading
+    [length].
 
-    The indenter is a paraboloid, a cone if the request has a slope, or a flat punch if the request
-    has a rim. A tilt of the indenter (slopes along y and x) is subtracted.
+    The indenter is a flat punch if the request has a `rim`, a cone if it has a `slope`, else a
+    paraboloid. The tilt of the indenter (slopes along y and x) closes the gap.
+
+    request  problem as read by the driver
     """
     n, side = request["cells"], request["window"]
     x = (np.arange(n) + 0.5) * side / n - side / 2
@@ -56,18 +62,25 @@ def _level_gap(request: Request, x: Array, y: Array, r: Array) -> Array:
 
 
 def approach_of(gap: Array, displacement: Array, pressure: Array) -> float:
-    """Compute the rigid approach: mean of gap plus displacement, weighted by the pressure [length].
+    """Compute the rigid approach from the solution of another code, which does not return the
+    approach.
+
+    The approach is the mean of gap plus displacement, weighted by the pressure [length].
 
     gap           gap of the undeformed surfaces at the cells [length]
     displacement  normal surface displacement at the cells [length]
+    pressure      pressure at the cells
     """
     return float(np.sum(pressure * (displacement + gap)) / np.sum(pressure))
 
 
 def solve_by_aspher(request: Request) -> Answer:
-    """Solve a contact with aspher: nested grids with FFT, and friction by its load stepping.
+    """Solve a contact problem with the code aspher: nested grids with FFT, or load steps with
+    friction.
 
-    Returns pressure, approach and, with friction, the shear tractions.
+    Returns pressure, approach, convergence and, with friction, the shear of each load step.
+
+    request  problem as read by the driver
     """
     aspher = import_module("aspher")
     n, side = request["cells"], request["window"]
@@ -106,10 +119,12 @@ def solve_by_aspher(request: Request) -> Answer:
 
 
 def solve_by_tamaas(request: Request) -> Answer:
-    """Solve a frictionless contact with tamaas: method of Polonsky and Keer, kernel not periodic.
+    """Solve a frictionless contact problem with the code tamaas: method of Polonsky and Keer.
 
-    Returns pressure and approach. Raises CannotDo for friction: that of tamaas is periodic and
-    follows another law.
+    The kernel is not periodic. Returns pressure, approach and convergence. Raises CannotDo for
+    friction, which in tamaas is periodic and follows another law.
+
+    request  problem as read by the driver
     """
     if request["friction"]:
         raise CannotDo("friction on a periodic surface only, with another law")
@@ -136,11 +151,12 @@ def solve_by_tamaas(request: Request) -> Answer:
 
 
 def solve_by_contactmechanics(request: Request) -> Answer:
-    """Solve a frictionless contact with ContactMechanics: conjugate gradients, free-space kernel.
+    """Solve a frictionless contact problem with the code ContactMechanics: minimisation, free-space
+    kernel.
 
-    Returns pressure and approach.
+    Returns pressure, approach and convergence. Raises CannotDo for friction.
 
-    Raises CannotDo for friction.
+    request  problem as read by the driver
     """
     if request["friction"]:
         raise CannotDo("no friction")
@@ -172,7 +188,10 @@ DRIVERS: dict[str, Callable[[Request], Answer]] = {
 
 
 def answer(code: str) -> None:
-    """Read a JSON request, solve it repeatedly, and write the answer with the median CPU seconds.
+    """Read a contact problem as JSON, solve it repeatedly by another code, and write the solution
+    as JSON.
+
+    The solution contains the median CPU time [s].
 
     code  name of the other code in DRIVERS
     """

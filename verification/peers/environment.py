@@ -1,4 +1,4 @@
-"""Virtual environment of the other codes, with pinned versions, which is created once.
+"""Virtual environment of the other contact codes, with pinned versions, which is created once.
 
 A code whose installation fails is left out with the reason.
 """
@@ -25,11 +25,11 @@ EIGEN = Path("/usr/include/eigen3")  # of the package libeigen3-dev: else the bu
 
 @dataclass(frozen=True)
 class Peer:
-    """Another contact code.
+    """Another contact code that solves the challenges, with the data of its installation.
 
     distribution  name and version of the package that is installed
     module        module that is imported, and name of its driver
-    friction      True if friction is requested from the code
+    friction      True if problems with friction are requested from the code
     settings      environment variables for the build
     """
 
@@ -53,7 +53,7 @@ Run = Callable[..., "subprocess.CompletedProcess[str]"]
 
 @dataclass(frozen=True)
 class Installed:
-    """Environment of the other codes.
+    """Python environment in which the other contact codes are installed.
 
     python   path of the Python interpreter
     missing  reasons for codes that could not be installed, by distribution
@@ -64,9 +64,10 @@ class Installed:
 
 
 def peers_directory() -> Path:
-    """Return the directory of the environment of the other codes.
+    """Return the directory of the Python environment in which the other contact codes are
+    installed.
 
-    It lies in SLIPSTICK_CACHE_DIR, or in `slipstick` in the user's cache directory.
+    The directory is in SLIPSTICK_CACHE_DIR, or in `slipstick` in the user's cache directory.
     """
     place = os.environ.get("SLIPSTICK_CACHE_DIR")
     if place:
@@ -76,11 +77,12 @@ def peers_directory() -> Path:
 
 
 def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
-    """Create or complete the environment of the other codes in a directory, and return it.
+    """Create or complete the Python environment of the other contact codes, and return it.
 
-    A failed installation is not repeated until the file `FAILED` in the directory is removed.
+    A failed installation is not repeated until the file `failed.json` in the directory is removed.
 
-    run  replacement of `subprocess.run`, for tests
+    directory  directory of the environment
+    run        replacement of `subprocess.run`, for tests
     """
     python = directory / "bin" / "python"
     if not python.exists():
@@ -100,9 +102,12 @@ def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
 
 
 def _install_peer(python: Path, peer: Peer, run: Run, failed: str) -> str:
-    """Install a code unless it is present or has failed before; return the reason of a failure, or
-    "".
+    """Install another contact code unless it is present or its installation has failed before.
 
+    Returns the reason of a failure; empty if the code is installed.
+
+    python  interpreter of the environment
+    run     replacement of `subprocess.run`, for tests
     failed  reason of an earlier failure; empty if there was none
     """
     probe = [str(python), "-c", f"import {peer.module}"]

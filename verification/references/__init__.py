@@ -1,4 +1,5 @@
-"""Reference numbers of other programs; README.md in this folder states methods and accuracy."""
+"""Reference solutions that other programs computed, as JSON files; README.md states their
+accuracy."""
 
 import json
 from importlib.resources import files
@@ -6,7 +7,7 @@ from typing import Any
 
 
 def load_reference(name: str) -> dict[str, Any]:
-    """Load `<name>.json` from this folder.
+    """Load a stored reference solution `<name>.json` from this folder.
 
     Raises ValueError for an unknown name, with the list of available names.
     """

@@ -1,4 +1,7 @@
-"""Baselines: accepted results of a case, one file per case with one recording per level."""
+"""Baselines: accepted results of the verification cases, with which later results are compared.
+
+Each case has one file, with one recording per level (quick, standard or full).
+"""
 
 from __future__ import annotations
 
@@ -30,9 +33,11 @@ if TYPE_CHECKING:
 
 
 class BaselineRefused(Refused):
-    """A baseline file cannot be read, or a report must not be accepted as a baseline.
+    """Exception for a baseline file that cannot be read, and for a report that must not be
+    accepted.
 
-    A baseline holds accepted results, with which later results are compared.
+    A baseline contains accepted results of a verification case, with which later results are
+    compared.
     """
 
 
@@ -43,7 +48,7 @@ Key = tuple[str, ...]
 
 
 class RecordedQuantity(Description):
-    """Recorded value of a quantity with a verdict, its reference and its tolerance.
+    """Recorded value of a quantity with a verdict, its reference and its tolerance, in a baseline.
 
     `allowed` (the tolerance) and `reference` have the unit of the value.
     """
@@ -71,21 +76,21 @@ class RecordedQuantity(Description):
 
     @property
     def error(self) -> float | None:
-        """Absolute difference of value and reference, in their unit; None for a value that is not
-        finite.
+        """Absolute difference of the recorded value and its reference, in their unit.
+
+        The result is None if the value is not finite.
         """
         return None if self.value is None else abs(self.value - self.reference)
 
     @property
     def key(self) -> Key:
-        """Key that identifies the quantity among the numbers of its case: name, run and kind of
-        tolerance.
-        """
+        """Key of the quantity in its verification case: name, run and kind of tolerance."""
         return key_of(self)
 
 
 class RecordedFinding(Description):
-    """Recorded value of a number that is reported without a verdict."""
+    """Recorded value of a number that a verification case reports without a verdict, in a
+    baseline."""
 
     name: str
     run: str
@@ -94,13 +99,14 @@ class RecordedFinding(Description):
 
     @property
     def key(self) -> Key:
-        """Key that identifies the number among the numbers of its case: name and run."""
+        """Key of the number in its verification case: name and run."""
         return key_of(self)
 
 
 class RecordedRun(Description):
-    """Recorded work of one solve of a case: increments, iterations, convolutions and
-    factorizations.
+    """Recorded work of one solve of a verification case, in a baseline.
+
+    The work consists of the numbers of increments, iterations, convolutions and factorizations.
     """
 
     label: str
@@ -111,8 +117,8 @@ class RecordedRun(Description):
 
 
 class RecordedBy(Description):
-    """Origin of recorded results (commit, machine, libraries), and the reason for
-    their acceptance."""
+    """Origin of the results in a baseline (commit, machine, libraries), and the reason of
+    acceptance."""
 
     reason: str
     command: str
@@ -128,8 +134,8 @@ class RecordedBy(Description):
 
 
 class Recording(Description):
-    """Accepted results of one case at one level (quick, standard or full), with
-    their provenance."""
+    """Accepted results of one verification case at one level (quick, standard or full), with their
+    origin."""
 
     by: RecordedBy
     status: Status
@@ -139,8 +145,10 @@ class Recording(Description):
 
 
 class Baseline(Description):
-    """Accepted results of one case at all levels at which they were recorded:
-    content of one file."""
+    """Accepted results of one verification case at all levels at which they were recorded.
+
+    Each case has one file with this content.
+    """
 
     schema_version: int = BASELINE_VERSION
     case: str
@@ -150,7 +158,9 @@ class Baseline(Description):
 def key_of(number: Verdict | FindingRecord | RecordedQuantity | RecordedFinding) -> Key:
     """Return the key that identifies a number in its case: kind, name, run and kind of tolerance.
 
-    The run is omitted for residuals and similar numbers, which may come from any run.
+    Results are compared with the recorded number of the same key. The run is omitted for residuals
+    and
+    similar numbers, which may come from any run.
     """
     run = "" if number.name in FOUND_IN_A_RUN else number.run
     if isinstance(number, Verdict | RecordedQuantity):
@@ -159,7 +169,10 @@ def key_of(number: Verdict | FindingRecord | RecordedQuantity | RecordedFinding)
 
 
 def keys_of(recorded: Recording | None) -> set[str]:
-    """Return the names of all recorded numbers as "name [run]"; empty without a recording."""
+    """Return the names of all numbers in a recording of a case, as "name [run]".
+
+    The result is empty without a recording.
+    """
     if recorded is None:
         return set()
     keys = (*(one.key for one in recorded.quantities), *(one.key for one in recorded.findings))
@@ -169,7 +182,8 @@ def keys_of(recorded: Recording | None) -> set[str]:
 def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recording:
     """Convert the outcome of a verification case to the form in which accepted results are stored.
 
-    reason  reason for which the results are accepted
+    provenance  versions, machine and commit of the report
+    reason      reason for which the results are accepted
     """
     return Recording(
         by=recorded_by(provenance, reason),
@@ -184,7 +198,7 @@ def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recordi
 
 
 def recorded_by(provenance: Provenance, reason: str) -> RecordedBy:
-    """Select the part of a report's provenance that is stored with accepted results.
+    """Select the part of the provenance of a report that is stored with accepted results.
 
     reason  reason for which the results are accepted
     """
@@ -234,7 +248,9 @@ REMEDY = "restore it from the repository, or delete it and accept it anew"
 
 
 def read_baselines(directory: Path | None = None) -> dict[str, Baseline]:
-    """Read all baselines of a folder, by name of the case; empty if the folder has none.
+    """Read the baselines (accepted results) of all cases in a folder, by name of the case.
+
+    The result is empty if the folder has none.
 
     directory  folder; None for that of the package
 
@@ -253,15 +269,17 @@ def write_baselines(
     removed: Mapping[str, Sequence[str]] = MappingProxyType({}),
     reason: str = "",
 ) -> tuple[Path, ...]:
-    """Store recordings of cases at one level, keep those at other levels, and return the files
+    """Store accepted results of cases at one level in their baseline files; return the files
     written.
 
-    recordings  recordings by case; None deletes the recording
-    removed     keys by case that are no longer recorded, to be listed in `REMOVED.md`
-    reason      reason for the removals
+    Results at other levels are kept. All files are read before any is written. Raises
+    BaselineRefused
+    for an existing file that is not a valid baseline.
 
-    All files are read before any is written. Raises BaselineRefused for an existing file that is
-    not a valid baseline.
+    recordings  accepted results by case; None deletes those of this level
+    level       quick, standard or full
+    removed     keys of numbers that are no longer recorded, by case, to be listed in `REMOVED.md`
+    reason      reason for the removals
     """
     texts: dict[Path, str] = {}
     for case, recorded in recordings.items():
@@ -291,7 +309,8 @@ def write_baselines(
 
 
 def dump_baseline(baseline: Baseline) -> str:
-    """Convert the accepted results of a case to the JSON text of their file, with all digits."""
+    """Convert the accepted results of a case to the JSON text of its baseline file, with all
+    digits."""
     content = baseline.model_dump(mode="json")
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
@@ -332,15 +351,18 @@ def accept(
 ) -> tuple[Path, ...]:
     """Store the results of a report as baselines for later comparisons; return the files written.
 
+    Recorded numbers that the report lacks are listed in `REMOVED.md` with the reason. The recording
+    of
+    a case that a complete report lacks is deleted. Raises BaselineRefused, before anything is
+    written,
+    for a report that must not be accepted.
+
     reason         reason for which the results are correct
+    directory      folder of the baselines
     names          cases to accept; empty for all of the report
     with_failures  if True, accept failed verdicts as well
     with_changes   if True, accept a report whose source differed from its commit or had none; its
                    results cannot be reproduced from the commit
-
-    Recorded numbers that the report lacks are listed in `REMOVED.md` with the reason. The recording
-    of a case that a complete report lacks is deleted. Raises BaselineRefused, before anything is
-    written, for a report that must not be accepted.
     """
     reason = " ".join(reason.split())
     earlier = {
@@ -376,8 +398,11 @@ def accept(
 
 
 def baselines_of(report: Report, reason: str) -> dict[str, Baseline]:
-    """Convert the results of a report to baselines, so that another report can be
-    compared with it."""
+    """Convert the results of a report to baselines, so that another report can be compared with
+    them.
+
+    reason  reason that is stored with the results
+    """
     return {
         case.name: Baseline(
             case=case.name, levels={report.level: recording(case, report.provenance, reason)}

@@ -1,4 +1,5 @@
-"""Comparison of every number of a report with its recorded baseline."""
+"""Comparison of every number of a verification report with its baseline, the recorded accepted
+value."""
 
 from __future__ import annotations
 
@@ -58,10 +59,12 @@ BETTER_BY_PART = 0.05
 
 
 def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Origin) -> Change:
-    """Classify the change of a judged quantity since its recorded value.
+    """Classify the change of a judged quantity since its recorded value as worse, better, new or
+    other.
 
-    was     recorded quantity; None if none is recorded
-    origin  commit and date of the recording
+    verdict  present value, reference and tolerance
+    was      recorded quantity; None if none is recorded
+    origin   commit and date of the recording
     """
     if was is None:
         failed = verdict.status is Status.FAIL
@@ -80,12 +83,13 @@ def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Orig
 
 
 def finding_change(finding: FindingRecord, was: RecordedFinding | None, origin: Origin) -> Change:
-    """Classify the change of a number without verdict since its recorded value.
+    """Classify the change of a number without a verdict since its recorded value.
 
     Integers are treated as counts and may change by 5 %.
 
-    was     recorded number; None if none is recorded
-    origin  commit and date of the recording
+    finding  present value
+    was      recorded number; None if none is recorded
+    origin   commit and date of the recording
     """
     if was is None:
         return Change(kind=ChangeKind.NEW, recorded=False, since=origin.name)
@@ -122,10 +126,13 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
 
 
 def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
-    """Determine if the value of a verdict is farther from its reference than the recorded value.
+    """Return True if the present value is farther from its reference than the recorded value.
 
-    A convergence order recorded with too wide an interval is not compared. An order whose interval
-    has become too wide since is compared with the recorded allowance.
+    A convergence order that was recorded as inconclusive, because its interval is too wide, is not
+    compared. A present order with too wide an interval is compared with the recorded tolerance.
+
+    verdict  present value with its reference
+    was      recorded quantity
     """
     if was.status is Status.INCONCLUSIVE:
         return False
@@ -139,10 +146,14 @@ def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
 def grows(
     small: Verdict | RecordedQuantity, large: Verdict | RecordedQuantity, by: float, least: float
 ) -> bool:
-    """Determine if the error of one verdict is much larger than that of another one.
+    """Return True if the error of one quantity is much smaller than that of another one.
 
-    Convergence orders are not compared, because their intervals are.
+    Used in both directions, to detect results that became worse or better. Convergence orders are
+    not
+    compared here, because they are judged by their intervals.
 
+    small  quantity with the smaller error
+    large  quantity with the larger error
     by     smallest ratio of the errors
     least  smallest difference of the errors, in the unit of the value
     """
@@ -155,7 +166,8 @@ def grows(
 
 
 def _remarks(verdict: Verdict, was: RecordedQuantity) -> Iterator[str]:
-    """Yield the differences of a verdict from its record other than the value, in words.
+    """Yield the differences between a verdict and its recorded quantity other than the value, as
+    texts.
 
     These are coverage by the stated error, status, tolerance, reference and unit.
     """
@@ -177,17 +189,25 @@ def _remarks(verdict: Verdict, was: RecordedQuantity) -> Iterator[str]:
 
 
 def _difference(value: float | None, was: float | None) -> float:
-    """Return the absolute difference of two numbers; None represents a number that
-    is not finite."""
+    """Return the absolute difference of a present and a recorded value.
+
+    None represents a value that is not finite: two such values do not differ, one differs
+    infinitely.
+    """
     if value is None or was is None:
         return 0.0 if value is was else math.inf
     return abs(value - was)
 
 
 def counter_changes(case: CaseOutcome | Recording, recorded: Recording) -> Iterator[CounterChange]:
-    """Yield the changes of total iterations and other counts of a case by more than 5 %.
+    """Yield the total work counts of a case that changed by more than 5 % since the recording.
 
-    Only solves that exist in both are counted; new and removed solves are reported separately.
+    The counts are increments, iterations, convolutions and factorizations. Only solves that exist
+    in
+    both are counted; new and removed solves are reported separately.
+
+    case      present outcome of the case
+    recorded  accepted results of the case
     """
     then = {run.label: run for run in recorded.runs}
     both = [(run, then[run.label]) for run in case.runs if run.label in then]
@@ -200,11 +220,13 @@ def counter_changes(case: CaseOutcome | Recording, recorded: Recording) -> Itera
 
 
 def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
-    """Compare a report with baselines, and return it with the change of every number.
+    """Compare a report with baselines, and return the report with the change of every number.
 
     An earlier comparison in the report is replaced. A case without a baseline at the level of the
     report has `CaseOutcome.baseline` None. Recorded cases that the report lacks are listed as gone,
     unless the report is of chosen cases.
+
+    baselines  accepted results by name of the case
     """
     made_by = recorded_by(report.provenance, reason="")
     cases = tuple(
@@ -220,7 +242,10 @@ def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
 
 
 def refuse_if_not_whole(report: Report, baselines: Mapping[str, Baseline]) -> None:
-    """Raise BaselineRefused if a report of chosen cases lacks cases with recorded results."""
+    """Raise BaselineRefused if a report of chosen cases lacks a case with recorded results.
+
+    Called where a comparison must include all recorded cases.
+    """
     missing = [name for name, _ in _missing(report, baselines)] if report.chosen else []
     if missing:
         raise BaselineRefused(
@@ -236,7 +261,10 @@ def _gone_cases(report: Report, baselines: Mapping[str, Baseline]) -> Iterator[G
 
 
 def _missing(report: Report, baselines: Mapping[str, Baseline]) -> Iterator[tuple[str, Recording]]:
-    """Yield the recorded cases that a report lacks at its level: name and recorded results."""
+    """Yield the cases that are recorded at the level of a report but absent from the report.
+
+    Each item has the name of the case and its recorded results.
+    """
     present = {case.name for case in report.cases}
     for name, baseline in sorted(baselines.items()):
         recorded = _recording(baseline, report.level)
@@ -313,8 +341,13 @@ def _gone(case: CaseOutcome, recorded: Recording) -> Iterator[Gone]:
 
 
 def _differences(then: RecordedBy, now: RecordedBy) -> Iterator[str]:
-    """Yield differences of processor, Python and libraries, which explain changes of the last
-    digits.
+    """Yield texts on differences of processor, Python and libraries between a recording and a
+    report.
+
+    These differences may explain changes of the last digits.
+
+    then  origin of the recorded results
+    now   origin of the report
     """
     facts = [("processor", then.processor, now.processor), ("Python", then.python, now.python)]
     for name in sorted(then.libraries.keys() | now.libraries.keys()):

@@ -1,9 +1,10 @@
-"""Tolerances that follow the measured errors, one file per level, in addition to the cases' bounds.
+"""Accepted tolerances of verification results, in addition to the bounds of the cases, one file per
+level.
 
 A case states a bound with its theoretical reason. Errors are usually far below the bound, so that a
-defect that triples them would pass. The proposed tolerance of a number is twice its largest error
-over several BLAS kernels. It is proposed if the error is below a third of the present tolerance. A
-proposal is accepted with a reason, and never exceeds the bound of its case.
+defect that triples them would pass. The proposed tolerance of a number is about twice its largest
+error over several BLAS kernels. It is proposed if the error is below a third of the present
+tolerance. A proposal is accepted with a reason, and never exceeds the bound of its case.
 """
 
 from __future__ import annotations
@@ -34,8 +35,10 @@ MOVED = 0.05
 
 
 class Tolerance(Description):
-    """Accepted tolerance of a result, and the largest error at acceptance, relative to the error
-    scale.
+    """Accepted tolerance of one verification result, and its largest error at the time of
+    acceptance.
+
+    Both are relative to the error scale of the result.
     """
 
     allowed: float
@@ -43,10 +46,12 @@ class Tolerance(Description):
 
 
 class Acceptance(Description):
-    """Tolerances that were accepted together, by case and key.
+    """Tolerances of verification results that were accepted together, with the reason.
 
-    because  reason for the acceptance
-    kernels  processors or BLAS kernels on which the errors were measured
+    because     reason for the acceptance
+    commit      commit of the source that computed the errors
+    kernels     processors or BLAS kernels on which the errors were measured
+    tolerances  accepted tolerances by case and key of the number
     """
 
     because: str
@@ -56,15 +61,16 @@ class Acceptance(Description):
 
 
 class Tolerances(Description):
-    """Accepted tolerances of all cases at one level (quick, standard or full):
-    content of one file."""
+    """Accepted tolerances of all cases at one level (quick, standard or full): content of one
+    file."""
 
     level: str
     accepted: tuple[Acceptance, ...] = ()
 
     def of(self, case: str) -> dict[str, tuple[Tolerance, Acceptance]]:
-        """Return the accepted tolerances of a case, each with the reason of acceptance, by key of
-        the number.
+        """Return the accepted tolerances of a case, each with its acceptance, by key of the number.
+
+        case  name of the verification case
         """
         return {
             key: (tolerance, acceptance)
@@ -74,9 +80,9 @@ class Tolerances(Description):
 
 
 def read_tolerances(level: str, directory: Path = TOLERANCES) -> Tolerances:
-    """Read the accepted tolerances of a level; empty without a file.
+    """Read the accepted tolerances of a level (quick, standard or full) from their file.
 
-    Raises BaselineRefused for a damaged file.
+    The result has no tolerances if there is no file. Raises BaselineRefused for a damaged file.
     """
     path = directory / f"{level}.json"
     if not path.exists():
@@ -89,8 +95,9 @@ def read_tolerances(level: str, directory: Path = TOLERANCES) -> Tolerances:
 
 
 def held_to(cases: Sequence[CaseOutcome], tolerances: Tolerances) -> tuple[CaseOutcome, ...]:
-    """Judge the results of cases again by accepted tolerances that are stricter than the cases'
-    bounds.
+    """Judge the results of verification cases again by the accepted tolerances.
+
+    An accepted tolerance applies if it is stricter than the present tolerance of the verdict.
     """
     return tuple(
         case.model_copy(
@@ -124,10 +131,12 @@ def _judge_by_tolerance(verdict: Verdict, known: tuple[Tolerance, Acceptance] | 
 def proposed(
     reports: Sequence[Report], known: Tolerances | None = None
 ) -> dict[str, dict[str, Tolerance]]:
-    """Propose tolerances, by case and key, from reports of one level on several BLAS kernels.
+    """Propose tolerances of verification results from reports of one level on several BLAS kernels.
 
     A number gets a proposal if its tolerance exceeds three times the largest error, or if the error
-    exceeds its tolerance, and the proposal is below the bound of its case.
+    exceeds its tolerance, and the proposal is below the bound of its case. Returns the tolerances
+    by
+    case and key of the number.
 
     known  accepted tolerances, by which the reports are judged first
     """
@@ -147,11 +156,12 @@ def proposed(
 
 
 def _common_numbers(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[Verdict], float]]:
-    """Yield each number that all reports have: case, key, its verdicts, and the least error to
-    allow.
+    """Yield each finite number that all reports have: case, key, its verdicts, and an allowance.
 
-    The least error accounts for the iterate at which a solve ends: ten times the tolerance of the
-    solve, plus a twentieth of the last change of an edge correction.
+    The allowance is added to proposed tolerances, because an error depends on the iterate at which
+    a
+    solve ends. It is ten times the tolerance of the solve, plus 5 % of the last change of an edge
+    correction. Convergence orders are left out.
     """
     levels = sorted({report.level for report in reports})
     if len(levels) != 1:
@@ -175,9 +185,12 @@ def _common_numbers(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[
 
 
 def accept_tolerances(reports: Sequence[Report], because: str, directory: Path = TOLERANCES) -> int:
-    """Store the tolerances proposed from reports, with a reason; return their number.
+    """Store the tolerances proposed from reports in the file of their level; return their number.
 
     Raises BaselineRefused without a reason.
+
+    because    reason for which the errors are correct
+    directory  folder of the files of tolerances
     """
     because = " ".join(because.split())
     if not because:
@@ -214,6 +227,9 @@ def _remove_tolerances(
 
 
 def text_of(verdict: Verdict) -> str:
-    """Return the key of a judged quantity in words: name, run and kind of tolerance."""
+    """Return the key of a judged quantity in its case as text: name, run and kind of tolerance.
+
+    Accepted tolerances are stored by this key.
+    """
     _, name, run, kind = key_of(verdict)
     return f"{name} [{run}] {kind}"

@@ -86,8 +86,9 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
 
 
 def _label_decades(ax: Any, most: int) -> None:
-    """Label the logarithmic axes of a panel at powers of ten; a short axis also at 2 and 5 times
-    these.
+    """Print labels on the logarithmic axes of a panel at powers of ten.
+
+    A short axis has labels also at 2 and 5 times the powers.
 
     ax    axes of matplotlib
     most  largest number of labels per axis

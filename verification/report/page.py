@@ -96,7 +96,7 @@ def environment() -> jinja2.Environment:
 
 
 def line_of(case: CaseOutcome) -> str:
-    """Summarise a verification case in one line: passed verdicts, and the verdict nearest to its
+    """Describe a verification case in one line: passed verdicts, and the verdict nearest to its
     limit.
 
     For the second part, a failed verdict has priority, and a verdict on a quantity has priority

@@ -1,4 +1,4 @@
-"""Texts of a verification report: Markdown summary for a pull request, JUnit table, and log lines."""
+"""Texts of a verification report: Markdown summary for a pull request, JUnit table, log lines."""
 
 from __future__ import annotations
 

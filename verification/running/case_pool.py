@@ -33,7 +33,7 @@ LARGEST_RECORD = 100_000_000  # bytes; those of full verifications have a few hu
 
 
 class DamagedRecord(Exception):
-    """Exception for a stored case record that is unreadable, damaged, or belongs to another case."""
+    """Exception for a stored case record that is unreadable, damaged, or of another case."""
 
 
 @dataclass(frozen=True)

@@ -64,7 +64,7 @@ class ClusterWorkers:
         return future
 
     def lost(self) -> list[str]:
-        """Return the network addresses of workers that have left the cluster since the last call."""
+        """Return the network addresses of workers that left the cluster since the last call."""
         try:
             now = set(self._client.nthreads())
         except OSError:  # the scheduler has gone: every case that is left tells so
