@@ -330,7 +330,7 @@ def cattaneo_mindlin() -> Challenge:
     Mindlin).
 
     The approach, and at each step the tangential shift, the stick radius and the shear are
-    required.
+    requested.
     """
     problem = sheared("Ball pressed and sheared, ν = 0", PARTS)
     values, fields = [approach(HERTZ.approach)], []
@@ -348,7 +348,7 @@ def loop() -> Challenge:
 
     Each load step of the fretting loop prescribes a force. The tangential shift, stick radius and
     shear
-    of each step, and the energy per cycle are required.
+    of each step, and the energy per cycle are requested.
     """
     turns = (*QUARTERS, *reversed(QUARTERS[:-1]), 0.0, *(-q for q in QUARTERS))
     turns += (*(-q for q in reversed(QUARTERS[:-1])), 0.0, *QUARTERS)

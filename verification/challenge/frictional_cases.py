@@ -99,7 +99,7 @@ def frictional() -> Iterator[Challenge]:
 def torsion() -> Challenge:
     """Create the challenge of a pressed ball that is twisted to increasing torques (Lubkin).
 
-    The twist, the stick radius and the circumferential shear at each torque are required.
+    The twist, the stick radius and the circumferential shear at each torque are requested.
     """
     values, fields = [], []
     for step, end in enumerate(TWISTED.ends[1:], start=2):

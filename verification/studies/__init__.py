@@ -1,1 +1,2 @@
-"""Studies of the report: each measures the effect of a numerical choice on accuracy or cost."""
+"""Studies of the program: each computes many cases to measure one property, such as cost or
+stability."""

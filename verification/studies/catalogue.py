@@ -1,4 +1,4 @@
-"""Tables of the studies that `slipstick maintain study` and the studies of scene files offer."""
+"""Tables of all studies: those of `slipstick maintain study`, and those of a user's scene file."""
 
 from verification.running.study import Study
 from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS

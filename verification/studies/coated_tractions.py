@@ -2,10 +2,12 @@
 
 A rigid ball is pressed with friction on a coated half-space and pushed tangentially to 0.3, 0.6 and
 0.9 of µW (friction coefficient times normal force). The two solvers, with cells and with rings,
-share no numerics. The error of a curve is estimated by coarse solves with the convergence order 1:
-$|f - f_k| / (r_k^{0.6} - 1)$, where $r_k$ is the refinement factor. The contributions of fewer
-cells or rings and of half of the increments are added. The norm is ∫|Δp| dx / ∫p dx or ∫|Δq| dx /
-∫µp dx on y = 0.
+share no numerics.
+
+The error of a curve is estimated by coarse solves. Their convergence order is 1 in theory; the
+estimate assumes 0.6 to be safe: $|f - f_k| / (r_k^{0.6} - 1)$, where $r_k$ is the refinement
+factor. The contributions of fewer cells or rings and of half of the increments are added. The norm
+is ∫|Δp| dx / ∫p dx or ∫|Δq| dx / ∫µp dx on y = 0.
 """
 
 from __future__ import annotations
@@ -83,7 +85,7 @@ AT = {force: f"at {force:g} µW" for force in FORCES}
 
 @dataclass(frozen=True)
 class TractionRun:
-    """Represent the solve of one coated contact by one solver, whose tractions a record stores.
+    """Solve of one coated contact by one solver, whose tractions on y = 0 a record stores.
 
     solver    "semi-analytical" or "radial"
     ratio     E1 / E2, Young's modulus of the coating over that of the substrate
@@ -102,7 +104,7 @@ class TractionRun:
         return words.replace(".", "p")
 
     def compute(self) -> CaseRecord:
-        """Solve the contact and record its tractions on y = 0 at the end of every load step.
+        """Solve the coated contact and record its tractions on y = 0 at the end of every load step.
 
         The load steps press the ball and then push it tangentially. Raises the errors of the
         solvers.
@@ -134,12 +136,14 @@ class TractionRun:
 
 
 def _profile_rows(result: Any, end: Any, force: float) -> list[Row]:
-    """Sample the pressure and the shear traction on y = 0 at fixed x at the end of one load step.
+    """Return the pressure and the shear of a coated contact on y = 0 at fixed x, as rows of a
+    record.
 
     The pressure is divided by the Hertz peak pressure p_H, the shear by µ p_H.
 
-    end    state at the end of the load step
-    force  tangential force over µW, stored with each row
+    result  result of a solver
+    end     state at the end of a load step
+    force   tangential force over µW, stored with each row
     """
     surface, scale = surface_of(result), HERTZ.peak_pressure
     x = surface.profile_line.places / HERTZ.contact_radius
@@ -159,11 +163,11 @@ def _profile_rows(result: Any, end: Any, force: float) -> list[Row]:
 
 @dataclass(frozen=True)
 class Curves:
-    """Hold pressure and shear curves on y = 0 at every tangential force, and their estimated
+    """Pressure and shear curves of a coated contact on y = 0 at every tangential force, with their
     errors.
 
-    pressure  pressure over Hertz peak pressure (force, x)
-    shear     shear over µ times the Hertz peak pressure (force, x)
+    pressure  pressure over Hertz peak pressure p_H (force, x)
+    shear     shear over µ p_H (force, x)
     errors    estimated relative error of each curve (field, force); field 0 is the pressure
     """
 
@@ -173,11 +177,11 @@ class Curves:
 
     @classmethod
     def of(cls, solves: Mapping[str, CaseRecord]) -> Curves:
-        """Estimate the errors of the curves of the fine solve from the coarse solves of the same
-        contact.
+        """Create the curves from the fine solve of a coated contact, and estimate their errors.
 
         One coarse solve has fewer cells or rings, the other one half of the increments. Their
-        errors are added.
+        errors are
+        added.
 
         solves  records by kind of solve: "fine", "coarse", "half the increments"
         """
@@ -196,20 +200,25 @@ def _curves_of_record(record: CaseRecord) -> tuple[Field, Field]:
 
 
 def _curve_differences(one: tuple[Field, Field], other: tuple[Field, Field]) -> Field:
-    """Compute the relative differences of two pairs of pressure and shear curves (field, force).
+    """Compute the relative differences (field, force) between the traction curves of two solves.
 
-    Each is the integral of the absolute difference on y = 0 over the integral of the pressure of
-    the first pair. Both are normalised, the shear by µ times the unit of the pressure.
+    A difference is the integral of |Δp| or |Δq| on y = 0, divided by the integral of the pressure
+    of
+    the first solve. The curves are normalised by p_H and µ p_H.
+
+    one, other  pressure and shear curves (force, x) of each solve
     """
     total = one[0].sum(axis=1)
     return np.array([np.abs(a - b).sum(axis=1) / total for a, b in zip(one, other, strict=True)])
 
 
 def runs(settings: Settings) -> dict[tuple[float, str, str], TractionRun]:
-    """Return all solves of coated contacts in the study.
+    """Return all solves of coated contacts in the study, by modulus ratio, solver and kind of
+    solve.
 
-    The keys are the modulus ratio E1/E2 (coating over substrate), the solver and the kind of solve:
-    "fine", "coarse" (2/3 of the cells or rings) or "half the increments".
+    The modulus ratio E1/E2 is that of coating over substrate. The kinds are "fine", "coarse" (2/3
+    of
+    the cells or rings) and "half the increments".
     """
     cells, rings = FINEST[settings.level]
     finest = {CELLS: float(settings.cells or cells), RINGS: rings}
@@ -229,8 +238,10 @@ def cases(settings: Settings) -> tuple[TractionRun, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Return the figures of the tractions, the errors of the curves, and checks of the paper's
-    statements.
+    """Derive the conclusion of the study of coated contacts from its records.
+
+    The conclusion has the figures of the tractions, the errors of the curves, and checks of two
+    statements of the paper.
     """
     asked = runs(settings)
     known = found(asked.values(), records)
@@ -285,12 +296,14 @@ def _answer_text(stick: Mapping[str, float]) -> str:
 
 
 def _solver_difference(ratio: float, curves: Drawn, field: int) -> Row:
-    """Compare the curves of one field by cells and by the radial solver at every tangential force.
+    """Compare the traction curves by cells and by the radial solver at every tangential force.
 
-    The row has the relative difference of the solvers and the estimated error of each curve.
+    The returned row has the relative difference of the solvers and the estimated error of each
+    curve.
 
-    ratio  E1 / E2, modulus of the coating over that of the substrate
-    field  0 for the pressure, 1 for the shear
+    ratio   E1 / E2, modulus of the coating over that of the substrate
+    curves  curves by modulus ratio and solver
+    field   0 for the pressure, 1 for the shear
     """
     cells, rings = curves[ratio, CELLS], curves[ratio, RINGS]
     apart = _curve_differences((cells.pressure, cells.shear), (rings.pressure, rings.shear))[field]
@@ -305,7 +318,7 @@ def _solver_difference(ratio: float, curves: Drawn, field: int) -> Row:
 
 
 def _solvers_agree(rows: Sequence[Row], *, complete: bool) -> Statement:
-    """Judge the agreement of cells and radial solver: no difference exceeds the sum of both errors.
+    """Judge the agreement of both solvers: no difference of curves exceeds the sum of their errors.
 
     rows      differences and errors of the curves
     complete  True if every modulus ratio is solved by both solvers
@@ -355,11 +368,12 @@ def _number_text(name: str) -> Any:
 
 
 def _traction_figure(curves: Drawn, field: int) -> Chart:
-    """Draw the curves of one field, one panel per modulus ratio.
+    """Draw the pressure or shear curves of all coated contacts, one panel per modulus ratio.
 
-    Cells are drawn as lines on top of wide grey lines of the radial solver.
+    Curves by cells are lines on top of wide grey lines of the radial solver.
 
-    field  0 for the pressure (figure 3 of the paper), 1 for the shear (figure 4)
+    curves  curves by modulus ratio and solver
+    field   0 for the pressure (figure 3 of the paper), 1 for the shear (figure 4)
     """
     number, what, label = (
         (3, "pressure", "p / Hertz pressure"), (4, "shear", "qₓ / (µ × Hertz pressure)")

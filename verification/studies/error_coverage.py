@@ -1,7 +1,7 @@
-"""Study of stated errors: how often they cover the true errors, and requested accuracies.
+"""Study of stated errors: how often the error that a run states for a number covers the true error.
 
-The scenes are drawn at random from families whose results are known. Each is solved as
-`slipstick run` solves it.
+The scenes are drawn at random from families with known results. Each is solved as `slipstick run`
+solves it. Requested accuracies are checked on further random scenes.
 """
 
 from __future__ import annotations
@@ -58,8 +58,11 @@ WRONG, STATED, UNCERTAIN = "wrong", "stated", "uncertain"
 
 @dataclass(frozen=True)
 class CoverageCase:
-    """Identify a random scene by its family, the seed of the generator and its number in the
-    family.
+    """Random scene with known results, whose stated errors the study compares with the true errors.
+
+    family  name of the family of scenes
+    seed    seed of the random generator
+    number  number of the scene in its family
     """
 
     family: str
@@ -71,10 +74,10 @@ class CoverageCase:
         return f"{self.family}-{self.seed}-{self.number}"
 
     def compute(self) -> CaseRecord:
-        """Solve the scene and record the true and the stated error of each result whose value is
-        known.
+        """Solve the random scene, and record true and stated error of each result with a known
+        value.
 
-        The text of a solver error is recorded instead if the solver refuses the scene.
+        If the solver refuses the scene, the text of its error is recorded instead.
         """
         known = drawn(self.family, self.seed, self.number)
         started = time.process_time()
@@ -104,13 +107,13 @@ def _coverage_rows(known: KnownScene) -> Iterator[Row]:
 
 
 def coverage_row(truth: Truth, found: float, stated: StatedError | None) -> Row:
-    """Return the true error, the stated error and the uncertainty of the reference of one result.
+    """Return true error, stated error and uncertainty of the reference for one result, as a row.
 
-    All three are divided by the reference value.
+    All three are divided by the magnitude of the reference value.
 
     truth   known value: quantity, load step and reference with uncertainty
     found   computed value, in the unit of the reference
-    stated  error that the run states for the value; None if it states none
+    stated  error that the run states for the value; None if the run states none
     """
     size = abs(truth.reference.value)
     error = None if stated is None or stated.error is None else float(np.ravel(stated.error)[0])
@@ -126,8 +129,10 @@ def coverage_row(truth: Truth, found: float, stated: StatedError | None) -> Row:
 
 
 def _solve_with_errors(known: KnownScene) -> tuple[Any, StatedErrors]:
-    """Solve a scene with a known solution on cells or finite elements, and estimate the errors of
-    its results.
+    """Solve a scene with known results, and estimate the errors of the computed results.
+
+    The scene determines the solver (cells or finite elements) and the discretisation. Returns the
+    result and its stated errors.
     """
     asked: Any = known.fineness.asked
     if known.fineness.solver == CELLS:
@@ -150,7 +155,13 @@ DOUBTED = str(ErrorStatus.NOT_CONVERGED)
 
 @dataclass(frozen=True)
 class Share:
-    """Represent the observed fraction `count / of`, with its Clopper-Pearson interval (1934)."""
+    """Observed fraction `count / of`, with its Clopper-Pearson confidence interval (1934).
+
+    Used for the fraction of stated errors that cover the true error.
+
+    count  number of favourable results
+    of     number of all results
+    """
 
     count: int
     of: int
@@ -162,7 +173,8 @@ class Share:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Two-sided 95 % confidence interval of the fraction: 2.5 % lie outside each end."""
+        """Two-sided 95 % confidence interval of the fraction: the error probability is 2.5 % on
+        each side."""
         k, n, tail = self.count, self.of, (1 - CONFIDENCE) / 2
         low = float(betaincinv(k, n - k + 1, tail)) if k else 0.0
         high = float(betaincinv(k + 1, n - k, 1 - tail)) if k < n else 1.0
@@ -177,14 +189,17 @@ class Share:
 
 @dataclass(frozen=True)
 class Coverage:
-    """Count how many stated errors of a group of results cover the true error.
+    """Number of stated errors of a group of results that cover the true error.
 
-    A result is decided if the uncertainty of its reference permits a verdict.
+    A result is decided if its reference is certain enough to judge the stated error.
 
     group       name of the group: a kind of quantity or a family of scenes
-    covered     decided results with an estimated or exact error whose true error is covered
-    tight       of the same results, those whose stated error is less than 10 times the true one
-    apart       covered results among the decided ones with status "not converged"
+    covered     fraction of covered results among those that are decided and have the status
+                estimated
+                or exact
+    tight       among the same results, fraction with a stated error below 10 times the true error
+    apart       fraction of covered results among those that are decided and have the status "not
+                converged"
     undecided   number of results whose reference is too uncertain for a verdict
     not_stated  number of results without a stated error
     """
@@ -198,8 +213,7 @@ class Coverage:
 
     @classmethod
     def of(cls, group: str, rows: Sequence[Row]) -> Coverage:
-        """Count the stated errors of a group of results that cover the true error, and those that
-        do not.
+        """Count the stated errors of a group of results that cover the true error.
 
         group  name of the group
         rows   one row per result, with true error, stated error and uncertainty of the reference
@@ -219,32 +233,38 @@ class Coverage:
 
 
 def covers(row: Row) -> bool:
-    """Determine if the true error is at most the stated error plus the uncertainty of the
-    reference.
+    """Return True if a stated error covers the true error, up to the uncertainty of the reference.
+
+    row  true error, stated error and uncertainty of one result
     """
     return value_of(row, WRONG) <= value_of(row, STATED) + value_of(row, UNCERTAIN)
 
 
 def is_tight(row: Row) -> bool:
-    """Determine if the stated error of a result is less than 10 times its true error, hence not
-    excessive.
+    """Return True if the stated error of a result is less than 10 times its true error.
+
+    Larger stated errors cover the true error, but are of little use.
+
+    row  true error, stated error and uncertainty of one result
     """
     return value_of(row, STATED) < TIMES * value_of(row, WRONG)
 
 
 def is_decided(row: Row) -> bool:
-    """Determine if the reference of a result is certain enough to judge the stated error.
+    """Return True if the reference of a result is certain enough to judge the stated error.
 
     The uncertainty of the reference must be at most 0.1 of the stated error. Otherwise the true
-    error must exceed the stated error by more than 3 uncertainties, so that it is certainly not
-    covered.
+    error
+    must exceed the stated error by more than 3 uncertainties, so that it is certainly not covered.
+
+    row  true error, stated error and uncertainty of one result
     """
     stated, uncertain = value_of(row, STATED), value_of(row, UNCERTAIN)
     return uncertain <= CERTAIN * stated or value_of(row, WRONG) > stated + MISSED * uncertain
 
 
 def coverage_by_group(rows: Iterable[tuple[str, Row]]) -> dict[str, Coverage]:
-    """Count, in each group of results, how often stated errors cover true errors.
+    """Count the stated errors that cover the true error, for each group of results.
 
     rows  pairs of the name of a group and the row of one result
     """
@@ -262,7 +282,8 @@ ASKED, REACHED, TRUE = "asked", "reached", "true"
 
 @dataclass(frozen=True)
 class LimitedLevels(Levels):
-    """Refinement levels of a scene, limited by a largest work per level.
+    """Refinement levels of a scene with a limit on the work per level, for checks of requested
+    accuracies.
 
     most  largest product of the number of cells (or elements per radius) and of all increments
     """
@@ -278,9 +299,12 @@ class LimitedLevels(Levels):
 
 @dataclass(frozen=True)
 class RequestCase:
-    """Identify a random request of accuracy by the seed of the generator and its number.
+    """Random request of accuracy, which the study checks against the true error.
 
-    A request names a scene, one quantity and the relative error that is allowed.
+    A request names a scene with known results, one quantity and the relative error that is allowed.
+
+    seed    seed of the random generator
+    number  number of the request
     """
 
     seed: int
@@ -291,8 +315,9 @@ class RequestCase:
         return f"request-{self.seed}-{self.number}"
 
     def compute(self) -> CaseRecord:
-        """Refine the scene until the request is reported as met or refinement stops; record the
-        true error.
+        """Refine the scene until the requested accuracy is reported as met, or refinement stops.
+
+        The record has the requested, the reported and the true relative error.
         """
         family, known, quantity, share = self._draw_request()
         truths = [truth for truth in known.truths if truth.quantity == quantity]
@@ -321,9 +346,11 @@ class RequestCase:
         )
 
     def _draw_request(self) -> tuple[str, KnownScene, str, float]:
-        """Draw a scene of known answer, a quantity of the scene and an allowed relative error.
+        """Draw a random request: a scene with known results, one of its quantities and an allowed
+        error.
 
-        Draws are repeated until a quantity has a reference that is certain enough for the request.
+        Draws are repeated until a quantity has a reference that is certain enough to check the
+        request.
         Returns the family of the scene, the scene, the quantity and the allowed relative error.
         """
         rng = np.random.default_rng([self.seed, crc32(b"request"), self.number])
@@ -341,10 +368,11 @@ def _computed_value(truth: Truth, level: RefinementLevel) -> float:
 
 
 def _requestable_quantities(known: KnownScene, share: float) -> Iterator[str]:
-    """Yield the quantities of a scene for which an accuracy can be requested and checked.
+    """Yield the quantities of a scene for which a requested accuracy can be checked.
 
-    The relative uncertainty of the reference must be at most 0.1 of `share` at all load steps.
+    The relative uncertainty of their references must be at most 0.1 of `share` at all load steps.
 
+    known  scene with known results
     share  requested relative error
     """
 
@@ -379,9 +407,11 @@ REMARKS = (
 
 
 def cases(settings: Settings) -> tuple[CoverageCase | RequestCase, ...]:
-    """Return the random scenes and the requests of accuracy that the study solves.
+    """Return the random scenes and the random requests of accuracy that the study solves.
 
-    The standard level has a third of those of the full level, and the quick level one of each kind.
+    The standard level has a third of those of the full level. The quick level has one request and
+    one
+    scene of each family.
     """
     parts = {Level.QUICK: 0, Level.STANDARD: 3, Level.FULL: 1}
     part = parts[settings.level]
@@ -396,9 +426,8 @@ def cases(settings: Settings) -> tuple[CoverageCase | RequestCase, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Judge the coverage of the stated errors of every group of results, and the requested
-    accuracies.
-    """
+    """Judge the coverage of the stated errors of each group of results, and the requested
+    accuracies."""
     asked = cases(settings)
     known = found(asked, records)
     scenes = [record for case, record in known.items() if isinstance(case, CoverageCase)]
@@ -431,8 +460,10 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
 def _decided_rows_of_kind(kind: str, rows: Sequence[tuple[str, Row]]) -> list[Row]:
     """Return the results of one kind of quantity whose stated error can be judged.
 
-    Their status is estimated or exact, and their reference is certain enough.
+    Their status is estimated or exact, and their reference is certain enough. Used for the chart of
+    true over stated error.
 
+    kind  kind of quantity
     rows  pairs of the family of a scene and the row of one result
     """
     return [
@@ -481,8 +512,9 @@ def _coverage_statement(
 
 
 def _request_statement(requests: Sequence[CaseRecord]) -> Statement:
-    """Judge if results whose requested accuracy is reported as met really have errors below the
-    request.
+    """Judge if the true errors meet the requested accuracies that refinement reported as met.
+
+    At most 2 of 60 may be false, and no true error may exceed twice the request.
 
     requests  records with the requested and the true relative error
     """
@@ -503,7 +535,7 @@ def _request_statement(requests: Sequence[CaseRecord]) -> Statement:
 
 
 def _coverage_chart(parts: dict[str, list[Row]]) -> Chart:
-    """Draw, for each kind of quantity, the distribution of the true error over the stated error.
+    """Draw the distribution of the ratio of true to stated error, one curve per kind of quantity.
 
     The ordinate is the fraction of the results whose ratio exceeds the abscissa.
 
@@ -527,9 +559,12 @@ def _coverage_chart(parts: dict[str, list[Row]]) -> Chart:
 
 
 def _exceedance_curve(rows: Sequence[Row]) -> list[tuple[float, float]]:
-    """Compute the fraction of results whose ratio of true to stated error exceeds x, at several x.
+    """Compute the fraction of results whose ratio of true to stated error exceeds x, for several x.
 
-    Returns pairs (x, fraction). Fractions below 1e-3 are left out, as the diagram is logarithmic.
+    Returns pairs (x, fraction). Fractions below 1e-3 are left out, because the chart is
+    logarithmic.
+
+    rows  true and stated errors of the results
     """
     stated, wrong = (
         np.array([row.measures[name] for row in rows], float) for name in (STATED, WRONG)

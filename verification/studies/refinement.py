@@ -1,6 +1,6 @@
-"""Convergence studies of a scene file: limits under refinement, their uncertainty and the errors.
+"""Convergence studies of a user's scene file: limits of results under refinement, and their errors.
 
-The mesh or the increments are refined, and each level is solved as `slipstick run` solves the file.
+The mesh or the increments are refined. Each level is solved as `slipstick run` solves the file.
 """
 
 from __future__ import annotations
@@ -83,12 +83,13 @@ ORDER, LARGEST, NATURAL, FLOOR = "order", "largest", "natural", "floor"
 
 
 class CannotRefine(ValueError):
-    """The scene lacks the requested load step, or has nothing that can be refined as requested."""
+    """Exception for a scene without the requested load step, or without levels for the requested
+    study."""
 
 
 @dataclass(frozen=True)
 class StudiedScene:
-    """A scene file with overrides, the solver, and the load step at whose end results are compared.
+    """Scene file whose results a convergence study compares at the end of one load step.
 
     file       path of the scene file
     overrides  changes of entries of the file, as on the command line
@@ -107,9 +108,13 @@ class StudiedScene:
     def of(
         cls, path: Path, overrides: Sequence[str], step: int | None, solver: str
     ) -> StudiedScene:
-        """Read a scene file and return the studied scene.
+        """Read a scene file and return the scene that a convergence study solves.
 
-        step  number of the load step, from 1; None for the last one
+        path       path of the scene file
+        overrides  changes of entries of the file, as on the command line
+        step       number of the load step at whose end results are compared, from 1; None for the
+                   last one
+        solver     name of the solver on the command line
 
         Raises SceneError for mistakes in the file and CannotRefine for an absent load step.
         """
@@ -127,8 +132,10 @@ class StudiedScene:
 
     @property
     def on_cells(self) -> bool:
-        """Determine if the scene is solved by the semi-analytical solver, with
-        tractions on cells."""
+        """True if the semi-analytical solver solves the scene, with tractions on surface cells.
+
+        The alternative is a finite-element solver.
+        """
         return self.solver == CELLS
 
     def read(self) -> SceneFile:
@@ -137,8 +144,7 @@ class StudiedScene:
         return contents.model_copy(update={"loading": contents.loading[: self.step]})
 
     def asked(self, contents: SceneFile) -> Any:
-        """Return the discretisation table of the scene file, of the semi-analytical or
-        finite-element solver.
+        """Return the discretisation table of the scene file for the solver of the study.
 
         contents  contents of the scene file
         """
@@ -153,14 +159,15 @@ def _plan_increments(scene: Scene, asked: Any) -> Any:
 
 @dataclass(frozen=True)
 class SceneLevel:
-    """One refinement level of a scene: its discretisation and its increments.
+    """One refinement level of a scene file in a convergence study.
 
     scene       scene file, solver and load step
     changed     entries of the discretisation table that differ from the file, with their values
     increments  number of increments of each load step
     level       name of the level in tables
-    size        abscissa of the convergence fit: relative size of an increment; None for the side
-                of a cell or element, which the solver chooses
+    size        abscissa of the convergence fit: relative size of an increment; None for the side of
+                a
+                cell or element, which the solver chooses
     """
 
     scene: StudiedScene
@@ -173,14 +180,15 @@ class SceneLevel:
     def name(self) -> str:
         """File name of the record of this refinement level.
 
-        It includes a digest of the level, the contents of the scene and the solver.
+        The name includes a digest of the level, the contents of the scene file and the solver.
         """
         digest = hashlib.sha256(repr(self).encode()).hexdigest()[:8]
         return f"{self.scene.solver}-{sum(self.increments)}-{digest}"
 
     def compute(self) -> CaseRecord:
-        """Solve the scene on this level and record its scalar results, or the name and text of an
-        error.
+        """Solve the scene on this refinement level and record its scalar results.
+
+        If the solver refuses the scene, the name and text of the error are recorded instead.
         """
         parameters: dict[str, Value] = {"level": self.level}
         try:
@@ -191,7 +199,7 @@ class SceneLevel:
         return self._level_record(result, parameters)
 
     def solved(self) -> Any:
-        """Solve the scene on this level and return the result of the solver."""
+        """Solve the scene on this refinement level and return the result of the solver."""
         contents = self.scene.read()
         scene, asked = contents.scene, self.scene.asked(contents)
         asked = asked.model_copy(update=dict(self.changed))
@@ -237,9 +245,13 @@ class SceneLevel:
 
 
 def _key_scalars(values: Values) -> Iterator[tuple[str, str, float]]:
-    """Yield the key results of a load step as (name, name of the vector, value).
+    """Yield the main scalar results of a load step as (name, quantity, value).
 
-    The name of a component ends in _x or _y. For a scalar both names are equal.
+    A component of a vector has the name of its quantity with _x or _y. For a scalar, name and
+    quantity
+    are equal.
+
+    values  computed values by quantity, at the end of a load step
     """
     for stem, numbers in values.items():
         if stem in KEYS:
@@ -249,11 +261,12 @@ def _key_scalars(values: Values) -> Iterator[tuple[str, str, float]]:
 
 
 def unresolved_features(features: Features, name: str) -> str:
-    """Describe the features that a result depends on and that the discretisation does not resolve.
+    """Describe the features of a contact that a result depends on and that the mesh does not
+    resolve.
 
-    The text is empty if all are resolved.
+    Features are contact, layer, stick zone and others. The text is empty if all are resolved.
 
-    features  sizes of contact, layer, stick zone and others, in cells or half elements
+    features  sizes of the features, in cells or half elements
     name      name of the result
     """
     if features.resolve(name):
@@ -270,11 +283,13 @@ def unresolved_features(features: Features, name: str) -> str:
 def discretisation_of_run(
     scene: StudiedScene, requested: bool
 ) -> tuple[tuple[tuple[str, Any], ...], tuple[int, ...]]:
-    """Return the discretisation entries and the increments per load step that a run would choose.
+    """Return the discretisation and the increments that a run of the scene file would choose.
 
-    requested  if True, refine first until the accuracy requested in the scene is met
+    The refinement levels of a study are derived from these. The first value has entries of the
+    discretisation table; it is empty if the run keeps the table of the file. The second has the
+    increments of each load step. Raises the errors of a solve.
 
-    The entries are empty if nothing is refined. Raises the errors of a solve.
+    requested  if True, refine first until the accuracy requested in the scene file is met
     """
     contents = scene.read()
     problem, asked = contents.scene, scene.asked(contents)
@@ -306,9 +321,9 @@ class Estimate:
     name         result, with _x or _y for a component
     of           result without component, as a requested accuracy names it
     unit         unit of the result
-    sizes        size of the discretisation of each level, coarse to fine
+    sizes        size of cell, element or increment of each level, coarse to fine
     values       result of each level, coarse to fine
-    largest      largest value in the load history; requested accuracies are relative to it
+    largest      largest value in the load history; requested accuracies are relative to this value
     order        theoretical convergence order
     observed     observed convergence order; None if no power of the size explains the values
     limit        estimated limit
@@ -336,28 +351,29 @@ class Estimate:
 
     @property
     def points(self) -> list[tuple[float, float]]:
-        """Pairs (size h of a level, distance of its result from the limit over the
-        largest result)."""
+        """Points of the convergence chart: size of a level, and distance of its result from the
+        limit.
+
+        The distance is divided by the largest value in the load history.
+        """
         errors = (abs(value - self.limit) / self.largest for value in self.values)
         return list(zip(self.sizes, errors, strict=True))
 
     @property
     def order_text(self) -> str:
-        """Observed convergence order with its 95 % interval as text; "none" without an observed
-        order.
-        """
+        """Observed convergence order with the half-width of its 95 % interval as text; "none"
+        without one."""
         if self.observed is None:
             return "none"
         return f"{self.observed.order:.2f} ± {self.observed.half_width:.2f}"
 
 
 def estimates(levels: Sequence[CaseRecord], order: float | None) -> tuple[Estimate, ...]:
-    """Estimate limit and error of all scalar results of the finest level that change with
-    refinement.
+    """Estimate limit and error of all scalar results that change under refinement.
 
-    The result is empty for fewer than 4 levels.
+    The result is empty for fewer than 4 levels. Results whose exact value is infinite are left out.
 
-    levels  records of the levels, coarse to fine
+    levels  records of the refinement levels, coarse to fine
     order   theoretical convergence order of all results; None if each result has its own
     """
     if len(levels) < FEWEST_LEVELS:
@@ -371,9 +387,12 @@ def estimates(levels: Sequence[CaseRecord], order: float | None) -> tuple[Estima
 
 
 def _changes_with_level(part: Row, levels: Sequence[CaseRecord]) -> bool:
-    """Determine if a scalar result is present on all refinement levels and changes between them.
+    """Return True if a scalar result is present on all refinement levels and its value changes.
 
     Results that are zero by symmetry are excluded.
+
+    part    row with the name and the magnitudes of the result
+    levels  records of the refinement levels
     """
     name, measures = str(part.parameters["quantity"]), _finite_measures(part.measures)
     values = [level.measures.get(name) for level in levels]
@@ -420,12 +439,13 @@ def _estimate_limit(part: Row, levels: Sequence[CaseRecord], order: float | None
 
 
 def _reason_not_asymptotic(observed: ObservedOrder | None, triplets: Triplets) -> str:
-    """Return the reason why the levels do not follow one power of the size, with a remedy.
+    """Return the reason why the values of a result do not follow one power of the cell size, with a
+    remedy.
 
-    The text is empty if the levels follow one power.
+    The text is empty if they do.
 
     observed  observed convergence order; None if no power fits
-    triplets  convergence orders of three consecutive levels each
+    triplets  convergence orders through two triplets of levels, to compare fine with coarse levels
     """
     if observed is None:
         return (
@@ -463,11 +483,14 @@ REMARKS = (
 
 @dataclass(frozen=True)
 class Refinement:
-    """Describe one kind of refinement: of the mesh or of the increments.
+    """Description of one kind of refinement of a scene: of the mesh or of the increments.
 
-    axis    label of the abscissa: size of a level, in words
-    levels  function that returns the levels, coarse to fine
-    order   theoretical convergence order of all results; None if each result has its own
+    name      name of the study
+    title     title for readers
+    question  question that the study answers
+    axis      label of the abscissa: size of a level, in words
+    levels    function that returns the refinement levels, coarse to fine
+    order     theoretical convergence order of all results; None if each result has its own
     """
 
     name: str
@@ -536,12 +559,17 @@ def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: s
 def _level_counts(
     finest: tuple[int, ...], settings: Settings, *, on_cells: bool
 ) -> list[tuple[int, ...]]:
-    """Return the numbers of cells per side, or of elements over the radius, of all levels, coarse
-    to fine.
+    """Return the numbers of cells per side, or of elements over the radius, of all refinement
+    levels.
 
-    Consecutive levels differ by a factor √2. Raises CannotRefine if the coarsest level has too few.
+    The levels are in the order from coarse to fine. Consecutive levels differ by a factor √2.
+    Raises
+    CannotRefine if there would be too few levels or the coarsest level has too few cells or
+    elements.
 
-    finest  numbers of the finest level
+    finest    numbers of the finest level
+    settings  number of levels
+    on_cells  True for cells, whose numbers are even; False for finite elements
     """
     least, even = FEWEST[on_cells], 2 if on_cells else 1
     counts = [
@@ -616,7 +644,11 @@ def _requested_cells(settings: Settings, scene: StudiedScene) -> tuple[tuple[str
 
 
 def _refinement_study(scene: StudiedScene, refined: Refinement) -> Study:
-    """Build the study of one kind of refinement of a scene: its levels and its conclusions."""
+    """Build the convergence study of a scene file for one kind of refinement.
+
+    scene    scene file, solver and load step
+    refined  levels and texts of the kind of refinement
+    """
     contents = scene.read()
     shares = {} if contents.accuracy is None else contents.accuracy.shares()
 
@@ -679,21 +711,23 @@ def _infinite_limits(solved: Iterable[CaseRecord]) -> list[Statement]:
 
 
 def label(name: str) -> str:
-    """Return the name of a scalar result in words: "tangential_force_x" becomes "tangential force
-    along x".
-    """
+    """Return the name of a scalar result in words, "tangential force along x" for
+    tangential_force_x."""
     stem, _, axis = name.rpartition("_")
     return f"{stem} along {axis}".replace("_", " ") if axis in "xy" else name.replace("_", " ")
 
 
 def _request_statement(one: Estimate, share: float) -> Statement:
-    """Judge the error of a result on the finest level against the requested accuracy of the scene.
+    """Judge the error of a result on the finest level against the accuracy requested in the scene
+    file.
 
-    The verdict is FAIL if the most likely error exceeds the request, PASS if the error bound at 95
-    % meets the request, and INCONCLUSIVE otherwise or if the finest level does not resolve the
-    features.
+    The verdict is FAIL if the most likely error exceeds the request. It is PASS if the error bound
+    at
+    95 % meets the request, and INCONCLUSIVE otherwise. If the finest level does not resolve the
+    features, the verdict is always INCONCLUSIVE.
 
-    share  requested error, relative to the largest value in the history
+    one    limit and errors of the result
+    share  requested error, relative to the largest value in the load history
     """
     reached, likely = one.remaining / one.largest, one.likely / one.largest
     outcome = Status.PASS if reached <= share else Status.INCONCLUSIVE
@@ -724,7 +758,11 @@ def _limit_statement(one: Estimate) -> Statement:
 
 
 def row_of(one: Estimate) -> Row:
-    """Return the numbers of an estimate in SI units: finest value, limit, uncertainty and order."""
+    """Return the limit, the uncertainty, the finest value and the orders of a result as a study
+    row.
+
+    one  estimate of limit and error of the result
+    """
     return Row(
         parameters={"quantity": one.name, "unit": one.unit or "1", "theoretical_order": one.order},
         measures={
@@ -762,7 +800,9 @@ def _level_table(levels: Sequence[CaseRecord]) -> Table:
     """Build the table of the refinement levels of a scene: results, work and residual of each
     level.
 
-    A level that the solver refused has the message instead.
+    A level that the solver refused has the message of the solver instead.
+
+    levels  records of the levels, coarse to fine
     """
     solved = [level for level in levels if "refused" not in level.words]
     names = [name for name in (solved[-1].measures if solved else ()) if name != RESIDUAL]

@@ -1,4 +1,7 @@
-"""Study that judges all codes, this program and others, on all challenges by one interface."""
+"""Study that judges all codes, this program and others, on all challenges by the same bounds.
+
+A challenge is a contact problem with a known solution.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +47,8 @@ CANNOT, LINE, GRADE, VERSION = "cannot", "line", "grade", "version"
 
 @dataclass(frozen=True)
 class ScoredRun:
-    """Represent the judgement of one code on one challenge (a problem with a known answer).
+    """Judgement of one code on one challenge (a problem with a known solution), as a case of the
+    study.
 
     code       name of this program's solver or module of another code
     challenge  name of the challenge
@@ -62,9 +66,10 @@ class ScoredRun:
         return "".join(c if c.isalnum() else "-" for c in words)
 
     def compute(self) -> CaseRecord:
-        """Solve the challenge on all levels and judge the answers.
+        """Solve the challenge by the code on all refinement levels and record the judgement of the
+        answers.
 
-        The record of a code that cannot solve the problem has the reason instead.
+        If the code cannot solve the challenge, the record has the reason instead.
         """
         asked: dict[str, str | bool | int | float | None] = {
             "code": self.code, "challenge": self.challenge, "levels": self.levels,
@@ -89,14 +94,15 @@ class ScoredRun:
 
 
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:
-    """Return the runs of every code on every challenge."""
+    """Return the cases of the study: every code on every challenge."""
     codes = (*OURS, *(peer.module for peer in PEERS))
     levels = settings.levels or LEVELS[settings.level]
     return tuple(ScoredRun(code, name, levels) for code in codes for name in challenges())
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Compare all codes: tables of accuracy classes, CPU times and largest errors by challenge."""
+    """Compare all codes by tables of accuracy classes, CPU times and largest errors by
+    challenge."""
     runs = [(run, records[run.name]) for run in cases(settings) if run.name in records]
     done = Counter(run.code for run, record in runs if CANNOT not in record.words)
     codes = list(dict.fromkeys(run.code for run, _ in runs))
@@ -166,9 +172,12 @@ def _class_text(record: CaseRecord | None) -> str:
 
 
 def _cpu_time_table(found: dict[tuple[str, str], CaseRecord], codes: list[str]) -> Table:
-    """Build the table of CPU seconds of all levels by challenge and code.
+    """Build the table of the CPU time [s] of all refinement levels, by challenge and code.
 
-    The seconds are measured, or reported by the code.
+    The times are measured, or reported by the code itself.
+
+    found  records by challenge and code
+    codes  names of the codes
     """
     return Table(
         title="CPU seconds of all levels",
@@ -193,9 +202,10 @@ def _largest_error_rows(
 ) -> Iterator[tuple[str, ...]]:
     """Yield the rows of the table of largest errors: challenge, quantity, and one error per code.
 
-    Each error is the largest over all load steps.
+    Each error is the largest of all load steps.
 
     found  records by challenge and code
+    codes  names of the codes
     """
     for name in challenges():
         worst: dict[str, dict[str, float]] = {}

@@ -1,4 +1,4 @@
-"""Study of seeded defects: the verification must detect each of them, and pass without them."""
+"""Study of seeded defects: the verification must detect each planted error, and pass without it."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ LAWS = {RESIDUAL: "residual", VIOLATION: "law", IMBALANCE: "law"}
 
 
 class FailedVerdict(TypedRow):
-    """A verdict that failed: the judged quantity, the run and the reason."""
+    """Verdict of a verification case that failed: the judged quantity, the run and the reason."""
 
     PARAMETERS = ("quantity", "run")
 
@@ -58,16 +58,16 @@ class FailedVerdict(TypedRow):
 
 
 def failed_verdicts(record: CaseRecord) -> tuple[FailedVerdict, ...]:
-    """Return the failed verdicts in the record of a verification case."""
+    """Return the failed verdicts that the record of a verification case contains."""
     return tuple(map(FailedVerdict.of, record.parts))
 
 
 @dataclass(frozen=True)
 class DefectRun:
-    """Represent a case of the quick catalogue, solved under a seeded defect or without a defect.
+    """Verification case that is solved under a seeded defect or, for comparison, without a defect.
 
-    defect  name of the defect; empty for a healthy run
-    case    name of the case
+    defect  name of the defect; empty for a run without a defect
+    case    name of the case in the quick catalogue
     """
 
     defect: str
@@ -75,12 +75,15 @@ class DefectRun:
 
     @property
     def name(self) -> str:
-        """File name of the record: the defect ("healthy" without one) and the case."""
+        """File name of the record: the defect ("healthy" without a defect) and the verification
+        case."""
         return f"{self.defect or 'healthy'}--{self.case.replace('_', '-')}"
 
     def compute(self) -> CaseRecord:
         """Plant the defect in the solvers, solve and judge the verification case, and remove the
         defect.
+
+        The record contains the failed verdicts.
         """
         _import_all_cases()
         if self.defect == HEALTHY:
@@ -104,15 +107,18 @@ class DefectRun:
 def _import_all_cases() -> None:
     """Import all modules of the quick verification cases before a defect is planted in the solvers.
 
-    Constants that modules compute at import are then free of the defect.
+    Constants that a module computes when it is imported are then free of the defect.
     """
     choose(Level.QUICK)
 
 
 def judge_case(name: str) -> CaseOutcome:
-    """Solve and judge a verification case, with its record written to a file and read back.
+    """Solve and judge a verification case as `slipstick verify` does, possibly under a planted
+    defect.
 
-    An exception becomes an outcome without results that names the exception.
+    The record is written to a file and read back, so that defects of files count. An exception
+    becomes
+    an outcome without results that names the exception.
 
     name  name of the case in the quick catalogue
     """
@@ -147,19 +153,18 @@ def _describe_failure(verdict: Verdict) -> FailedVerdict:
 
 
 def cases_under(settings: Settings, defect: Defect) -> tuple[str, ...]:
-    """Return the verification cases that are run under a seeded defect (an error planted in a
-    solver).
+    """Return the names of the verification cases that are run under a seeded defect.
 
-    At the quick level these are the cases that should detect the defect. At other levels these are
-    all cases of the quick catalogue.
+    At the quick level these are the cases that must detect the defect. At other levels these are
+    all
+    cases of the quick catalogue.
     """
     return defect.cases if settings.level is Level.QUICK else CASES
 
 
 def cases(settings: Settings) -> tuple[DefectRun, ...]:
-    """Return the runs of the verification cases under every seeded defect, and of the same cases
-    without a defect.
-    """
+    """Return the verification cases under every seeded defect, and the same cases without a
+    defect."""
     runs = [
         DefectRun(defect.name, case)
         for defect in DEFECTS.values()
@@ -171,11 +176,12 @@ def cases(settings: Settings) -> tuple[DefectRun, ...]:
 
 @dataclass(frozen=True)
 class Detection:
-    """Collect the verdicts that detect one defect.
+    """Verdicts that detect one seeded defect: they fail under the defect and not without the
+    defect.
 
     cases     cases that are run under the defect
-    complete  True if all these cases have a record with the defect and one without the defect
-    verdicts  pairs of a case and a verdict that fails under the defect and not without it
+    complete  True if all these cases have a record with the defect and a record without the defect
+    verdicts  pairs of a case and a verdict
     """
 
     defect: Defect
@@ -185,22 +191,22 @@ class Detection:
 
     @property
     def clearest(self) -> tuple[str, FailedVerdict] | None:
-        """Case and verdict with the largest ratio of error to allowed error; None without any.
+        """Case and verdict that detect the defect with the largest ratio of error to allowed error.
 
-        Verdicts without a number come last.
+        Verdicts without a number come last. The value is None if no verdict detects the defect.
         """
         return max(self.verdicts, key=lambda one: one[1].clearance or -1.0, default=None)
 
     @property
     def missed(self) -> bool:
-        """True if all cases are run and no verdict detects the defect."""
+        """True if all cases are run and no verdict detects the seeded defect."""
         return self.complete and not self.verdicts
 
 
 def detection(settings: Settings, records: Records, defect: Defect) -> Detection:
-    """Collect the verdicts of all cases that fail under a defect and not without the defect.
+    """Collect the verdicts of all cases that fail under a seeded defect and not without the defect.
 
-    A case without a record of the healthy run is not counted.
+    A case counts only if it has a record with the defect and a record without the defect.
     """
     names = cases_under(settings, defect)
     runs = ((DefectRun(defect.name, case).name, DefectRun(HEALTHY, case).name) for case in names)
@@ -221,7 +227,7 @@ def detection(settings: Settings, records: Records, defect: Defect) -> Detection
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Judge the detection of the defects and the cases without a defect; list all detections."""
+    """Judge if the verification detects every seeded defect and passes without a defect."""
     found = [detection(settings, records, defect) for defect in DEFECTS.values()]
     detected = sum(bool(one.verdicts) for one in found)
     missed = [one.defect.name for one in found if one.missed]

@@ -1,4 +1,5 @@
-"""Study of work and precision: error against CPU seconds of every solution method."""
+"""Study of work and precision: relative error against CPU time for every solution method and
+setting."""
 
 from __future__ import annotations
 
@@ -83,8 +84,9 @@ JUDGED = (0.1 - 1e-9, 0.9 + 1e-9)  # part of the radius where the tractions unde
 
 @dataclass(frozen=True)
 class PreciseContact:
-    """A contact with a reference solution, and the errors that the study measures on it.
+    """Contact with a reference solution, on which the study measures errors and CPU times.
 
+    name         name in files
     title        name for readers
     errors       measured errors in words, by name: norms of fields and errors of scalars
     observables  the same errors as functions of the result of a solver
@@ -103,41 +105,51 @@ class PreciseContact:
 
     @property
     def problem(self) -> Problem:
-        """Scene of the contact with its reference solution, with the path-dependent load steps
-        undivided.
+        """Verification problem of the contact, with its reference solution.
+
+        Each path-dependent load step has one increment.
         """
         return self.posed(1)
 
     @property
     def leading(self) -> str:
-        """Name of the first of the measured errors."""
+        """Name of the first of the errors that are measured on the contact."""
         return next(iter(self.errors))
 
     def meaning(self, quantity: str) -> str:
-        """Return the title of the contact and one of its measured errors in words.
+        """Return the title of the contact and one of its measured errors in words, for charts and
+        tables.
 
         quantity  name of the error
         """
         return f"{self.title}: {self.errors[quantity]}"
 
     def errors_of(self, result: Any) -> Errors:
-        """Compute all measured errors of a solver's result against the reference
-        solution, by name."""
+        """Compute all measured errors of a result against the reference solution, by name of the
+        error.
+
+        result  result of a solver for the contact
+        """
         named = zip(self.errors, self.observables, strict=True)
         return {name: one.error(self.problem)(result) for name, one in named}
 
     def grid(self, cells: int) -> SurfaceGrid:
-        """Return a square surface grid around the contact with `cells` cells per side."""
+        """Return a square surface grid around the contact with the given number of cells per
+        side."""
         return paper.square_grid(cells, self.window / 2 * self.problem.radius)
 
 
 def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
-    """Compute the relative L2 error of the pressure at the end of one load step [1].
+    """Compute the relative L2 error of the pressure at the end of a load step against the exact
+    pressure.
 
-    A surface grid is compared with means of the exact pressure over its cells. Rings are compared
-    with values, weighted by area.
+    On a surface grid the exact pressure is averaged over each cell. On rings of the radial solver
+    it is
+    evaluated at each ring, and the norm is weighted by area.
 
-    step  index of the load step
+    result   result of a solver
+    step     index of the load step
+    problem  verification problem with its exact solution
     """
     end, exact = result.steps[step], problem.ends[step].pressure
     if hasattr(result, "grid"):
@@ -153,9 +165,11 @@ def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
 def _shear_l1(result: Any, step: int, problem: Problem) -> float:
     """Compute the relative L1 error of the shear traction at the end of a load step.
 
-    The error is Σ|q - q_exact| / Σµp, over cells, or weighted by area over rings [1].
+    The error is Σ|q - q_exact| / Σµp over cells, or with weights by area over rings.
 
-    step  index of the load step
+    result   result of a solver
+    step     index of the load step
+    problem  verification problem with its exact solution
     """
     end, exact = result.steps[step], problem.ends[step].shear
     if hasattr(result, "grid"):
@@ -186,6 +200,8 @@ def _largest_error(
 ) -> Observable:
     """Return the observable of the largest error of a traction from 0.1 to 0.9 of the contact
     radius.
+
+    Used for the contact that is pressed with friction.
 
     at     function of the result and radii r that returns the computed traction
     exact  function of the reference solution that returns the traction as a function of r
@@ -293,11 +309,13 @@ class Method(StrEnum):
 
 @dataclass(frozen=True)
 class PrecisionCase:
-    """Represent the solve of one contact by one method at one setting.
+    """Solve of one contact by one method with one setting, whose error and CPU time are measured.
 
     contact     key of CONTACTS
+    method      solution method
     fineness    cells per side of the window, elements per contact radius, or twelfths of the number
-                of rings and orders that the radial solver chooses
+                of
+                rings and orders that the radial solver chooses
     tolerance   tolerance of the solver
     penalty     factor c of the penalty stiffness; 0 without penalty
     increments  number of increments of the path-dependent load steps; 0 for that of the contact
@@ -312,7 +330,7 @@ class PrecisionCase:
 
     @property
     def name(self) -> str:
-        """File name of the record: contact, method, fineness and other settings."""
+        """File name of the record: contact, solution method, fineness and other settings."""
         parts = [self.contact, self.method.name.lower(), f"n{self.fineness}"]
         parts += [f"t{self.tolerance:.0e}"] if self.tolerance != SOLVER_TOLERANCE else []
         parts += [f"c{self.penalty:g}"] if self.penalty else []
@@ -339,7 +357,7 @@ class PrecisionCase:
         return ", ".join(words)
 
     def compute(self) -> CaseRecord:
-        """Solve the contact with empty caches; record its relative errors, work and CPU seconds.
+        """Solve the contact with empty caches, and record its relative errors, work and CPU time.
 
         Raises the errors of the solvers.
         """
@@ -379,7 +397,7 @@ class PrecisionCase:
 
 
 def all_cases(level: Level) -> tuple[PrecisionCase, ...]:
-    """Return the solves of all contacts by all methods and settings at a level of the study."""
+    """Return the solves of all contacts by all methods and settings, at a level of the study."""
     return tuple(case for contact in CONTACTS for case in _cases_of_contact(contact, level))
 
 
@@ -429,8 +447,10 @@ REMARKS = (
 
 @dataclass(frozen=True)
 class Point:
-    """Represent error and cost of one setting of a solution method.
+    """Error and cost of one setting of a solution method, as a point of a chart of work and
+    precision.
 
+    method    name of the solution method
     curve     key of the curve; settings of one curve differ in fineness only
     setting   setting in words
     fineness  number of cells or elements along a length
@@ -449,9 +469,12 @@ class Point:
 def points_of(
     known: Mapping[PrecisionCase, CaseRecord], contact: str, quantity: str
 ) -> tuple[Point, ...]:
-    """Return error and cost of all settings on one contact whose records have the given error.
+    """Return error and CPU time of all settings by which one contact was solved.
+
+    Records without the given error are left out.
 
     known     records by case
+    contact   name of the contact
     quantity  name of the error
     """
     return tuple(
@@ -465,11 +488,13 @@ def points_of(
 
 
 def dependable(points: Iterable[Point]) -> tuple[Point, ...]:
-    """Replace the error of each point by the largest error of all points of its curve as fine or
-    finer.
+    """Replace the error of each setting by the largest error of all settings that are at least as
+    fine.
 
-    A coarse setting may have a small error by chance, because the error changes sign. An error that
-    is NaN makes all coarser points NaN.
+    Only settings of the same curve are compared. The replacement is needed because the error of a
+    coarse setting may be small by chance, where it changes sign. An error that is NaN makes the
+    errors
+    of all coarser settings NaN.
     """
     found: list[Point] = []
     largest: dict[tuple[str, str], float] = {}
@@ -481,10 +506,9 @@ def dependable(points: Iterable[Point]) -> tuple[Point, ...]:
 
 
 def pareto(points: Iterable[Point]) -> tuple[Point, ...]:
-    """Return the points (error, CPU time) for which no other point has both a smaller error and
-    cost.
+    """Return the settings on the Pareto front of error and CPU time, in ascending order of cost.
 
-    They are the Pareto front, in ascending order of cost.
+    For these settings no cheaper setting has an error as small.
     """
     line: list[Point] = []
     for point in sorted(points, key=lambda p: (p.seconds, p.error)):
@@ -496,17 +520,21 @@ def pareto(points: Iterable[Point]) -> tuple[Point, ...]:
 def cheapest(points: Iterable[Point], target: float) -> Point | None:
     """Return the setting with the least CPU time whose error is at most `target`; None if there is
     none.
+
+    points  error and CPU time of the settings
+    target  relative error
     """
     return next((point for point in pareto(points) if point.error <= target), None)
 
 
 def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
-    """Return the solves of all contacts, methods and settings of the level of the study."""
+    """Return the solves of all contacts by all methods and settings, at the level of the study."""
     return all_cases(settings.level)
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Judge that a method reaches 1 % for every quantity, and report the cheapest settings."""
+    """Judge that some setting reaches an error of 1 % for every quantity, and report the cheapest
+    settings."""
     known = found(cases(settings), records)
     everything = {
         (contact.name, quantity): dependable(points)

@@ -1,1 +1,2 @@
-"""Study of the contacts that the solver can solve, over friction, load, coating, path and scale."""
+"""Stability study: which contacts the solvers can solve, over friction, load, coating, path and
+scale."""

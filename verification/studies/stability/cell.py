@@ -1,6 +1,7 @@
-"""Contacts of the stability map: coordinates, verdict and record of one contact; all map views.
+"""Contacts of the stability map: coordinates, outcome and record of one contact, and all maps.
 
-The code calls one contact of the map a cell.
+The stability map shows which contacts the solvers can solve. The code calls one contact of the map
+a cell.
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ from verification.running.study import CaseRecord, TypedRow, parameters_of
 
 
 class Surface(StrEnum):
-    """Kind of indenter that is pressed on the body, in a few cases with nonuniform friction."""
+    """Kind of indenter of a contact in the stability map, for some kinds with nonuniform
+    friction."""
 
     BALL = "ball"
     ALIKE_BALL = "alike-ball"  # equal to the body, so pressure and shear do not couple
@@ -29,7 +31,8 @@ class Surface(StrEnum):
 
 
 class LoadingPath(StrEnum):
-    """Sequence of normal and tangential loads of a contact, such as a load cycle or a reversal."""
+    """Sequence of normal and tangential loads of a contact in the stability map, such as a load
+    cycle."""
 
     PRESS = "press"  # no tangential load
     PUSH = "push"  # press, then T in one increment
@@ -52,13 +55,13 @@ class Solver(StrEnum):
 
     @property
     def by_elements(self) -> bool:
-        """Determine if the solver uses finite elements."""
+        """True if the solver uses finite elements."""
         return self is not Solver.SEMI_ANALYTICAL
 
 
 @dataclass(frozen=True)
 class StabilityCell:
-    """Represent one contact of the stability map by plain values, independent of the solver.
+    """One contact of the stability map, as plain values from which its scene is built.
 
     friction        coefficient of friction µ
     push            tangential force T over µW
@@ -66,11 +69,15 @@ class StabilityCell:
     thickness       h/a, thickness of the coating over the contact radius
     poisson_ratio   ν1 of the coating
     base_ratio      ν2 of the substrate; with E1/E2 = 1 and ν1 = ν2 there is no coating
+    path            sequence of loads
+    surface         kind of indenter
     load            normal force W over the force that makes the contact radius a
     length          contact radius a under that force [m]
     modulus         E2 [Pa]
     cells           cells per side of the surface grid; finite elements use a quarter of this number
-                    per contact radius, which is about as fine
+                    per
+                    contact radius, which is about as fine
+    solver          solver of the contact
     """
 
     friction: float = 0.1
@@ -89,24 +96,25 @@ class StabilityCell:
 
     @property
     def posable(self) -> bool:
-        """Determine if the solver of the contact has a model of the scene.
+        """True if the solver of the contact has a model of the scene.
 
         Finite elements require bodies of revolution, a uniform friction coefficient and a
-        tangential load along one line.
+        tangential load
+        along one line.
         """
         uneven = self.surface in NOT_OF_REVOLUTION or self.path is LoadingPath.CIRCLE
         return not (self.solver.by_elements and uneven)
 
     @property
     def coordinates(self) -> dict[str, Any]:
-        """Coordinates of the contact in the stability map (friction, load, coating, …) by name."""
+        """Values that define the contact in the stability map (friction, load, coating, …), by
+        name."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
     @property
     def name(self) -> str:
-        """File name of the record of the contact: its coordinates that differ from the default
-        values.
-        """
+        """File name of the record of the contact: those of its values that differ from the default
+        values."""
         ordinary = StabilityCell()
         parts = [
             f"{SHORT[key]}{value:g}" if isinstance(value, float | int) else str(value)
@@ -125,8 +133,9 @@ SHORT = {
 
 
 class Verdict(StrEnum):
-    """Outcome of the solve of a contact: converged, refused, not converged, or wrong without a
-    message.
+    """Outcome of the solve of a contact in the stability map.
+
+    A contact is converged, refused, not converged, or wrong without a message.
     """
 
     CONVERGED = "converged"
@@ -136,8 +145,10 @@ class Verdict(StrEnum):
 
 
 class Refusal(StrEnum):
-    """Reason for which a solver refuses a contact: its force exceeds µW, it has no model, or
-    another one.
+    """Reason for which a solver refuses a contact of the stability map.
+
+    The tangential force exceeds µW, the solver has no model of the scene, or the reason is another
+    one.
     """
 
     NONE = ""
@@ -147,7 +158,7 @@ class Refusal(StrEnum):
 
 
 class CellRecord(TypedRow):
-    """Verdict, residuals and cost of the solve of one contact of the stability map."""
+    """Outcome, residuals and cost of the solve of one contact of the stability map."""
 
     verdict: Verdict
     refused_for: Refusal = Refusal.NONE
@@ -178,20 +189,24 @@ class CellRecord(TypedRow):
     """Number of convolutions; zero for finite elements."""
 
     def of_cell(self, cell: StabilityCell) -> CaseRecord:
-        """Convert the outcome of a contact to a `CaseRecord`, with the coordinates
-        of the contact."""
+        """Convert the outcome of a contact to the record that the stability study stores.
+
+        cell  contact, whose values become the parameters of the record
+        """
         return CaseRecord(**dict(self.row()) | {"parameters": parameters_of(cell)})
 
     @property
     def work(self) -> int:
-        """Work of the solve: convolutions on a surface grid, or linear systems of
+        """Work of the solve: number of convolutions on a surface grid, or of linear systems of
         finite elements."""
         return self.convolutions or self.iterations
 
     @property
     def worst(self) -> float | None:
-        """Larger residual of the contact: stated by the solver or computed from its fields; None
-        for neither.
+        """Larger of the two residuals of the contact: the stated one, and the one computed from its
+        fields.
+
+        The value is None if both are missing.
         """
         known = [r for r in (self.residual, self.observed) if r is not None]
         return max(known, default=None)
@@ -212,11 +227,13 @@ Axes = Mapping[str, Sequence[Any]]
 
 @dataclass(frozen=True)
 class View:
-    """Represent a map of contacts over two coordinates.
+    """Map of contacts over two coordinates, such as friction and tangential force: a chart of the
+    study.
 
     name   name for files
+    title  title of the chart
     x, y   names of the two coordinates
-    cells  all contacts of the map; those at one point (x, y) differ in other coordinates
+    cells  all contacts of the map; contacts at one point (x, y) differ in other coordinates
     """
 
     name: str
@@ -226,7 +243,8 @@ class View:
     cells: tuple[StabilityCell, ...]
 
     def values(self, axis: str) -> tuple[Any, ...]:
-        """Return the values of one coordinate that occur in the map, in ascending order.
+        """Return the values of one coordinate that occur in the map of contacts, in ascending
+        order.
 
         Enumeration members are in the order of their definition.
 
@@ -238,24 +256,29 @@ class View:
 
     @property
     def wide(self) -> bool:
-        """Determine if the map has more than one point (x, y), so that a chart makes sense."""
+        """True if the map of contacts has more than one point (x, y), so that a chart makes
+        sense."""
         return len(self.values(self.x)) * len(self.values(self.y)) > 1
 
     @property
     def by_elements(self) -> bool:
-        """Determine if finite elements solve the contacts of the map."""
+        """True if a finite-element solver solves the contacts of the map."""
         return self.cells[0].solver.by_elements
 
     def at(self, x: Any, y: Any) -> tuple[StabilityCell, ...]:
-        """Return the contacts of a map at one point (x, y) of its two coordinates."""
+        """Return the contacts of the map at one point (x, y) of its two coordinates."""
         return tuple(c for c in self.cells if getattr(c, self.x) == x and getattr(c, self.y) == y)
 
 
 @dataclass(frozen=True)
 class Asked:
-    """Define a map of contacts at every level of the study, by all combinations of coordinate
-    values.
+    """Definition of a map of contacts for every level of the study, by values of its coordinates.
 
+    The map contains all combinations of the coordinate values.
+
+    name     name for files
+    title    title of the chart
+    x, y     names of the two coordinates of the chart
     quick    coordinate values at the quick level
     more     coordinate values at higher levels; None for those of the quick level
     bases    contacts that supply all other coordinates
@@ -274,10 +297,11 @@ class Asked:
     least: Level = Level.QUICK
 
     def view(self, level: Level, cells: int, solvers: Sequence[Solver]) -> View:
-        """Build a stability map (contacts over two coordinates) for one level of the study.
+        """Build the map of contacts for one level of the study.
 
+        level    level of the study
         cells    cells per side of the surface grid
-        solvers  solvers of each contact
+        solvers  solvers by which each contact is solved
         """
         quick = level is Level.QUICK
         axes = {"solver": solvers, **(self.quick if quick or self.more is None else self.more)}
@@ -290,9 +314,9 @@ class Asked:
 
 
 def views(level: Level, cells: int) -> tuple[View, ...]:
-    """Return all maps of a level: of the semi-analytical solver and of finite elements.
+    """Return all maps of contacts at a level of the stability study, for all solvers.
 
-    cells  cells per side of the surface grid; `pose` derives the number of elements
+    cells  cells per side of the surface grid; the number of finite elements is derived from it
     """
     sections = tuple(solver for solver in Solver if solver.by_elements)
     return tuple(
@@ -306,7 +330,10 @@ def views(level: Level, cells: int) -> tuple[View, ...]:
 
 
 def study_cells(level: Level, cells: int) -> tuple[StabilityCell, ...]:
-    """Return the contacts of all stability maps at a level of the study, without duplicates."""
+    """Return the contacts of all stability maps at a level of the study, without duplicates.
+
+    cells  cells per side of the surface grid
+    """
     found = {cell.name: cell for view in views(level, cells) for cell in view.cells}
     return tuple(found.values())
 

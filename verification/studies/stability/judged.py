@@ -1,4 +1,4 @@
-"""Solve of one contact of the stability map, and the verdict on the solution."""
+"""Solve of one contact of the stability map, and the verdict on its result."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ ELEMENTS_PER_HARMONIC = 2
 
 
 class SolvedContact(NamedTuple):
-    """Result of one solver for one contact of the stability map.
+    """Result of a solver for one contact of the stability map, with its solution method.
 
     result  result of the solver
     way     solution method in words
@@ -52,8 +52,11 @@ class SolvedContact(NamedTuple):
 
 
 def by_superposition(posed: Posed) -> SolvedContact:
-    """Solve a contact with the semi-analytical solver, in a wider window if the contact requires
-    one.
+    """Solve a contact of the stability map with the semi-analytical solver.
+
+    If the contact reaches the edge of the window, the solve is repeated in a wider window.
+
+    posed  scene and surface grid of the contact
     """
     result = _solve_in_window(posed)
     return SolvedContact(
@@ -62,10 +65,10 @@ def by_superposition(posed: Posed) -> SolvedContact:
 
 
 def by_elements(posed: Posed, method: Method) -> SolvedContact:
-    """Solve a contact with finite elements.
+    """Solve a contact of the stability map with finite elements.
 
     posed   scene and discretisation of the contact
-    method  enforcement of contact and friction: complementarity or penalty
+    method  enforcement of the contact and friction laws: complementarity or penalty
     """
     on_harmonics = fem_reference.plan(posed.scene).path is fem_reference.Path.HARMONICS
     discretisation = FiniteElementDiscretisation(
@@ -115,7 +118,7 @@ REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
 
 @dataclass(frozen=True)
 class StabilityRun:
-    """Represent the solve of one contact of the stability map.
+    """Solve of one contact of the stability map, as a case of the study.
 
     An error of the solver is stored in the record of the contact as its outcome.
     """
@@ -133,7 +136,8 @@ class StabilityRun:
 def judge_contact(cell: StabilityCell) -> CellRecord:
     """Solve a contact of the stability map and return its verdict, residuals and cost.
 
-    Errors of the scene or the solver become verdicts and are not raised.
+    Errors of the scene or the solver become verdicts and are not raised. A result whose residuals
+    exceed the allowed values is wrong without a message.
     """
     try:
         posed = pose(cell)
@@ -166,8 +170,7 @@ def judge_contact(cell: StabilityCell) -> CellRecord:
 
 
 def _finite_or_none(value: float) -> float | None:
-    """Return None in place of a value that is not finite, because JSON cannot store
-    such a value."""
+    """Return a residual, or None if it is not finite, because JSON cannot store such a value."""
     return value if np.isfinite(value) else None
 
 
@@ -182,10 +185,11 @@ def _failure_record(verdict: Verdict, error: Exception, tolerance: float) -> Cel
 
 
 def _refusal_category(error: Exception) -> Refusal:
-    """Return the category of a refusal from the type of the error and the keys of the scene it
-    names.
+    """Return the category of an error by which a solver refuses a contact of the stability map.
 
-    The tangential force of a contact can only be refused for its size.
+    The category follows from the type of the error and the keys of the scene that the error names.
+    A
+    tangential force can only be refused for its size.
     """
     if isinstance(error, UnsupportedScene):
         return Refusal.POSE

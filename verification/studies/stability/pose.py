@@ -41,7 +41,7 @@ SLIDES_FAR = 20.0  # multiple of µδ, which is about the shift at gross slip
 
 @dataclass(frozen=True)
 class Loads:
-    """Hold the loads of a contact.
+    """Loads of a contact of the stability map, from which its load steps are built.
 
     normal_force  W [force]
     approach      rigid approach under W without friction [length]
@@ -56,9 +56,9 @@ class Loads:
 
 
 def load_steps_of_path(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
-    """Return the load steps of a loading path, with few and therefore large increments.
+    """Return the load steps of a contact of the stability map for one kind of loading path.
 
-    The stability map studies the convergence of large increments.
+    The increments are few and large, because the map studies if such increments converge.
 
     path   kind of loading path
     loads  normal force, approach, coefficient of friction, and tangential force over µW
@@ -66,11 +66,13 @@ def load_steps_of_path(path: LoadingPath, loads: Loads) -> tuple[LoadStep, ...]:
     full = loads.push * loads.friction * loads.normal_force
 
     def to(increments: int, *, W: float | None = None, T: float | None = None) -> LoadStep:
-        """Create a load step that ramps the normal or the tangential force to a fraction of its
-        full value.
+        """Create a load step that ramps the normal or tangential force to a fraction of its full
+        value.
 
-        W  fraction of the full normal force; None keeps the force of the preceding step
-        T  fraction of the full tangential force; None keeps the force of the preceding step
+        increments  number of increments
+        W           fraction of the full normal force; None keeps the force of the preceding step
+        T           fraction of the full tangential force; None keeps the force of the preceding
+                    step
         """
         return LoadStep(
             normal_force=None if W is None else W * loads.normal_force,
@@ -135,12 +137,12 @@ Indenter = Paraboloid | FlatPunch | Cone | HeightMap
 
 @dataclass(frozen=True)
 class Posed:
-    """Hold a contact of the map in the form that solvers accept.
+    """Scene and discretisations of a contact of the stability map, as the solvers require them.
 
     scene      bodies, friction and load steps
     grid       surface grid for the semi-analytical solver, whose window should contain the contact
     elements   elements per contact radius, for finite elements
-    tolerance  tolerance of all residuals, relative
+    tolerance  largest allowed residual, relative
     """
 
     scene: Scene
@@ -150,10 +152,11 @@ class Posed:
 
 
 def pose(cell: StabilityCell) -> Posed:
-    """Build the scene and the discretisation of a contact of the stability map from its
-    coordinates.
+    """Build the scene and the discretisation of a contact of the stability map.
 
     Raises SceneError for an invalid scene.
+
+    cell  values that define the contact
     """
     a = cell.length
     both = (_coated_body(cell),) * (2 if cell.surface is Surface.ALIKE_BALL else 1)
@@ -182,7 +185,7 @@ def pose(cell: StabilityCell) -> Posed:
 
 
 def _coating_and_substrate(cell: StabilityCell) -> tuple[IsotropicMaterial, IsotropicMaterial]:
-    """Return the elastic materials of coating and substrate of a contact."""
+    """Return the elastic materials of coating and substrate of a contact of the stability map."""
     E, ratio = cell.modulus, cell.modulus_ratio
     return (
         IsotropicMaterial(young_modulus=ratio * E, poisson_ratio=cell.poisson_ratio),
@@ -198,8 +201,10 @@ def _coated_body(cell: StabilityCell) -> Body:
 
 
 def _lower_body(cell: StabilityCell) -> Body:
-    """Return the lower body of a contact, without its coating if that has the
-    substrate's material."""
+    """Return the lower body of a contact of the stability map, with its coating.
+
+    The coating is left out if its material equals that of the substrate.
+    """
     film, base = _coating_and_substrate(cell)
     return Body(material=base) if film == base else _coated_body(cell)
 
@@ -240,9 +245,10 @@ def _height_map(heights: Field, grid: SurfaceGrid) -> HeightMap:
 def _estimated_force(
     cell: StabilityCell, answer: LayeredSurface, ball: LayeredIndentation
 ) -> float:
-    """Estimate the normal force under which the contact has the radius given by its coordinates.
+    """Estimate the normal force under which a contact of the stability map has its prescribed
+    radius.
 
-    cell    coordinates of the contact
+    cell    values that define the contact
     answer  elastic response of the surface of the layered body
     ball    frictionless contact of the ball with that contact radius
     """
@@ -259,10 +265,15 @@ def _estimated_force(
 
 
 def _mean_friction(friction: float | FrictionMap, cell: StabilityCell, grid: SurfaceGrid) -> float:
-    """Return the mean coefficient of friction of the contact, to compute the tangential force from.
+    """Return the mean coefficient of friction of a contact, which determines its tangential force.
 
     Nonuniform coefficients are weighted by the Hertz pressure. Their mean is reduced by 3 %,
-    because the actual pressure differs from the Hertz pressure.
+    because
+    the actual pressure differs from the Hertz pressure.
+
+    friction  uniform coefficient, or map of coefficients
+    cell      values that define the contact
+    grid      surface grid
     """
     if not isinstance(friction, FrictionMap):
         return friction
@@ -273,10 +284,11 @@ def _mean_friction(friction: float | FrictionMap, cell: StabilityCell, grid: Sur
 
 
 def _friction_coefficients(cell: StabilityCell, grid: SurfaceGrid) -> float | FrictionMap:
-    """Return the coefficient of friction of a contact, or a map of coefficients on the grid.
+    """Return the coefficient of friction of a contact, or a map of coefficients on the surface
+    grid.
 
     A patchy surface has random coefficients between 0 and 2µ; those below 0.3µ are set to zero. A
-    greased surface has no friction in a disc of half the contact radius.
+    greased surface has no friction in a disc of half the contact radius. Others have the uniform µ.
     """
     if cell.surface is Surface.PATCHY:
         values = np.random.default_rng(SEED).uniform(0, 2 * cell.friction, grid.cells)
@@ -288,9 +300,11 @@ def _friction_coefficients(cell: StabilityCell, grid: SurfaceGrid) -> float | Fr
 
 
 def _reflected_friction_map(values: Field, grid: SurfaceGrid) -> FrictionMap:
-    """Build a friction map that continues the coefficients by reflection beyond the window.
+    """Build a friction map that continues coefficients on the grid by reflection beyond the window.
 
     The continuation is needed if the contact requires a wider window.
+
+    values  coefficients of friction at the cells (nx, ny)
     """
     values = np.pad(values, [(count, count) for count in grid.cells], mode="symmetric")
     return FrictionMap.model_validate({"map": values, "spacing": grid.spacing})

@@ -1,6 +1,4 @@
-"""Stability study: question, statements, tables and maps of the contacts that the solvers can
-solve.
-"""
+"""Stability study: statements, tables and maps of the contacts that the solvers can solve."""
 
 from __future__ import annotations
 
@@ -60,7 +58,9 @@ WORK = {True: "linear systems", False: "convolutions"}  # by use of finite eleme
 
 
 def statements(found: Found) -> tuple[Statement, ...]:
-    """Judge wrong results, convergence and refusals, and state the cost, for each solver.
+    """Judge wrong results, convergence and refusals in the stability map, and report the cost.
+
+    Each solver has its own statements.
 
     found  records by contact of the stability map
     """
@@ -73,20 +73,28 @@ def statements(found: Found) -> tuple[Statement, ...]:
 
 
 def contacts_of_solver(found: Found, solver: Solver) -> Found:
-    """Select the contacts of the stability map that one solver was to solve, with their records."""
+    """Select the contacts of the stability map that one solver had to solve, with their records.
+
+    found  records by contact of the stability map
+    """
     return {cell: record for cell, record in found.items() if cell.solver is solver}
 
 
 def contacts_with_verdict(found: Found, *so: Verdict) -> Found:
-    """Select the contacts of the stability map that ended with one of the given verdicts."""
+    """Select the contacts of the stability map that ended with one of the given verdicts.
+
+    found  records by contact of the stability map
+    so     verdicts, such as converged or refused
+    """
     return {cell: record for cell, record in found.items() if record.verdict in so}
 
 
 def answer(found: Found) -> str:
-    """Return a sentence with the numbers of converged, refused and failed contacts of the stability
-    map.
+    """Return the answer of the stability study: numbers of converged, refused and failed contacts.
 
     The text is empty without records.
+
+    found  records by contact of the stability map
     """
     if not found:
         return ""
@@ -104,13 +112,16 @@ def answer(found: Found) -> str:
 
 
 def _worst_residual_text(found: Found) -> str:
-    """Return the largest residual of all converged contacts of the stability map as text."""
+    """Return the largest residual of all converged contacts of the stability map as text.
+
+    found  records by contact of the stability map
+    """
     solved = contacts_with_verdict(found, Verdict.CONVERGED).values()
     return plain(max((r.worst or 0.0 for r in solved), default=0.0), 2)
 
 
 def nothing_silent(found: Found) -> Statement:
-    """Judge the claim that no solution that violates the equations was returned as converged.
+    """Judge the claim that no result that violates the equations was returned as converged.
 
     found  records by contact of the stability map
     """
@@ -172,10 +183,12 @@ def refusals_are_due(found: Found) -> Statement:
 
 
 def cost(found: Found) -> Statement:
-    """State the work per increment and the solution methods of the converged contacts, without
-    verdict.
+    """Report the work per increment and the solution methods of the converged contacts of one
+    solver.
 
-    found  records by contact of the stability map
+    The statement is a finding without a verdict.
+
+    found  records by contact of the stability map, of one solver
     """
     solved = contacts_with_verdict(found, Verdict.CONVERGED).values()
     if not solved:
@@ -205,8 +218,11 @@ def _due_refusal(cell: StabilityCell) -> Refusal:
 
 
 def _duly_refused(refused: Found) -> set[StabilityCell]:
-    """Select the refused contacts of the stability map whose reason of refusal is
-    the expected one."""
+    """Select the refused contacts of the stability map that the solver refused for the expected
+    reason.
+
+    refused  records of the refused contacts
+    """
     return {
         cell for cell, r in refused.items() if r.refused_for and r.refused_for is _due_refusal(cell)
     }
@@ -217,8 +233,9 @@ def _name_solver(solver: Solver, statement: Statement) -> Statement:
 
 
 def _names_text(cells: Iterable[StabilityCell]) -> str:
-    """Return the names of the first 12 contacts as text, followed by the number of further
-    contacts.
+    """Return the names of the first 12 contacts of the stability map as text.
+
+    The text ends with the number of further contacts. It is empty without contacts.
     """
     names = [cell.name for cell in cells]
     if not names:
@@ -255,8 +272,9 @@ THOUSANDS = 10_000  # from here on the cost is rounded to them
 def class_of(record: CellRecord) -> int:
     """Return the legend class of a contact in the stability map: 0 (best) to 5 (worst).
 
-    Classes 0 to 2 are converged contacts by their residuals. Classes 3 to 5 are refused contacts,
-    contacts that did not converge, and wrong results returned as converged.
+    Classes 0 to 2 are converged contacts, by the ratio of residual to allowed residual. Classes 3
+    to 5
+    are refused contacts, contacts that did not converge, and wrong results returned as converged.
     """
     if record.verdict in ENDS:
         return ENDS[record.verdict]
@@ -264,20 +282,22 @@ def class_of(record: CellRecord) -> int:
 
 
 def _part_of_allowed(record: CellRecord) -> float:
-    """Return the largest ratio of a residual of a contact to the allowed value of that residual
-    [1].
+    """Return the largest ratio of a residual of a contact to the allowed value of the residual.
 
-    The residual that the solver states and the one computed from its fields have different limits.
+    The residual that the solver states and the one computed from its fields have different allowed
+    values.
     """
     stated, seen = record.residual or 0.0, record.observed or 0.0
     return max(stated, seen / OTHER_NORMS) / record.tolerance
 
 
 def view_chart(view: View, found: Mapping[str, CellRecord]) -> Chart:
-    """Draw one map of contacts: legend class by colour and shape, and the work, at every point.
+    """Draw one map of contacts over two coordinates, with outcome and work at every point.
 
-    Points without a record stay empty.
+    Colour and shape show the worst outcome of the contacts at a point. Points without a record stay
+    empty.
 
+    view   map of contacts
     found  records by name of the contact
     """
     x_values, y_values = view.values(view.x), view.values(view.y)
@@ -332,7 +352,13 @@ def _axis_texts(values: Iterable[Any]) -> tuple[str, ...]:
 
 
 def tables(found: Found) -> tuple[Table, ...]:
-    """Return the tables of the solvers and of the contacts that are not solved."""
+    """Return the tables of the stability study: one of the solvers, and one of contacts that
+    failed.
+
+    The second table is absent if all contacts are converged or refused.
+
+    found  records by contact of the stability map
+    """
     bad = [*contacts_with_verdict(found, Verdict.NOT_CONVERGED, Verdict.SILENT).items()]
     return (_solver_table(found), *([_unsolved_table(bad)] if bad else []))
 
@@ -406,12 +432,14 @@ REMARKS = (
 
 
 def cases(settings: Settings) -> tuple[StabilityRun, ...]:
-    """Return the solves of all contacts of the stability map at the level of the study."""
+    """Return the cases of the stability study: all contacts of its maps at the level of the
+    study."""
     return tuple(map(StabilityRun, study_cells(settings.level, _cells_per_side(settings))))
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Derive the statements, tables and charts of the stability map from the available records."""
+    """Derive the statements, tables and charts of the stability study from the available
+    records."""
     here = _records_by_contact(settings, records)
     by_name = {cell.name: record for cell, record in here.items()}
     maps = views(settings.level, _cells_per_side(settings))
