@@ -120,5 +120,8 @@ class Solver:
     claimed_orders: Mapping[str, float] = field(default_factory=dict)
 
     def document(self) -> dict[str, Any]:
-        """Return name, version and address of the code as a JSON record for a result sheet."""
+        """Return name, version and address of a code that answers challenges, as a JSON record.
+
+        The record is part of a result sheet.
+        """
         return {"solver": self.name, "version": self.version, "url": self.url}

@@ -97,7 +97,10 @@ def require_columns(where: str, found: Sequence[str], expected: Sequence[str]) -
 
 
 def read_text_file(path: Path) -> str:
-    """Return the text of a regular UTF-8 file of limited size; raise Refused for any other file."""
+    """Return the text of a file of an answer to a challenge.
+
+    Raises Refused for a file that is not regular, is larger than 100 MB, or is not text in UTF-8.
+    """
     try:
         if path.exists() and not path.is_file():
             raise Refused(f"{path}: is not a regular file")

@@ -1,4 +1,8 @@
-"""Export of a challenge to files that another code can read without this program."""
+"""Export of a challenge to files that another contact code can read without this program.
+
+The files describe the problem, list the required quantities, and contain empty tables for the
+answer.
+"""
 
 from __future__ import annotations
 

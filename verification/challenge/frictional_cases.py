@@ -86,7 +86,10 @@ PROFILE_ERROR = 3e-4
 
 
 def frictional() -> Iterator[Challenge]:
-    """Yield the challenges with friction and without tangential force."""
+    """Yield the challenges of torsion, of indentation with friction, and of full stick.
+
+    None of these has a tangential force.
+    """
     yield torsion()
     yield torsion_loop()
     for one in (WEAK, STRONG, NU_ZERO, COATED):

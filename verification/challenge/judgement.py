@@ -453,12 +453,13 @@ class Judgement:
     omitted: tuple[tuple[str, int, bool], ...]
 
     def count(self, status: Status) -> int:
-        """Return the number of verdicts with the given status."""
+        """Return the number of verdicts of the judgement with the given status."""
         return sum(row.status is status for row in self.rows)
 
     @property
     def grade(self) -> str:
-        """Accuracy class of the worst error of the answer: "A", "B", "C", "none" or "partial".
+        """Accuracy class of the worst error of an answer to a challenge: "A", "B", "C", "none" or
+        "partial".
 
         "partial": a required quantity is missing. "none": an error meets no class, or the areas of
         a field do not give its load or its contact area.
@@ -474,7 +475,7 @@ class Judgement:
 
     @property
     def line(self) -> str:
-        """Summary of the judgement in one line for a log."""
+        """Summary of the judgement of a code in one line for a log."""
         counts = ", ".join(
             f"{self.count(status)} {status}"
             for status in (Status.PASS, Status.FAIL, Status.INCONCLUSIVE)

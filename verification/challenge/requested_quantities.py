@@ -50,8 +50,10 @@ class Half:
     series: tuple[float, ...] = (1.0,)
 
     def __call__(self, x: Field, y: Field) -> Field:
-        """Evaluate the traction at points (x, y) of the surface [length]; zero outside the
-        ellipse."""
+        """Compute the reference traction at points of the surface; it is zero outside the ellipse.
+
+        x, y  coordinates of the points, arrays of one shape [length]
+        """
         b_x, b_y = self.semi_axes
         s = np.minimum((x / b_x) ** 2 + (y / b_y) ** 2, 1.0)
         shape = np.sqrt(1 - s) * chebyshev.chebval(2 * s - 1, self.series)
@@ -59,13 +61,16 @@ class Half:
 
     @property
     def total(self) -> float:
-        """Integral of the traction over the ellipse [force]."""
+        """Force that the traction carries: its integral over the ellipse [force]."""
         return self._integral(0)
 
     @property
     def spread(self) -> float:
-        """Second moment of the traction: the integral of x² + y² times the traction
-        [force*length²]."""
+        """Second moment of the traction: the integral of (x² + y²) times the traction
+        [force*length²].
+
+        An answer to a challenge must have the same second moment.
+        """
         return 0.5 * (self.semi_axes[0] ** 2 + self.semi_axes[1] ** 2) * self._integral(1)
 
     def _integral(self, power: int) -> float:
@@ -96,27 +101,35 @@ class HalfEllipsoids:
     terms: tuple[Half, ...]
 
     def at(self, x: Field, y: Field) -> Field:
-        """Evaluate the traction at points (x, y) of the surface [length]."""
+        """Compute the reference traction at points of the surface [force/length²].
+
+        x, y  coordinates of the points, arrays of one shape [length]
+        """
         return np.asarray(sum(term(x, y) for term in self.terms))
 
     @property
     def total(self) -> float:
-        """Integral of the traction over the surface [force]."""
+        """Force that the traction carries: its integral over the surface [force]."""
         return sum(term.total for term in self.terms)
 
     @property
     def spread(self) -> float:
-        """Second moment of the traction: the integral of x² + y² times the traction
-        [force*length²]."""
+        """Second moment of the traction: the integral of (x² + y²) times the traction
+        [force*length²].
+
+        An answer to a challenge must have the same second moment.
+        """
         return sum(term.spread for term in self.terms)
 
     @property
     def semi_axes(self) -> tuple[float, float]:
-        """Semi-axes of the largest half-ellipsoid, which contains all others [length]."""
+        """Semi-axes along x and y of the largest of the half-ellipsoids, which contains all others
+        [length]."""
         return max(term.semi_axes for term in self.terms)
 
     def document(self) -> dict[str, Any]:
-        """Return the traction as a JSON record for reference files."""
+        """Return the reference traction as a JSON record for the file `reference.json` of a
+        challenge."""
         terms = [
             {"b": list(t.semi_axes), "coef": t.coefficient, "cheb": list(t.series)}
             for t in self.terms
@@ -169,23 +182,33 @@ class RoundTable:
     values: Field
 
     def at(self, x: Field, y: Field) -> Field:
-        """Evaluate the traction at points (x, y) of the surface [length]."""
+        """Compute the reference traction at points of the surface; it is zero beyond the last
+        radius.
+
+        x, y  coordinates of the points, arrays of one shape [length]
+        """
         return np.interp(np.hypot(x, y), self.radii, self.values, right=0.0)
 
     @property
     def total(self) -> float:
-        """Integral of the traction over the surface [force]."""
+        """Force that the traction carries: its integral over the loaded circle [force]."""
         return self._integral(1)
 
     @property
     def spread(self) -> float:
-        """Second moment of the traction: the integral of r² times the traction [force*length²]."""
+        """Second moment of the traction: the integral of r² times the traction [force*length²].
+
+        An answer to a challenge must have the same second moment.
+        """
         return self._integral(3)
 
     @property
     def torque(self) -> float:
-        """Torque of a circumferential traction: the integral of r times the traction
-        [force*length]."""
+        """Torque about the axis, if the traction is circumferential: the integral of r times the
+        traction.
+
+        The unit is force*length.
+        """
         return self._integral(2)
 
     def _integral(self, power: int) -> float:
@@ -208,7 +231,8 @@ class RoundTable:
         return float(self.radii[-1]), float(self.radii[-1])
 
     def document(self) -> dict[str, Any]:
-        """Return the table as a JSON record for reference files."""
+        """Return the table of the reference traction as a JSON record for the file
+        `reference.json`."""
         return {"radii": self.radii.tolist(), "values": self.values.tolist()}
 
 
@@ -234,8 +258,10 @@ DIGITS = 10
 
 
 class Grade(StrEnum):
-    """Accuracy classes A, B and C of a challenge: bounds of relative errors, equal for all
-    codes."""
+    """Accuracy classes A, B and C, by which the errors of an answer to a challenge are judged.
+
+    The bounds of the relative errors are equal for all codes.
+    """
 
     A = "A"
     B = "B"
@@ -243,7 +269,7 @@ class Grade(StrEnum):
 
     @property
     def bound(self) -> float:
-        """Largest relative error of the accuracy class."""
+        """Largest relative error of the accuracy class: 1e-4 for A, 1e-3 for B, 1e-2 for C."""
         return {Grade.A: 1e-4, Grade.B: 1e-3, Grade.C: 1e-2}[self]
 
 
@@ -401,7 +427,8 @@ class Challenge:
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def reference(self) -> dict[str, Any]:
-        """Return the references as a JSON record, as written to `reference.json`."""
+        """Return the reference values of the challenge as a JSON record, the content of
+        `reference.json`."""
         answers = {
             "case": self.name,
             "source": self.source,
@@ -438,14 +465,17 @@ class Challenge:
 
     @property
     def document(self) -> dict[str, Any]:
-        """Scene of the challenge as in a scene file, including all default values."""
+        """Scene of the challenge as the tables of a scene file, with all default values.
+
+        A body without contact has a table for the given traction.
+        """
         if isinstance(self.scene, Patch):
             return self.scene.document()
         return self.scene.model_dump(mode="json")
 
     @property
     def ramps(self) -> tuple[LoadRamp, ...]:
-        """Load steps of the scene; empty if the tractions are given."""
+        """Load steps of the scene of the challenge, as ramps; empty for a body without contact."""
         return self.scene.load_path() if isinstance(self.scene, Scene) else ()
 
     @property

@@ -75,7 +75,7 @@ class Profile:
 
 @dataclass(frozen=True)
 class ProfileLabels:
-    """Title and axis labels of a profile chart."""
+    """Texts of a profile chart: identifier, title, caption and axis labels."""
 
     name: str
     title: str

@@ -159,7 +159,8 @@ def change_counts(report: Report) -> dict[ChangeKind, int]:
 
 
 def without_baseline(report: Report) -> list[str]:
-    """Return the names of the cases of a report for which no results are recorded at its level."""
+    """Return the names of the cases of a report that have no recorded results at the level of the
+    report."""
     return [case.name for case in report.cases if case.baseline is None]
 
 

@@ -35,7 +35,8 @@ def row_texts(row: Row) -> tuple[str, ...]:
 
 
 def render_sheet(judgement: Judgement) -> str:
-    """Render the judgement of a code as a self-contained HTML page without scripts."""
+    """Render the judgement of a code on a challenge as a self-contained HTML page without
+    scripts."""
     page = environment().get_template("judgement.html")
     return page.render(
         judgement=judgement, tables=(_verdict_table(judgement), _level_table(judgement)),

@@ -49,7 +49,7 @@ NUMBER = "number"  # class of the style sheet; "words" for the other columns
 
 
 def render_page(report: Report) -> str:
-    """Render the first page of a verification report as HTML. Equal records give equal text."""
+    """Render the first page of a verification report as HTML. Equal reports give equal text."""
     return _render_template("page.html", report=report, brief=report.level == "quick")
 
 

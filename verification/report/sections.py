@@ -75,9 +75,9 @@ def study_section(report: Report, name: str) -> StudySection:
 
 
 def features(report: Report, sheets: str) -> tuple[Feature, ...]:
-    """Return the main claims about the program, each with measured figures that support it.
+    """Return the main claims about the program for the report page, each with measured figures.
 
-    sheets  address of the page with the sheets of the cases
+    sheets  address of the page with one section per case
     """
     return (
         _plan_feature(report, sheets),

@@ -1,2 +1,2 @@
-"""Execution of a study: cases on a pool of processes, their records in files, and
-the report page."""
+"""Execution of studies and reports: cases on a pool of processes, records in files, and
+provenance."""

@@ -1,7 +1,8 @@
-"""Computation of cases on several processes. An error or a killed worker affects only its own case.
+"""Computation of the cases of a study on several processes.
 
-The processes are workers of this machine or of an existing cluster (`cluster.py`). Only the parent
-process writes records, each as soon as its case has ended.
+An error or a killed process affects only its own case. The processes are workers of this machine or
+of an existing cluster (`cluster.py`). Only the parent process writes records, each as soon as its
+case has ended.
 """
 
 from __future__ import annotations
@@ -151,7 +152,8 @@ class LocalWorkers:
         return []
 
     def close(self) -> None:
-        """Cancel the function calls that have not started, and end the worker processes."""
+        """Cancel the function calls that have not started, and end the worker processes of the
+        pool."""
         self._threads.shutdown(cancel_futures=True)
         for worker in self._all:
             worker.shutdown()
@@ -181,7 +183,7 @@ class ThisProcess:
     elsewhere = False
 
     def submit(self, compute: Callable[..., T], *arguments: object) -> Future[T]:
-        """Call a function immediately and return a completed future."""
+        """Call a function immediately in this process and return its completed future."""
         future: Future[T] = Future()
         try:
             future.set_result(compute(*arguments))
@@ -194,11 +196,12 @@ class ThisProcess:
         return []
 
     def close(self) -> None:
-        """Do nothing: no calls are pending and there are no workers."""
+        """Do nothing: this pool has no pending calls and no worker processes."""
 
 
 def _remove_semaphores_silently() -> None:
-    """Start Python's resource tracker with its warnings disabled.
+    """Start Python's resource tracker with its warnings disabled, before worker processes are
+    started.
 
     The tracker removes semaphores if this process is stopped. It would print a warning for each
     semaphore after the last message of a stopped command.
@@ -218,7 +221,8 @@ def _remove_semaphores_silently() -> None:
 
 
 def cores() -> int:
-    """Return the number of processors that this process may use."""
+    """Return the number of processors that this process may use, for the number of worker
+    processes."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1  # macOS and Windows
@@ -287,7 +291,7 @@ class Answer:
 class Workers(Protocol):
     """Interface of a pool of worker processes that compute the cases of a study.
 
-    elsewhere  True if the workers may permanently have other source code than this process
+    elsewhere  True if the workers may have other source code than this process
     """
 
     @property
@@ -297,7 +301,8 @@ class Workers(Protocol):
         """Call a function with a case of a study in a worker and return the future of its reply."""
 
     def lost(self) -> Sequence[str]:
-        """Return the network addresses of workers that have died since the last call."""
+        """Return the network addresses of workers of the pool that have died since the last
+        call."""
 
     def close(self) -> None:
         """Cancel the calls that have not started, and release the workers of the pool."""

@@ -34,12 +34,13 @@ class StoredRecord:
 
     @property
     def name(self) -> str:
-        """Name of the folder of the record, which is the name of the study."""
+        """Name of the folder of the record: the name of the study, or "full" for the report."""
         return self.path.parent.name
 
     @property
     def seconds(self) -> float:
-        """Sum of the wall seconds of all cases of the record, over all workers."""
+        """Computing time of the record: sum of the wall seconds of all its cases, over all
+        workers."""
         return sum(self.provenance.seconds.values())
 
     def pack(self) -> None:

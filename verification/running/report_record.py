@@ -73,9 +73,12 @@ class Report(Description):
 
     @property
     def status(self) -> Status:
-        """Overall status: FAIL if any verdict, study or coverage of stated errors failed.
+        """Overall status of a verification report: FAIL if a verdict, a study or the stated errors
+        failed.
 
-        Otherwise PASS if any verdict passed, and INCONCLUSIVE if none did.
+        Stated errors fail if too few of them cover the true difference. Otherwise the status is
+        PASS if any
+        verdict passed, and INCONCLUSIVE if none passed.
         """
         if self.counts[Status.FAIL] or self.failed_studies or self.errors_too_small:
             return Status.FAIL

@@ -36,8 +36,11 @@ STATEMENT_ENDS = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
 def source_digest(*modules: str) -> str:
     """Compute a digest of the source files of modules and of all project modules that they import.
 
-    A stored record is current if this digest equals the one stored with it. A package stands for
-    all its modules. The stored reference solutions are included if they are imported.
+    A stored record of a study or report is current if this digest equals the one stored with it. A
+    package stands for all its modules. The stored reference solutions are included if they are
+    imported.
+
+    modules  dotted names of modules or packages
     """
     digest = hashlib.sha256()
     paths = closure(modules)

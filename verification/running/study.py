@@ -50,10 +50,12 @@ class Row(Description):
     """Texts, such as kinds of outcomes and reasons."""
 
     def number(self, name: str) -> float | None:
-        """Return the parameter, counter or measure with a name; None for a text or an unknown name.
+        """Return the parameter, counter or measured value with a name; None for a text or an
+        unknown name.
 
         If several have the name, a parameter has priority over a counter, and a counter over a
-        measure.
+        measured
+        value.
         """
         known: Any = {**self.measures, **self.counters, **self.parameters}.get(name)
         return None if isinstance(known, str) else known
@@ -124,7 +126,7 @@ class TypedRow(Description):
 
 
 class Named(Protocol):
-    """Interface of a case whose record is found by its name."""
+    """Interface of a case of a study whose record is found by the name of the case."""
 
     @property
     def name(self) -> str: ...
@@ -310,7 +312,7 @@ class Conclusion(Description):
 
     @property
     def failed(self) -> bool:
-        """True if any statement of the study has failed."""
+        """True if any claim of the study has failed."""
         return any(statement.outcome is Status.FAIL for statement in self.statements)
 
 
@@ -360,9 +362,9 @@ class StudyRecord(Description):
 
     @property
     def status(self) -> Status:
-        """Overall status: FAIL if a statement failed or a case has no record.
+        """Overall status of a study: FAIL if a claim failed or a case has no record.
 
-        Otherwise INCONCLUSIVE if any statement is inconclusive, else PASS.
+        Otherwise INCONCLUSIVE if any claim is inconclusive, else PASS.
         """
         outcomes = {statement.outcome for statement in self.conclusion.statements}
         if self.lost or Status.FAIL in outcomes:

@@ -168,7 +168,7 @@ class Share:
 
     @property
     def part(self) -> float:
-        """Observed fraction `count / of` [1]; 1 if nothing was counted."""
+        """Observed fraction `count / of` as a number; 1 if nothing was counted."""
         return self.count / self.of if self.of else 1.0
 
     @property

@@ -127,7 +127,7 @@ class StudiedScene:
 
     @property
     def title(self) -> str:
-        """Title of the scene, or the name of its file if it has none."""
+        """Title of the studied scene, or the name of its file if the scene has none."""
         return self.read().scene.title or Path(self.file).name
 
     @property
@@ -139,7 +139,8 @@ class StudiedScene:
         return self.solver == CELLS
 
     def read(self) -> SceneFile:
-        """Read the scene file and drop the load steps after the studied one."""
+        """Read the scene file of the study, and drop the load steps after the one whose end is
+        compared."""
         contents = read_scene_file(self.file, self.overrides)
         return contents.model_copy(update={"loading": contents.loading[: self.step]})
 
@@ -505,15 +506,14 @@ SceneStudyOf = Callable[[Path, Sequence[str], int | None, str], Study]
 
 
 def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: str) -> Study:
-    """Create the convergence study of a scene file that refines the surface cells or the finite
-    elements.
+    """Create the convergence study of a scene file that refines surface cells or finite elements.
 
     path       scene file
     overrides  changes of entries of the file, as on the command line
-    step       number of the load step whose end is compared; None for the last one
+    step       number of the load step at whose end results are compared; None for the last one
     solver     name of the solver on the command line
 
-    Raises SceneError and CannotRefine.
+    Raises SceneError for mistakes in the file and CannotRefine for an absent load step.
     """
     scene = StudiedScene.of(path, overrides, step, solver)
     what = "cells" if scene.on_cells else "elements"
@@ -593,10 +593,10 @@ def increments_study(path: Path, overrides: Sequence[str], step: int | None, sol
 
     path       scene file
     overrides  changes of entries of the file, as on the command line
-    step       number of the load step whose end is compared; None for the last one
+    step       number of the load step at whose end results are compared; None for the last one
     solver     name of the solver on the command line
 
-    Raises SceneError and CannotRefine.
+    Raises SceneError for mistakes in the file and CannotRefine for an absent load step.
     """
     scene = StudiedScene.of(path, overrides, step, solver)
     matters = has_increment_error(scene.read().scene)

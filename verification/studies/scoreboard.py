@@ -61,7 +61,7 @@ class ScoredRun:
 
     @property
     def name(self) -> str:
-        """File name of the record: the code and the challenge."""
+        """File name of the record of the judgement: the code and the challenge."""
         words = f"{self.code}-{self.challenge}"
         return "".join(c if c.isalnum() else "-" for c in words)
 

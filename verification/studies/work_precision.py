@@ -298,7 +298,10 @@ MAX_SPRINGS = 64  # elements; finer penalty solves take longer than all other ca
 
 
 class Method(StrEnum):
-    """Solution method of a contact: a solver with or without edge correction or penalty."""
+    """Solution method of a contact in the study of work and precision.
+
+    A method is a solver, with or without edge correction or penalty.
+    """
 
     SURFACE = "semi-analytical"
     EDGES = "semi-analytical, edges inside cells"
@@ -339,7 +342,7 @@ class PrecisionCase:
 
     @property
     def solved(self) -> PreciseContact:
-        """Contact that the case solves, with its reference solution."""
+        """Contact with a reference solution that the case solves."""
         return CONTACTS[self.contact]
 
     @property

@@ -47,7 +47,7 @@ class LoadingPath(StrEnum):
 
 
 class Solver(StrEnum):
-    """Solver of a contact in the stability map, by its name on the command line."""
+    """Solvers that the stability map compares, by their names on the command line."""
 
     SEMI_ANALYTICAL = "semi-analytical"
     COMPLEMENTARITY = "fem-complementarity"  # finite elements without a penalty

@@ -136,7 +136,7 @@ def nothing_silent(found: Found) -> Statement:
 
 
 def nearly_everything_converges(found: Found) -> Statement:
-    """Judge the claim that at least 99 % of the contacts that are not refused converge.
+    """Judge the claim that at least 99 % of the contacts that the solver does not refuse converge.
 
     found  records by contact of the stability map
     """
