@@ -31,8 +31,7 @@ def run_driver(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str
     """Run the driver of another contact code in a process with one thread, and return its solution.
 
     Raises CannotDo if the driver refuses the problem, and RuntimeError with the last line of the
-    error
-    output if the driver fails.
+    error output if the driver fails.
 
     python   interpreter of the environment in which the code is installed
     peer     other contact code

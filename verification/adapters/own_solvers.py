@@ -171,8 +171,8 @@ def field_between_rings(end: Any, traction: Vector) -> Field:
 
 
 def answer_on_elements(posed: Posed, level: int) -> Answer:
-    """Answer a challenge with finite elements, 16 per contact radius on level 0, doubled at each
-    level.
+    """Solve a benchmark problem (challenge) with finite elements, 16 per contact radius on level 0,
+    doubled at each level.
 
     Raises CannotDo if the finite elements do not support the scene.
     """
@@ -191,7 +191,8 @@ def answer_on_elements(posed: Posed, level: int) -> Answer:
 
 
 def answer_on_radii(posed: Posed, level: int) -> Answer:
-    """Answer a challenge with the radial solver, with 32 rings on level 0, doubled at each level.
+    """Solve a benchmark problem (challenge) with the radial solver, with 32 rings on level 0,
+    doubled at each level.
 
     Raises CannotDo if the radial solver does not support the scene.
     """
@@ -238,12 +239,11 @@ def stress_at(result: Result, end: Increment, places: Vector) -> Vector:
 
 
 def under_a_patch(posed: Posed) -> Answer:
-    """Answer a challenge of surface displacements by a uniform traction on a square, without
-    contact.
+    """Solve a benchmark problem (challenge) of surface displacements by a uniform traction on a
+    square, without contact.
 
     The square is one cell and the points are centres of other cells. The displacements are
-    therefore
-    influence coefficients times the traction.
+    therefore influence coefficients times the traction.
     """
     side, traction = (posed.scene["patch"][name] for name in ("side", "traction"))
     body = Body.model_validate(posed.scene["body"])
@@ -259,7 +259,8 @@ def under_a_patch(posed: Posed) -> Answer:
 
 
 def answer_on_cells(posed: Posed, level: int) -> Answer:
-    """Answer a challenge with the semi-analytical solver without edge correction of the pressure.
+    """Solve a benchmark problem (challenge) with the semi-analytical solver without edge correction
+    of the pressure.
 
     The grid has 32 cells per side on level 0, doubled at each level. A load history that does not
     converge is reported in the answer; other errors of the solver are raised.
@@ -268,7 +269,8 @@ def answer_on_cells(posed: Posed, level: int) -> Answer:
 
 
 def answer_with_edges(posed: Posed, level: int) -> Answer:
-    """Answer a challenge with the semi-analytical solver with edge correction of the pressure.
+    """Solve a benchmark problem (challenge) with the semi-analytical solver with edge correction of
+    the pressure.
 
     The grid has 32 cells per side on level 0, doubled at each level.
     """
@@ -323,8 +325,7 @@ def _values_at_points(places: Vector, key: Key, result: Result) -> Vector:
     """Compute the numbers that a challenge requires at given points, from a result on cells.
 
     A traction is interpolated to the distance of each point from the axis and averaged over the
-    angle.
-    A stress component is computed at the points.
+    angle. A stress component is computed at the points.
 
     places  coordinates x, y, z of the points (n, 3) [length]
     key     name of the quantity, and number of the load step from 1

@@ -106,8 +106,7 @@ class Solver:
     """Description of a code that answers challenges, and of the accuracy that it claims.
 
     sampling         meaning of the values of a traction field: "point" for values at points, "cell"
-                     for
-                     means over squares around the points
+                     for means over squares around the points
     claimed_grade    accuracy class "A", "B" or "C" that the code claims; None: no claim
     claimed_orders   convergence orders that the code claims, by quantity
     """

@@ -166,8 +166,7 @@ def _field_files(folder: Path) -> Iterator[tuple[str, str, str, Columns]]:
     """Read every traction file LEVEL_STEP.csv of an answer to a challenge.
 
     Yields the file position, the level name, the load step as text, and the columns by header.
-    Raises
-    Refused for a wrong file name or table.
+    Raises Refused for a wrong file name or table.
 
     folder  folder of the answer
     """
@@ -343,8 +342,7 @@ def _read_values(
 
     Rows without a value are left out. Each item has the file position, the level name, the quantity
     with its load step, the number of the point (0 for a number without points), and the value [SI].
-    The
-    value is a pair with its standard uncertainty if the code gives one.
+    The value is a pair with its standard uncertainty if the code gives one.
     """
     for where, row in rows(folder, ANSWERS, ANSWER_COLUMNS):
         if not row["value"]:
@@ -412,8 +410,7 @@ def _number_in_si(where: str, text: str, unit: str, kind: Kind) -> float:
     """Convert a number with a unit, from a table of an answer, to SI.
 
     Raises Refused for a missing or unsuitable unit. A number that is not finite is returned and
-    fails
-    later, in the judgement.
+    fails later, in the judgement.
 
     where  file and line, for the message
     text   number as text

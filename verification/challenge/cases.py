@@ -70,17 +70,17 @@ WORDS = (
 
 
 def tilted_indenters() -> Iterator[Challenge]:
-    """Yield the challenges of a tilted flat punch and a tilted ball."""
+    """Yield the benchmark problems (challenges) of a tilted flat punch and a tilted ball."""
     yield tilted_punch()
     yield tilted_ball()
 
 
 def tilted_punch() -> Challenge:
-    """Create the challenge of a flat punch that is pressed and tilted by a prescribed slope.
+    """Create the benchmark problem (challenge) of a flat punch that is pressed and tilted by a
+    prescribed slope.
 
     The punch remains in contact over its whole end, whose displacement is a plane. The approach and
-    the
-    moments are required.
+    the moments are required.
     """
     arm = (
         4 / 3 * CONTACT_MODULUS * PUNCH_RADIUS**3 / NORMAL_FORCE
@@ -95,11 +95,10 @@ def tilted_punch() -> Challenge:
 
 
 def tilted_ball() -> Challenge:
-    """Create the challenge of a ball that is pressed and tilted by the slope φ.
+    """Create the benchmark problem (challenge) of a ball that is pressed and tilted by the slope φ.
 
     A tilted paraboloid is a shifted paraboloid: x²/2R - φx = (x - Rφ)²/2R - Rφ²/2. The approach,
-    the
-    contact radius and the moments are required.
+    the contact radius and the moments are required.
     """
     drop = 0.5 * RADIUS * (BALL_TILT[0] ** 2 + BALL_TILT[1] ** 2)
     return _tilted_challenge(
@@ -166,7 +165,8 @@ def scene_of(poisson_ratio: float) -> Scene:
 
 
 def changing_loads() -> Iterator[Challenge]:
-    """Yield the challenges of a ball under changing normal and tangential forces and a torque.
+    """Yield the benchmark problems (challenges) of a ball under changing normal and tangential
+    forces and a torque.
 
     The references are numbers of the radial solver, extrapolated to fine increments.
     """
@@ -219,8 +219,8 @@ UNCERTAINTY = 1e-4
 
 
 def paper_figure() -> Challenge:
-    """Create the challenge of a rigid ball on a coated body, pressed with friction and then
-    sheared.
+    """Create the benchmark problem (challenge) of a rigid ball on a coated body, pressed with
+    friction and then sheared.
 
     The coating is twice as stiff as its substrate and as thick as the Hertz contact radius. The
     approach and the tangential shifts are required.
@@ -257,7 +257,7 @@ SERIES = 24
 
 @cache
 def challenges() -> dict[str, Challenge]:
-    """Return all challenges for other codes, by name."""
+    """Return all benchmark problems (challenges) for other codes, by name."""
     classical = (hertz_point(), hertz_elliptical(), cone(), punch(), cattaneo_mindlin(), loop())
     return {
         one.name: one
@@ -269,13 +269,16 @@ def challenges() -> dict[str, Challenge]:
 
 
 def hertz_point() -> Challenge:
-    """Create the challenge of a frictionless ball on a half-space, with the Hertz solution."""
+    """Create the benchmark problem (challenge) of a frictionless ball on a half-space, with the
+    Hertz solution.
+    """
     pressure = round_halves((HERTZ.contact_radius, HERTZ.peak_pressure))
     return _pressed_challenge("hertz_point", "Hertz: a ball on a half-space", BALL, pressure)
 
 
 def hertz_elliptical() -> Challenge:
-    """Create the challenge of a barrel on a half-space, whose Hertz contact is an ellipse.
+    """Create the benchmark problem (challenge) of a barrel on a half-space, whose Hertz contact is
+    an ellipse.
 
     The window is square, so that a code that exchanges x and y gets wrong semi-axes.
     """
@@ -292,15 +295,14 @@ def hertz_elliptical() -> Challenge:
 
 
 def cone() -> Challenge:
-    """Create the challenge of a frictionless cone on a half-space. No pressure is required, because
-    the
-    peak pressure is infinite.
+    """Create the benchmark problem (challenge) of a frictionless cone on a half-space. No pressure
+    is required, because the peak pressure is infinite.
     """
     return _pressed_challenge("cone_contact", "A cone on a half-space", CONE, None)
 
 
 def punch() -> Challenge:
-    """Create the challenge of a frictionless flat punch on a half-space.
+    """Create the benchmark problem (challenge) of a frictionless flat punch on a half-space.
 
     Only the approach is required, because the punch prescribes the contact radius.
     """
@@ -313,7 +315,9 @@ def punch() -> Challenge:
 
 
 def coated_balls() -> Iterator[Challenge]:
-    """Yield one challenge of a frictionless rigid ball for each tabulated coating."""
+    """Yield one benchmark problem (challenge) of a frictionless rigid ball for each tabulated
+    coating.
+    """
     for row in ROWS:
         problem = coated_ball(row)
         exact = solved_here(problem).ends[0]
@@ -326,8 +330,8 @@ def coated_balls() -> Iterator[Challenge]:
 
 
 def cattaneo_mindlin() -> Challenge:
-    """Create the challenge of a ball that is pressed and then sheared in 4 load steps (Cattaneo,
-    Mindlin).
+    """Create the benchmark problem (challenge) of a ball that is pressed and then sheared in 4 load
+    steps (Cattaneo, Mindlin).
 
     The approach, and at each step the tangential shift, the stick radius and the shear are
     requested.
@@ -344,11 +348,11 @@ def cattaneo_mindlin() -> Challenge:
 
 
 def loop() -> Challenge:
-    """Create the challenge of a ball under constant load and an alternating tangential force.
+    """Create the benchmark problem (challenge) of a ball under constant load and an alternating
+    tangential force.
 
     Each load step of the fretting loop prescribes a force. The tangential shift, stick radius and
-    shear
-    of each step, and the energy per cycle are requested.
+    shear of each step, and the energy per cycle are requested.
     """
     turns = (*QUARTERS, *reversed(QUARTERS[:-1]), 0.0, *(-q for q in QUARTERS))
     turns += (*(-q for q in reversed(QUARTERS[:-1])), 0.0, *QUARTERS)
@@ -388,7 +392,8 @@ def _pressed_challenge(
     more: tuple[AskedValue, ...] = (),
     shares: str = "",
 ) -> Challenge:
-    """Create a challenge with one load step, in which a normal force of 1 kN presses the indenter.
+    """Create a benchmark problem (challenge) with one load step, in which a normal force of 1 kN
+    presses the indenter.
 
     name      name of the challenge
     problem   verification problem with its exact solution

@@ -130,8 +130,7 @@ def digest(text: str) -> str:
     """Compute the SHA-256 digest of the text of an exported file.
 
     The digest is stored in the manifest of the challenge. The reader of answers compares the digest
-    to
-    detect a changed file.
+    to detect a changed file.
     """
     return hashlib.sha256(text.encode()).hexdigest()
 

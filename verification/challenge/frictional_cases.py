@@ -86,7 +86,8 @@ PROFILE_ERROR = 3e-4
 
 
 def frictional() -> Iterator[Challenge]:
-    """Yield the challenges of torsion, of indentation with friction, and of full stick.
+    """Yield the benchmark problems (challenges) of torsion, of indentation with friction, and of
+    full stick.
 
     None of these has a tangential force.
     """
@@ -100,7 +101,8 @@ def frictional() -> Iterator[Challenge]:
 
 
 def torsion() -> Challenge:
-    """Create the challenge of a pressed ball that is twisted to increasing torques (Lubkin).
+    """Create the benchmark problem (challenge) of a pressed ball that is twisted to increasing
+    torques (Lubkin).
 
     The twist, the stick radius and the circumferential shear at each torque are requested.
     """
@@ -135,7 +137,8 @@ def circumferential_shear(end: TorsionalPartialSlip) -> RoundTable:
 
 
 def torsion_loop() -> Challenge:
-    """Create the challenge of a pressed ball under a torque that alternates between two limits.
+    """Create the benchmark problem (challenge) of a pressed ball under a torque that alternates
+    between two limits.
 
     The twist at the end of each load step and the energy lost in one cycle are required.
     """
@@ -156,12 +159,11 @@ def torsion_loop() -> Challenge:
 
 
 def pressed_with_friction(one: Indentation) -> Challenge:
-    """Create the challenge of a rigid ball that is pressed with friction, with a tabulated
-    reference.
+    """Create the benchmark problem (challenge) of a rigid ball that is pressed with friction, with
+    a tabulated reference.
 
     Pressure and radial shear are required at radii that keep a distance from the contact edge and
-    from
-    the stick edge.
+    from the stick edge.
 
     one  indentation with friction, with its tabulated reference solution
     """
@@ -198,8 +200,7 @@ def interpolate_profile(
     axis.
 
     The profile is divided by √(1 - r²/a²), with the contact radius a, because its slope is infinite
-    at
-    the contact edge. Cubic splines inside and outside the stick zone interpolate the quotient.
+    at the contact edge. Cubic splines inside and outside the stick zone interpolate the quotient.
 
     one      indentation with friction, with its tabulated reference solution
     profile  name of the tabulated traction
@@ -216,7 +217,8 @@ def interpolate_profile(
 
 
 def stuck_punch(nu: float) -> Challenge:
-    """Create the challenge of a flat punch in full stick on a half-space with Poisson's ratio nu.
+    """Create the benchmark problem (challenge) of a flat punch in full stick on a half-space with
+    Poisson's ratio nu.
 
     The required approach is that of the frictionless punch divided by Mossakovskii's factor.
     """
@@ -233,8 +235,8 @@ def stuck_punch(nu: float) -> Challenge:
 
 
 def stuck_ball(nu: float) -> Challenge:
-    """Create the challenge of a rigid ball in full stick on a half-space with Poisson's ratio nu
-    (Spence).
+    """Create the benchmark problem (challenge) of a rigid ball in full stick on a half-space with
+    Poisson's ratio nu (Spence).
 
     The approach and the contact radius are required.
     """
@@ -280,14 +282,16 @@ MOVED = {
 
 
 def at_places() -> Iterator[Challenge]:
-    """Yield the challenges that require numbers at given points: stresses and surface
-    displacements."""
+    """Yield the benchmark problems (challenges) that require numbers at given points: stresses and
+    surface displacements.
+    """
     yield sliding_stress()
     yield from layered_patches()
 
 
 def sliding_stress() -> Challenge:
-    """Create the challenge of the stress below a ball in gross slip along x (Hamilton).
+    """Create the benchmark problem (challenge) of the stress below a ball in gross slip along x
+    (Hamilton).
 
     The surface tractions are the Hertz pressure, and a shear along x of µ times this pressure.
     """
@@ -316,12 +320,11 @@ def sliding_stress() -> Challenge:
 
 
 def layered_patches() -> Iterator[Challenge]:
-    """Yield the challenges of a layered half-space under a uniform traction on a square, without
-    contact.
+    """Yield the benchmark problems (challenges) of a layered half-space under a uniform traction on
+    a square, without contact.
 
     The displacements at given points of the surface are required. The references are dimensionless;
-    the
-    layer is given a thickness of 1 mm.
+    the layer is given a thickness of 1 mm.
     """
     rows = load_reference("influence_coefficients")["rows"]
     for ratio in dict.fromkeys(row["G1"] / row["G2"] for row in rows):

@@ -41,8 +41,7 @@ def field_sums(
 
     The sums are the force, its second moment, and the covered contact area. Each item has a name, a
     description, the value, the expected value, the scale of the difference, and the largest
-    deviation
-    (dimensionless) that the discrete points make unavoidable.
+    deviation (dimensionless) that the discrete points make unavoidable.
     """
     forces, exact = field.value * field.area, asked.traction
     yield "load carried", "Σ value·area", float(np.sum(forces)), asked.total, asked.scale, 0.0
@@ -57,11 +56,9 @@ def _covered_area(field: Field, semi_axes: tuple[float, float]) -> tuple[float, 
     """Compute the fraction of the contact area that the points of a field cover, and its tolerance.
 
     The areas of the points are summed outwards, each area centred at its point, and interpolated to
-    the
-    contact edge. Points on one ray represent rings; their sum may end half a ring before the edge.
-    For
-    cell centres the sum scatters. The second result is this unavoidable deviation of the fraction
-    from 1.
+    the contact edge. Points on one ray represent rings; their sum may end half a ring before the
+    edge. For cell centres the sum scatters. The second result is this unavoidable deviation of the
+    fraction from 1.
 
     semi_axes  semi-axes of the contact ellipse around the origin, along x and y [length]
     """
@@ -129,8 +126,7 @@ def rows_of(
 
     answers  one answer per refinement level, in any order
     asked    accuracy class that all errors must meet; None: the class that the code claims, else
-             the
-             default class of each quantity
+             the default class of each quantity
     """
     levels = sorted(answers, key=lambda one: -one.h)
     demanded = asked or (Grade(solver.claimed_grade) if solver.claimed_grade else None)
@@ -232,10 +228,8 @@ def _field_error(asked: AskedField, field: Field, sampling: str) -> float:
     """Compute the relative L2 or L1 error of an answered traction field over its points.
 
     The L2 error is divided by the L2 norm of the exact traction, the L1 error by the force scale of
-    the
-    challenge. With sampling "cell", the field is compared with means of the exact traction over
-    squares
-    around the points.
+    the challenge. With sampling "cell", the field is compared with means of the exact traction over
+    squares around the points.
     """
     side = np.sqrt(field.area)
     if sampling == "cell":
@@ -259,8 +253,7 @@ def _judge_claimed_uncertainty(
     the error.
 
     The verdict is inconclusive if the stated uncertainty exceeds the bound of the accuracy class
-    and is
-    far above the error on every level.
+    and is far above the error on every level.
 
     level   name of the finest level
     claims  stated standard uncertainty in the required unit (None: none), and error divided by its
@@ -319,8 +312,7 @@ def _judge_point_areas(asked: AskedField, field: Field, level: str, bound: float
 
 def _missing_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
     """Yield an inconclusive verdict if the finest level of an answer lacks a quantity that coarser
-    levels
-    have.
+    levels have.
 
     Without this verdict a code could hide its worst numbers by omitting them.
 
@@ -422,8 +414,7 @@ def _slip_hint(value: float, asked: AskedValue) -> str:
     """Return a hint that another sign, a factor of 2 or another unit would explain a wrong number.
 
     The hint is added to the message of a failed verdict. It is empty if no such mistake explains
-    the
-    number.
+    the number.
     """
     slips = {"with the other sign": -1.0, "halved": 0.5, "doubled": 2.0}
     slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
@@ -489,8 +480,7 @@ class Judgement:
         """Return the exit code of the command that judges an answer.
 
         0: all verdicts passed. 1: a verdict failed, or a required quantity is missing. 3: the
-        solver gave
-        up, and nothing else failed. 6: with `strict`, a verdict is inconclusive.
+        solver gave up, and nothing else failed. 6: with `strict`, a verdict is inconclusive.
 
         strict   True if inconclusive verdicts are reported as code 6
         partial  True if missing quantities are accepted
@@ -521,8 +511,7 @@ def judged(
 
     answers  one answer for each refinement level
     grade    accuracy class that all errors must meet; None: the class that the code claims, else
-             the
-             default class of each quantity
+             the default class of each quantity
     """
     rows = tuple(rows_of(challenge, solver, answers, grade))
     return Judgement(challenge, solver, tuple(answers), rows, tuple(omitted(challenge, answers)))

@@ -44,12 +44,10 @@ class Posed:
 
     scene   scene as in a scene file, in SI; a body and a `patch` if the traction is given
     loads   normal and tangential force at the end of every load step [N]; NaN for a prescribed
-            motion;
-            `scene["loading"]` contains moments and motions
+            motion; `scene["loading"]` contains moments and motions
     asked   unit of each required number, by key
     since   load step from whose end a number counts, by key, for numbers that count from there and
-            not
-            from the beginning
+            not from the beginning
     places  points (points, 3) with x, y and depth z at which numbers are required, by key [m]
     fields  keys of the tractions that are required at points of the solver's choice
     window  side of a square that contains the contact with a margin [m]
@@ -142,8 +140,7 @@ def _checked_answer(answer: object, challenge: Challenge, level: int) -> Answer:
     float.
 
     Raises Refused for an invalid answer. A quantity that only another challenge requires is
-    accepted;
-    other names are refused.
+    accepted; other names are refused.
 
     level  number of the refinement level, for the message
     """
@@ -218,8 +215,7 @@ def module_of(path: Path) -> ModuleType:
     """Execute the Python file of a user's solver function and return its module.
 
     The file can import modules of its own folder. Raises Refused if the file cannot be read or
-    imports
-    a missing module.
+    imports a missing module.
     """
     if not path.is_file():
         raise Refused(f"{path}: no such file; {EXPECTED}")

@@ -37,8 +37,7 @@ class Half:
     """Reference traction over an ellipse: a half-ellipsoid times a Chebyshev series.
 
     With s = (x/b_x)² + (y/b_y)², the traction is coefficient · √(1 - s) Σ c_k T_k(2 s - 1), with
-    the
-    Chebyshev polynomials T_k. A Hertz pressure has the single term c_0 = 1.
+    the Chebyshev polynomials T_k. A Hertz pressure has the single term c_0 = 1.
 
     semi_axes    semi-axes b_x, b_y of the ellipse [length]
     coefficient  amplitude of the traction [force/length²]
@@ -78,8 +77,7 @@ class Half:
         at the edge.
 
         Computes π b_x b_y coefficient ∫ s^power √(1 - s) Σ c_k T_k(2 s - 1) ds by Gauss quadrature
-        in
-        √(1 - s). Power 0 gives the force; power 1 enters the second moment.
+        in √(1 - s). Power 0 gives the force; power 1 enters the second moment.
         """
         nodes, weights = np.polynomial.legendre.leggauss(NODES)
         root = 0.5 * (nodes + 1)  # √(1 - s); the integrand is smooth in it
@@ -216,8 +214,7 @@ class RoundTable:
         quadrature.
 
         Power 1 gives the force, 2 the torque, 3 the second moment. Three points between two radii
-        make the
-        rule exact, because q is linear between the radii and power is at most 3.
+        make the rule exact, because q is linear between the radii and power is at most 3.
         """
         nodes, weights = np.polynomial.legendre.leggauss(3)
         width, middle = np.diff(self.radii), 0.5 * (self.radii[1:] + self.radii[:-1])
@@ -371,8 +368,7 @@ class Patch:
     """Layered body without contact, under a uniform traction on a square of its surface.
 
     Replaces the scene of a challenge that requires surface displacements. The square is centred at
-    the
-    origin.
+    the origin.
 
     side      side of the square [length]
     traction  magnitude of the traction [force/length²]

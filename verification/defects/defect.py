@@ -43,8 +43,7 @@ class Replacement:
     owner   module or class that defines the original
     name    name of the original in the owner
     change  wrong function; it receives the original and the arguments of a call, or for a constant
-            the
-            original alone
+            the original alone
     local   True if modules that have imported the original function keep it
     """
 
@@ -119,8 +118,7 @@ def planted(defect: Defect) -> Iterator[None]:
     """Run a block of code with a seeded defect planted in the program.
 
     The caches of the solver functions are cleared before and after the block, because cached
-    numbers
-    depend on the defect.
+    numbers depend on the defect.
     """
     with ExitStack() as undo:
         undo.callback(clear_caches, *REMEMBERING)

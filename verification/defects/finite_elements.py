@@ -42,8 +42,7 @@ def _weight_of_element(whole: Any, section: Any, *more: Any) -> Any:
 @replaces(hat_functions, "hats_on")
 def _resultant_weight(whole: Any, nodes: Any, reach: float = np.inf) -> Any:
     """Plant a wrong weight in the resultant forces on finite elements: each ring counts with its
-    outer
-    radius.
+    outer radius.
     """
     right = whole(nodes, reach)
     lengths = np.zeros_like(right.radii)

@@ -297,8 +297,9 @@ def _inaccurate_pressure(whole: Any, *given: Any) -> Any:
 
 @replaces(tangential_solve, "shear")
 def _inaccurate_shear(whole: Any, *given: Any) -> Any:
-    """Plant an inaccurate shear: the tangential problem is solved with a tolerance of at least
-    3 %."""
+    """Plant an inaccurate shear: the tangential problem is solved with a tolerance of at least 3
+    %.
+    """
     return whole(*given[:-1], max(given[-1], 3e-2))
 
 
@@ -454,8 +455,7 @@ def _elements_look_at_bases(whole: Any, scene: Scene) -> Any:
     """Plant a wrong test of elastic coupling in the finite elements, which ignores the coating.
 
     A coated indenter on a body of its base material is then treated as equal to the body. Equal
-    bodies
-    have no coupling of pressure and shear.
+    bodies have no coupling of pressure and shear.
     """
     body, indenter = scene.body, scene.indenter
     if indenter.layers and not body.layers and body.material == indenter.material:
@@ -471,8 +471,7 @@ def _no_tilt_about_y(_: Any, self: ContactModel) -> Any:
 
 def _wrong_start_of_step(kind: ControlKind) -> Replacements:
     """Return a seeded defect: the ramp of a load step starts at a value 2 % above that of the
-    preceding
-    step.
+    preceding step.
 
     kind  affected load steps: those that prescribe a force, or those that prescribe a displacement
     """

@@ -93,8 +93,7 @@ def _kappa_for_chi(whole: Any, body: stack.Stack, alpha: Any) -> Any:
     """Plant a wrong reflection of shear waves at the interface of a layer: κ in place of χ.
 
     χ = (k-1)/(k+1) and κ = (k-1)/(k+3-4ν), where k is the stiffness below the layer over that of
-    the
-    layer, and ν Poisson's ratio of the layer.
+    the layer, and ν Poisson's ratio of the layer.
     """
     y, k = whole(body, alpha)
     if not body.layers:

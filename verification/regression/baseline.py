@@ -159,8 +159,7 @@ def key_of(number: Verdict | FindingRecord | RecordedQuantity | RecordedFinding)
     """Return the key that identifies a number in its case: kind, name, run and kind of tolerance.
 
     Results are compared with the recorded number of the same key. The run is omitted for residuals
-    and
-    similar numbers, which may come from any run.
+    and similar numbers, which may come from any run.
     """
     run = "" if number.name in FOUND_IN_A_RUN else number.run
     if isinstance(number, Verdict | RecordedQuantity):
@@ -273,8 +272,7 @@ def write_baselines(
     written.
 
     Results at other levels are kept. All files are read before any is written. Raises
-    BaselineRefused
-    for an existing file that is not a valid baseline.
+    BaselineRefused for an existing file that is not a valid baseline.
 
     recordings  accepted results by case; None deletes those of this level
     level       quick, standard or full
@@ -352,10 +350,8 @@ def accept(
     """Store the results of a report as baselines for later comparisons; return the files written.
 
     Recorded numbers that the report lacks are listed in `REMOVED.md` with the reason. The recording
-    of
-    a case that a complete report lacks is deleted. Raises BaselineRefused, before anything is
-    written,
-    for a report that must not be accepted.
+    of a case that a complete report lacks is deleted. Raises BaselineRefused, before anything is
+    written, for a report that must not be accepted.
 
     reason         reason for which the results are correct
     directory      folder of the baselines

@@ -149,8 +149,7 @@ def grows(
     """Return True if the error of one quantity is much smaller than that of another one.
 
     Used in both directions, to detect results that became worse or better. Convergence orders are
-    not
-    compared here, because they are judged by their intervals.
+    not compared here, because they are judged by their intervals.
 
     small  quantity with the smaller error
     large  quantity with the larger error
@@ -203,8 +202,7 @@ def counter_changes(case: CaseOutcome | Recording, recorded: Recording) -> Itera
     """Yield the total work counts of a case that changed by more than 5 % since the recording.
 
     The counts are increments, iterations, convolutions and factorizations. Only solves that exist
-    in
-    both are counted; new and removed solves are reported separately.
+    in both are counted; new and removed solves are reported separately.
 
     case      present outcome of the case
     recorded  accepted results of the case

@@ -135,8 +135,7 @@ def proposed(
 
     A number gets a proposal if its tolerance exceeds three times the largest error, or if the error
     exceeds its tolerance, and the proposal is below the bound of its case. Returns the tolerances
-    by
-    case and key of the number.
+    by case and key of the number.
 
     known  accepted tolerances, by which the reports are judged first
     """
@@ -159,8 +158,7 @@ def _common_numbers(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[
     """Yield each finite number that all reports have: case, key, its verdicts, and an allowance.
 
     The allowance is added to proposed tolerances, because an error depends on the iterate at which
-    a
-    solve ends. It is ten times the tolerance of the solve, plus 5 % of the last change of an edge
+    a solve ends. It is ten times the tolerance of the solve, plus 5 % of the last change of an edge
     correction. Convergence orders are left out.
     """
     levels = sorted({report.level for report in reports})

@@ -60,9 +60,8 @@ def set_aside_report(directory: Path) -> None:
     computed.
 
     If the computation is interrupted, no file can be mistaken for its result, and the earlier
-    results
-    are preserved. The record is moved first. The files that remain after an interruption have no
-    record, and the next call removes them.
+    results are preserved. The record is moved first. The files that remain after an interruption
+    have no record, and the next call removes them.
     """
     with _locked_directory(directory):
         record = record_in(directory).name
@@ -108,8 +107,7 @@ def write_report(report: Report, directory: Path) -> None:
     """Write all files of a verification report, and remove the other files of an earlier report.
 
     Files that were moved aside are removed. A different record is removed first and the new record
-    is
-    written last. A directory with `report.json` therefore contains files that belong together.
+    is written last. A directory with `report.json` therefore contains files that belong together.
     """
     _replace_files(_rendered_files(report) | {RECORD: dump_report(report)}, directory)
 

@@ -100,8 +100,7 @@ def line_of(case: CaseOutcome) -> str:
     limit.
 
     For the second part, a failed verdict has priority, and a verdict on a quantity has priority
-    over
-    one on residuals.
+    over one on residuals.
     """
     total, passed = len(case.verdicts), case.count(Status.PASS)
     counted = f"{total} verdicts" if passed == total else f"{passed} of {total} verdicts passed"
@@ -150,8 +149,7 @@ def reasons_of(case: CaseOutcome) -> dict[str, list[str]]:
 
 def alignment(table: Table, column: int) -> str:
     """Return the style class of a table column of a page: "number" for short cells with digits,
-    else
-    "words".
+    else "words".
 
     Numbers are aligned right.
 

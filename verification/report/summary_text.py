@@ -78,8 +78,7 @@ def power_text(report: Report) -> str:
 
     The text states the share of verdicts that would still pass if the error were 3 or 10 times as
     large. Only passed verdicts with an independent reference count. Without such verdicts the text
-    is
-    empty.
+    is empty.
     """
     judged = [
         (verdict.error, verdict.allowed)
@@ -188,10 +187,8 @@ def render_junit(report: Report) -> str:
     studies.
 
     Each verdict is a test case. Only studies of the current source code are included. Times are
-    left
-    out, because they differ between runs. Changes since the baseline are text output of a suite and
-    not
-    failures.
+    left out, because they differ between runs. Changes since the baseline are text output of a
+    suite and not failures.
     """
     root = ElementTree.Element("testsuites", name=f"slipstick verify, {report.level}")
     for case in report.cases:

@@ -60,8 +60,7 @@ def image_address(picture: Picture) -> str:
     """Return a data address that contains a picture as an SVG image.
 
     A page shows the picture as an image, so that nothing in the picture can run, refer to the page
-    or
-    load data.
+    or load data.
     """
     svg = compact(picture.svg, picture.name)
     if not svg.startswith("<svg "):  # no drawing: a browser shows the text of the image

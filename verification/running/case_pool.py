@@ -53,8 +53,7 @@ class CaseStore:
         """Return the path of the stored record of a case.
 
         The file name contains a digest of the case and the source code, so that a changed case or
-        code has
-        another file.
+        code has another file.
 
         code  digest of the source code that computes the case; None for that of this process
         """
@@ -367,8 +366,7 @@ def _received_answer(future: Future[Answer], pool: Workers) -> Answer:
     """Wait for the reply of a worker for a case, and return the reply.
 
     If no reply is received, or the worker has other source code, the returned reply contains the
-    reason
-    in place of the record.
+    reason in place of the record.
     """
     try:
         answer = future.result()
@@ -385,8 +383,7 @@ def _computed_end(end: CaseEnd, answer: Answer, store: CaseStore) -> CaseEnd:
     """Store the record that a worker has computed and return the completed outcome of the case.
 
     The record is stored under the digest of the source code that computed it, because a source file
-    may
-    have been edited since this process was started.
+    may have been edited since this process was started.
 
     end     outcome of the case, still without record
     answer  reply of the worker

@@ -26,10 +26,8 @@ class ClusterWorkers:
     """Pool of the workers of a dask cluster, which compute the cases of a study.
 
     The workers must have the same sources of slipstick; they need no common disk. Certificates for
-    tls
-    are those of dask's configuration (`distributed.comm.tls`). If a worker dies, dask gives its
-    case to
-    another worker, a limited number of times. Raises ClusterUnavailable.
+    tls are those of dask's configuration (`distributed.comm.tls`). If a worker dies, dask gives its
+    case to another worker, a limited number of times. Raises ClusterUnavailable.
 
     address  address of the dask scheduler, tcp://host:port or tls://host:port
     """

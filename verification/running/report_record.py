@@ -77,8 +77,7 @@ class Report(Description):
         failed.
 
         Stated errors fail if too few of them cover the true difference. Otherwise the status is
-        PASS if any
-        verdict passed, and INCONCLUSIVE if none passed.
+        PASS if any verdict passed, and INCONCLUSIVE if none passed.
         """
         if self.counts[Status.FAIL] or self.failed_studies or self.errors_too_small:
             return Status.FAIL

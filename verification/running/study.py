@@ -54,8 +54,7 @@ class Row(Description):
         unknown name.
 
         If several have the name, a parameter has priority over a counter, and a counter over a
-        measured
-        value.
+        measured value.
         """
         known: Any = {**self.measures, **self.counters, **self.parameters}.get(name)
         return None if isinstance(known, str) else known
@@ -94,8 +93,7 @@ class TypedRow(Description):
     """Base class of study rows with declared names and types of their values.
 
     A study stores such an object as a `Row`: texts and enumeration members become `words`, integers
-    and
-    booleans become `counters`, other numbers become `measures`.
+    and booleans become `counters`, other numbers become `measures`.
     """
 
     PARAMETERS: ClassVar[tuple[str, ...]] = ()
@@ -157,8 +155,7 @@ def parameters_of(case: Any) -> dict[str, Value]:
     flattened.
 
     Enumeration members become their values; tuples become texts joined by " x ". Used for the
-    columns
-    of the stored tables.
+    columns of the stored tables.
     """
     values: dict[str, Value] = {}
     for field in fields(case):
@@ -185,8 +182,7 @@ def row_files(records: Mapping[str, CaseRecord], findings: Sequence[Row] = ()) -
     """Return the texts of the CSV files of a study by file name, without empty files.
 
     `rows.csv` has one line per case, `parts.csv` one per part of a case, `findings.csv` one per row
-    of
-    the conclusion, `seconds.csv` the CPU times.
+    of the conclusion, `seconds.csv` the CPU times.
 
     records   records by name of the case
     findings  rows of the conclusion
@@ -215,8 +211,7 @@ def _csv_line(row: Row) -> Cells:
     """Convert a row of a study to a line of a CSV file: cells by column name.
 
     The columns have the names of parameters and words, "name [unit]" for measures and "name
-    [count]"
-    for counters.
+    [count]" for counters.
     """
     return {
         **row.parameters,
@@ -245,8 +240,7 @@ STUDY_VERSION = 1
 
 class StudyCase(Protocol):
     """Interface of one case of a study: a frozen dataclass of plain values, which can be sent to a
-    worker
-    process.
+    worker process.
     """
 
     @property

@@ -180,8 +180,7 @@ class Curves:
         """Create the curves from the fine solve of a coated contact, and estimate their errors.
 
         One coarse solve has fewer cells or rings, the other one half of the increments. Their
-        errors are
-        added.
+        errors are added.
 
         solves  records by kind of solve: "fine", "coarse", "half the increments"
         """
@@ -203,8 +202,7 @@ def _curve_differences(one: tuple[Field, Field], other: tuple[Field, Field]) -> 
     """Compute the relative differences (field, force) between the traction curves of two solves.
 
     A difference is the integral of |Δp| or |Δq| on y = 0, divided by the integral of the pressure
-    of
-    the first solve. The curves are normalised by p_H and µ p_H.
+    of the first solve. The curves are normalised by p_H and µ p_H.
 
     one, other  pressure and shear curves (force, x) of each solve
     """
@@ -217,8 +215,7 @@ def runs(settings: Settings) -> dict[tuple[float, str, str], TractionRun]:
     solve.
 
     The modulus ratio E1/E2 is that of coating over substrate. The kinds are "fine", "coarse" (2/3
-    of
-    the cells or rings) and "half the increments".
+    of the cells or rings) and "half the increments".
     """
     cells, rings = FINEST[settings.level]
     finest = {CELLS: float(settings.cells or cells), RINGS: rings}

@@ -195,8 +195,7 @@ class Coverage:
 
     group       name of the group: a kind of quantity or a family of scenes
     covered     fraction of covered results among those that are decided and have the status
-                estimated
-                or exact
+                estimated or exact
     tight       among the same results, fraction with a stated error below 10 times the true error
     apart       fraction of covered results among those that are decided and have the status "not
                 converged"
@@ -254,8 +253,8 @@ def is_decided(row: Row) -> bool:
     """Return True if the reference of a result is certain enough to judge the stated error.
 
     The uncertainty of the reference must be at most 0.1 of the stated error. Otherwise the true
-    error
-    must exceed the stated error by more than 3 uncertainties, so that it is certainly not covered.
+    error must exceed the stated error by more than 3 uncertainties, so that it is certainly not
+    covered.
 
     row  true error, stated error and uncertainty of one result
     """
@@ -350,8 +349,8 @@ class RequestCase:
         error.
 
         Draws are repeated until a quantity has a reference that is certain enough to check the
-        request.
-        Returns the family of the scene, the scene, the quantity and the allowed relative error.
+        request. Returns the family of the scene, the scene, the quantity and the allowed relative
+        error.
         """
         rng = np.random.default_rng([self.seed, crc32(b"request"), self.number])
         while True:
@@ -410,8 +409,7 @@ def cases(settings: Settings) -> tuple[CoverageCase | RequestCase, ...]:
     """Return the random scenes and the random requests of accuracy that the study solves.
 
     The standard level has a third of those of the full level. The quick level has one request and
-    one
-    scene of each family.
+    one scene of each family.
     """
     parts = {Level.QUICK: 0, Level.STANDARD: 3, Level.FULL: 1}
     part = parts[settings.level]

@@ -167,8 +167,7 @@ class SceneLevel:
     increments  number of increments of each load step
     level       name of the level in tables
     size        abscissa of the convergence fit: relative size of an increment; None for the side of
-                a
-                cell or element, which the solver chooses
+                a cell or element, which the solver chooses
     """
 
     scene: StudiedScene
@@ -249,8 +248,7 @@ def _key_scalars(values: Values) -> Iterator[tuple[str, str, float]]:
     """Yield the main scalar results of a load step as (name, quantity, value).
 
     A component of a vector has the name of its quantity with _x or _y. For a scalar, name and
-    quantity
-    are equal.
+    quantity are equal.
 
     values  computed values by quantity, at the end of a load step
     """
@@ -563,8 +561,7 @@ def _level_counts(
     levels.
 
     The levels are in the order from coarse to fine. Consecutive levels differ by a factor √2.
-    Raises
-    CannotRefine if there would be too few levels or the coarsest level has too few cells or
+    Raises CannotRefine if there would be too few levels or the coarsest level has too few cells or
     elements.
 
     finest    numbers of the finest level
@@ -722,8 +719,7 @@ def _request_statement(one: Estimate, share: float) -> Statement:
     file.
 
     The verdict is FAIL if the most likely error exceeds the request. It is PASS if the error bound
-    at
-    95 % meets the request, and INCONCLUSIVE otherwise. If the finest level does not resolve the
+    at 95 % meets the request, and INCONCLUSIVE otherwise. If the finest level does not resolve the
     features, the verdict is always INCONCLUSIVE.
 
     one    limit and errors of the result

@@ -117,8 +117,7 @@ def judge_case(name: str) -> CaseOutcome:
     defect.
 
     The record is written to a file and read back, so that defects of files count. An exception
-    becomes
-    an outcome without results that names the exception.
+    becomes an outcome without results that names the exception.
 
     name  name of the case in the quick catalogue
     """
@@ -156,8 +155,7 @@ def cases_under(settings: Settings, defect: Defect) -> tuple[str, ...]:
     """Return the names of the verification cases that are run under a seeded defect.
 
     At the quick level these are the cases that must detect the defect. At other levels these are
-    all
-    cases of the quick catalogue.
+    all cases of the quick catalogue.
     """
     return defect.cases if settings.level is Level.QUICK else CASES
 

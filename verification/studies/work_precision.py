@@ -144,8 +144,7 @@ def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
     pressure.
 
     On a surface grid the exact pressure is averaged over each cell. On rings of the radial solver
-    it is
-    evaluated at each ring, and the norm is weighted by area.
+    it is evaluated at each ring, and the norm is weighted by area.
 
     result   result of a solver
     step     index of the load step
@@ -317,8 +316,7 @@ class PrecisionCase:
     contact     key of CONTACTS
     method      solution method
     fineness    cells per side of the window, elements per contact radius, or twelfths of the number
-                of
-                rings and orders that the radial solver chooses
+                of rings and orders that the radial solver chooses
     tolerance   tolerance of the solver
     penalty     factor c of the penalty stiffness; 0 without penalty
     increments  number of increments of the path-dependent load steps; 0 for that of the contact
@@ -400,7 +398,9 @@ class PrecisionCase:
 
 
 def all_cases(level: Level) -> tuple[PrecisionCase, ...]:
-    """Return the solves of all contacts by all methods and settings, at a level of the study."""
+    """Return the solves of all contacts by all methods and settings, at a level (quick, standard or
+    full) of the study.
+    """
     return tuple(case for contact in CONTACTS for case in _cases_of_contact(contact, level))
 
 
@@ -496,8 +496,7 @@ def dependable(points: Iterable[Point]) -> tuple[Point, ...]:
 
     Only settings of the same curve are compared. The replacement is needed because the error of a
     coarse setting may be small by chance, where it changes sign. An error that is NaN makes the
-    errors
-    of all coarser settings NaN.
+    errors of all coarser settings NaN.
     """
     found: list[Point] = []
     largest: dict[tuple[str, str], float] = {}
@@ -531,7 +530,9 @@ def cheapest(points: Iterable[Point], target: float) -> Point | None:
 
 
 def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
-    """Return the solves of all contacts by all methods and settings, at the level of the study."""
+    """Return the solves of all contacts by all methods and settings, at the level (quick, standard
+    or full) of the study.
+    """
     return all_cases(settings.level)
 
 

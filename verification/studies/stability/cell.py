@@ -63,6 +63,8 @@ class Solver(StrEnum):
 class StabilityCell:
     """One contact of the stability map, as plain values from which its scene is built.
 
+    The stability map shows which contacts the solvers can solve.
+
     friction        coefficient of friction µ
     push            tangential force T over µW
     modulus_ratio   E1/E2, Young's modulus of the coating over that of the substrate
@@ -75,8 +77,7 @@ class StabilityCell:
     length          contact radius a under that force [m]
     modulus         E2 [Pa]
     cells           cells per side of the surface grid; finite elements use a quarter of this number
-                    per
-                    contact radius, which is about as fine
+                    per contact radius, which is about as fine
     solver          solver of the contact
     """
 
@@ -99,8 +100,7 @@ class StabilityCell:
         """True if the solver of the contact has a model of the scene.
 
         Finite elements require bodies of revolution, a uniform friction coefficient and a
-        tangential load
-        along one line.
+        tangential load along one line.
         """
         uneven = self.surface in NOT_OF_REVOLUTION or self.path is LoadingPath.CIRCLE
         return not (self.solver.by_elements and uneven)
@@ -297,7 +297,7 @@ class Asked:
     least: Level = Level.QUICK
 
     def view(self, level: Level, cells: int, solvers: Sequence[Solver]) -> View:
-        """Build the map of contacts for one level of the study.
+        """Build the map of contacts for one level (quick, standard or full) of the study.
 
         level    level of the study
         cells    cells per side of the surface grid
@@ -314,7 +314,8 @@ class Asked:
 
 
 def views(level: Level, cells: int) -> tuple[View, ...]:
-    """Return all maps of contacts at a level of the stability study, for all solvers.
+    """Return all maps of contacts at a level (quick, standard or full) of the stability study, for
+    all solvers.
 
     cells  cells per side of the surface grid; the number of finite elements is derived from it
     """
@@ -330,7 +331,8 @@ def views(level: Level, cells: int) -> tuple[View, ...]:
 
 
 def study_cells(level: Level, cells: int) -> tuple[StabilityCell, ...]:
-    """Return the contacts of all stability maps at a level of the study, without duplicates.
+    """Return the contacts of all stability maps at a level (quick, standard or full) of the study,
+    without duplicates.
 
     cells  cells per side of the surface grid
     """

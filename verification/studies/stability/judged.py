@@ -120,6 +120,8 @@ REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
 class StabilityRun:
     """Solve of one contact of the stability map, as a case of the study.
 
+    The stability map shows which contacts the solvers can solve.
+
     An error of the solver is stored in the record of the contact as its outcome.
     """
 
@@ -136,8 +138,9 @@ class StabilityRun:
 def judge_contact(cell: StabilityCell) -> CellRecord:
     """Solve a contact of the stability map and return its verdict, residuals and cost.
 
-    Errors of the scene or the solver become verdicts and are not raised. A result whose residuals
-    exceed the allowed values is wrong without a message.
+    The stability map shows which contacts the solvers can solve. Errors of the scene or the solver
+    become verdicts and are not raised. A result whose residuals exceed the allowed values is wrong
+    without a message.
     """
     try:
         posed = pose(cell)
@@ -188,8 +191,7 @@ def _refusal_category(error: Exception) -> Refusal:
     """Return the category of an error by which a solver refuses a contact of the stability map.
 
     The category follows from the type of the error and the keys of the scene that the error names.
-    A
-    tangential force can only be refused for its size.
+    A tangential force can only be refused for its size.
     """
     if isinstance(error, UnsupportedScene):
         return Refusal.POSE

@@ -154,7 +154,8 @@ class Posed:
 def pose(cell: StabilityCell) -> Posed:
     """Build the scene and the discretisation of a contact of the stability map.
 
-    Raises SceneError for an invalid scene.
+    The stability map shows which contacts the solvers can solve. Raises SceneError for an invalid
+    scene.
 
     cell  values that define the contact
     """
@@ -268,8 +269,7 @@ def _mean_friction(friction: float | FrictionMap, cell: StabilityCell, grid: Sur
     """Return the mean coefficient of friction of a contact, which determines its tangential force.
 
     Nonuniform coefficients are weighted by the Hertz pressure. Their mean is reduced by 3 %,
-    because
-    the actual pressure differs from the Hertz pressure.
+    because the actual pressure differs from the Hertz pressure.
 
     friction  uniform coefficient, or map of coefficients
     cell      values that define the contact
