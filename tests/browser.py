@@ -1,4 +1,5 @@
-"""Pages opened in a Chromium: what they wrote, ran and asked for."""
+"""Helper of tests that opens HTML pages in Chromium and returns errors, executed scripts and
+requests."""
 
 from __future__ import annotations
 

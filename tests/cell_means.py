@@ -1,4 +1,4 @@
-"""Cell means of (1 - u² - v²)_+^exponent over cells of an ellipse, by quadrature."""
+"""Reference means of (1 - u² - v²)_+^exponent over grid cells of an ellipse, by quadrature."""
 
 import numpy as np
 from numpy.typing import NDArray

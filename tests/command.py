@@ -1,4 +1,4 @@
-"""The command line, run in the process of a test, and the tables that it writes."""
+"""Helpers of tests that run the command line in the process of the test, and read its tables."""
 
 import csv
 from contextlib import chdir, redirect_stderr, redirect_stdout

@@ -1,4 +1,5 @@
-"""What every test shares: Hypothesis profiles, a seeded generator, and no skipping in CI."""
+"""Fixtures and hooks of all tests: Hypothesis profiles, seeded generator, and no skipped tests in
+CI."""
 
 import gc
 import os

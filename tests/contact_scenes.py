@@ -1,4 +1,4 @@
-"""Scenes on which the laws of the solver are tested: the paper's ball, and variations of it."""
+"""Contact scenes for tests of the semi-analytical solver: the ball of the paper, and variations."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Scenes whose pressure and shear act on each other: a rigid ball on soft or coated bodies."""
+"""Scenes in which pressure and shear are coupled: a rigid ball on soft or coated bodies."""
 
 from contact_scenes import LOAD, MU, RADIUS, A
 

@@ -1,4 +1,4 @@
-"""Discretisations and short ways for the tests of the finite-element reference."""
+"""Discretisations and short solve functions for tests of the finite-element solver."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Energies of smooth patches of traction on a coated half-space, by Hankel transforms.
+"""Reference energies of smooth tractions on a coated half-space, by Hankel transforms, for tests.
 
 In harmonic n the tractions (q_r cos n theta, q_t sin n theta, p cos n theta) have transforms
 

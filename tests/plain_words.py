@@ -1,4 +1,4 @@
-"""Habits that make technical English hard to read, in docstrings, messages and Markdown.
+"""Checker of technical English in docstrings, messages and Markdown, for unclear habits.
 
 A *text* is a docstring, a message (`raise`, `echo(...)`, `help=`) or a paragraph of Markdown.
 """

@@ -1,4 +1,4 @@
-"""The command line in processes of its own: how it ends, what it takes and what it leaves."""
+"""Helpers of tests that run the command line in a new process and measure its time and memory."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Small dense problems with the structure of contact, for tests of the iterative solvers."""
+"""Small dense compliance matrices and preconditioners, for tests of the iterative contact
+solvers."""
 
 import numpy as np
 

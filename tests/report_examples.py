@@ -1,4 +1,4 @@
-"""Records of reports for tests: all that a page can hold, without a solve."""
+"""Example records of verification reports for tests of pages, without a solve."""
 
 from contact_scene import (
     IsotropicMaterial,

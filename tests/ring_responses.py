@@ -1,7 +1,8 @@
-"""Compliance of a coated half-space between rings of traction, by Hankel transforms of hats.
+"""Reference compliance of a coated half-space on rings of traction, by Hankel transforms, for
+tests.
 
-Shares nothing with the finite elements, so that the contact solver can be tested without them and
-their compliance against this one. Formulas as in `hankel_responses`.
+The code shares nothing with the finite elements. The contact solver can therefore be tested without
+finite elements, and their compliance against this one. Formulas are those of `hankel_responses`.
 """
 
 from functools import cache

@@ -1,4 +1,4 @@
-"""What scene files of several tests begin with; each adds its loading and its grid."""
+"""Beginnings of scene files that several tests complete by load steps and discretisation."""
 
 STEEL_ON_STEEL = """
 [indenter]

@@ -1,4 +1,5 @@
-"""Hypothesis strategies for layered bodies and wave vectors, over the range that the FRFs claim."""
+"""Hypothesis strategies for layered bodies and wave vectors, over the supported range of the
+FRFs."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Reader of the meshes that slipstick writes for ParaView."""
+"""Reader of the mesh files that slipstick writes for ParaView, for tests."""
 
 from pathlib import Path
 

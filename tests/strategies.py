@@ -1,4 +1,4 @@
-"""Hypothesis strategies for scenes, as documents and as TOML text."""
+"""Hypothesis strategies for contact scenes, as nested dictionaries and as TOML text."""
 
 import json
 from typing import Any

@@ -1,4 +1,4 @@
-"""Cases that do nothing of interest, for tests of how studies run; workers import this file."""
+"""Trivial cases of a study for tests of its execution: some compute, fail, or end their process."""
 
 import os
 import signal

@@ -1,7 +1,7 @@
-"""Surface displacement of a half-space by brute quadrature, the judge of the closed forms.
+"""Reference surface displacement of a half-space by quadrature, for tests of the closed forms.
 
 Polar coordinates around the field point cancel the 1/distance of Boussinesq's and Cerruti's
-kernels, so nothing but the traction itself is integrated along each ray.
+kernels, so that only the traction is integrated along each ray.
 """
 
 from collections.abc import Callable, Sequence

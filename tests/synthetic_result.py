@@ -1,4 +1,5 @@
-"""A result that no solver made: Cattaneo-Mindlin fields on a small grid, for what only writes."""
+"""Result with Cattaneo-Mindlin fields on a small grid, made without a solver, for tests of
+output."""
 
 from dataclasses import replace
 from typing import Any

@@ -1,4 +1,4 @@
-"""An accuracy that is asked for is met, or it is said why not."""
+"""Tests of requested accuracies: results meet them, or the program states the reason for a miss."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""Our own solvers and other codes answer challenges by the door of all, each what it can."""
+"""Tests of the adapters by which our solvers and other codes answer the challenges."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""`slipstick against`: measured loops and profiles beside a run, and our part of the difference."""
+"""Tests of `slipstick against`: comparison of measured loops and profiles with a run, with its
+errors."""
 
 import csv
 import json

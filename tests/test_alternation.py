@@ -1,4 +1,4 @@
-"""The coupled solvers on small dense problems: the laws of contact and friction, and other ways."""
+"""Tests of the coupled solvers on small dense problems: contact law, friction law, convergence."""
 
 import numpy as np
 import pytest

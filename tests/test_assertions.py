@@ -1,4 +1,4 @@
-"""Every test asserts something that runs, and no tolerance admits all."""
+"""Tests of the tests: every test has an assertion, and no tolerance accepts everything."""
 
 import ast
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""Bulk strain of the lower body: slip, work and stress, in all solvers."""
+"""Tests of a bulk strain of the lower body: slip, work and stress, with all solvers."""
 
 from dataclasses import replace
 from functools import partial

@@ -1,4 +1,4 @@
-"""Other codes are judged by files or from Python, and no slip of theirs passes in silence."""
+"""Tests of the judgement of other codes, by files or from Python: their errors are detected."""
 
 from __future__ import annotations
 

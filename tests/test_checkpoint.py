@@ -1,4 +1,4 @@
-"""Going on from a checkpoint gives the same bits; what is not its own it names and leaves alone."""
+"""Tests of checkpoints: a resumed load history has identical results; foreign files are refused."""
 
 import hashlib
 import os

@@ -1,4 +1,4 @@
-"""The command line: what it says, what it leaves alone, and with which code it ends."""
+"""Tests of the command line: messages, exit codes, imports, and files that must stay unchanged."""
 
 import errno
 import json

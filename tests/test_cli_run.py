@@ -1,4 +1,4 @@
-"""`slipstick run` from end to end with the real solver, also when it is stopped on the way."""
+"""Tests of `slipstick run` from end to end with a real solver, including interruption."""
 
 import json
 import os

@@ -1,4 +1,5 @@
-"""Normal contact: each closed form is judged by quadrature and by the others, not by a solver."""
+"""Tests of closed forms of normal and tangential contact by quadrature and by other closed
+forms."""
 
 from dataclasses import replace
 from itertools import pairwise

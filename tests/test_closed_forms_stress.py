@@ -1,4 +1,5 @@
-"""Subsurface stress of the Hertz contact: equilibrium, boundary values, point-force integrals."""
+"""Tests of closed forms of the stress below a contact: equilibrium, boundary values, point
+forces."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,5 @@
-"""The study of the paper's figures 3 and 4: two solvers agree within errors that can be missed."""
+"""Tests of the study of figures 3 and 4 of the paper: agreement of two solvers within their
+errors."""
 
 import numpy as np
 import pytest

@@ -1,5 +1,4 @@
-"""The tools that read the code agree with it: ruff and codespell on everything, mypy on the
-packages."""
+"""Tests that run the code checkers: ruff and codespell on all files, mypy on the packages."""
 
 import subprocess
 import sys

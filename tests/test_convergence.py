@@ -1,4 +1,4 @@
-"""Order and limit of a value whose limit nobody knows, on planted data."""
+"""Tests of observed orders and limits under refinement, on artificial data with a known answer."""
 
 from functools import partial
 from types import SimpleNamespace

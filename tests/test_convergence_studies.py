@@ -1,4 +1,4 @@
-"""Convergence studies of textbook scenes find limits that are known otherwise."""
+"""Tests of convergence studies: they find the known limits of textbook scenes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

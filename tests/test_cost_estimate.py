@@ -1,4 +1,4 @@
-"""CPU seconds that `slipstick plan` states, against those that runs take."""
+"""Tests of the CPU time that `slipstick plan` estimates, against the time of runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Coupled increments: laws of symmetry and scale, energy, limits, and what they cost others."""
+"""Tests of coupled increments: equations, status, contact fraction, and slip from first touch."""
 
 from itertools import groupby
 

@@ -1,4 +1,4 @@
-"""The comparison of the solvers: what it measures, and that it can fail."""
+"""Tests of the comparison of the solvers: the comparison detects differences."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Cases that are declared by rows: an observable of a problem, judged on the rungs of a ladder."""
+"""Tests of declared verification cases: observables of a problem, judged on refinement levels."""
 
 from types import SimpleNamespace
 from typing import Any

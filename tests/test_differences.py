@@ -1,4 +1,5 @@
-"""What is measured between two results: a value that is no number is never a small difference."""
+"""Tests of the difference between two results: a value that is NaN never counts as a small
+difference."""
 
 from collections.abc import Callable
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What README and documentation name is there: files, commands, options, cases and studies."""
+"""Tests of README and documentation: named files, commands, options, cases and studies exist."""
 
 import re
 import resource

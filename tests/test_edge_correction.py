@@ -1,4 +1,4 @@
-"""The pressure with its edge inside the cells."""
+"""Tests of the edge correction, by which the contact edge lies inside the cells."""
 
 from functools import cache
 

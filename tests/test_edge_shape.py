@@ -1,4 +1,4 @@
-"""The edge inside the cells: means of cut-off powers, fits to means, points of the edge."""
+"""Tests of the edge correction: cell means of cut-off powers, fits to means, points of the edge."""
 
 import numpy as np
 import pytest

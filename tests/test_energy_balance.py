@@ -1,4 +1,4 @@
-"""First law: work put in is stored or dissipated, in every increment and whatever the history."""
+"""Tests of the energy balance: input work is stored or dissipated in every increment."""
 
 from itertools import combinations
 from math import cos, pi, sin, sqrt

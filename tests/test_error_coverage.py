@@ -1,4 +1,4 @@
-"""The verdict on stated errors: its counts, and its sight of a wrong error estimate."""
+"""Tests of the study of stated errors: its counts, and its detection of a wrong error estimate."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Answers of drawn scenes: closed forms, and solvers that approach them as they refine."""
+"""Tests of the known results of random scenes: solvers converge to them under refinement."""
 
 from __future__ import annotations
 

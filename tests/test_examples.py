@@ -1,6 +1,7 @@
-"""Every script in examples/ and in the README runs and keeps its promise: it exits with 0.
+"""Tests of the scripts in examples/ and in the README: each runs and exits with code 0.
 
-That of the README runs on few cells."""
+The script of the README runs on few cells.
+"""
 
 import json
 import re

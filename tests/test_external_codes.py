@@ -1,4 +1,4 @@
-"""Records of other codes are extrapolated to stiff springs, with an uncertainty."""
+"""Tests of reference results of other codes: extrapolation in the penalty, and uncertainty."""
 
 import numpy as np
 import pytest

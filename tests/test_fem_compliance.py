@@ -1,4 +1,4 @@
-"""Condensed compliances against Hankel integrals, punches with closed forms, and themselves."""
+"""Tests of condensed finite-element compliances against Hankel integrals and closed forms."""
 
 from dataclasses import replace
 from math import inf, isinf, pi

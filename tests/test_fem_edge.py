@@ -1,4 +1,4 @@
-"""Radii of contact and of stick from values at the rings."""
+"""Tests of contact and stick radii that are determined from values at the rings."""
 
 from math import pi
 

@@ -1,4 +1,4 @@
-"""Fields that elasticity knows exactly are exact on any mesh of quadrilaterals."""
+"""Tests of the finite-element elasticity: exact solutions are reproduced on any mesh."""
 
 from math import pi
 

@@ -1,4 +1,4 @@
-"""Laws of the contact solver on points (r, θ), on compliances that know no finite elements."""
+"""Tests of the finite-element contact solver on points (r, θ), with artificial compliances."""
 
 from dataclasses import replace
 from types import SimpleNamespace

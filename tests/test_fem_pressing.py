@@ -1,4 +1,4 @@
-"""Frictionless contact by finite elements, against closed forms and laws."""
+"""Tests of normal contact by finite elements, against closed forms and laws."""
 
 from pathlib import Path as FilePath
 

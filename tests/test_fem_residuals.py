@@ -1,4 +1,4 @@
-"""What the residuals of the finite-element reference say about states that are wrong."""
+"""Tests of the residuals of the finite-element solver: wrong states have large residuals."""
 
 from collections.abc import Callable
 from dataclasses import fields, replace

@@ -1,4 +1,4 @@
-"""Stress of a section: closed forms, equilibrium, interfaces, units."""
+"""Tests of the stress by finite elements: closed forms, equilibrium, interfaces, units."""
 
 from dataclasses import replace
 

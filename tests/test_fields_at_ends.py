@@ -1,5 +1,7 @@
-"""Fields are stored at the ends of load steps, or at every increment on request: every reader finds
-them, or names the option that stores them."""
+"""Tests of stored fields: at the ends of load steps, or at every increment on request.
+
+Every reader finds the fields, or names the option that stores them.
+"""
 
 import csv
 import json

@@ -1,4 +1,5 @@
-"""Surface FRFs against high-precision boundary-value solves, and at the ends of their range."""
+"""Tests of surface FRFs of layered bodies against high-precision solves, and at extreme
+wavenumbers."""
 
 from dataclasses import replace
 

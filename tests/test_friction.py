@@ -1,4 +1,4 @@
-"""The friction limit: what it is at a place, on a part of the surface, and in all."""
+"""Tests of the friction limit: at a point, on a part of the surface, and in total."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`import slipstick`: a dozen names that cost nothing until they are used, and what they do."""
+"""Tests of `import slipstick`: public names, cost of the import, and behaviour."""
 
 import subprocess
 import sys

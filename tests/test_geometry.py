@@ -1,4 +1,4 @@
-"""Indenters: the gap at first touch."""
+"""Tests of the indenters: the gap at first touch."""
 
 import re
 from decimal import Decimal, localcontext

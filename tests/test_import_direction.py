@@ -1,9 +1,8 @@
-"""Imports go one way: scene <- solvers <- results <- errors <- verification <- command
-(CONTRIBUTING.md).
+"""Tests of the import order: scene <- solvers <- results <- errors <- verification <- command.
 
-`ORDERS` holds the reading order of a package: a module imports only from entries above its own. An
-entry that is a package stands for all its modules, which may have an order of their own. A new
-module has to be placed in its list.
+CONTRIBUTING.md states the order. `ORDERS` holds the reading order of a package: a module imports
+only from entries above its own. An entry that is a package stands for all its modules, which may
+have an order of their own. A new module has to be placed in its list.
 """
 
 import ast

@@ -1,4 +1,4 @@
-"""One increment costs what its physics costs: effects that are off are never computed."""
+"""Tests of the cost of an increment: effects that are off are not computed."""
 
 from dataclasses import replace
 

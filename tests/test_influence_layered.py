@@ -1,4 +1,4 @@
-"""Influence coefficients of layered bodies: against references, and by the laws they obey."""
+"""Tests of influence coefficients of layered bodies, against references and by symmetry laws."""
 
 from math import hypot
 

@@ -1,4 +1,4 @@
-"""`slipstick judge FILE.py:FUNCTION --case CASE`: exit codes say how it went."""
+"""Tests of `slipstick judge FILE.py:FUNCTION --case CASE`: exit codes and refusals."""
 
 from __future__ import annotations
 

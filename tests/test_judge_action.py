@@ -1,4 +1,4 @@
-"""The action judges solvers in workflows, and its exit code is that of the command."""
+"""Tests of the GitHub action that judges solvers: its exit code is that of the command."""
 
 from __future__ import annotations
 

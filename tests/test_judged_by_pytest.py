@@ -1,4 +1,4 @@
-"""pytest judges solvers: verdicts are its outcomes."""
+"""Tests of the pytest plugin that judges solvers: verdicts become test outcomes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Arrays that are kept on disk: believed if they are whole, ours and what was asked for."""
+"""Tests of the cache of arrays on disk: damaged and foreign files are detected and not used."""
 
 import os
 import re

@@ -1,5 +1,4 @@
-"""Kept records of studies: today's code asks the same, and their statements follow from what they
-show."""
+"""Tests of the stored records of studies: the present code has the same cases and statements."""
 
 from functools import cache
 from pathlib import Path

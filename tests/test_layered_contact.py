@@ -1,4 +1,4 @@
-"""Contact of layered bodies: what does not change it, and what is refused."""
+"""Tests of contact of layered bodies: default window, invariance, and refusals."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The memory of a run is known before it is taken, whatever the scene and its grid."""
+"""Tests of the memory estimate: the peak memory of a run is known before the run."""
 
 import sys
 from pathlib import Path

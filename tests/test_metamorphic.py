@@ -1,4 +1,5 @@
-"""Symmetries and scalings of the whole solver: no reference solution, only laws."""
+"""Tests of symmetries and scaling laws of the semi-analytical solver, without reference
+solutions."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The pressure solver against an active-set method that shares nothing with it."""
+"""Tests of the solver of the normal problem against an independent active-set method."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Whatever a solver returns is held against the laws once more, and what breaks one is seen."""
+"""Tests of the check of returned fields by the laws of contact: violations are detected."""
 
 import re
 from dataclasses import replace

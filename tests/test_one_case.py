@@ -1,4 +1,4 @@
-"""Verifying one case imports the module of that case: no other, no study, no solver but its."""
+"""Tests of verification cases: one case imports only its own module and solvers."""
 
 import os
 import subprocess

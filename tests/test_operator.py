@@ -1,4 +1,4 @@
-"""The FFT operators are the dense matrices of the influence coefficients."""
+"""Tests of the FFT operators: they equal the dense matrices of the influence coefficients."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Orders of convergence: what is judged, of runs that share a size, and how it is drawn."""
+"""Tests of the judgement and the charts of convergence orders in verification cases."""
 
 from collections.abc import Callable
 from functools import cache

@@ -1,4 +1,5 @@
-"""What is installed is what is in the tree, under the names and versions that it states."""
+"""Tests of the packages: installed files, names, versions and pinned dependencies are
+consistent."""
 
 import importlib.metadata
 import os

@@ -1,4 +1,5 @@
-"""The share of texts with a habit of unclear English stays below the limit of each package."""
+"""Test of the English of each package: the share of texts with an unclear habit stays below a
+limit."""
 
 from pathlib import Path
 

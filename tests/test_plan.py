@@ -1,4 +1,4 @@
-"""What a scene calls for: the effects, and into how many increments its steps are cut."""
+"""Tests of the plan of a run: required physical effects, and increments of the load steps."""
 
 from math import sqrt
 

@@ -1,4 +1,4 @@
-"""Promises under attack, tried many times at night: one clear error or one answer, nothing lost."""
+"""Tests of robustness by many random attacks: each ends in one clear error or a correct result."""
 
 import math
 import os

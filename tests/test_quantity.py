@@ -1,4 +1,5 @@
-"""Quantities: numbers in SI, or texts with a unit, to the last bit."""
+"""Tests of quantities in scene files: numbers in SI, or texts with a unit, converted without
+round-off."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""The radial solver: closed forms of half-spaces, laws of layers, and what it refuses."""
+"""Tests of the radial solver: closed forms of half-spaces, laws of layers, and refusals."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""How much of a circle the radial solver takes, and what its points know: compliances, twists in
-closed form, films."""
+"""Tests of the radial solver on points (r, θ): angular range, compliances, and twist in closed
+form."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Energies of tractions on rings, harmonic by harmonic: closed forms, layers and known contacts."""
+"""Tests of the energies of traction rings, for each angular harmonic, against closed forms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tangential loads by the radial solver: Cattaneo, Mindlin and Masing, and laws of any history."""
+"""Tests of tangential loads by the radial solver: Cattaneo-Mindlin, Masing, and general laws."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stored records know the sources that made them."""
+"""Tests of stored records: they contain a digest of the source code that made them."""
 
 from __future__ import annotations
 

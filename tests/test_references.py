@@ -1,4 +1,4 @@
-"""Reference data are shipped, readable and physically possible, and their origin exists."""
+"""Tests of the stored reference solutions: complete, readable and physically possible."""
 
 import json
 import pkgutil

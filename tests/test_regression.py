@@ -1,4 +1,4 @@
-"""Numbers beside the recorded ones: what counts as a change, and who may accept one."""
+"""Tests of the comparison of results with baselines: kinds of changes, and acceptance."""
 
 from __future__ import annotations
 

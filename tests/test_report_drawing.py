@@ -1,4 +1,4 @@
-"""How charts are drawn: labels of logarithmic axes, points that are seen, series told apart."""
+"""Tests of charts: labels of logarithmic axes, visible points, distinguishable series."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The two layers of the page: a front that judges, and sheets behind it that say what they show."""
+"""Tests of the report pages: the first page with its judgement, and the page with the cases."""
 
 import lzma
 import re

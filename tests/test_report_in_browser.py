@@ -1,4 +1,4 @@
-"""The report opened in a Chromium: no error, no request, and nothing of a record is ever run."""
+"""Tests of the report in Chromium: no error, no network request, no script from a record is run."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The report's page: units of its tables, its promises, its size, and the studies that it shows."""
+"""Tests of the report page: units of tables, main claims, size, and studies."""
 
 import ast
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a report, a record or a baseline says is believed only as far as it agrees with itself."""
+"""Tests of inconsistent reports, records and baselines: contradictions are detected."""
 
 import errno
 import fcntl

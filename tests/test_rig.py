@@ -1,4 +1,5 @@
-"""Series springs of a rig: the law of springs in series, in all solvers, and its energies."""
+"""Tests of the springs of a test rig in series with the contact, in all solvers, and their
+energies."""
 
 import pytest
 

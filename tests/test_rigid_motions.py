@@ -1,4 +1,4 @@
-"""Tilt and twist: laws of the solver that hold whatever the loads of the rotations are."""
+"""Tests of tilt and twist: laws that hold for any loads of the rotations."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The directory of a run is whole or not there, and holds nobody else's files hostage."""
+"""Tests of the output directory of a run: complete or absent, and other files are kept."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""The files of a run: what they hold, and that equal results give equal bytes."""
+"""Tests of the files of a run: their content, and equal bytes for equal results."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""The page and the overview of a run say what it found, whatever its title."""
+"""Tests of the HTML page and the overview figure of a run."""
 
 from dataclasses import replace
 from typing import Any

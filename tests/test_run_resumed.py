@@ -1,4 +1,4 @@
-"""A run that is killed loses an increment at most, and its files are those of one that is not."""
+"""Tests of interrupted runs: at most one increment is lost, and the files are the same."""
 
 import itertools
 import os

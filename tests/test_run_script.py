@@ -1,4 +1,4 @@
-"""`./run` spreads the tests over every core unless told which and where, and keeps bytecode."""
+"""Tests of the script `./run`: tests run on all cores unless a file or a number is given."""
 
 import os
 import shutil

@@ -1,4 +1,4 @@
-"""Bad scene files: every mistake is told once, with file, line, key and what would be right."""
+"""Tests of invalid scene files: every mistake is reported once, with file, line, key and remedy."""
 
 import copy
 import gc

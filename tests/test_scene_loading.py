@@ -1,4 +1,4 @@
-"""Loading: what is held, what is ramped, and where force control ends."""
+"""Tests of load steps: prescribed quantities, ramps, and the limits of force control."""
 
 from contextlib import nullcontext
 from typing import Any

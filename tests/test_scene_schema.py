@@ -1,4 +1,4 @@
-"""The JSON Schema of scene files says what the reader does."""
+"""Tests of the JSON Schema of scene files: it accepts and refuses the same scenes as the reader."""
 
 import tomllib
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The files of a result on a section, and the commands that write and read them."""
+"""Tests of the output of finite-element results on a meridional section."""
 
 from pathlib import Path
 from typing import Any

@@ -1,4 +1,4 @@
-"""The harness sees what is broken, passes what is whole, and leaves no defect behind."""
+"""Tests of seeded defects: the verification detects them, and they are removed afterwards."""
 
 from types import FunctionType
 from typing import Any

@@ -1,4 +1,4 @@
-"""Separation of the bodies at the end of a load step: no load, no contact, and a virgin return."""
+"""Tests of the separation of the bodies: empty contact, and return from the virgin state."""
 
 from typing import Any, NamedTuple
 

@@ -1,4 +1,5 @@
-"""The contact on the front of a report: drawn the same every time, in few bytes, as an image."""
+"""Tests of the picture of one contact on the first report page: reproducible, small, and an
+image."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""What claims to be huge is refused at once, and without the memory that it claims."""
+"""Tests of files that claim to be huge: they are refused at once and without using memory."""
 
 import hashlib
 import json

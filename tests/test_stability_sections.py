@@ -1,4 +1,5 @@
-"""The stability map of the finite elements: hard cells, and that no wrong field passes."""
+"""Tests of the stability map of the finite elements: hard contacts, and detection of wrong
+fields."""
 
 from collections.abc import Callable
 from dataclasses import replace

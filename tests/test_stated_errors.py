@@ -1,4 +1,4 @@
-"""Stated errors cover the true errors, or the number is marked as not converged."""
+"""Tests of stated errors: they cover the true errors, or the number is marked as not converged."""
 
 import ast
 import json

@@ -1,5 +1,7 @@
-"""The border of stick is found to a part of a cell, whether slip or stick spreads there, and though
-the shear turns across it."""
+"""Tests of the border of the stick zone, which is located to a fraction of a cell.
+
+The border may spread or shrink, and the shear may turn across the border.
+"""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Stick, slip and what the surfaces remember: friction obeyed in hard and easy histories."""
+"""Tests of stick and slip: the friction law holds in easy and hard load histories."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Stress that sees the edge of the contact between the cells."""
+"""Tests of the stress near the contact edge, where the edge lies inside the cells."""
 
 from dataclasses import replace
 from typing import Any

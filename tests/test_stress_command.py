@@ -1,4 +1,4 @@
-"""`slipstick stress` from end to end: from a scene, from a run, and what it refuses."""
+"""Tests of `slipstick stress` from end to end: from a scene, from a run, and refusals."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,5 @@
-"""The files of a stress: one set of columns and axes for all solvers, meshes that read back."""
+"""Tests of the files of a stress: the same columns and axes for all solvers, and readable
+meshes."""
 
 import csv
 import tracemalloc

@@ -1,4 +1,4 @@
-"""Fields by a unit traction on one cell: closed form and layers, against laws and quadrature."""
+"""Tests of the fields of a unit traction on one cell: closed form, layers, laws and quadrature."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,5 @@
-"""Stress below the radial solver's contacts: closed forms, laws of layers, the other solver."""
+"""Tests of the stress below contacts of the radial solver, against closed forms and another
+solver."""
 
 from __future__ import annotations
 

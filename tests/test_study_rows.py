@@ -1,4 +1,4 @@
-"""Rows of a study: what is written of them, and the rules that judge them."""
+"""Tests of the rows of a study: their files, and the rules by which they are judged."""
 
 import csv
 import io

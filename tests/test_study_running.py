@@ -1,4 +1,4 @@
-"""How studies run: records are kept, nothing is computed twice, a lost case costs only itself."""
+"""Tests of the execution of studies: records are reused, and a lost case affects only itself."""
 
 import csv
 import html

@@ -1,4 +1,4 @@
-"""The stability map: its cells, its verdicts, and that it cannot be fooled in silence."""
+"""Tests of the stability map: its contacts, its verdicts, and detection of wrong results."""
 
 from dataclasses import replace
 from itertools import combinations

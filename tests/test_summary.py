@@ -1,4 +1,4 @@
-"""The summary of a run: all keys, in SI, the same bytes for the same results."""
+"""Tests of the summary of a run: all keys, SI units, and equal bytes for equal results."""
 
 import csv
 import json

@@ -1,4 +1,4 @@
-"""A surface says the same of a field of revolution, whether it lies on cells or on rings."""
+"""Tests of the surface of a result: axisymmetric fields are equal on cells and on rings."""
 
 from pathlib import Path
 from types import SimpleNamespace

@@ -1,4 +1,5 @@
-"""`slipstick sweep`: spaced keys, samples of distributions, resuming, and refusals."""
+"""Tests of `slipstick sweep`: values of keys, samples of distributions, resumption, and
+refusals."""
 
 import json
 import shlex

@@ -1,4 +1,4 @@
-"""`slipstick table`: numbers against other computations, provenance, and what it refuses."""
+"""Tests of `slipstick table`: comparison with other computations, provenance, and refusals."""
 
 from __future__ import annotations
 

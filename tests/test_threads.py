@@ -1,4 +1,4 @@
-"""Whoever allows two threads of linear algebra gets the same bytes."""
+"""Tests of linear algebra with two threads: results have the same bytes as with one."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,5 @@
-"""Torque on the shear: forces carried exactly, discs kept, and what friction can carry."""
+"""Tests of projections of shear and pressure onto prescribed forces, torques and friction
+limits."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A contact that the cells do not resolve is refused, with settings that do resolve it."""
+"""Tests of contacts that the cells do not resolve: refusal, and advice that resolves them."""
 
 import json
 import re

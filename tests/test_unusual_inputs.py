@@ -1,4 +1,5 @@
-"""Unusual but valid inputs give the numbers of the theory, or of the scene without their effect."""
+"""Tests of unusual but valid inputs: results agree with theory or with the scene without the
+effect."""
 
 from pathlib import Path
 from typing import Any

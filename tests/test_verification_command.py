@@ -1,4 +1,5 @@
-"""`slipstick verify` and `slipstick maintain report` from end to end, on one small case."""
+"""Tests of `slipstick verify` and `slipstick maintain report` from end to end, on one small
+case."""
 
 import json
 import re

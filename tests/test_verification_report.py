@@ -1,4 +1,4 @@
-"""The report: self-contained, without scripts, the same bytes for the same numbers."""
+"""Tests of the verification report: self-contained, without scripts, and reproducible."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Work and precision: the Pareto line, the cheapest setting, the clock, and the other codes."""
+"""Tests of the study of work and precision: Pareto front, cheapest setting, and timing."""
 
 import os
 import subprocess

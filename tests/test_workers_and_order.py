@@ -1,4 +1,4 @@
-"""How many workers compute cases, in what order and beside whom: the records are the same bytes."""
+"""Tests of case workers: their number, order and location do not change the records."""
 
 import os
 import re
