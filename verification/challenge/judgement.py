@@ -444,7 +444,8 @@ class Judgement:
     omitted: tuple[tuple[str, int, bool], ...]
 
     def count(self, status: Status) -> int:
-        """Return the number of verdicts of the judgement with the given status."""
+        """Return the number of verdicts on the answer that have the given status: pass, fail or
+        inconclusive."""
         return sum(row.status is status for row in self.rows)
 
     @property
@@ -466,7 +467,8 @@ class Judgement:
 
     @property
     def line(self) -> str:
-        """Summary of the judgement of a code in one line for a log."""
+        """Text of the judgement in one line of a log: problem, code, accuracy class and numbers of
+        verdicts."""
         counts = ", ".join(
             f"{self.count(status)} {status}"
             for status in (Status.PASS, Status.FAIL, Status.INCONCLUSIVE)

@@ -33,7 +33,8 @@ LEVELS = 4
 
 
 class CannotDo(Exception):
-    """Exception that a solver function raises for a challenge outside its scope."""
+    """Exception that a solver function raises for a benchmark problem (challenge) outside its
+    scope."""
 
 
 @dataclass(frozen=True)
@@ -183,7 +184,10 @@ def _required_keys(challenge: Challenge) -> list[Key]:
 
 @cache
 def _known_quantities() -> frozenset[str]:
-    """Return the names of all quantities that any challenge requires, to refuse misspelt names."""
+    """Return the names of all quantities that any benchmark problem (challenge) requires.
+
+    Used to refuse misspelt names in the answer of a solver.
+    """
     return frozenset(name for one in challenges().values() for name, _ in _required_keys(one))
 
 

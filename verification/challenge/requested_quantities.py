@@ -495,7 +495,8 @@ class Challenge:
 
     @property
     def numbers(self) -> tuple[AskedValue | AskedPoints, ...]:
-        """Required numbers and required numbers at points, without the traction fields."""
+        """Numbers and sets of numbers at points that the benchmark problem requires, without
+        traction fields."""
         return (*self.values, *self.points)
 
 

@@ -50,7 +50,8 @@ class Section:
 
     @property
     def r(self) -> Field:
-        """Distances of the cell centres of the row from the axis of the contact [length]."""
+        """Distances of the cell centres of the row from the axis of the contact, √(x² + y²)
+        [length]."""
         return np.asarray(np.hypot(self.x, self.y))
 
     def of(self, field: Field) -> Field:

@@ -71,7 +71,7 @@ class ChangeRow:
 
     @property
     def line(self) -> str:
-        """Text of the change as one line of a log."""
+        """Text of the change of a result since the recorded baseline, as one line of a log."""
         moved = "" if self.moved == "–" else f" ({self.moved})"
         remark = f"; {self.remark}" if self.remark else ""
         return (

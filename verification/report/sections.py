@@ -116,7 +116,8 @@ def _study_feature(section: StudySection, promise: str) -> Feature:
 
 
 def claims_line(record: StudyRecord) -> str:
-    """Return a text with the numbers of fulfilled and of judged claims of a study."""
+    """Return a text such as "5 of its 6 judged claims hold (level full)" on the claims of a
+    study."""
     judged = [s.outcome for s in record.conclusion.statements if s.outcome is not None]
     good = judged.count(Status.PASS)
     return f"{good} of its {len(judged)} judged claims hold (level {record.level})"

@@ -267,7 +267,8 @@ class CaseEnd:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Messages on problems that only cost time: a damaged record file, and dead workers."""
+        """Messages on problems of a case that do not affect its record: a damaged file, and dead
+        workers."""
         dead = (f"worker {one} has died: its cases go to other workers" for one in self.workers)
         return (*((f"{self.damaged}; computed again",) if self.damaged else ()), *dead)
 
@@ -304,7 +305,7 @@ class Workers(Protocol):
         call."""
 
     def close(self) -> None:
-        """Cancel the calls that have not started, and release the workers of the pool."""
+        """Cancel the calls that have not started, and release the worker processes of the pool."""
 
 
 def run_cases(

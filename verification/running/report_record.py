@@ -160,6 +160,6 @@ def _unpacked(path: Path) -> bytes:
 
 
 def report_schema() -> dict[str, Any]:
-    """Return the JSON Schema of the record `report.json` of a verification report."""
+    """Return the JSON Schema of `report.json`, the record of a verification report."""
     schema = Report.model_json_schema(mode="serialization")
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -118,7 +118,8 @@ class TypedRow(Description):
 
     @classmethod
     def of(cls, row: Row) -> Self:
-        """Create the object with typed values from a stored `Row` of a study."""
+        """Create the object with typed values from the `Row` in which a study has stored the
+        values."""
         known: dict[str, Any] = {**row.parameters, **row.measures, **row.counters, **row.words}
         return cls.model_validate({name: known[name] for name in cls.model_fields if name in known})
 
@@ -222,9 +223,9 @@ def _csv_line(row: Row) -> Cells:
 
 
 def _csv_text(lines: Iterable[Cells]) -> str:
-    """Write lines as CSV text, with a column for every name that occurs in any line.
+    """Write the lines of a table of a study as CSV text, with a column for every name in any line.
 
-    lines  cells by column name
+    lines  cells of each line by column name
     """
     lines = tuple(lines)
     text = io.StringIO()
@@ -245,7 +246,7 @@ class StudyCase(Protocol):
 
     @property
     def name(self) -> str:
-        """Unique name of the case in its study, of letters, digits and hyphens."""
+        """Name of the case, unique in its study, of letters, digits and hyphens; used for files."""
 
     def compute(self) -> Description:
         """Compute the case and return its record, which is a `CaseRecord` in studies.
@@ -358,7 +359,7 @@ class StudyRecord(Description):
     def status(self) -> Status:
         """Overall status of a study: FAIL if a claim failed or a case has no record.
 
-        Otherwise INCONCLUSIVE if any claim is inconclusive, else PASS.
+        Otherwise the status is INCONCLUSIVE if any claim is inconclusive, and else PASS.
         """
         outcomes = {statement.outcome for statement in self.conclusion.statements}
         if self.lost or Status.FAIL in outcomes:

@@ -168,7 +168,7 @@ class Share:
 
     @property
     def part(self) -> float:
-        """Observed fraction `count / of` as a number; 1 if nothing was counted."""
+        """Observed fraction as a number: `count / of`, or 1 if nothing was counted."""
         return self.count / self.of if self.of else 1.0
 
     @property
@@ -424,8 +424,10 @@ def cases(settings: Settings) -> tuple[CoverageCase | RequestCase, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Judge the coverage of the stated errors of each group of results, and the requested
-    accuracies."""
+    """Judge how often stated errors cover the true errors, and if requested accuracies are met.
+
+    Each kind of quantity and each family of scenes is judged separately.
+    """
     asked = cases(settings)
     known = found(asked, records)
     scenes = [record for case, record in known.items() if isinstance(case, CoverageCase)]

@@ -83,8 +83,8 @@ ORDER, LARGEST, NATURAL, FLOOR = "order", "largest", "natural", "floor"
 
 
 class CannotRefine(ValueError):
-    """Exception for a scene without the requested load step, or without levels for the requested
-    study."""
+    """Exception for a scene without the requested load step, or a mesh too coarse to have enough
+    levels."""
 
 
 @dataclass(frozen=True)

@@ -61,7 +61,8 @@ class ScoredRun:
 
     @property
     def name(self) -> str:
-        """File name of the record of the judgement: the code and the challenge."""
+        """File name of the record of the judgement: the code and the benchmark problem
+        (challenge)."""
         words = f"{self.code}-{self.challenge}"
         return "".join(c if c.isalnum() else "-" for c in words)
 
@@ -94,15 +95,15 @@ class ScoredRun:
 
 
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:
-    """Return the cases of the study: every code on every challenge."""
+    """Return the cases of the study: each code on each benchmark problem (challenge)."""
     codes = (*OURS, *(peer.module for peer in PEERS))
     levels = settings.levels or LEVELS[settings.level]
     return tuple(ScoredRun(code, name, levels) for code in codes for name in challenges())
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Compare all codes by tables of accuracy classes, CPU times and largest errors by
-    challenge."""
+    """Compare all codes by tables: accuracy class, CPU time and largest errors on each benchmark
+    problem."""
     runs = [(run, records[run.name]) for run in cases(settings) if run.name in records]
     done = Counter(run.code for run, record in runs if CANNOT not in record.words)
     codes = list(dict.fromkeys(run.code for run, _ in runs))

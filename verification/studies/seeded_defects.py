@@ -58,7 +58,7 @@ class FailedVerdict(TypedRow):
 
 
 def failed_verdicts(record: CaseRecord) -> tuple[FailedVerdict, ...]:
-    """Return the failed verdicts that the record of a verification case contains."""
+    """Return the failed verdicts that the stored record of a verification case contains."""
     return tuple(map(FailedVerdict.of, record.parts))
 
 
@@ -161,7 +161,7 @@ def cases_under(settings: Settings, defect: Defect) -> tuple[str, ...]:
 
 
 def cases(settings: Settings) -> tuple[DefectRun, ...]:
-    """Return the verification cases under every seeded defect, and the same cases without a
+    """Return the cases of the study: verification cases under every seeded defect, and without a
     defect."""
     runs = [
         DefectRun(defect.name, case)
@@ -225,7 +225,10 @@ def detection(settings: Settings, records: Records, defect: Defect) -> Detection
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Judge if the verification detects every seeded defect and passes without a defect."""
+    """Judge if the verification detects every seeded defect and passes without a defect.
+
+    The table of the conclusion lists the clearest detection of each defect.
+    """
     found = [detection(settings, records, defect) for defect in DEFECTS.values()]
     detected = sum(bool(one.verdicts) for one in found)
     missed = [one.defect.name for one in found if one.missed]

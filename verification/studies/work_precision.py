@@ -113,7 +113,7 @@ class PreciseContact:
 
     @property
     def leading(self) -> str:
-        """Name of the first of the errors that are measured on the contact."""
+        """Name of the first error in the list of errors that are measured on the contact."""
         return next(iter(self.errors))
 
     def meaning(self, quantity: str) -> str:
@@ -340,7 +340,7 @@ class PrecisionCase:
 
     @property
     def solved(self) -> PreciseContact:
-        """Contact with a reference solution that the case solves."""
+        """Contact that the case solves, from the table of all contacts of the study."""
         return CONTACTS[self.contact]
 
     @property
@@ -537,8 +537,11 @@ def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Judge that some setting reaches an error of 1 % for every quantity, and report the cheapest
-    settings."""
+    """Judge that some setting reaches an error of 1 % for every quantity; list the cheapest
+    settings.
+
+    The conclusion has a table and a chart of error against CPU time for every contact and quantity.
+    """
     known = found(cases(settings), records)
     everything = {
         (contact.name, quantity): dependable(points)

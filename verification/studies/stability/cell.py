@@ -17,8 +17,7 @@ from verification.running.study import CaseRecord, TypedRow, parameters_of
 
 
 class Surface(StrEnum):
-    """Kind of indenter of a contact in the stability map, for some kinds with nonuniform
-    friction."""
+    """Kinds of indenter in the stability map, in part with nonuniform friction on the body."""
 
     BALL = "ball"
     ALIKE_BALL = "alike-ball"  # equal to the body, so pressure and shear do not couple
@@ -31,7 +30,7 @@ class Surface(StrEnum):
 
 
 class LoadingPath(StrEnum):
-    """Sequence of normal and tangential loads of a contact in the stability map, such as a load
+    """Sequences of normal force W and tangential force T in the stability map, such as a load
     cycle."""
 
     PRESS = "press"  # no tangential load
@@ -55,7 +54,7 @@ class Solver(StrEnum):
 
     @property
     def by_elements(self) -> bool:
-        """True if the solver uses finite elements."""
+        """True for the two finite-element solvers, False for the semi-analytical solver."""
         return self is not Solver.SEMI_ANALYTICAL
 
 
@@ -266,7 +265,10 @@ class View:
         return self.cells[0].solver.by_elements
 
     def at(self, x: Any, y: Any) -> tuple[StabilityCell, ...]:
-        """Return the contacts of the map at one point (x, y) of its two coordinates."""
+        """Return the contacts at one point (x, y) of the map.
+
+        x, y  values of the two coordinates of the map, such as friction coefficient and T/µW
+        """
         return tuple(c for c in self.cells if getattr(c, self.x) == x and getattr(c, self.y) == y)
 
 

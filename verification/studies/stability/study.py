@@ -439,8 +439,10 @@ def cases(settings: Settings) -> tuple[StabilityRun, ...]:
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
-    """Derive the statements, tables and charts of the stability study from the available
-    records."""
+    """Derive the conclusion of the stability study: statements, tables and maps of contacts.
+
+    records  available records of the contacts
+    """
     here = _records_by_contact(settings, records)
     by_name = {cell.name: record for cell, record in here.items()}
     maps = views(settings.level, _cells_per_side(settings))
