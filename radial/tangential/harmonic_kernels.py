@@ -1,13 +1,14 @@
-"""Kernels between rings of tractions of angular harmonic m on a half-space, in closed form.
+"""Integrals of products of Bessel functions for displacements by tractions on a half-space.
 
-G_m(r, s) = ∫₀^∞ J_m(kr) J_m(ks) dk = Q_{m-½}(χ)/(π√(rs)), χ = (r² + s²)/(2rs) (Watson, Bessel
-Functions 13.22), is logarithmic at r = s. It is computed with the recurrence of Q in its stable
-direction. Two other integrals follow:
+The traction and the displacement are angular harmonics ∝ cos mθ or sin mθ on rings of radii s and
+r. The kernel G_m(r, s) = ∫₀^∞ J_m(kr) J_m(ks) dk = Q_{m-½}(χ)/(π√(rs)) with χ = (r² + s²)/(2rs)
+(Watson, Bessel Functions 13.22) is logarithmic at r = s. It is computed with the recurrence of the
+Legendre function Q in its stable direction. Two other integrals follow:
 
     ∫₀^∞ J_{m-1}(kr) J_{m+1}(ks) dk = (2m-1) G_{m-1} - 2m (r/s) G_m
     ∫₀^∞ J_m(kr) J_{m+1}(ks) dk     = r^m / s^{m+1} for r < s, else 0
 
-`ring_energies` integrates these kernels over the rings.
+The module `ring_energies` integrates these kernels over the rings.
 """
 
 from __future__ import annotations
@@ -26,13 +27,14 @@ UPWARDS, ROUND_OFF = 3.0, 18.0
 
 
 def equal_order_kernels(highest: int, r: Array, s: Array, apart: Array) -> Array:
-    """Compute the kernels G_m = ∫₀^∞ J_m(kr) J_m(ks) dk for m = 0 … highest [1/length].
+    """Compute the kernels G_m(r, s) = ∫₀^∞ J_m(kr) J_m(ks) dk for the harmonics 0 to M [1/length].
 
-    The shape is (highest + 1, …).
+    The displacement of a half-space at radius r by a traction at radius s is proportional to the
+    kernel G_m, if the traction is the angular harmonic m. The shape is (M + 1, …).
 
-    highest  largest m
+    highest  highest harmonic M
     r, s     radii of pairs of points, above 0 (…) [length]
-    apart    |r - s|, given separately to avoid cancellation (…) [length]
+    apart    distance |r - s|, given separately to avoid cancellation (…) [length]
     """
     total = r + s
     small = (apart / total) ** 2
@@ -65,20 +67,22 @@ def _recur_upwards(
     whole: Array,
     small: Array,
 ) -> None:
-    """Compute the kernels G_m = ∫₀^∞ J_m(kr) J_m(ks) dk, m ≥ 1, of pairs with r near s.
+    """Compute the kernels G_m(r, s) = ∫₀^∞ J_m(kr) J_m(ks) dk, m ≥ 1, of pairs with r near s.
 
-    G_m = Q_{m-½}(χ)/(π√(rs)) with the Legendre function Q. The upward recurrence is
+    G_m = Q_{m-½}(χ)/(π√(rs)) with the Legendre function Q and χ = (r² + s²)/(2rs). The upward
+    recurrence
 
         (m+½) Q_{m+½} = 2mχ Q_{m-½} - (m-½) Q_{m-3/2}
 
-    The result is written into `found`, which contains G_0.
+    is accurate for χ near 1. The kernels are written into the array `found`, which contains G_0.
 
-    found          kernels of all pairs (highest + 1, …)
+    found          kernels of all pairs, harmonics on the first axis (M + 1, …) [1/length]
     near           true for the pairs to be computed (…)
-    chi            χ = (r² + s²)/(2rs) of these pairs
-    moment, total  r s and r + s of these pairs
-    whole          complete elliptic integral K of the modulus √(1 - `small`)
-    small          (r - s)²/(r + s)² of these pairs
+    chi            χ of the pairs to be computed
+    moment, total  r s and r + s of the pairs to be computed [length², length]
+    whole          complete elliptic integral K of the modulus √(1 - `small`), for the pairs to be
+                   computed
+    small          (r - s)²/(r + s)² of the pairs to be computed
     """
     if len(found) > 1:
         once = 2 * chi * moment / total * whole - total * ellipe(1 - small)

@@ -29,15 +29,17 @@ from radial.tangential.ring_energies import (
 def ring_compliance(
     coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int
 ) -> Array:
-    """Compute the symmetric Galerkin matrices of hat functions on rings, for every harmonic.
+    """Compute the Galerkin compliance matrices of tractions on rings, for every angular harmonic.
 
-    Their shape is (M + 1, 3, 3, n + 1, n + 1) [length^5/force]. An entry is the displacement by the
-    traction of the column, along the direction of the row, integrated with the hat of the row and r
-    dr. The directions are r, θ, z. Harmonic 0 of q_θ is torsion, which is not coupled to r and z.
+    The traction of a node is a hat function φ along the radius r, times cos mθ for q_r and p or sin
+    mθ for q_θ. An entry is ∫ φ_i u r dr [length^5/force]: the displacement u in the direction of
+    the row by the traction of the column, weighted with the hat function φ_i of the row. The shape
+    is (M + 1, 3, 3, n + 1, n + 1): harmonics, directions r, θ, z of displacement and of traction,
+    and nodes. Harmonic 0 of q_θ is torsion, which is not coupled to r and z.
 
-    coupling  elastic response of both bodies
-    nodes     x = r/radius, from 0 on (n + 1,)
-    radius    unit of the nodes [length]
+    coupling  elastic response of both bodies, with their layers
+    nodes     radii of the n + 1 nodes over `radius`, increasing from 0
+    radius    unit of the radii [length]
     highest   highest harmonic M
     """
     unit = half_space_integrals(nodes, highest)
@@ -69,14 +71,16 @@ def ring_compliance(
 def _layer_matrices(
     coupling: Coupling, nodes: tuple[float, ...], radius: float, highest: int
 ) -> Array:
-    """Compute the contribution of layers to the Galerkin matrices of tractions on rings.
+    """Compute the contribution of layers to the Galerkin compliance matrices of tractions on rings.
 
-    The matrices couple the combinations PP, QQ, PQ, zz, zP and zQ of tractions, where P = q_r -
-    q_θ, Q = q_r + q_θ and z is the pressure. The shape is (M + 1, 6, n + 1, n + 1). Lengths are in
-    units of `radius`.
+    The tractions are expressed by P = q_r - q_θ, Q = q_r + q_θ and the pressure z, because each of
+    the three has a Hankel transform of one order: m - 1, m + 1 and m. The six results per angular
+    harmonic m couple PP, QQ, PQ, zz, zP and zQ. The shape is (M + 1, 6, n + 1, n + 1). Lengths are
+    in units of `radius`. The function `ring_compliance` adds the results to the matrices of
+    half-spaces.
 
-    coupling  elastic response of both bodies
-    nodes     radii of the nodes over `radius` (n + 1,)
+    coupling  elastic response of both bodies, with their layers
+    nodes     radii of the n + 1 nodes over `radius`, increasing from 0
     radius    unit of length [length]
     highest   highest angular harmonic M
     """

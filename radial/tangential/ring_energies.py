@@ -36,10 +36,12 @@ BEYOND = 32
 
 
 class HalfSpaceIntegrals(NamedTuple):
-    """Galerkin integrals ∬ φ_i K φ_j r s dr ds of half-space kernels K, for all angular harmonics.
+    """Galerkin integrals ∬ φ_i K φ_j r s dr ds of half-space kernels K, for all harmonics m.
 
-    φ_i and φ_j are the hat functions of the nodes of rings. The shapes are (harmonics, n + 1, n +
-    1). Lengths are in units of the outermost radius.
+    The integrals give the displacements of a half-space by tractions on rings, weighted over the
+    radius. φ_i and φ_j are the hat functions of the nodes i and j (linear between nodes). J_m is
+    the Bessel function. The shapes are (harmonics, n + 1, n + 1) for n + 1 nodes. Lengths are in
+    units of the outermost radius.
 
     equal_order  kernel G_m = ∫ J_m(kr) J_m(ks) dk, m = 0 … M + 1
     shifted      kernel ∫ J_{m-1}(kr) J_{m+1}(ks) dk, m = 1 … M; the entry m = 0 is -equal_order[1]
@@ -53,12 +55,14 @@ class HalfSpaceIntegrals(NamedTuple):
 
 @lru_cache(maxsize=CACHED)
 def half_space_integrals(nodes: tuple[float, ...], highest: int) -> HalfSpaceIntegrals:
-    """Compute the Galerkin integrals of half-space kernels with hat functions on rings.
+    """Compute the Galerkin integrals of half-space kernels with hat functions of nodes on a radius.
 
-    The integrals ∬ φ_i K φ_j r s dr ds are computed for all angular harmonics.
+    The integrals ∬ φ_i K φ_j r s dr ds give the displacements of a half-space by tractions on
+    rings. φ_i is the hat function of node i, and K(r, s) a kernel ∫ J J dk with Bessel functions of
+    kr and ks. The kernels of all angular harmonics are integrated. The results are cached.
 
-    nodes    radii 0 = x_0 < … < x_n over the unit of length
-    highest  highest harmonic M
+    nodes    radii of the nodes over the unit of length, increasing from 0 (n + 1,)
+    highest  highest angular harmonic M
     """
     x = np.array(nodes)
     size = (len(x), len(x))
@@ -84,13 +88,14 @@ def half_space_integrals(nodes: tuple[float, ...], highest: int) -> HalfSpaceInt
 
 
 def _evaluate_hats(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
-    """Evaluate the hat functions of the inner and the outer node of elements at given points.
+    """Evaluate the hat functions of the inner and of the outer node of elements at given radii.
 
-    Both results have the shape (elements, points).
+    An element is the interval between two adjacent nodes of the radius, where the two hat functions
+    are linear and sum to 1. Both results have the shape (elements, points).
 
-    x        radii of the nodes
-    element  index of each element
-    r        points in each element (elements, points)
+    x        radii of all nodes
+    element  number of each element, which is the index of its inner node (elements,)
+    r        radii of the points in each element (elements, points)
     """
     inner, outer = x[element, None], x[element + 1, None]
     return (outer - r) / (outer - inner), (r - inner) / (outer - inner)
@@ -99,10 +104,12 @@ def _evaluate_hats(x: Array, element: Numbers, r: Array) -> tuple[Array, Array]:
 def _quadrature_pairs(x: Array) -> Iterator[Pairs]:
     """Yield quadrature points r < s for double integrals over all pairs of elements of the radius.
 
-    Pairs of elements are grouped by their distance: a group has equal quadrature. A group contains
-    the elements of r and of s (k,), and r, s, s - r and weights (k, points).
+    An element is the interval between two adjacent nodes. Pairs of elements are grouped by their
+    distance, because a group has one quadrature rule. The rules of equal and of adjacent elements
+    are dense near r = s, where the kernels are logarithmic. A group contains the numbers of the
+    elements of r and of s (k,), and the arrays r, s, s - r and weights (k, points).
 
-    x  radii of the nodes
+    x  radii of the nodes, increasing
     """
     count = len(x) - 1
     length = np.diff(x)
@@ -132,11 +139,11 @@ def _quadrature_pairs(x: Array) -> Iterator[Pairs]:
 
 
 def _unit_square_rule(first: int, second: int) -> tuple[Array, Array, Array]:
-    """Return Gauss points and weights of the unit square, for integrals over pairs of elements.
+    """Return Gauss points and weights of the unit square, for double integrals over two elements.
 
-    The results are flat arrays: first coordinates, second coordinates and weights.
+    The results are flat arrays of equal length: first coordinates, second coordinates and weights.
 
-    first, second  number of points in each direction
+    first, second  number of points in the first and in the second direction
     """
     v, of_v = unit_gauss(first)
     u, of_u = unit_gauss(second)
@@ -144,13 +151,14 @@ def _unit_square_rule(first: int, second: int) -> tuple[Array, Array, Array]:
 
 
 def hat_transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Array:
-    """Compute the Hankel transforms ∫ φ J_m(κx) x dx of hat functions φ on rings, for layers.
+    """Compute the Hankel transforms ∫ φ J_m(κx) x dx of the hat functions φ of nodes on a radius.
 
-    The shape is (M + 2, κ, n + 1), for m = 0 … M + 1.
+    The shape is (M + 2, κ, n + 1), for the orders m = 0 … M + 1 of the Bessel function J_m. The
+    displacements by layers are integrals of products of these transforms over the wavenumber κ.
 
-    nodes    radii x of the nodes (n + 1,)
-    highest  highest angular harmonic M
-    kappa    wavenumbers κ
+    nodes    radii x of the nodes over the unit of length (n + 1,)
+    highest  highest angular harmonic M of the tractions
+    kappa    wavenumbers κ times the unit of length (κ,)
     """
     x = np.array(nodes)
     length = np.diff(x)[:, None]
@@ -166,13 +174,13 @@ def hat_transforms(nodes: tuple[float, ...], highest: int, kappa: Array) -> Arra
 
 
 def bessel_functions(highest: int, at: Array) -> Iterator[Array]:
-    """Yield the Bessel functions J_0 … J_M at given arguments.
+    """Yield the Bessel functions J_0, J_1, … J_M at given arguments, one array for each order.
 
     The upward recurrence is used for orders below the argument. For other orders, ratios of
     adjacent orders follow from the downward recurrence (Gautschi 1967).
 
     highest  highest order M
-    at       arguments
+    at       arguments, at least 0 (any shape)
     """
     last, now = j0(at), j1(at)
     yield last

@@ -57,14 +57,18 @@ def solve_increment(
     tolerance: float,
     smooth: Array | None = None,
 ) -> PointState:
-    """Solve contact and friction at points (rings × angles) at the end of an increment.
+    """Solve contact and friction at points on rings at the end of an increment of the loads.
 
-    points     points of the contact and their compliance
+    The unknowns are the pressure and the shear of all points, and the rigid motion of the indenter.
+    The method is semismooth Newton with a line search.
+
+    points     points of the contact (rings × angles) and their compliance matrix
     friction   friction law
-    loads      prescribed loads and motions
+    loads      prescribed loads and rigid motions at the end of the increment
     before     state at the start of the increment; None before first contact
     tolerance  bound of the residual relative to the largest pressure, friction limit and loads
-    smooth     tractions and motion without friction, as an initial guess; None if unknown
+    smooth     tractions and rigid motion of the frictionless contact, as an initial guess (3 N +
+               4,) for N points; None if unknown
     raises     NotConverged; GrossSliding if the tangential force reaches the friction limit, or if
                tangential force and torque exceed the limit load of the contact without them;
                ContactAtZoneEdge if the contact reaches the last ring
@@ -96,15 +100,16 @@ def _initial_guesses(
 ) -> Iterator[Array]:
     """Yield initial guesses of tractions and rigid motion for Newton's method, the best first.
 
-    Before first contact they are the frictionless state and a state with closed gap. Later they are
-    the extrapolated last increment, the state at the start of the increment, and a state solved
-    with the rigid motion at the start. The last guess helps if all points slip during the
-    iteration, so that the motion is undetermined.
+    Before first contact the guesses are the frictionless state and a state with closed gap. Later
+    they are the extrapolated last increment, the state at the start of the increment, and a state
+    solved with the rigid motion at the start. The last guess helps if all points slip during the
+    iteration, because the motion under a prescribed force is then undetermined. A guess is an array
+    (3 N + 4,) for N points.
 
     laws       contact and friction laws of the increment
     before     state at the start of the increment; None before first contact
-    tolerance  bound of the residual for the last guess
-    smooth     tractions and motion without friction; None if unknown
+    tolerance  bound of the residual of the state that is solved for the last guess
+    smooth     tractions and rigid motion of the frictionless contact; None if unknown
     """
     if before is None:
         if smooth is not None:
@@ -122,9 +127,10 @@ def _initial_guesses(
 def _prescribed_shear_loads(loads: Loads) -> Array:
     """Return the prescribed tangential forces along and across θ = 0, and the torque (3,).
 
-    The units are force and force length. Components with a prescribed motion are 0.
+    θ is the angle about the axis of revolution. The units are force and force length. A component
+    whose conjugate motion is prescribed is 0.
 
-    loads  prescribed loads and motions
+    loads  prescribed loads and rigid motions of the indenter
     """
     return np.array([force or 0.0 for force in loads.forces[:NORMAL]])
 
@@ -138,14 +144,15 @@ def _refuse_sliding(
 ) -> None:
     """Raise GrossSliding if the prescribed tangential force and torque reach the limit load.
 
-    The limit load is that of gross slip. It is computed with the friction limit of the contact
-    without these loads.
+    At the limit load all points slip. The limit load is computed with the friction limit µp of the
+    contact without tangential force and torque. Called after Newton's method has failed, because no
+    equilibrium exists above the limit load.
 
-    points     points of the contact
+    points     points of the contact (rings × angles)
     friction   friction law
-    loads      prescribed loads and motions
+    loads      prescribed loads and rigid motions
     before     state at the start of the increment; None before first contact
-    tolerance  bound of the residual of the contact without these loads
+    tolerance  bound of the residual of the contact without tangential force and torque
     """
     normal_contact = solve_increment(points, friction, loads.drop_shear_loads, before, tolerance)
     given = _prescribed_shear_loads(loads)
@@ -169,14 +176,15 @@ def _refuse_sliding(
 
 
 def _limit_motion(laws: ContactLaws, at: NewtonIterate, aim: Array) -> Array:
-    """Shorten a Newton step if its rigid motion is too large for the current slip and approach.
+    """Shorten a Newton step whose change of the rigid motion is too large for the current iterate.
 
-    If nearly all points slip, the step under a prescribed force grows without bound, and the slip
-    zone does not represent the motion.
+    If nearly all points slip, the Newton step under a prescribed force grows without bound. The
+    largest change is a multiple of the sum of the largest slip of the increment and µ times the
+    approach. The function returns the tractions and motion after the shortened step (3 N + 4,).
 
     laws  contact and friction laws of the increment
     at    current iterate
-    aim   tractions and motion after the whole step (3 N + 4,)
+    aim   tractions and rigid motion after the whole Newton step (3 N + 4,) for N points
     """
     points, inside = laws.points, at.z > 0
     prescribed = np.array([force is not None for force in laws.loads.forces[:NORMAL]])
@@ -195,14 +203,14 @@ def _limit_motion(laws: ContactLaws, at: NewtonIterate, aim: Array) -> Array:
 def _line_search(
     laws: ContactLaws, at: NewtonIterate, aim: Array, shortest: float
 ) -> NewtonIterate:
-    """Halve a Newton step until the residual decreases or the step is shortest.
+    """Reduce a Newton step by halves until the residual of the contact laws decreases.
 
-    Returns the new iterate.
+    The function returns the new iterate. It also stops at the shortest step.
 
     laws      contact and friction laws of the increment
     at        current iterate
-    aim       tractions and motion after the whole step (3 N + 4,)
-    shortest  least fraction of the step
+    aim       tractions and rigid motion after the whole Newton step (3 N + 4,) for N points
+    shortest  least fraction of the Newton step; 1 switches the line search off
     """
     moved = laws.points.compliance @ aim[:-4]
     size, length = np.linalg.norm(at.residual), 1.0
@@ -230,10 +238,12 @@ def _end_state(
 ) -> PointState:
     """Create the contact state at the end of an increment from the converged Newton iterate.
 
+    The function determines the sticking points: their trial shear is below the friction limit.
+
     laws    contact and friction laws of the increment
     at      converged iterate
     before  state at the start of the increment; None before first contact
-    steps   number of Newton steps
+    steps   number of Newton steps of the solve
     raises  ContactAtZoneEdge if the contact reaches the last ring
     """
     points, size = laws.points, len(at.z)
@@ -258,15 +268,16 @@ def _end_state(
 def limit_load_factor(
     points: ContactPoints, limit: Array, given: Array, free: NDArray[np.bool_]
 ) -> float:
-    """Compute the factor by which given loads must be multiplied to reach gross slip [1].
+    """Compute the factor on given tangential force and torque at which gross slip begins [1].
 
-    The factor is the least dissipation of a rigid slip on which the given loads do unit work (upper
-    bound theorem; Goyal, Ruina and Papadopoulos 1991).
+    At gross slip all points slip in a rigid motion. The factor is the least dissipation of a rigid
+    slip on which the given loads do unit work (upper bound theorem of limit analysis; Goyal, Ruina
+    and Papadopoulos 1991).
 
-    points  points of the contact
+    points  points of the contact (rings × angles)
     limit   friction limit µp at the points (N,) [force/length²]
     given   tangential force along θ = 0 and across it, and torque, not all zero (3,)
-    free    true for motions that are not prescribed (3,)
+    free    true for rigid motions (two shifts and twist) that are not prescribed (3,)
     """
     free = free & np.any(points.rigid_motions, axis=1)
     # Scale the twist by its displacement at the last ring, so that all motions have equal units.
@@ -277,6 +288,8 @@ def limit_load_factor(
 
     def rigid_slip_work(part: Array) -> float:
         """Return the dissipation of a rigid slip on which the given loads do unit work [1].
+
+        Minimised over all rigid slips, the dissipation is the factor of the limit load.
 
         part  components of the rigid slip on which the loads do no work
         """

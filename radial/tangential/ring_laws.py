@@ -1,6 +1,7 @@
 """Contact and friction laws of one increment at points, as a nonsmooth system of equations.
 
-`ring_friction` solves the system.
+The unknowns are the tractions of all points and the rigid motion of the indenter. The module
+`ring_friction` solves the system by Newton's method.
 """
 
 from __future__ import annotations
@@ -31,15 +32,21 @@ REST, FURTHEST, ASIDE = 1e-6, 2.1, 0.5
 
 
 class NewtonIterate(NamedTuple):
-    """Iterate of Newton's method, with the terms of the contact and friction laws. N points.
+    """Iterate of Newton's method for contact with friction at N points on rings, with its residual.
 
-    x         tractions q_r, q_θ, p and rigid motion (3 N + 4,)
-    residual  error of the laws (3 N,) [force/length²]
+    The laws are p = max(z, 0) and q = y reduced to the friction limit of max(z, 0), with the trial
+    pressure z and the trial shear y.
+
+    x         radial shear, circumferential shear and pressure (q_r, q_θ, p) of the points
+              [force/length²], then the rigid motion: shifts along θ = 0 and across it, twist,
+              approach (3 N + 4,)
+    residual  errors of the contact and friction laws (3 N,) [force/length²]
     z         trial pressure p - g/d with the gap g and the compliance d of the point (N,)
-    y         trial shear q - Δs/d with the slip Δs of the increment (2, N)
-    limit     friction limit of the trial pressure (N,)
-    u         displacements by the tractions, times areas of the points (3 N,) [length³]
-    worst     largest dimensionless residual of laws, loads and motions
+              [force/length²]
+    y         trial shear q - Δs/d with the slip Δs of the increment (2, N) [force/length²]
+    limit     friction limit of the trial pressure (N,) [force/length²]
+    u         displacements r, θ, z by the tractions, times the areas of the points (3 N,) [length³]
+    worst     largest dimensionless residual of laws, loads and motions [1]
     """
 
     x: Array
@@ -55,11 +62,14 @@ class NewtonIterate(NamedTuple):
 class ContactLaws:
     """Contact and friction laws of an increment, as equations for tractions and rigid motion.
 
-    points    points of the contact and their compliance
+    The equations hold at N points on rings. Newton's method evaluates their residual.
+
+    points    points of the contact (rings × angles) and their compliance matrix
     friction  friction law
-    loads     prescribed loads and motions at the end
-    moved     tangential displacements times areas at the start of the increment (2 N,) [length³]
-    motion    rigid motion at the start of the increment (4,)
+    loads     prescribed loads and rigid motions of the indenter at the end of the increment
+    moved     displacements u_r, u_θ times areas at the start of the increment (2 N,) [length³]
+    motion    rigid motion at the start of the increment: shifts along θ = 0 and across it, twist,
+              approach (4,) [length, radian]
     """
 
     points: ContactPoints
@@ -76,11 +86,11 @@ class ContactLaws:
         loads: Loads,
         before: PointState | None,
     ) -> ContactLaws:
-        """Create the equations of contact and friction of one increment.
+        """Create the equations of contact and friction of one increment at points on rings.
 
-        points    points of the contact and their compliance
+        points    points of the contact (rings × angles) and their compliance matrix
         friction  friction law
-        loads     prescribed loads and motions at the end
+        loads     prescribed loads and rigid motions of the indenter at the end of the increment
         before    state at the start of the increment; None before first contact
         """
         if before is None:
@@ -90,8 +100,10 @@ class ContactLaws:
     def guess_closed_gap(self) -> Array:
         """Return an initial guess of tractions and rigid motion for the first contact (3 N + 4,).
 
-        The approach closes the gap at all points where the load may cause contact. Under a
-        prescribed force the pressure is uniform.
+        The shear is zero. Under a prescribed normal force the pressure is uniform, and the approach
+        closes the gap at all N points. Under a prescribed approach the pressure of a point is
+        proportional to the overlap of the undeformed surfaces at the point, divided by its
+        compliance.
         """
         points, size, loads = self.points, len(self.points.areas), self.loads
         depth = points.gap_areas / points.areas
@@ -106,9 +118,11 @@ class ContactLaws:
         return np.append(t, [0.0, 0.0, 0.0, np.max(open_by)])
 
     def initial_guesses(self, before: PointState) -> list[Array]:
-        """Return initial guesses: the extrapolated last increment, then the state at the start.
+        """Return initial guesses of tractions and rigid motion for Newton's method, best first.
 
-        The last increment is extrapolated only if the loads continue in its direction.
+        The first guess is the linear extrapolation of the last increment. It is omitted if the
+        loads do not continue in the direction of that increment. The last guess is the state at the
+        start of this increment. Each guess has the shape (3 N + 4,) for N points.
 
         before  state at the start of the increment
         """
@@ -138,10 +152,10 @@ class ContactLaws:
         return [x + share * before.changed, x]
 
     def evaluate(self, x: Array, u: Array) -> NewtonIterate:
-        """Evaluate the contact and friction laws and their residuals at a Newton iterate.
+        """Evaluate the contact and friction laws and their residuals at given tractions.
 
-        x  tractions q_r, q_θ, p and rigid motion (3 N + 4,)
-        u  displacements by these tractions, times areas of the points (3 N,) [length³]
+        x  tractions q_r, q_θ, p of the N points and rigid motion of the indenter (3 N + 4,)
+        u  displacements r, θ, z by these tractions, times the areas of the points (3 N,) [length³]
         """
         points, size, loads = self.points, len(self.points.areas), self.loads
         t, motion = x[:-4], x[-4:]
@@ -175,24 +189,26 @@ class ContactLaws:
         return NewtonIterate(x, residual, z, y, limit, u, float(worst))
 
     def slip_increment(self, u: Array, motion: Array) -> Array:
-        """Return the slip of the increment at all points, times their areas (2 N,) [length³].
+        """Return the slip of the increment at all N points, times their areas (2 N,) [length³].
 
-        It is the change of the tangential surface displacement minus that of the rigid motion.
+        The slip is the change of the tangential surface displacement (components r, θ) minus the
+        change of the rigid shift and twist.
 
-        u       displacements times areas at the end (3 N,) [length³]
-        motion  rigid motion at the end (4,)
+        u       displacements r, θ, z times areas at the end of the increment (3 N,) [length³]
+        motion  rigid motion at the end: shifts along θ = 0 and across it, twist, approach (4,)
         """
         tangential = motion[:NORMAL] - self.motion[:NORMAL]
         return u[: 2 * len(self.points.areas)] - self.moved - tangential @ self.points.rigid_motions
 
 
 def _reduction_factors(y: Array, limit: Array) -> Array:
-    """Return factors that reduce trial shear vectors to the friction limit (…).
+    """Return the factors that reduce trial shear vectors to the friction limit (…) [1].
 
-    A factor is 1 for a vector below the limit, otherwise the limit over the length of the vector.
+    A factor is 1 for a vector below the friction limit. For a longer vector the factor is the
+    friction limit over the length of the vector.
 
-    y      trial shear vectors (2, …) [force/length²]
-    limit  friction limit (…) [force/length²]
+    y      trial shear vectors of points, two components on the first axis (2, …) [force/length²]
+    limit  friction limit µp of the points (…) [force/length²]
     """
     length = np.hypot(*y)
     longer = length > limit

@@ -1,4 +1,7 @@
-"""Layout of the rings of a contact with a nearly constant edge, and creation of its points."""
+"""Radii of the rings of a contact with tangential load or torsion, and creation of its points.
+
+The rings serve all increments of a load history, whose contact edge is nearly constant.
+"""
 
 from __future__ import annotations
 
@@ -27,12 +30,13 @@ POINTS = 6  # Gauss points of an element
 def relative_ring_radii(count: int, reach: float, edges: Sequence[float]) -> tuple[float, ...]:
     """Return the radii of rings over the radius of the largest contact, increasing from 0.
 
-    The rings are even inside the largest contact, dense at the edges of contacts, and wider
-    outside.
+    The rings are evenly spaced inside the largest contact and dense at the edges of contacts.
+    Outside the largest contact their distance grows.
 
-    count  number of rings inside, without those at edges
-    reach  least radius of the last ring
-    edges  radii of smaller contacts over that of the largest one
+    count  number of rings inside the largest contact, without the dense rings at edges
+    reach  least radius of the last ring over the radius of the largest contact
+    edges  radii of all contacts whose edges need dense rings, over the radius of the largest
+           contact
     """
     near = 0.5 ** np.arange(1, GRADED + 1) / count
     outside = [1 / count]
@@ -63,15 +67,17 @@ def create_points(
     friction: float,
     rig: Rig | None = None,
 ) -> ContactPoints:
-    """Create the points (rings × angles) of a contact, with their compliance.
+    """Create the points of a contact (rings × angles), with the compliance of bodies and rig.
 
     coupling  elastic response of both bodies
     indenter  shape of the indenter
     edges     contact radii at which rings are dense; the largest determines the layout [length]
-    count     number of rings inside the largest contact, without the dense ones
-    highest   highest angular harmonic of the tractions, and number of angles of a half circle
-    circle    angles of a ring
-    friction  coefficient of friction µ
+    count     number of rings inside the largest contact, without the dense rings at edges
+    highest   highest angular harmonic of the tractions, which is the number of angles of a half
+              circle
+    circle    angles of the points on a ring: one angle, half a circle or the full circle
+    friction  coefficient of friction µ; friction shifts the contact edge, so the rings reach
+              further
     rig       springs of the test machine, which displace all points equally; None without springs
     """
     edge = max(edges)
@@ -86,9 +92,9 @@ def create_points(
     r = radii[:-1, None] + length * v
 
     def integral(field: Array) -> Array:
-        """Integrate a field with the hat function φ of every node, ∫ φ field dr (n,).
+        """Integrate a field of the radius with the hat function φ of every node, ∫ φ field dr (n,).
 
-        field  values at the Gauss points of the elements (n - 1, points)
+        field  values at the Gauss points of the elements between the n nodes (n - 1, points)
         """
         part = field * length * weights
         return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)

@@ -26,17 +26,18 @@ Numbers = NDArray[np.int64]
 
 
 class _FreePoints(NamedTuple):
-    """Slipping and open points of a Newton step. Their displacements are the unknowns of the step.
+    """Slipping and open points of a Newton step, whose displacements are the unknowns of the step.
 
-    Share, slopes and rests of open points are zero.
+    Sticking points have known displacements. The friction law of a slipping point is linearised
+    about its trial shear. All entries but `points`, `slips`, `c` and `s` are 0 at open points.
+    Tractions are scaled by the square root of the compliance of the point.
 
-    points  indices of the points (n,)
+    points  indices of the n slipping and open points (n,)
     slips   true for slipping, false for open points (n,)
     c, s    cosine and sine of the angle between the trial shear and the radial direction (n, 1)
-    share   friction limit over the length of the trial shear (n, 1)
-    slopes  derivative of the friction limit with respect to pressure, scaled as the tractions (n,
-            1)
-    rests   friction limit minus slope times pressure, scaled as the tractions (n, 1)
+    share   friction limit over the magnitude of the trial shear (n, 1) [1]
+    slopes  derivative of the friction limit with respect to the pressure, both scaled (n, 1) [1]
+    rests   friction limit minus slope times pressure, scaled (n, 1)
     """
 
     points: Numbers
@@ -51,7 +52,8 @@ class _FreePoints(NamedTuple):
         """Return the indices of the unknown displacements in the vector of all displacements.
 
         Slipping and open points have unknown displacements r and θ. Open points also have an
-        unknown displacement z. The vector has the components r, θ, z of m points.
+        unknown displacement z. The vector of all displacements has the components r, θ, z of m
+        points (3 m,).
 
         m  number of points on the rings with contact
         """
@@ -64,10 +66,15 @@ def _find_free_points(
 ) -> _FreePoints:
     """Find the slipping and open points of a Newton iterate, with the terms of their friction law.
 
+    A point is open if its trial pressure is not positive. A point in contact slips if its trial
+    shear exceeds the friction limit. The displacements of these points are the unknowns of the
+    Newton step.
+
     at        current iterate
     m         number of points on the rings with contact
     friction  friction law
-    units     square roots of the compliance of each component and point, as scales (3 m,)
+    units     square roots of the compliance of all components and points, as scales of tractions (3
+              m,)
     """
     y, limit = at.y[:, :m], at.limit[:m]
     length = np.hypot(*y)
@@ -85,12 +92,13 @@ def _find_free_points(
 
 
 def newton_iterate(laws: ContactLaws, at: NewtonIterate) -> Array | None:
-    """Return tractions and rigid motion after one Newton step (3 N + 4,).
+    """Compute tractions and rigid motion of the indenter after one full Newton step (3 N + 4,).
 
-    Returns None if the system is singular, or if the normal force is prescribed and all points are
-    open.
+    The step solves the contact and friction laws with fixed sticking, slipping and open points. The
+    result is None if the linear system is singular, or if the normal force is prescribed and all
+    points are open.
 
-    laws  contact and friction laws of the increment
+    laws  contact and friction laws of the increment at N points
     at    current iterate
     """
     points, size = laws.points, len(at.z)
@@ -127,15 +135,16 @@ def newton_iterate(laws: ContactLaws, at: NewtonIterate) -> Array | None:
 
 
 def _imposed_displacements(laws: ContactLaws, at: NewtonIterate, rings: int, t: Array) -> Array:
-    """Return the displacements that the rigid motions and the misfit of a Newton iterate impose.
+    """Return the displacements that rigid motions and errors of a Newton iterate impose on points.
 
-    All are multiplied by the areas of the points. The shape is (3 m, 5). The first four columns are
-    the displacements by unit rigid motions. The last column is the displacement that contact and
-    stick require at the motion of the iterate, minus that of its tractions.
+    All displacements are multiplied by the areas of the points. The shape is (3 m, 5), with the
+    components r, θ, z of m points. The first four columns are the displacements by unit rigid
+    motions. The last column is the displacement that contact and stick require at the motion of the
+    iterate, minus the displacement by the tractions of the iterate.
 
     laws   contact and friction laws of the increment
     at     current iterate
-    rings  number of innermost rings, with m points
+    rings  number of innermost rings, which have m points
     t      tractions of these points at the iterate (3 m,)
     """
     points, m = laws.points, rings * laws.points.count
@@ -161,16 +170,17 @@ def _point_equations(
 ) -> tuple[Array, Array]:
     """Assemble the linear equations of slipping and open points for one Newton step.
 
-    Returns the matrix of the unknown displacements, and the columns of the rigid motions and the
-    constants. A slipping point has the friction limit along its shear direction w, and the
-    linearised friction law across w. An open point has zero pressure.
+    A slipping point has the friction limit along its shear direction w, and the linearised friction
+    law across w. An open point has zero pressure. The function returns the matrix of the unknown
+    displacements (unknowns, unknowns), and the columns of the 4 rigid motions and the constants
+    (unknowns, 5).
 
     laws      contact and friction laws of the increment
     at        current iterate
     free      slipping and open points
-    K         stiffness matrix: scaled tractions by scaled displacements (3 m, 3 m)
-    carried   tractions by unit rigid motions, and at the iterate (3 m, 5)
-    residual  misfit of the unknown displacements
+    K         stiffness matrix, scaled tractions per scaled displacements of m points (3 m, 3 m)
+    carried   scaled tractions by unit rigid motions and at the iterate (3 m, 5)
+    residual  required minus present displacement of the unknowns (unknowns,)
     """
     n, m = len(free.points), len(K) // 3
     c, s, share = free.c, free.s, free.share
@@ -197,15 +207,17 @@ def _point_equations(
 def _load_equations(
     laws: ContactLaws, at: NewtonIterate, carried: Array, by_motion: Array
 ) -> Array:
-    """Assemble the linear equations of the prescribed loads and motions for one Newton step (4, …).
+    """Assemble the four linear equations of prescribed loads and motions for one Newton step.
 
     A prescribed force gives an equation of equilibrium. A prescribed motion gives the value of this
-    motion. The constants are in the last column.
+    motion. The shape is (4, unknowns + 5): unknown displacements, 4 rigid motions and the constant.
 
     laws       contact and friction laws of the increment, with the prescribed loads and motions
     at         current iterate
-    carried    tractions of the unknown displacements by unit rigid motions, and at the iterate
-    by_motion  loads of these tractions in the directions of the motions (5, 5)
+    carried    scaled tractions of the unknown displacements, by unit rigid motions and at the
+               iterate (unknowns, 5)
+    by_motion  work of the tractions by unit rigid motions, and at the iterate, on unit rigid
+               motions (5, 5)
     """
     rows = np.concatenate([carried, by_motion]).T[:4]
     ends = zip(laws.loads.forces, laws.loads.motions, strict=True)
@@ -220,10 +232,13 @@ def _load_equations(
 
 
 def _solve_system(laws: tuple[Array, Array], loads: Array) -> Array | None:
-    """Solve the linear system of a Newton step; return None if the system is singular.
+    """Solve the linear system of a Newton step for unknown displacements and rigid motions.
 
-    laws   equations of slipping and open points: matrix, and columns of motions and constants
-    loads  equations of loads and motions (4, unknowns + 1), constants last
+    The unknowns are changes from the current iterate. The result is None if the system is singular.
+
+    laws   equations of slipping and open points: matrix (n, n), and columns of the 4 rigid motions
+           and the constants (n, 5)
+    loads  equations of prescribed loads and motions, constants last (4, n + 5)
     """
     rows, left = laws
     n = len(rows)

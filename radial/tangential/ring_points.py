@@ -1,4 +1,7 @@
-"""Points of a contact with tangential load (nodes of rings times angles), and their compliance."""
+"""Points of a contact on rings × angles, with the elastic compliance between them.
+
+The laws of contact and friction hold at these points.
+"""
 
 from __future__ import annotations
 
@@ -26,20 +29,20 @@ INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
 
 @dataclass(frozen=True, eq=False)
 class ContactPoints:
-    """Points of a contact on rings times angles, and their elastic compliance.
+    """Points of a contact on rings × angles, with the elastic compliance of bodies and test rig.
 
-    The compliance is that of both bodies and the rig's springs. There are n nodes along the radius
-    and `count` angles. Fields have the shape (n count,), with the angle as the fast index. Vectors
-    have the shape (3 n count,), with the components r, θ, z as the slow index. φ are the hat
-    functions of the nodes.
+    A point is a node of the radius at one of `count` angles. There are n nodes. φ are the hat
+    functions of the nodes, linear between nodes. Fields have the shape (n count,), with the angle
+    as the fast index. Vectors have the shape (3 n count,), with the components r, θ, z as the slow
+    index.
 
     radii     radii of the nodes (n,) [length]
     energies  Galerkin matrices of the compliance, for angular harmonics up to J (J + 1, 3, 3, n, n)
               [length^5/force]
-    weights   ∫ φ r dr (n,) [length²]
-    arms      ∫ φ r² dr (n,) [length³]
-    gap       ∫ φ f r dr with the undeformed gap f at first contact (n,) [length³]
-    circle    angles of a ring
+    weights   ∫ φ r dr of the nodes, for areas (n,) [length²]
+    arms      ∫ φ r² dr of the nodes, for torques (n,) [length³]
+    gap       ∫ φ f r dr of the nodes, with the undeformed gap f at first contact (n,) [length³]
+    circle    angles of the points on a ring: one angle, half a circle or the full circle
     """
 
     radii: Array
@@ -51,54 +54,64 @@ class ContactPoints:
 
     @property
     def count(self) -> int:
-        """Return the number of angles, the points on each ring."""
+        """Return the number of angles, which is the number of points on each ring."""
         return len(self.angles)
 
     @property
     def highest(self) -> int:
-        """Return the highest angular harmonic J of the tractions."""
+        """Return the highest angular harmonic J by which tractions on a ring are represented."""
         return len(self.energies) - 1
 
     @cached_property
     def angles(self) -> Array:
-        """Return the angles of the points on each ring (count,) [radian]."""
+        """Return the angles of the points on each ring about the axis (count,) [radian].
+
+        The angle θ = 0 is the direction of the tangential load.
+        """
         return self.circle.angles(self.highest)
 
     @cached_property
     def areas(self) -> Array:
-        """Return the area of every point (n count,) [length²].
+        """Return the area of the contact that each point represents (n count,) [length²].
 
-        The area includes that of the mirror image if the angles cover half a circle.
+        The area of a point is the integral of its hat function over the radius and over its share
+        of the full circle. If the angles cover half a circle, the area includes that of the mirror
+        image.
         """
         return self._distribute_to_points(self.weights)
 
     @cached_property
     def gap_areas(self) -> Array:
-        """Return the undeformed gap at every point times its area (n count,) [length³]."""
+        """Return the undeformed gap at first contact at every point, times its area [length³].
+
+        The shape is (n count,) for n rings with `count` angles each.
+        """
         return self._distribute_to_points(self.gap)
 
     @cached_property
     def levers(self) -> Array:
-        """Return the distance of every point from the axis times its area (n count,) [length³]."""
+        """Return the distance of every point from the axis, times its area (n count,) [length³].
+
+        The levers multiply the circumferential shear in the torque.
+        """
         return self._distribute_to_points(self.arms)
 
     def _distribute_to_points(self, of_nodes: Array) -> Array:
         """Distribute integrals over the radius to the points of all angles (n count,).
 
-        Each integral contains the hat function φ of a node. The values are those of the full
-        circle.
+        Every point of a ring receives an equal share of 2π times the integral of its node.
 
-        of_nodes  ∫ φ … dr of the nodes (n,)
+        of_nodes  integrals ∫ φ … dr of the n nodes with their hat functions φ (n,)
         """
         return np.repeat(of_nodes, self.count) * (2 * np.pi / self.count)
 
     @cached_property
     def rigid_motions(self) -> Array:
-        """Return the displacements r, θ of the points by unit rigid motions, times their areas.
+        """Return the displacements r, θ of all points by unit rigid motions, times their areas.
 
-        The shape is (3, 2 n count). The motions are a shift along θ = 0, a shift across it, and a
-        twist. Motions that symmetry excludes are 0. The scalar product with the shear gives force
-        and torque.
+        The shape is (3, 2 n count) for n rings with `count` angles each. The motions are a shift
+        along θ = 0, a shift across it, and a twist about the axis. Motions that symmetry excludes
+        are 0. The scalar product of a row with the shear gives the conjugate force or torque.
         """
         nodes, nothing = len(self.weights), np.zeros_like(self.areas)
         cos, sin = np.tile(np.cos(self.angles), nodes), np.tile(np.sin(self.angles), nodes)
@@ -113,19 +126,21 @@ class ContactPoints:
 
     @cached_property
     def compliance(self) -> Array:
-        """Return the compliance matrix of all points [length^5/force].
+        """Return the compliance matrix of all points: displacement times area by unit traction.
 
-        It maps tractions to displacements times the areas of the points, each with the components
-        r, θ, z. The shape is (3 n count, 3 n count), with n nodes and `count` angles.
+        The displacements and tractions have the components r, θ, z. The shape is (3 n count, 3 n
+        count) for n rings with `count` angles each, the unit is [length^5/force].
         """
         return self._over_harmonics(self._harmonic_transform, self._harmonic_energies)
 
     @cached_property
     def diagonal_compliance(self) -> Array:
-        """Return the diagonal of the compliance matrix of all points (3 n count,) [length^5/force].
+        """Return the displacement of each point, times its area, by a unit traction at the point.
 
-        An entry is the displacement of a point, times its area, by a unit traction at this point.
-        The two components of shear have their mean, which does not depend on the direction.
+        The values are the diagonal of the compliance matrix (3 n count,) [length^5/force], with the
+        components r, θ, z as the slow index. The entries r and θ of a point are replaced by their
+        mean, which does not depend on the direction of the shear. The contact and friction laws use
+        the values as the compliance of a point.
         """
         outward, around, down = np.diagonal(self.compliance).reshape(3, -1)
         tangential = (outward + around) / 2
@@ -133,6 +148,8 @@ class ContactPoints:
 
     def restrict_to_rings(self, field: Array, rings: int) -> Array:
         """Restrict a vector field from all points to the points on the innermost rings.
+
+        Used because rings outside the contact carry no traction. The shape is (3 rings count,).
 
         field  components r, θ, z at all points (3 n count,)
         rings  number of innermost rings
@@ -144,20 +161,20 @@ class ContactPoints:
         """Return a function that computes the inverse compliance matrix of the innermost rings.
 
         The argument of the function is the number of rings. The inverse (3 rings count, 3 rings
-        count) maps displacements times areas to tractions, if no other ring carries any. It is
-        scaled by the square root of the compliance of each point on both sides [1]. The inverses
-        are cached.
+        count) maps displacements times areas to tractions, if the other rings carry no traction.
+        The inverse is scaled on both sides by the square root of the compliance of each point [1].
+        The inverses are cached.
         """
         count = max(INVERSES, ROOM // self.compliance.nbytes)
         return lru_cache(maxsize=count)(self._compute_inverse)
 
     def _compute_inverse(self, rings: int) -> Array:
-        """Compute the inverse of the compliance matrix on the innermost rings.
+        """Compute the inverse of the compliance matrix of the points on the innermost rings.
 
-        The inverse is computed for each angular harmonic, because harmonics are not coupled. It is
-        scaled by the square root of the compliance of each point on both sides [1].
+        The inverse is computed for each angular harmonic, because harmonics are not coupled. The
+        inverse is scaled on both sides by the square root of the compliance of each point [1].
 
-        rings  number of rings
+        rings  number of innermost rings
         """
         back = np.zeros_like(self._harmonic_transform)
         norms = np.sum(self._harmonic_transform**2, axis=2)
@@ -190,10 +207,11 @@ class ContactPoints:
 
     @cached_property
     def _harmonic_energies(self) -> Array:
-        """Return the Galerkin matrices of all harmonics, times the norm of each harmonic.
+        """Return the Galerkin compliance matrices between nodes, times the norm of each harmonic.
 
-        The shape is (families × (J + 1), 3, 3, n, n), with the harmonics up to J of the symmetric
-        and antisymmetric families. The norm is π, or 2π for the harmonics 0 and J.
+        The shape is (families × (J + 1), 3, 3, n, n), for the harmonics 0 … J of the symmetric and,
+        on a full circle, of the antisymmetric family. The norm is the integral over the circle, π
+        for cos² mθ. The values are doubled for the harmonics 0 and J: 2π.
         """
         norms = np.full(len(self.energies), np.pi)
         norms[[0, -1]] = 2 * np.pi
@@ -202,11 +220,13 @@ class ContactPoints:
 
     @staticmethod
     def _over_harmonics(rigid_motions: Array, harmonic_matrices: Array) -> Array:
-        """Assemble a matrix between points from the matrices of all angular harmonics.
+        """Assemble a matrix between all points from matrices between nodes of all harmonics.
 
-        rigid_motions      transform from values at the angles to harmonics, of r, θ, z (3,
-                           harmonics, count)
-        harmonic_matrices  matrices between nodes, for each harmonic (harmonics, 3, 3, n, n)
+        Used for the compliance matrix and for its inverse. The shape is (3 n count, 3 n count).
+
+        rigid_motions      transform of the components r, θ, z from values at the angles of a ring
+                           to amplitudes of harmonics (3, harmonics, count)
+        harmonic_matrices  matrices between the n nodes, for each harmonic (harmonics, 3, 3, n, n)
         """
         (_, count, angles), nodes = rigid_motions.shape, harmonic_matrices.shape[-1]
         whole = np.empty((3, nodes, angles, 3, nodes, angles))
@@ -218,36 +238,36 @@ class ContactPoints:
 
     @cached_property
     def axisymmetric(self) -> ContactPoints:
-        """Return the points for an axisymmetric contact: equal nodes with one angle per ring.
+        """Return the points of an axisymmetric contact: equal nodes, with one angle each.
 
         Used as long as no tangential load acts.
         """
         return replace(self, energies=self.energies[:1], circle=RingAngles.ONE)
 
     def repeat_angles(self, field: Array) -> Array:
-        """Repeat an axisymmetric field, known on one angle per ring, at all angles (…, n count).
+        """Repeat an axisymmetric field, known at one angle per ring, at all angles (…, n count).
 
-        If the field contains the area of a point as a factor, divide the result by the number of
-        angles.
+        If the field contains the area of a point as a factor, the caller divides the result by the
+        number of angles.
 
-        field  values with one angle per ring (…, n)
+        field  values of the n rings (…, n)
         """
         return np.repeat(field, self.count, axis=-1)
 
     def is_resolved(self, pressure: Array) -> bool:
-        """Return true if the contact covers enough rings to resolve its edge and stick zone.
+        """Return true if the contact covers enough rings to resolve its edge and its stick zone.
 
-        pressure  pressure at the points (n count,)
+        pressure  pressure at the points (n count,) [force/length²]
         """
         return bool(np.any(pressure[FEWEST * self.count :] > 0))
 
     def contact_area(self, pressure: Array) -> float:
-        """Return the contact area, bounded by the radius where p² extrapolates to zero [length²].
+        """Compute the contact area, whose edge is where p² extrapolates to zero [length²].
 
         An axisymmetric contact has dense nodes at its edge: p² is linear in r² through the last two
-        nodes. Otherwise p² is a parabola in r², fitted to the nodes near the edge of every ray.
+        nodes. Otherwise p² is a parabola in r², fitted to the nodes near the edge at every angle.
 
-        pressure  pressure at the points (n count,)
+        pressure  pressure p at the points (n count,) [force/length²]
         """
         p, r = pressure.reshape(-1, self.count), self.radii
         area = 0.0
@@ -268,13 +288,13 @@ class ContactPoints:
         return area / self.count
 
     def _fit_edge(self, ray: Array, last: int) -> float:
-        """Return the square of the contact radius on one ray, from a fit of the pressure [length²].
+        """Return the square of the contact radius at one angle, by a pressure fit [length²].
 
-        p² is fitted by a parabola in r², and its zero is the edge. If too few nodes have pressure,
-        or the parabola has no zero near the edge, the square of the radius of the last node with
-        pressure is returned.
+        p² is fitted by a parabola in r², whose zero is the edge. If too few nodes have pressure, or
+        the parabola has no zero near the edge, the result is the square of the radius of the last
+        node with pressure.
 
-        ray   pressure at the nodes of the ray (n,)
+        ray   pressure p at the n nodes at this angle (n,) [force/length²]
         last  index of the last node with pressure
         """
         r = self.radii
@@ -290,14 +310,15 @@ class ContactPoints:
         return float(np.min(beyond) if len(beyond) else r[last] ** 2)
 
     def stick_area(self, share: Array, shear: Array, bound: Array) -> float:
-        """Compute the area of the stick zone, resolved below the distance of points [length²].
+        """Compute the area of the stick zone, with its border between the points [length²].
 
-        The stick zone of an axisymmetric contact ends where `share`, linear in r, is 1. See
-        `stick_border` for other contacts.
+        The stick zone of an axisymmetric contact ends where `share`, interpolated linearly in r, is
+        1. The border in other contacts is found from the distance of the shear from full slip
+        (`stick_border`).
 
         share  trial shear |q - Δs/d| over the friction limit, with the slip Δs of the increment and
-               the compliance d of the point (n count,)
-        shear  q_r and q_θ (2, n count) [force/length²]
+               the compliance d of the point (n count,) [1]
+        shear  radial and circumferential shear q (2, n count) [force/length²]
         bound  friction limit µp (n count,) [force/length²]
         """
         sticks = share.reshape(-1, self.count) < 1
@@ -318,10 +339,11 @@ class ContactPoints:
     def interpolate_angles(self, field: Array, sense: float) -> Array:
         """Interpolate a field from the angles of the points to the output angles (n, angles).
 
-        The interpolant on each of the n rings is a periodic spline in θ.
+        The interpolant on each of the n rings is a periodic spline in θ. Output angles include θ =
+        0.
 
         field  values at the points (n count,)
-        sense  1 for a field that is even about θ = 0, -1 for an odd field
+        sense  1 for a field that is even about θ = 0, -1 for an odd field; used for half a circle
         """
         values, angles = field.reshape(-1, self.count), self.angles
         if self.circle is RingAngles.HALF:
@@ -336,8 +358,8 @@ class ContactPoints:
 
     @property
     def output_angles(self) -> Array:
-        """Return the angles at which fields are output [radian].
+        """Return the angles at which fields on the rings are output [radian].
 
-        They include the direction of the load, unlike the angles of the points.
+        They include the direction θ = 0 of the load, unlike the angles of the points.
         """
         return self.circle.output_angles(self.highest)

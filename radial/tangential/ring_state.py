@@ -1,4 +1,4 @@
-"""Loads of an increment of a contact at points, and the state at its end."""
+"""Prescribed loads of an increment of a contact at points on rings, and the state at its end."""
 
 from __future__ import annotations
 
@@ -19,11 +19,12 @@ Prescribed = tuple[float | None, ...]
 class Loads:
     """Prescribed loads and rigid motions of the indenter at the end of an increment.
 
-    Of each load and its conjugate motion one is None.
+    Either a load or its conjugate motion is prescribed. The other one is None. θ = 0 is the
+    direction of the first tangential load.
 
-    forces   tangential force T along θ = 0 and across it, torque M, normal force W [force, force
+    forces   tangential force along θ = 0 and across it, torque, normal force (4,) [force, force
              length]
-    motions  shifts along θ = 0 and across it, twist, approach [length, radian]
+    motions  shifts along θ = 0 and across it, twist, approach (4,) [length, radian]
     """
 
     forces: Prescribed
@@ -31,10 +32,10 @@ class Loads:
 
     @property
     def drop_shear_loads(self) -> Loads:
-        """Return loads with zero instead of the prescribed tangential force and torque.
+        """Return the prescribed loads with zero tangential force and zero torque.
 
         Prescribed motions and the normal load are unchanged. Used to solve the contact whose
-        friction limit determines gross slip.
+        friction limit determines the limit load of gross slip.
         """
         tangential = (None if force is None else 0.0 for force in self.forces[:NORMAL])
         return Loads((*tangential, self.forces[NORMAL]), self.motions)
@@ -42,11 +43,11 @@ class Loads:
     def hold_motion(self, motion: Array) -> Loads:
         """Return loads that prescribe a rigid motion instead of tangential force and torque.
 
-        Prescribed shifts and twist and the normal load are unchanged. Used for an initial guess
-        with the motion at the start of the increment.
+        Prescribed shifts, a prescribed twist and the normal load are unchanged. Used for an initial
+        guess with the motion at the start of the increment.
 
-        motion  shifts along θ = 0 and across it, twist (and approach, which is not used) [length,
-                radian]
+        motion  shifts along θ = 0 and across it, and twist [length, radian]; a fourth entry
+                (approach) is ignored
         """
         prescribed = zip(self.forces[:NORMAL], self.motions[:NORMAL], motion, strict=False)
         tangential = (float(was) if force is not None else now for force, now, was in prescribed)
@@ -55,7 +56,7 @@ class Loads:
 
 @dataclass(frozen=True)
 class PointState:
-    """Contact with friction at points (rings × angles) at the end of an increment. N points.
+    """Contact with friction at N points on rings, solved at the end of an increment.
 
     tractions       radial shear, circumferential shear and pressure: q_r, q_θ, p (3 N,)
                     [force/length²]
@@ -63,14 +64,14 @@ class PointState:
     slip_increment  slip Δs of the increment times the area of each point (2 N,) [length³]
     motion          rigid motion: shifts along θ = 0 and across it, twist, approach (4,) [length,
                     radian]
-    changed         change of tractions and motion in the increment (3 N + 4,)
-    share           trial shear |q - Δs/d| over the friction limit, d the compliance of the point
-                    (N,); ≤ 1 at sticking points, infinite outside the contact
+    changed         change of tractions and rigid motion in the increment (3 N + 4,)
+    share           trial shear |q - Δs/d| over the friction limit, with the compliance d of the
+                    point (N,) [1]; at most 1 at sticking points, infinite outside the contact
     energy          elastic energy ½ ∫ (p u_z + q·u) dA of the bodies and the rig's springs [force
                     length]
     residual        residual of the contact and friction laws over the largest pressure, friction
                     limit and load [1]
-    steps           number of Newton steps
+    steps           number of Newton steps of the solve
     """
 
     tractions: Array
@@ -95,7 +96,7 @@ class PointState:
 
     @property
     def approach(self) -> float:
-        """Return the approach of the indenter [length]."""
+        """Return the approach of the indenter to the lower body since first contact [length]."""
         return float(self.motion[NORMAL])
 
     def repeat_angles(self, points: ContactPoints) -> PointState:
@@ -103,7 +104,7 @@ class PointState:
 
         Used when a tangential load begins to act on an axisymmetric contact.
 
-        points  points of the contact with tangential load
+        points  points of the contact with tangential load (rings × angles)
         """
 
         def repeat_components(field: Array, count: int) -> Array:
@@ -125,12 +126,13 @@ class PointState:
 
 
 def resultant_loads(points: ContactPoints, tractions: Array) -> Array:
-    """Compute the resultants of tractions on a contact (4,) [force, force length].
+    """Compute the resultant forces and torque of the tractions on a contact (4,).
 
-    They are the tangential force along θ = 0 and across it, the torque and the normal force.
+    The results are the tangential force along θ = 0 and across it [force], the torque [force
+    length] and the normal force [force].
 
     points     points of the contact, with their areas
-    tractions  q_r, q_θ, p at the points (3 N,) [force/length²]
+    tractions  radial shear, circumferential shear and pressure of N points (3 N,) [force/length²]
     """
     q, p = np.split(tractions, [2 * len(points.areas)])
     return np.append(points.rigid_motions @ q, points.areas @ p)

@@ -29,11 +29,14 @@ UNTOLD = 0.5  # position of the border between two points without sufficient dat
 
 
 def stick_area(radii: Array, shear: Array, bound: Array, sticks: Mask) -> float:
-    """Compute the area of the stick zone, with its border interpolated between points [length²].
+    """Compute the area of the stick zone of a contact with tangential load [length²].
+
+    The border of the stick zone is interpolated between the points, which lie on n rings at J
+    equidistant angles of the full circle.
 
     radii   radii of the rings, from the axis (n,) [length]
-    shear   q_r and q_θ at J equidistant angles of the full circle (2, n, J)
-    bound   friction limit µp, zero outside of contact (n, J)
+    shear   q_r and q_θ at the points (2, n, J) [force/length²]
+    bound   friction limit µp at the points, zero outside of contact (n, J) [force/length²]
     sticks  true for sticking points (n, J)
     """
     turn = sticks.shape[1]
@@ -63,22 +66,22 @@ def _border_positions(
     places: Array,
     deep: int,
 ) -> Array:
-    """Find the border of the stick zone between adjacent points (n - 1, …).
+    """Find the border of the stick zone between adjacent points on rays or on rings (n - 1, …).
 
     Points are adjacent on the first axis. The position of the border is 0 at the first and 1 at the
-    second of two points. It has no meaning where both points stick or both do not. The distance
-    from full slip d = µp - q·n at the last sticking points determines the position; n is the
-    direction of the shear in the slip zone.
+    second of two points. The position has no meaning where both points stick or both do not. It
+    follows from the distance from full slip d = µp - q·n of the last sticking points, where q is
+    the shear and n the direction of the shear in the slip zone.
 
-    directions  angle of the shear of each point [radian]
-    size        magnitude of the shear [force/length²]
-    bound       friction limit µp [force/length²]
-    sticks      true for sticking points
+    directions  angle of the shear of each point (n, …) [radian]
+    size        magnitude of the shear (n, …) [force/length²]
+    bound       friction limit µp (n, …) [force/length²]
+    sticks      true for sticking points (n, …)
     table       coefficients of the polynomial that gives the distance of the border from the ratio
-                of d
-    places      coordinates of the points along the axis (n,)
+                of d at two points
+    places      coordinates of the points along the first axis (n,)
     deep        number of further sticking points required to distinguish the powers 1/2 and 3/2 of
-                d; in a narrow zone d decreases towards its other side
+                d; in a narrow stick zone d decreases towards the opposite border
     """
     found = np.full((len(bound) - 1, *bound.shape[1:]), UNTOLD)
     slips = (bound > 0) & ~sticks
@@ -108,15 +111,16 @@ def _distance_from_slip(
     j: NDArray[np.intp],
     direction: Array,
 ) -> Array:
-    """Compute the distance d = µp - q·n of sticking points from full slip [force/length²].
+    """Compute the distance from full slip d = µp - q·n of sticking points [force/length²].
 
-    q is the shear and n its direction in the slip zone. The value is NaN for other points.
+    q is the shear and n the direction of the shear in the slip zone. d is zero at the border of the
+    stick zone, which is found from d. The value is NaN for points that do not stick.
 
-    directions, size  angle and magnitude of the shear of all points
-    bound             friction limit µp of all points
-    sticks            true for sticking points
-    near, j           indices of the points to evaluate
-    direction         angle of n [radian]
+    directions, size  angle and magnitude of the shear of all points (n, J) [radian, force/length²]
+    bound             friction limit µp of all points (n, J) [force/length²]
+    sticks            true for sticking points (n, J)
+    near, j           first and second indices of the points to evaluate (k,)
+    direction         angle of n at these points (k,) [radian]
     """
     known = (near >= 0) & (near < len(bound))
     near = np.clip(near, 0, len(bound) - 1)
@@ -127,16 +131,18 @@ def _distance_from_slip(
 def _border_distance(
     last: Array, before: Array, further: Array, deep: Mask, even: Array, table: tuple[float, ...]
 ) -> Array:
-    """Estimate the distance of the stick border from the last sticking point.
+    """Estimate the distance of the border of the stick zone from the last sticking point (k,) [1].
 
-    The distance is relative to that between this point and the next one. d = µp - q·n is the
-    distance of a point from full slip. It is proportional to the power 1/2 or 3/2 of the distance
-    from the border.
+    The unit is the distance between this point and the next one. d = µp - q·n is the distance of a
+    point from full slip: friction limit minus the component of the shear in the direction of slip.
+    d is proportional to the power 1/2 or 3/2 of the distance from the border. Without data the
+    result is 0.5.
 
-    last, before, further  d of the last three sticking points, from the border inwards
-    deep                   true where the powers 1/2 and 3/2 can be distinguished
-    even                   distance to the next point over the distance to the previous point
-    table                  coefficients of the polynomial in last/before for the power 1/2
+    last, before, further  d of the last three sticking points, from the border inwards (k,)
+    deep                   true where enough points stick to distinguish the powers 1/2 and 3/2 (k,)
+    even                   distance to the next point over the distance to the previous point (k,)
+    table                  coefficients of the polynomial in last/before that gives the distance for
+                           the power 1/2
     """
     # Interpolate d to equal distances of points: d² is linear in the position near a root.
     before = np.sqrt(last**2 + np.maximum(before**2 - last**2, 0.0) * even)
@@ -149,13 +155,14 @@ def _border_distance(
 
 
 def _spacing_ratio(places: Array, at: NDArray[np.intp], step: int) -> Array:
-    """Return the ratio of the distances of points to their next and to their previous point.
+    """Return the ratio of the distances of points to their next and previous point [1].
 
-    Used to interpolate to equal distances of points. The result is 1 at an end of the axis.
+    Used to interpolate fields near the border of the stick zone to equal distances of points. The
+    result is 1 for a point without a previous point.
 
-    places  coordinates of all points along the axis
-    at      indices of the points
-    step    +1 or -1, the direction of "next"
+    places  coordinates of all points along a ray or a ring
+    at      indices of the points for which the ratio is computed
+    step    +1 or -1, the index step from a point to its next point
     """
     before = at - step
     known = (before >= 0) & (before < len(places))
@@ -168,13 +175,13 @@ def _slip_direction(
 ) -> tuple[Array, Array]:
     """Find the angle of the shear beyond the border of the stick zone, and its change per point.
 
-    If the point beyond the border does not slip, the angle is that of the last sticking point and
-    the change is 0.
+    Both results [radian] belong to the first slipping point beyond the border. If the point beyond
+    the border does not slip, the angle is that of the last sticking point and the change is 0.
 
-    directions  angle of the shear of all points [radian]
-    slips       true for slipping points
-    at, j       indices of the last sticking points
-    step        +1 or -1, the direction from these points to the border
+    directions  angle of the shear of all points (n, J) [radian]
+    slips       true for slipping points (n, J)
+    at, j       first and second indices of the last sticking points (k,)
+    step        +1 or -1, the index step from these points to the border
     """
     one, two = at + step, at + 2 * step
     within = (two >= 0) & (two < len(slips))
@@ -186,12 +193,12 @@ def _slip_direction(
 
 
 def _stick_fractions(sticks: Mask, along_rays: Array, along_rings: Array) -> Array:
-    """Compute the fraction of the area of each cell that sticks (n - 1, J).
+    """Compute the fraction of the area between adjacent rings and rays that sticks (n - 1, J) [1].
 
-    The cells lie between adjacent rings and rays, with points at their corners. The stick zone in a
-    cell is a polygon of the sticking corners and the positions of the border on the sides.
+    A cell between two rings and two rays has points at its four corners. The stick zone in a cell
+    is a polygon. Its corners are the sticking points and the positions of the border on the sides.
 
-    sticks       true for sticking points (n, J)
+    sticks       true for sticking points on n rings and J rays (n, J)
     along_rays   position of the border between adjacent rings, 0 to 1 (n - 1, J)
     along_rings  position of the border between adjacent rays, 0 to 1 (n, J)
     """

@@ -1,4 +1,8 @@
-"""Slip, stick area, energies and residuals of an increment of a contact at points."""
+"""State of a contact with tangential load or torsion at the end of an increment.
+
+The module computes slip, stick area, energies and residuals from the solved tractions at points
+(rings × angles).
+"""
 
 from __future__ import annotations
 
@@ -33,21 +37,23 @@ REST = 1e-11  # slip below this multiple of the approach is round-off
 
 @dataclass(frozen=True)
 class TangentialState:
-    """State of a contact at points at the end of an increment, with slip and energies.
+    """State of a contact at N points on rings at the end of an increment, with slip and energies.
 
-    Forces and motions have the order of `Loads`.
+    The next increment starts from this state.
 
-    end            tractions and rigid motion
-    circle         angles of a ring
-    prescribed     prescribed loads and motions
-    radius         radius of the circle of equal contact area; that without friction if the rings do
-                   not resolve the contact [length]
+    end            solved tractions, rigid motion and slip of the increment
+    circle         angles of the points on a ring: one angle, half a circle or the full circle
+    prescribed     prescribed loads and rigid motions
+    radius         radius of the circle of equal contact area [length]; that of the frictionless
+                   contact if the rings do not resolve the contact
     start_radius   contact radius at the start of the increment [length]
-    stick_through  radius of a circle with the area that sticks throughout the increment; None if
-                   unresolved [length]
-    stick_radius   radius of a circle with the stick area at the end; None if unresolved [length]
-    slip           slip since first contact of the particles (2, points) [length]
-    carried        resultants of the tractions (4,)
+    stick_through  radius of a circle with the area that sticks throughout the increment [length];
+                   None if the rings do not resolve the contact
+    stick_radius   radius of a circle with the stick area at the end [length]; None if the rings do
+                   not resolve the contact
+    slip           slip since first contact of the particles (2, N) [length]
+    carried        resultants of the tractions: tangential force along θ = 0 and across it, torque,
+                   normal force (4,)
     work           work of the loads since the start of the history [force length]
     dissipated     energy dissipated since the start of the history [force length]
     uncertainty    uncertainty of `dissipated` by finite increments [force length]
@@ -68,17 +74,19 @@ class TangentialState:
 
     @property
     def forces(self) -> tuple[float, ...]:
-        """Return the loads on the indenter, prescribed or computed (4,) [force, force length].
+        """Return the four loads on the indenter: prescribed, or computed from the tractions.
 
-        They are the tangential force along and across θ = 0, the torque and the normal force.
+        They are the tangential forces along and across θ = 0 [force], the torque [force length] and
+        the normal force [force].
         """
         return _prescribed_or_computed(self.prescribed.forces, self.carried)
 
     @property
     def motions(self) -> tuple[float, ...]:
-        """Return the rigid motions of the indenter, prescribed or computed (4,) [length, radian].
+        """Return the four rigid motions of the indenter: prescribed, or computed.
 
-        They are the shifts along and across θ = 0, the twist and the approach.
+        They are the shifts along and across θ = 0 [length], the twist [radian] and the approach
+        [length].
         """
         return _prescribed_or_computed(self.prescribed.motions, self.end.motion)
 
@@ -86,7 +94,9 @@ class TangentialState:
     def status(self) -> ContactStatus:
         """Return the contact status: full stick, partial slip, gross slip, or no stick area left.
 
-        If points slip and the rings do not resolve the stick zone, the status is partial slip.
+        If points slip and the rings do not resolve the stick zone, the status is partial slip. If
+        all points slip, the status is gross slip under a prescribed shift or twist, otherwise no
+        stick area left.
         """
         share = self.end.share[np.isfinite(self.end.share)]
         if np.all(share <= 1):
@@ -100,10 +110,10 @@ class TangentialState:
 def _prescribed_or_computed(
     prescribed: tuple[float | None, ...], found: Array
 ) -> tuple[float, ...]:
-    """Return the prescribed loads (or motions), with computed values where none is prescribed.
+    """Return loads (or rigid motions) of the indenter, computed where none is prescribed.
 
-    prescribed  values; None where the conjugate quantity is prescribed
-    found       computed values
+    prescribed  prescribed values; None where the conjugate quantity is prescribed (4,)
+    found       computed values (4,)
     """
     return tuple(
         float(came) if value is None else value
@@ -115,15 +125,17 @@ def tangential_state(
     points: ContactPoints, friction: CoulombFriction, end: PointState, last: PointState | None,
     slip: Array, prescribed: Loads, before: TangentialState | None, smooth: float | None,
 ) -> TangentialState:  # fmt: skip
-    """Compute slip, stick area and energies of an increment from its solved tractions.
+    """Compute slip, stick area and energies at the end of an increment from its solved tractions.
 
-    end         tractions and rigid motion at the end
-    last        tractions and rigid motion at the start; None before first contact
-    slip        slip until the start of the increment, at the points (2, N) [length]
-    prescribed  prescribed loads and motions
+    points      points of the contact (rings × angles)
+    friction    friction law
+    end         solved tractions and rigid motion at the end of the increment
+    last        tractions and rigid motion at the start of the increment; None before first contact
+    slip        slip until the start of the increment, at the N points (2, N) [length]
+    prescribed  prescribed loads and rigid motions
     before      state at the start of the increment; None before first contact
-    smooth      contact radius without friction if the rings do not resolve the contact, else None
-                [length]
+    smooth      radius of the frictionless contact if the rings do not resolve the contact, else
+                None [length]
     """
     areas, nothing = points.areas, np.zeros(len(points.areas))
     radius = sqrt(points.contact_area(end.pressure) / pi) if smooth is None else smooth
@@ -160,9 +172,11 @@ def tangential_state(
 def residuals_of(
     points: ContactPoints, friction: CoulombFriction, state: TangentialState
 ) -> Residuals:
-    """Compute the residuals of contact, friction and equilibrium at the end of an increment.
+    """Compute the residuals of contact, friction and equilibrium at the end of an increment [1].
 
-    points    points of the contact, with areas and levers
+    The solver of load steps compares each residual with the tolerance.
+
+    points    points of the contact (rings × angles), with areas and levers
     friction  friction law
     state     solved state of tractions, slip and loads
     """

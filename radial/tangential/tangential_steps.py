@@ -65,14 +65,14 @@ NOTHING = (0.0, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class TangentialSteps(StepsOnRings):
-    """Solver of the increments of a contact at points (rings × angles).
+    """Solver of load steps of a contact with tangential load or torsion, at points on rings.
 
     friction   friction law
-    direction  unit vector of the angle θ = 0
+    direction  unit vector of the angle θ = 0 in the axes of the scene: the first tangential load
     twists     true if torque and twist are output
-    tolerance  upper bound of every residual
-    points     points for the largest contact of the history
-    taken      number of Newton steps of every solve
+    tolerance  upper bound of every residual [1]
+    points     points (rings × angles) for the largest contact of the load history
+    taken      number of Newton steps of every solve up to now
     """
 
     friction: CoulombFriction
@@ -84,7 +84,10 @@ class TangentialSteps(StepsOnRings):
 
     @property
     def most_spent(self) -> float:
-        """Return the number of Newton steps above which an increment is not bisected again."""
+        """Return the number of Newton steps above which a failed increment is not bisected again.
+
+        Load stepping compares this number with the Newton steps spent on the increment.
+        """
         return 4.0 * MAX_STEPS
 
     @classmethod
@@ -94,14 +97,14 @@ class TangentialSteps(StepsOnRings):
         discretisation: RadialDiscretisation,
         plan: Plan,
     ) -> TangentialSteps:
-        """Create the solver of load steps of a contact at points (rings × angles), for a scene.
+        """Create the solver of load steps with tangential load or torsion for a scene.
 
-        The radii of the contacts at the ends of the load steps are solved first, because rings are
-        dense at the edges.
+        The contact radii at the ends of the load steps are solved first, because the rings of
+        points are dense at these radii.
 
         scene           contact problem
         discretisation  settings, of which only the tolerance of the residuals is used
-        plan            effects of the scene, numbers of rings and angles
+        plan            effects of the scene, and numbers of rings and angles
         """
         assert scene.friction is not None
         assert plan.circle is not None
@@ -110,7 +113,9 @@ class TangentialSteps(StepsOnRings):
         both = Coupling.of(scene)
 
         def frictionless_radius(prescribed: Target) -> float:
-            """Return the radius of the frictionless contact under a given normal load [length].
+            """Return the contact radius without friction under a prescribed normal load [length].
+
+            Used to place the rings of the contact with friction.
 
             prescribed  normal force or approach
             """
@@ -124,7 +129,7 @@ class TangentialSteps(StepsOnRings):
         def create_solver(circle: RingAngles) -> TangentialSteps:
             """Create the solver with rings that are dense at the contact edges found so far.
 
-            circle  angles of the points on a ring
+            circle  angles of the points on a ring: one angle, half a circle or the full circle
             """
             harmonics = 0 if circle is RingAngles.ONE else plan.highest
             points = create_points(
@@ -141,8 +146,8 @@ class TangentialSteps(StepsOnRings):
     def _contact_radii(self) -> list[float]:
         """Solve the contact radii at the ends of the load steps, without tangential load [length].
 
-        The radii are used to place dense rings. Load steps that end without contact, or with
-        unchanged normal load, are skipped.
+        Rings are made dense at these radii. Friction under the normal load is included. Load steps
+        that end without contact, or with unchanged normal load, are skipped.
         """
         state: TangentialState | None = None
         found = []
@@ -165,9 +170,9 @@ class TangentialSteps(StepsOnRings):
     def _normal_load(
         ramp: LoadRamp, start: TangentialState | None, fraction: float
     ) -> tuple[float | None, float | None]:
-        """Return the normal force and the approach at a fraction of a load step.
+        """Return the prescribed normal force and approach at a fraction of a load step.
 
-        The quantity that is not prescribed is None.
+        Either the force or the approach is prescribed. The other one is None.
 
         ramp      load step
         start     state at the start of the load step; None without contact
@@ -177,9 +182,9 @@ class TangentialSteps(StepsOnRings):
         return ramp.normal.prescribed(fraction, reached)
 
     def spent(self) -> float:
-        """Return the number of Newton steps of all solves up to now.
+        """Return the number of Newton steps of all solves of the load history up to now.
 
-        The number limits the bisection of an increment that does not converge.
+        Load stepping limits the bisection of increments that do not converge by this number.
         """
         return float(sum(self.taken))
 
@@ -190,7 +195,7 @@ class TangentialSteps(StepsOnRings):
         before: TangentialState | None,
         fraction: float,
     ) -> TangentialState:
-        """Solve the contact at a fraction of a load step.
+        """Solve the contact with friction at points on rings at a fraction of a load step.
 
         ramp      load step
         start     state at the start of the load step; None without contact
@@ -215,7 +220,10 @@ class TangentialSteps(StepsOnRings):
     def _scene_components(self, parts: tuple[float, ...]) -> Pair:
         """Rotate a vector from the axes of the tangential load to the x and y axes of the scene.
 
-        parts  components along and across the direction of the load, and others that are not used
+        The result is the pair of x and y components.
+
+        parts  components along and across the direction of the load; further entries (torsion,
+               normal) are ignored
         """
         (x, y), (along, across, *_) = self.direction, parts
         return along * x - across * y, along * y + across * x
@@ -234,12 +242,13 @@ class TangentialSteps(StepsOnRings):
         return of_x * x + of_y * y, of_y * x - of_x * y
 
     def _solve_loads(self, loads: Loads, before: TangentialState | None) -> TangentialState:
-        """Solve contact and friction under given loads, from the state of the previous increment.
+        """Solve contact and friction under prescribed loads, starting from a previous state.
 
         Loads without tangential component are solved with one angle per ring, as long as no
-        preceding load had a tangential component.
+        preceding load had a tangential component. If the loads are those of the previous increment,
+        its state is returned.
 
-        loads   prescribed loads and motions
+        loads   prescribed loads and rigid motions of the indenter
         before  state at the end of the previous increment; None without contact
         """
         if before is not None and before.prescribed == loads:
@@ -266,21 +275,24 @@ class TangentialSteps(StepsOnRings):
         return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
 
     def _solve_frictionless(self, loads: Loads) -> NormalContact:
-        """Solve the frictionless contact under a prescribed normal force or approach.
+        """Solve the frictionless contact under the prescribed normal load of an increment.
 
-        loads  prescribed loads and motions, of which only the normal one is used
+        The result gives an initial guess and, for a contact within the first rings, the contact
+        radius.
+
+        loads  prescribed loads and motions, of which only the normal force or approach is used
         """
         prescribed = target(self.scene, loads.forces[NORMAL], loads.motions[NORMAL])
         return normal_contact(Bodies.of(self.scene), self.scene.indenter, prescribed)
 
     def _frictionless_guess(self, points: ContactPoints, loads: Loads) -> Array:
-        """Return tractions and rigid motion of the contact without friction, as an initial guess.
+        """Return tractions and rigid motion of the frictionless contact, as an initial guess.
 
         Newton's method needs far fewer steps from this guess than from a uniform pressure. The
-        shape is (3 N + 4,), with N points.
+        shape is (3 N + 4,) for N points: q_r, q_θ, p, then two shifts, twist and approach.
 
-        points  points of the contact
-        loads   prescribed loads and motions, of which only the normal one is used
+        points  points of the contact (rings × angles)
+        loads   prescribed loads and motions, of which only the normal force or approach is used
         """
         found = self._solve_frictionless(loads)
         p = pressure(found.contact, points.radii / found.contact.radius)
@@ -291,10 +303,12 @@ class TangentialSteps(StepsOnRings):
         )
 
     def _refuse_within_first(self, points: ContactPoints, approach: float | None) -> None:
-        """Raise UnsupportedScene if a prescribed approach is too small for the first ring.
+        """Raise UnsupportedScene if a prescribed approach is too small for contact at any ring.
 
         The approach must exceed the mean undeformed gap over the hat function of at least one ring.
+        Otherwise no point comes into contact.
 
+        points    points of the contact (rings × angles)
         approach  prescribed approach; None under a prescribed force [length]
         """
         depth = float(np.min(points.gap_areas / points.areas))
@@ -308,9 +322,10 @@ class TangentialSteps(StepsOnRings):
     def report(
         self, reached: ConvergedIncrement[TangentialState], last: Increment | None
     ) -> Increment:
-        """Compute the output of an increment: fields on rings and angles, energies and residuals.
+        """Compute the output of an increment: fields at rings and angles, energies and residuals.
 
-        Raises NotConverged if a residual exceeds the tolerance.
+        Raises NotConverged if a residual exceeds the tolerance, and UnsupportedScene if the rings
+        do not resolve the slip annulus.
 
         reached  solved state at the end of the increment
         last     output of the previous increment (not used)
@@ -373,12 +388,12 @@ class TangentialSteps(StepsOnRings):
     def _refuse_narrow(self, state: TangentialState, step: int) -> None:
         """Raise UnsupportedScene if the slip annulus after normal loading is narrower than a ring.
 
-        Tractions at the border of this annulus and at the edge would be inaccurate. The annulus is
-        too narrow if no point slips although pressure displaces the surfaces relative to each
-        other.
+        Tractions at the border of this annulus and at the contact edge would be inaccurate. The
+        annulus is too narrow if no point slips although pressure displaces the surfaces relative to
+        each other.
 
         state  state at the end of the load step
-        step   number of the load step; only the first one is checked
+        step   number of the load step; only step 1 is checked, as long as no tangential load acts
         """
         sticks = state.status is ContactStatus.FULL_STICK
         if sticks and step == 1 and state.circle is RingAngles.ONE and coupling(self.scene)[0]:
@@ -390,14 +405,15 @@ class TangentialSteps(StepsOnRings):
 
     @staticmethod
     def _limit_shear(points: ContactPoints, shear: Array, limit: Array) -> Array:
-        """Reduce interpolated shear to the friction limit, at equal force and torque per ring.
+        """Reduce interpolated shear to the friction limit, at equal force and torque of each ring.
 
-        Interpolation exceeds the limit near the border of the stick zone. Alternating projections
-        remove the excess.
+        Interpolation from the points to the output angles exceeds the limit near the border of the
+        stick zone. Alternating projections remove the excess.
 
-        points  points of the contact, with the output angles
-        shear   q_r and q_θ at the output angles (2, n, angles) [force/length²]
-        limit   friction limit (n, angles) [force/length²]
+        points  points of the contact (rings × angles), with the output angles
+        shear   interpolated q_r and q_θ at n rings and the output angles (2, n, angles)
+                [force/length²]
+        limit   friction limit µp (n, angles) [force/length²]
         """
         angles = points.output_angles
         cos, sin, one = np.cos(angles), np.sin(angles), np.ones_like(angles)
@@ -418,9 +434,10 @@ class TangentialSteps(StepsOnRings):
 
     @staticmethod
     def _interpolate_scalar(points: ContactPoints, field: Array) -> Array:
-        """Interpolate a scalar field from the points to the output angles (n, angles).
+        """Interpolate a scalar field from the points to the output angles of each ring (n, angles).
 
-        At the axis all angles have the mean value.
+        At the axis all angles receive the mean value. With one angle per ring the field is returned
+        as it is (n,).
 
         points  points of the contact: n rings with `count` angles each
         field   values at the points (n count,)
@@ -433,9 +450,11 @@ class TangentialSteps(StepsOnRings):
 
     @staticmethod
     def _interpolate_vector(points: ContactPoints, vector: Array) -> tuple[Array, Array]:
-        """Interpolate a vector field from the points to the output angles: components r and θ.
+        """Interpolate a vector field from the points to the output angles of each ring.
 
-        At the axis all angles have the same vector. Each result has the shape (n, angles).
+        The results are the components r and θ, each (n, angles). At the axis all angles have the
+        same vector. With one angle per ring the vector is zero at the axis, and each result has the
+        shape (n,).
 
         points  points of the contact: n rings with `count` angles each
         vector  components r and θ at the points (2, n count)
@@ -459,13 +478,13 @@ class TangentialSteps(StepsOnRings):
 
 
 def _fix_excluded_motions(points: ContactPoints, loads: Loads) -> Loads:
-    """Replace loads on rigid motions that symmetry excludes by a prescribed zero motion.
+    """Replace loads on rigid motions that symmetry excludes by prescribed zero motions.
 
-    Points on one angle exclude shifts. Points on half a circle exclude the shift across θ = 0 and
-    the twist.
+    Points at one angle per ring exclude shifts. Points on half a circle exclude the shift across θ
+    = 0 and the twist.
 
-    points  points of the contact
-    loads   prescribed loads and motions
+    points  points of the contact (rings × angles)
+    loads   prescribed loads and rigid motions of the indenter
     """
     has = [*np.any(points.rigid_motions, axis=1), True]
     forces, motions = (

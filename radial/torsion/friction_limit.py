@@ -35,15 +35,16 @@ PANELS, NODES = 26, 26
 
 @dataclass(frozen=True)
 class FrictionLimit:
-    """Transform N(t)/t of shear q = µp at the friction limit of a contact.
+    """Transform N(t)/t of the circumferential shear q = µp, the friction limit of a contact.
 
-    N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
-    the torsional modulus G and the contact radius a. N/t is expanded in Chebyshev series on the
-    panels 2^-(n+1) < t < 2^-n of the range 2^-26 < t <= 1, where t is a coordinate between the axis
-    (0) and the contact edge (1).
+    The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the torsional
+    modulus G and the contact radius a. The coordinate t runs from 0 at the axis to 1 at the contact
+    edge. N/t is expanded in Chebyshev series on the intervals 2^-(n+1) < t < 2^-n, n = 0 … 25.
+    Torsion uses N in the slip annulus, where the shear is at the friction limit.
 
-    slopes  Chebyshev coefficients of N/t on each panel (panels, nodes) [1]
-    rates   Chebyshev coefficients of d(N/t)/dt on each panel, times 2^-n (panels, nodes - 1) [1]
+    slopes  Chebyshev coefficients of N/t on each interval (intervals, nodes) [1]
+    rates   Chebyshev coefficients of d(N/t)/dt on each interval, times 2^-n (intervals, nodes - 1)
+            [1]
     """
 
     slopes: Array
@@ -51,9 +52,12 @@ class FrictionLimit:
 
     @classmethod
     def of(cls, contact: Disc, friction: float, modulus: float) -> FrictionLimit:
-        """Compute the transform N/t of shear at the friction limit µp of a contact.
+        """Compute the transform N/t of the shear q = µp at the friction limit of a contact.
 
-        contact   frictionless contact with the pressure p
+        The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the contact
+        radius a.
+
+        contact   frictionless contact, which gives the pressure p
         friction  coefficient of friction µ
         modulus   torsional modulus G: reciprocal of the sum of 1/G of the outermost materials
                   [force/length²]
@@ -68,45 +72,47 @@ class FrictionLimit:
         return cls(slopes, rates)
 
     def evaluate_transform(self, t: Array) -> Array:
-        """Evaluate the transform N/t of shear at the friction limit µp [1].
+        """Evaluate the transform N/t of the circumferential shear at the friction limit µp [1].
 
-        N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt,
-        with the torsional modulus G and the contact radius a.
+        The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the torsional
+        modulus G and the contact radius a.
 
-        t  coordinates between the axis (0) and the contact edge (1)
+        t  coordinates, from 0 at the axis to 1 at the contact edge (any shape)
         """
         return _evaluate_panels(self.slopes, *_panel_positions(t))
 
     def transform_rate(self, t: Array) -> Array:
-        """Evaluate the derivative d(N/t)/dt of the transform of shear at the friction limit µp [1].
+        """Evaluate the rate d(N/t)/dt of the transform N of shear at the friction limit µp [1].
 
-        N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt,
-        with the torsional modulus G and the contact radius a.
+        The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the torsional
+        modulus G and the contact radius a. The rate is an integrand of the shear in the stick disc.
 
-        t  coordinates between the axis (0) and the contact edge (1)
+        t  coordinates, from 0 at the axis to 1 at the contact edge (any shape)
         """
         panel, place = _panel_positions(t)
         return np.asarray(_evaluate_panels(self.rates, panel, place) * 2.0**panel)
 
 
 def _panel_positions(t: Array) -> tuple[NDArray[np.int64], Array]:
-    """Find the interval of a piecewise Chebyshev series that contains each point.
+    """Find the interval of a piecewise Chebyshev series that contains each of the given points.
 
-    Interval n is 2^-(n+1) < t < 2^-n. The function returns the indices n and the positions within
-    the intervals, between -1 and 1.
+    The series represents the shear at the friction limit. Its interval n is 2^-(n+1) < t < 2^-n.
+    The function returns the indices n and the positions within the intervals, from -1 to 1.
 
-    t  points, 0 < t <= 1
+    t  points, 0 < t <= 1 (any shape)
     """
     panel = np.clip(np.floor(-np.log2(t)), 0, PANELS - 1).astype(np.int64)
     return panel, np.asarray(4 * t * 2.0**panel - 3)
 
 
 def _evaluate_panels(coefficients: Array, panel: NDArray[np.int64], place: Array) -> Array:
-    """Evaluate a piecewise Chebyshev series at points (Clenshaw's recurrence).
+    """Evaluate a piecewise Chebyshev series at points by Clenshaw's recurrence.
 
-    coefficients  Chebyshev coefficients of every interval (intervals, nodes)
-    panel         index of the interval that contains each point
-    place         position of each point in its interval, from -1 to 1
+    Used for the transform of the shear at the friction limit, which has one series per interval.
+
+    coefficients  Chebyshev coefficients of all intervals (intervals, nodes)
+    panel         index of the interval that contains each point (any shape)
+    place         position of each point in its interval, from -1 to 1 (same shape)
     """
     last, now = np.zeros_like(place), np.zeros_like(place)
     for column in coefficients.T[:0:-1]:
@@ -115,19 +121,19 @@ def _evaluate_panels(coefficients: Array, panel: NDArray[np.int64], place: Array
 
 
 def _unit_limit(contact: Disc, t: Array) -> Array:
-    """Compute the transform h/t of shear at the friction limit, for µ = 1 [force/length].
+    """Compute the transform h/t of circumferential shear that equals the pressure [force/length].
 
-    Shear at the friction limit equals the pressure. h(s), s = a t, is the function whose Abel
-    transform is the shear: q(r) = -d/dr ∫ᵣᵃ h/√(s²-r²) ds. With the function G of which the
-    pressure is the Abel transform (see `disc`),
+    The shear µp at the friction limit is µ times this shear. h(s), s = a t, is the function whose
+    Abel transform is the shear: q(r) = -d/dr ∫ᵣᵃ h/√(s²-r²) ds. The pressure is the Abel transform
+    of a function G, p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]. Then
 
         h/t = (2E*/π²) [G(1) K'(t) - ∫ₜ¹ G'(τ) K'(t/τ) dτ/τ],    K'(t) = K(√(1-t²)).
 
     K is the complete elliptic integral of the first kind. The integral is evaluated with τ = t
     exp(y).
 
-    contact  frictionless contact
-    t        coordinates between the axis (0) and the contact edge (1)
+    contact  frictionless contact of radius a
+    t        coordinates, from 0 at the axis to 1 at the contact edge (any shape)
     """
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + 2 * len(contact.layers))
     furthest = -np.log(t)[..., None]

@@ -46,16 +46,17 @@ AXIS = 1e-7  # smallest radius over the contact radius in integrals, without eff
 
 @dataclass(frozen=True)
 class Torsion:
-    """Contact of two bodies that are twisted against each other, under a constant pressure.
+    """Contact of two bodies under constant pressure that are twisted against each other, from zero.
 
-    The class computes states of monotonic torsion. All of them are functions of the stick radius.
+    The methods compute states of monotonic torsion: a stick disc and a slip annulus, without load
+    reversal. All these states are functions of the stick radius.
 
     contact   frictionless contact, which gives the pressure
     layered   the bodies with layers (none, one or two)
     modulus   torsional modulus G: reciprocal of the sum of 1/G of the outermost materials
               [force/length²]
     friction  coefficient of friction µ
-    fineness  multiple of the numbers of polynomials and quadrature points
+    fineness  factor on the numbers of polynomials and quadrature points, 1 by default
     """
 
     contact: Disc
@@ -66,11 +67,12 @@ class Torsion:
 
     @classmethod
     def of(cls, scene: Scene, contact: Disc, friction: float, fineness: int = 1) -> Torsion:
-        """Create the contact under torsion between the two bodies of a scene.
+        """Create the contact under torsion between the two bodies of a scene, at a given pressure.
 
+        scene     contact problem, which gives the materials
         contact   frictionless contact, which gives the pressure
         friction  coefficient of friction µ
-        fineness  multiple of the numbers of polynomials and quadrature points
+        fineness  factor on the numbers of polynomials and quadrature points, 1 by default
         """
         stacks = [stack_of(body) for body in (scene.body, scene.indenter)]
         outer = [stack.outer.shear_modulus for stack in stacks if not stack.is_rigid]
@@ -79,12 +81,12 @@ class Torsion:
         return cls(contact, layered, modulus, friction, fineness)
 
     def gauss_count(self, width: float) -> int:
-        """Return the number of Gauss points of an integral over an interval of the coordinate t.
+        """Return the number of Gauss points for integrals over an interval of the radius.
 
-        t is 0 at the axis and 1 at the contact edge. The points resolve the shear and, with layers,
-        the waves sin κt of the largest wavenumber κ.
+        The coordinate t is 0 at the axis and 1 at the contact edge. The points resolve the shear
+        and, with layers, the waves sin κt of the largest wavenumber κ.
 
-        width  length of the interval
+        width  length of the interval of t, 0 to 1
         """
         places, _ = self.waves
         waves = ceil(places[-1] * width / 2) if len(places) else 0
@@ -92,11 +94,10 @@ class Torsion:
 
     @cached_property
     def friction_limit(self) -> FrictionLimit:
-        """Return the transform N(t)/t of the circumferential shear at the friction limit µp.
+        """Return the transform N(t)/t of the circumferential shear q = µp at the friction limit.
 
-        N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt,
-        with the torsional modulus G and the contact radius a. t is a coordinate between the axis
-        (0) and the contact edge (1).
+        The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the torsional
+        modulus G and the contact radius a. t runs from 0 at the axis to 1 at the contact edge.
         """
         return FrictionLimit.of(self.contact, self.friction, self.modulus)
 
@@ -104,8 +105,8 @@ class Torsion:
     def incipient_slip(self) -> PartialSlip:
         """Return the state of monotonic torsion at incipient slip: the whole contact still sticks.
 
-        States with a smaller twist are proportional to this state. Its stick radius is the upper
-        end of the root search for a prescribed twist or torque.
+        States with a smaller twist are proportional to this state. Its stick radius is the contact
+        radius, the upper end of the search for the stick radius of a prescribed twist or torque.
         """
         return self.partial_slip(1.0)
 
@@ -113,8 +114,8 @@ class Torsion:
     def least_stick(self) -> PartialSlip:
         """Return the state of monotonic torsion with the smallest stick radius that is solved.
 
-        The state is close to gross slip. Its stick radius is the lower end of the root search for a
-        prescribed twist or torque.
+        The state is close to gross slip. Its stick radius is the lower end of the search for the
+        stick radius of a prescribed twist or torque.
         """
         return self.partial_slip(NO_STICK)
 
@@ -125,11 +126,11 @@ class Torsion:
 
     @cached_property
     def waves(self) -> tuple[Array, Array]:
-        """Return the wavenumbers κ of the layers, and quadrature weights times Y - 1 (κ,).
+        """Return the wavenumbers at which layers contribute to torsion, and their weights (κ,).
 
-        Y - 1 is the contribution of the layers to the torsional compliance, relative to that of
-        half-spaces. Wavenumbers are multiplied by the contact radius. Both arrays are empty without
-        layers.
+        The first array contains the wavenumbers κ, multiplied by the contact radius. The second
+        array contains quadrature weights times Y - 1, the contribution of the layers to the
+        torsional compliance relative to that of half-spaces. Both arrays are empty without layers.
         """
         if not self.layered:
             return np.zeros(0), np.zeros(0)
@@ -143,8 +144,9 @@ class Torsion:
     def partial_slip(self, stick: float) -> PartialSlip:
         """Solve the state of monotonic torsion that has a given stick radius.
 
-        The shear is the friction limit in the slip annulus. In the stick disc the surfaces rotate
-        by the twist. The twist follows from the continuity of the shear at the stick radius.
+        In the slip annulus the shear is the friction limit. In the stick disc the surfaces rotate
+        rigidly by the twist. The twist follows from the continuity of the shear at the stick
+        radius.
 
         stick  stick radius over the contact radius, 0 to 1
         """
@@ -174,12 +176,13 @@ class Torsion:
         return PartialSlip(self, stick, float(twist), layers, panels)
 
     def _annulus_panels(self, stick: float) -> list[Panel]:
-        """Return intervals that cover the slip annulus, with the transform N of the shear in it.
+        """Return intervals that cover the slip annulus, with the transform N of the shear.
 
         The shear in the slip annulus is the friction limit µp. N(t) is the function whose Abel
-        transform is the shear. An interval is not wider than its distance from the axis.
+        transform is the shear. Torque and energy are sums over these intervals. An interval is not
+        wider than its distance from the axis.
 
-        stick  stick radius over the contact radius
+        stick  stick radius over the contact radius, 0 to 1
         """
         if stick >= 1:
             return []
@@ -193,15 +196,15 @@ class Torsion:
 
 
 class Panel(NamedTuple):
-    """Gauss points of an interval, with values of the transform N of the circumferential shear.
+    """Gauss points of an interval of the radius, with the transform N of the circumferential shear.
 
-    N(t) is the function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
-    the torsional modulus G and the contact radius a. Torque and energy are integrals of N over all
-    intervals.
+    The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the torsional
+    modulus G and the contact radius a. Torque and energy of torsion are integrals of N over all
+    intervals of stick disc and slip annulus.
 
-    t        coordinates of the points between the axis (0) and the contact edge (1) (n,)
+    t        coordinates of the points, from 0 at the axis to 1 at the contact edge (n,)
     weights  quadrature weights (n,)
-    values   N at the points (n,)
+    values   N at the points (n,) [1]
     """
 
     t: Array
@@ -211,25 +214,27 @@ class Panel(NamedTuple):
     def sine_transform(self, places: Array) -> Array:
         """Compute the sine transform ∫ N sin κt dt over the interval, at given wavenumbers (κ,).
 
-        N(t)    function whose Abel transform is the circumferential shear
-        t       coordinate between the axis (0) and the contact edge (1)
-        places  wavenumbers κ, multiplied by the contact radius
+        N(t) is the function whose Abel transform is the circumferential shear of torsion. Layers
+        contribute to the twist by this transform. The coordinate t is 0 at the axis and 1 at the
+        contact edge.
+
+        places  wavenumbers κ, multiplied by the contact radius (κ,)
         """
         return np.asarray((self.weights * self.values) @ np.sin(np.multiply.outer(self.t, places)))
 
 
 @dataclass(frozen=True)
 class PartialSlip:
-    """State of monotonic torsion with a stick disc and a slip annulus.
+    """State of monotonic torsion of a contact, with a stick disc and a slip annulus.
 
-    The shear is represented by the function N(t) whose Abel transform it is: q(a x) = -G d/dx ∫ₓ¹
-    N/√(t²-x²) dt, with the contact radius a and the torsional modulus G.
+    The shear is the Abel transform of a function N(t): q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the
+    contact radius a and the torsional modulus G. In the stick disc N = (4/π) φ t - D, with the
+    twist φ and the contribution D of the layers.
 
     of      contact under torsion
     stick   stick radius over the contact radius, c/a
     twist   twist φ of the indenter [radian]
-    layers  Legendre coefficients of D in the stick disc, where N = (4/π) φ t - D; D is the
-            contribution of the layers
+    layers  Legendre coefficients of D in the stick disc, of odd orders
     panels  intervals of the slip annulus, with N of the shear at the friction limit
     """
 
@@ -240,24 +245,26 @@ class PartialSlip:
     panels: Sequence[Panel]
 
     def stick_transform(self, t: Array) -> Array:
-        """Evaluate the transform N of the circumferential shear in the stick disc [1].
+        """Evaluate the transform N of the circumferential shear in the stick disc of torsion [1].
 
             N(t) = (4/π) φ t - D(t)
 
         N(t)  function whose Abel transform is the shear: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with
               the torsional modulus G and the contact radius a
         φ, D  twist of the indenter, and contribution of the layers
-        t     coordinates between the axis (0) and the stick radius over the contact radius
+        t     coordinates, from 0 at the axis to the stick radius over the contact radius (any
+              shape)
         """
         change = legendre.legval(t / self.stick, all_order_coefficients(self.layers, 1))
         return np.asarray(4 / pi * self.twist * t - change)
 
     @property
     def _disc_panels(self) -> list[Panel]:
-        """Return one interval that covers the stick disc, with the transform N of the shear in it.
+        """Return an interval that covers the stick disc, with the transform N of the shear.
 
-        N(t) is the function whose Abel transform is the shear. The interval is in a list, for sums
-        over stick disc and slip annulus. The list is empty without a stick disc.
+        N(t) is the function whose Abel transform is the circumferential shear. The result is a list
+        with one interval, or an empty list without stick disc, because torque and energy are sums
+        over the intervals of stick disc and slip annulus.
         """
         if self.stick == 0:
             return []
@@ -267,20 +274,21 @@ class PartialSlip:
 
     @cached_property
     def torque(self) -> float:
-        """Compute the torque of the circumferential shear, 4π G a³ ∫ N t dt [force length].
+        """Compute the torque of the circumferential shear, 4π G a³ ∫₀¹ N t dt [force length].
 
         N(t) is the function whose Abel transform is the shear, G the torsional modulus, a the
-        contact radius.
+        contact radius. t runs from 0 at the axis to 1 at the contact edge.
         """
         total = sum(float(w * t @ N) for t, w, N in (*self._disc_panels, *self.panels))
         return 4 * pi * self.of.modulus * self.of.contact.radius**3 * total
 
     @cached_property
     def transform(self) -> Array:
-        """Compute the sine transform ∫₀¹ N sin κt dt for the contribution of the layers (κ,).
+        """Compute the sine transform ∫₀¹ N sin κt dt of the transform N of the shear (κ,).
 
-        N(t) is the function whose Abel transform is the circumferential shear. The wavenumbers κ,
-        multiplied by the contact radius, are those at which the layers contribute.
+        N(t) is the function whose Abel transform is the circumferential shear. The displacement by
+        the layers is an integral of this transform over the wavenumber κ, multiplied by the contact
+        radius.
         """
         places, _ = self.of.waves
         parts = [panel.sine_transform(places) for panel in (*self._disc_panels, *self.panels)]
@@ -295,6 +303,7 @@ class PartialSlip:
         N, N~  function whose Abel transform is the shear, and its sine transform
         Y - 1  contribution of the layers to the torsional compliance, relative to half-spaces
         G, a   torsional modulus and contact radius
+        κ      wavenumber times contact radius
         """
         squares = sum(float(w @ N**2) for _, w, N in (*self._disc_panels, *self.panels))
         _, wave_weights = self.of.waves
@@ -304,20 +313,23 @@ class PartialSlip:
 
     @property
     def work(self) -> float:
-        """Compute the work ∫ M dφ of the torque M since the start of the twist φ [force length]."""
+        """Compute the work ∫ M dφ of the torque M from twist 0 to this state [force length]."""
         return self.twist * self.torque - self.elastic_energy
 
     @property
     def dissipated(self) -> float:
-        """Return the energy dissipated since the start of the twist [force length].
+        """Return the energy dissipated by friction since the start of the twist [force length].
 
-        It is 2π ∫ µp |s| r dr: points of the slip annulus carry the shear µp from the start of
-        their slip s.
+        The energy is 2π a² ∫ µp |s| x dx: points of the slip annulus carry the shear µp from the
+        start of their slip s. It is computed as the work of the torque minus the elastic energy.
         """
         return self.twist * self.torque - 2 * self.elastic_energy
 
     def shear(self, x: Array, limit: Array) -> Array:
         """Compute the circumferential shear q_θ at radii within the contact (n,) [force/length²].
+
+        In the slip annulus the shear is the friction limit. In the stick disc it is the Abel
+        integral over both zones.
 
         x      radii over the contact radius, below 1 (n,)
         limit  friction limit µp at these radii (n,) [force/length²]
@@ -352,22 +364,22 @@ class PartialSlip:
         return found
 
     def _layers_rate(self, t: Array) -> Array:
-        """Evaluate d(-D/t)/dt in the stick disc, an integrand of the circumferential shear.
+        """Evaluate d(-D/t)/dt in the stick disc, the integrand of the shear by layers [1].
 
-        D(t) is the contribution of the layers to the function N(t) whose Abel transform is the
-        shear.
+        D(t) is the contribution of the layers to the function N(t) = (4/π) φ t - D(t) whose Abel
+        transform is the circumferential shear. φ is the twist of the indenter.
 
-        t  coordinates between the axis (0) and the stick radius over the contact radius
+        t  coordinates, from 0 at the axis to the stick radius over the contact radius (any shape)
         """
         x, every = t / self.stick, all_order_coefficients(self.layers, 1)
         changed, rate = legendre.legval(x, every), legendre.legval(x, legendre.legder(every))
         return np.asarray((changed / x - rate) / (x * self.stick**2))
 
     def slip(self, x: Array) -> Array:
-        """Compute the circumferential slip u_θ - φ r at given radii (n,) [length].
+        """Compute the circumferential slip u_θ - φ r of torsion at given radii (n,) [length].
 
-        u_θ is the displacement of the lower body relative to the indenter by the shear, φ the
-        twist. The slip is 0 in the stick disc and outside the contact.
+        u_θ is the surface displacement of the lower body relative to the indenter by the shear, φ
+        the twist, r the radius. The slip is 0 in the stick disc and outside the contact.
 
         x  radii over the contact radius (n,)
         """

@@ -34,7 +34,8 @@ class TorsionState:
 
     normal_contact  frictionless contact under the normal load
     path            twist, torque and energies of torsion, with the history of load reversals
-    prescribed      kind of control, and the prescribed torque [force length] or twist [radian]
+    prescribed      kind of control (force or displacement), and the prescribed torque [force
+                    length] or twist [radian]
     """
 
     normal_contact: NormalContact
@@ -56,12 +57,12 @@ class TorsionState:
 
 @dataclass(frozen=True)
 class TorsionSteps(StepsOnRings):
-    """Solver of load steps of a contact under normal load and torsion, in closed form.
+    """Solver of load steps of a contact under normal load and torsion, with shear in closed form.
 
     pressing   solver of the frictionless normal problem, which does not depend on the twist
     friction   coefficient of friction µ
-    fineness   multiple of the numbers of polynomials and quadrature points
-    tolerance  upper bound of every residual
+    fineness   factor on the numbers of polynomials and quadrature points, 1 by default
+    tolerance  upper bound of every residual [1]
     """
 
     pressing: Solver[NormalContact, Increment]
@@ -76,7 +77,9 @@ class TorsionSteps(StepsOnRings):
         before: TorsionState | None,
         fraction: float,
     ) -> TorsionState:
-        """Solve the contact with torsion at a fraction of a load step.
+        """Solve the contact under normal load and torsion at a fraction of a load step.
+
+        If the normal load changes, the torsion starts from the virgin state.
 
         ramp      load step
         start     state at the start of the load step; None without contact
@@ -168,8 +171,8 @@ class TorsionSteps(StepsOnRings):
     def _shear_and_slip(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
         """Compute circumferential shear [force/length²] and slip [length] at the output rings (n,).
 
-        Shear and slip are sums over the branches between load reversals. Both are zero outside the
-        contact.
+        Shear and slip are sums over the branches of the twist between load reversals. Both are zero
+        outside the contact.
 
         path      state of torsion, with its branches
         x         radii of the rings over the contact radius (n,)

@@ -29,10 +29,10 @@ Named = Literal["twist", "torque"]
 
 @dataclass(frozen=True)
 class Branch:
-    """Change of torsion in one direction, since a load reversal or since the first twist.
+    """Change of torsion in one direction of twist, since a load reversal or since the first twist.
 
-    The change is `sense` times `weight` times a state of monotonic torsion of the virgin contact
-    (the equivalent first twist).
+    All quantities of the change are `sense` times `weight` times those of a state of monotonic
+    torsion of the virgin contact, the equivalent first twist.
 
     sense   direction of the twist, +1 or -1
     weight  1 for the first twist, 2 after a load reversal
@@ -49,16 +49,17 @@ class Branch:
         The equivalent first twist is a state of monotonic torsion of the virgin contact. The change
         in the branch is a multiple of this state. The value is 0 at the start of the branch.
 
-        of  name of the quantity: "twist", "torque", "work" or "dissipated"
+        of  name of the quantity: "twist" [radian], "torque", "work" or "dissipated" [force length]
         """
         return 0.0 if self.state is None else float(getattr(self.state, of))
 
 
 @dataclass(frozen=True)
 class TwistPath:
-    """State of torsion after a history of twists with load reversals.
+    """State of torsion after a history of twists with load reversals, at constant normal load.
 
-    A branch is a change of the twist in one direction.
+    A branch is a change of the twist in one direction. Shear, slip, twist and torque are sums over
+    the branches.
 
     of          contact under torsion
     branches    branches that are not part of a closed load cycle, the current branch last; empty
@@ -74,19 +75,20 @@ class TwistPath:
 
     @property
     def twist(self) -> float:
-        """Return the twist φ of the indenter after the history of branches [radian]."""
+        """Return the twist φ of the indenter after all branches of the history [radian]."""
         return _sum_branches(self.branches, "twist")
 
     @property
     def torque(self) -> float:
-        """Return the torque M after the history of branches [force length]."""
+        """Return the torque M on the indenter after all branches of the history [force length]."""
         return _sum_branches(self.branches, "torque")
 
     @property
     def stick(self) -> float:
-        """Return the stick radius since the last load reversal, over the contact radius.
+        """Return the stick radius of the current branch of the twist, over the contact radius.
 
-        The stick radius is 1 (full stick) before the first twist and at a load reversal.
+        The stick radius is 1 (full stick) before the first twist and at a load reversal. 0 is gross
+        slip.
         """
         last = self.branches[-1].state if self.branches else None
         return 1.0 if last is None else last.stick
@@ -141,11 +143,11 @@ class TwistPath:
 def _sum_branches(branches: list[Branch] | tuple[Branch, ...], of: str) -> float:
     """Return the twist [radian] or torque [force length] after a sequence of branches of torsion.
 
-    A branch is a change in one direction, since a load reversal. The value is the sum of all
-    changes.
+    A branch is a change in one direction of twist, since a load reversal. The result is the sum of
+    the changes of all branches.
 
     branches  branches of the history, the current one last
-    of        "twist" or "torque"
+    of        "twist" or "torque", the quantity to be summed
     """
     return sum((branch.sense * branch.weight * branch.quantity(of) for branch in branches), 0.0)
 
@@ -156,7 +158,7 @@ def _branch_work(others: list[Branch], branch: Branch) -> float:
     A branch is a change of the twist φ in one direction, since a load reversal.
 
     others  preceding branches; the sum of their torques is constant during the branch
-    branch  the branch
+    branch  the branch along which the torque does the work
     """
     linear = (
         branch.sense * branch.weight * branch.quantity("twist") * _sum_branches(others, "torque")
@@ -169,12 +171,14 @@ def monotonic_state(
 ) -> PartialSlip:
     """Find the state of monotonic torsion of the virgin contact that has a given twist or torque.
 
-    The stick radius is the unknown of a root search.
+    The stick radius is the unknown of a root search. A twist or torque beyond the smallest stick
+    radius gives gross slip.
 
     torsion  contact under torsion
     of       "twist" or "torque", the prescribed quantity
     needed   value of this quantity, above 0 [radian or force length]
-    since    earlier state, whose stick radius is an upper bound; None if there is none
+    since    earlier state with less twist, whose stick radius is an upper bound; None if there is
+             none
     """
     whole, none = torsion.incipient_slip, torsion.least_stick
     if needed <= getattr(whole, of):
@@ -185,11 +189,11 @@ def monotonic_state(
     most = 1.0 if since is None or since.stick == 0 else min(1.0, since.stick * (1 + NO_STICK))
 
     def excess(stick: float) -> float:
-        """Return the twist or torque of a state of monotonic torsion, minus the prescribed value.
+        """Return the twist or torque at a trial stick radius, minus the prescribed value.
 
-        The root search finds the zero of this function.
+        The root search for the stick radius finds the zero of this function.
 
-        stick  stick radius of the state over the contact radius
+        stick  trial stick radius over the contact radius, 0 to 1
         """
         return float(getattr(torsion.partial_slip(stick), of)) - needed
 
