@@ -59,7 +59,7 @@ PLACES = 40
 
 @dataclass(frozen=True)
 class Disc:
-    """Solution of the frictionless contact on a disc of radius a.
+    """Solution of the frictionless contact of bodies of revolution on a disc of radius a.
 
     The pressure is the Abel transform of a function G(t) on 0 < t < 1: p(a x) = (E*/π a)
     [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]. Within the contact G = δ - S + C, with the approach δ,
@@ -68,8 +68,8 @@ class Disc:
     bodies    normal response of both bodies, with the contact modulus E*
     profile   undeformed gap over the contact, by its Abel transform S
     radius    contact radius a [length]
-    approach  δ since first contact [length]
-    layers    Legendre coefficients c_n of C (orders,) [length]
+    approach  approach δ of the indenter since first contact [length]
+    layers    Legendre coefficients c_n of C, of even orders (orders,) [length]
     residual  largest error of the contact equation G = δ - S + C over the approach [1]; it bounds
               the gap that remains within the contact, over the approach
     """
@@ -85,17 +85,19 @@ class Disc:
     def load(self) -> float:
         """Return the normal force of the contact, W = 2 E* a ∫₀¹ G dt [force].
 
-        G(t) is the function of which the pressure is the Abel transform, a the contact radius.
+        G(t) is the function of which the pressure is the Abel transform, E* the contact modulus, a
+        the contact radius. t is 0 at the axis and 1 at the contact edge.
         """
         mean = self.approach - self.profile.abel[0] + self.layers[0]
         return float(2 * self.bodies.modulus * self.radius * mean)
 
     @property
     def elastic_energy(self) -> float:
-        """Return the elastic energy of both bodies, ½ ∫ p u_z dA [force length].
+        """Compute the elastic energy of both bodies, ½ ∫ p u_z dA [force length].
 
-        The integral is E* a ∫₀¹ G (δ - S) dt. G(t) is the function of which the pressure is the
-        Abel transform, δ the approach, and S the Abel transform of the undeformed gap.
+        The energy is E* a ∫₀¹ G (δ - S) dt, with the contact modulus E* and the contact radius a.
+        G(t) is the function of which the pressure is the Abel transform, δ the approach, and S the
+        Abel transform of the undeformed gap.
         """
         t, weights = unit_gauss(len(self.profile.abel) + len(self.layers))
         moved = self.approach - self.profile.evaluate_abel(t)
@@ -105,11 +107,11 @@ class Disc:
 
     @property
     def edge(self) -> float:
-        """Return the strength of the singularity of the pressure at a rim, G(1) [length].
+        """Return the strength G(1) of the singularity of the pressure at a rim [length].
 
-        Near the edge p = (E*/π a) G(1)/√(1-x²), with x = r/a. G is the function of which the
-        pressure is the Abel transform. The strength is 0 at a smooth edge, where the pressure ends
-        with zero.
+        Near the edge of the contact p = (E*/π a) G(1)/√(1-x²), with the contact modulus E*, the
+        contact radius a and x = r/a. The strength is 0 at a smooth edge, where the pressure is
+        zero.
         """
         value = float(self.evaluate_abel_function(np.ones(1))[0])
         return value if abs(value) > SMOOTH * self.approach else 0.0
@@ -119,30 +121,34 @@ class Disc:
 
             p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
 
-        t  coordinates between the axis (0) and the contact edge (1)
+        p is the pressure at the radius a x, E* the contact modulus, a the contact radius.
+
+        t  coordinates, from 0 at the axis to 1 at the contact edge (any shape)
         """
         changed = legendre.legval(t, all_order_coefficients(self.layers))
         return np.asarray(self.approach - self.profile.evaluate_abel(t) + changed)
 
     def abel_function_rate(self, t: Array) -> Array:
-        """Evaluate dG/dt, where G is the function of which the pressure is the Abel transform.
+        """Evaluate the rate dG/dt of the function G of which the pressure is the Abel transform.
 
             p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
 
-        The unit is [length].
+        p is the pressure at the radius a x, E* the contact modulus, a the contact radius. The unit
+        of the rate is [length].
 
-        t  coordinates between the axis (0) and the contact edge (1)
+        t  coordinates, from 0 at the axis to 1 at the contact edge (any shape)
         """
         changed = legendre.legval(t, legendre.legder(all_order_coefficients(self.layers)))
         return np.asarray(changed - evaluate_legendre(self.profile.rate, t))
 
     def wave_transform(self, waves: Waves) -> Array:
-        """Compute the cosine transform G~(κ) = ∫₀¹ G(t) cos κt dt for the layers (κ,) [length].
+        """Compute the transform G~ = ∫₀¹ G(t) cos κt dt of the pressure at wavenumbers κ (κ,).
 
         G is the function of which the pressure is the Abel transform. (E* a/π) G~ is the Hankel
-        transform of the pressure at the wavenumber κ/a.
+        transform of the pressure at the wavenumber κ/a, with the contact modulus E* and the contact
+        radius a. Layers contribute to displacement and stress by this transform.
 
-        waves  dimensionless wavenumbers κ
+        waves  quadrature over dimensionless wavenumbers κ
         """
         bases = waves.even_transforms(len(self.layers))
         by_profile = waves.legendre_transform(self.profile.abel)
@@ -150,12 +156,13 @@ class Disc:
 
 
 class _Galerkin:
-    """Galerkin equations for the contribution of layers to the contact pressure, for one radius.
+    """Galerkin equations for the contribution of layers to the pressure of a frictionless contact.
 
-    The pressure is the Abel transform of G = f + C: f is the part without layers, C the
-    contribution of the layers with the Legendre coefficients c_n.
+    The contact radius is given. The pressure is the Abel transform of a function G = f + C on 0 < t
+    < 1. f is the part without layers. C is the contribution of the layers, a series of Legendre
+    polynomials of even order with the unknown coefficients c_n.
 
-    waves   dimensionless wavenumbers κ
+    waves   quadrature over dimensionless wavenumbers κ
     count   number of coefficients c_n
     excess  contribution X - 1 of the layers to the normal response, relative to half-spaces, times
             the quadrature weights (κ,)
@@ -168,9 +175,10 @@ class _Galerkin:
 
     @cached_property
     def cholesky_factor(self) -> Any:
-        """Return the Cholesky factor of the Galerkin matrix of the coefficients c_n.
+        """Compute the Cholesky factor of the Galerkin matrix of the layer coefficients.
 
-        The matrix is positive definite because the normal response of the bodies is positive.
+        The matrix is positive definite because the normal response of the bodies is positive. The
+        unknowns are the Legendre coefficients of the contribution of the layers to the pressure.
         """
         kernel = np.zeros((self.count, self.count))
         for some in wave_blocks(len(self.excess), self.count):
@@ -179,25 +187,25 @@ class _Galerkin:
         return cho_factor(matrix, lower=True, overwrite_a=True, check_finite=False)
 
     def solve_layer_coefficients(self, transform: Array) -> Array:
-        """Solve for the contribution C of layers to the transform G of the pressure.
+        """Solve for the Legendre coefficients of the contribution of layers to the pressure.
 
         The pressure is the Abel transform of G = f + C. The given function f is the part without
-        layers: the approach, or the undeformed gap. The method returns the Legendre coefficients
-        c_n of C (count,).
+        layers: of the approach, or of the undeformed gap. C is the contribution of the layers,
+        linear in f. The coefficients have the shape (count,).
 
-        transform  cosine transform of f (κ,)
+        transform  cosine transform of f at the wavenumbers (κ,)
         """
         right = -2 / pi * self.scale * (self.bases @ (self.excess * transform))
         return np.asarray(self.scale * cho_solve(self.cholesky_factor, right, check_finite=False))
 
     def largest_error(self, layers: Array, transform: Array) -> float:
-        """Return the largest error of the contribution C of layers at check points [length].
+        """Compute the largest error of the contribution C of layers to the pressure [length].
 
         The pressure is the Abel transform of G = f + C, where f is the part without layers. The
-        exact C is an integral of the cosine transform of G over the wavenumbers.
+        error is the difference between C and the integral over wavenumbers that defines it.
 
         layers     Legendre coefficients c_n of C (count,)
-        transform  cosine transform of f (κ,)
+        transform  cosine transform of f at the wavenumbers (κ,)
         """
         polynomials, cosines = _check_point_functions(self.waves, self.count)
         exact = -2 / pi * (cosines @ (self.excess * (transform + layers @ self.bases)))
@@ -206,12 +214,13 @@ class _Galerkin:
 
 @cache_within_bytes(MAX_CACHED)
 def _check_point_functions(waves: Waves, count: int) -> tuple[Array, Array]:
-    """Return even Legendre polynomials and cosines at the check points of the contact equation.
+    """Evaluate Legendre polynomials and cosines at points where the contact equation is checked.
 
-    They are P_2n(t), shape (points, count), and cos κt, shape (points, κ). The points t lie between
-    the axis (0) and the contact edge (1).
+    The results are the even polynomials P_2n(t), shape (points, count), and cos κt, shape (points,
+    κ). The points t are evenly spaced between the axis (0) and the contact edge (1). The results
+    are cached.
 
-    waves  dimensionless wavenumbers κ
+    waves  quadrature over dimensionless wavenumbers κ
     count  number of polynomials
     """
     t = (np.arange(PLACES) + 0.5) / PLACES
@@ -227,17 +236,17 @@ def disc(
     fineness: int = 1,
     most: int | None = None,
 ) -> Disc:
-    """Solve the frictionless contact of a prescribed contact radius.
+    """Solve the frictionless contact of bodies of revolution that has a prescribed contact radius.
 
-    Below a rim the approach is prescribed. Otherwise the pressure is zero at the edge, which
-    determines the approach. The number of Legendre polynomials is doubled until the error of the
-    contact equation is due to round-off.
+    Without an approach, the pressure is zero at the contact edge, which determines the approach. At
+    a rim of the indenter the approach is prescribed. The number of Legendre polynomials is doubled
+    until the error of the contact equation is due to round-off.
 
     bodies    normal response of both bodies
     indenter  shape of the indenter
     radius    contact radius [length]
-    approach  approach below a rim, else None [length]
-    fineness  multiple of the numbers of points and polynomials
+    approach  approach at a contact over the whole face up to a rim; None for a smooth edge [length]
+    fineness  factor on the numbers of points and polynomials, 1 by default
     most      largest number of polynomials, for estimates with an error of a few percent; None
               without a limit
     raises    NotConverged if the equation cannot be solved to round-off, and errors of `profile`
@@ -275,15 +284,15 @@ def disc(
 
 
 def polynomial_count(thickness: float, apex: bool) -> int:
-    """Return the number of Legendre polynomials for the contribution C of the layers.
+    """Return the number of Legendre polynomials for the contribution of layers to the pressure.
 
-    C has singularities at t = ±1 ± 2ih/a (images of the edge in the underside of the layer) and,
-    with an apex, at ±2ih/a. Their distance from the interval -1 < t < 1 determines the rate of
-    convergence. The number is a multiple of 8.
+    The contribution C(t) has singularities at t = ±1 ± 2ih/a (images of the edge in the underside
+    of the layer) and, with an apex, at ±2ih/a. Their distance from the interval -1 < t < 1
+    determines the rate of convergence. The number is a multiple of 8.
 
-    thickness  thickness h of the outermost layer over the contact radius a
+    thickness  thickness h of the outermost layer over the contact radius a [1]
     apex       true if the indenter has a tip on the axis
-    raises     UnsupportedScene above `MAX_ORDERS`
+    raises     UnsupportedScene above `MAX_ORDERS` polynomials
     """
     image = (0 if apex else 1) + 2j * thickness
     ellipse = abs(image + (image - 1) ** 0.5 * (image + 1) ** 0.5)

@@ -1,4 +1,4 @@
-"""Frictionless contact under a prescribed force or approach. The contact radius is unknown."""
+"""Frictionless contact under a prescribed force or approach, by a search for the radius."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ LEAST_POWER = 0.5  # least exponent of the power law of force or approach in the
 
 
 class LoadedContact(Protocol):
-    """Protocol of the solved contacts among which the search for the contact radius chooses.
+    """Protocol of a solved contact of given radius, in the search for the contact radius of a load.
 
     radius    contact radius [length]
     load      normal force [force]
-    approach  approach of the indenter [length]
+    approach  approach of the indenter since first contact [length]
     """
 
     @property
@@ -52,10 +52,13 @@ C = TypeVar("C", bound=LoadedContact)
 
 @dataclass(frozen=True)
 class Target:
-    """Prescribed normal force or approach of a contact. One of the two is None.
+    """Prescribed normal load of a contact: a normal force, or an approach with an optional spring.
 
-    force     normal force [force]
-    approach  approach of the far end of the spring [length]
+    Either `force` or `approach` is None. The search for the contact radius compares solved contacts
+    with this load.
+
+    force     prescribed normal force [force]
+    approach  prescribed approach of the far end of the spring [length]
     spring    compliance of the normal spring of a rig (test machine); 0 without a spring
               [length/force]
     """
@@ -66,24 +69,28 @@ class Target:
 
     @property
     def prescribed_value(self) -> float:
-        """Return the value that is prescribed: a normal force [force] or an approach [length]."""
+        """Return the prescribed normal force [force], or the prescribed approach [length]."""
         value = self.approach if self.force is None else self.force
         assert value is not None
         return value
 
     def controlled_value(self, contact: LoadedContact) -> float:
-        """Return the quantity of a solved contact that this target prescribes.
+        """Return the normal force or approach of a solved contact: the one that is prescribed.
 
-        The quantity is the normal force [force], or the approach with the shortening of the spring
-        [length].
+        The approach includes the shortening of the rig's spring.
+
+        contact  solved contact of a trial radius
         """
         return self.actuator_approach(contact) if self.force is None else contact.load
 
     def residual(self, contact: LoadedContact) -> float:
-        """Return log(computed / prescribed) of the normal force or approach of a solved contact.
+        """Return log(computed/prescribed) of the normal force or approach of a solved contact [1].
 
-        Raises UnsupportedScene if the computed value is not positive. The contact radius is then
-        beyond the end of the shape (the equator of a sphere).
+        The search for the contact radius finds the zero of this residual. Raises UnsupportedScene
+        if the computed value is not positive. The contact radius is then beyond the end of the
+        shape (the equator of a sphere).
+
+        contact  solved contact of a trial radius
         """
         value = self.controlled_value(contact)
         if not (value > 0 and isfinite(value)):
@@ -95,20 +102,23 @@ class Target:
         return log(value / self.prescribed_value)
 
     def actuator_approach(self, contact: LoadedContact) -> float:
-        """Return the approach of a contact plus the shortening of the rig's spring [length].
+        """Return the approach of the far end of the rig's spring for a solved contact [length].
 
-        The sum is the approach of the far end of the spring.
+        The value is the approach of the contact plus the shortening of the spring by the normal
+        force.
+
+        contact  solved contact
         """
         return contact.approach + self.spring * contact.load
 
 
 @dataclass(frozen=True)
 class NormalContact:
-    """Solution of the frictionless contact under a prescribed force or approach.
+    """Solution of the frictionless contact under a prescribed normal force or approach.
 
-    contact     solved contact
+    contact     solved contact, with its radius and pressure
     target      prescribed normal force or approach
-    iterations  number of contact radii tried
+    iterations  number of contact radii tried in the search for the contact radius
     """
 
     contact: Disc
@@ -138,17 +148,18 @@ def normal_contact(
     most: int | None = None,
     tolerance: float = ROUND_OFF,
 ) -> NormalContact:
-    """Solve the frictionless contact under a prescribed force or approach.
+    """Solve the frictionless contact of bodies of revolution under a prescribed force or approach.
 
-    The contact radius follows from a secant method, or is that of the rim of the indenter.
+    The contact radius is found by a secant method. If the contact reaches the rim of the indenter,
+    the contact radius is that of the rim.
 
-    bodies    normal response of both bodies
-    indenter  shape of the indenter
-    target    prescribed normal force or approach
-    fineness  multiple of the numbers of polynomials and quadrature points
-    most      largest number of polynomials, for estimates; None without a limit
-    tolerance bound of the relative error of force or approach
-    raises    NotConverged, and UnsupportedScene for a gap that is not smooth
+    bodies     normal response of both bodies
+    indenter   shape of the indenter
+    target     prescribed normal force or approach
+    fineness   factor on the numbers of polynomials and quadrature points, 1 by default
+    most       largest number of polynomials, for estimates; None without a limit
+    tolerance  bound of the relative error of force or approach
+    raises     NotConverged, and UnsupportedScene for a gap that is not smooth
     """
     solve = partial(disc, bodies, indenter, fineness=fineness, most=most)
     if indenter.rim is not None:
@@ -167,16 +178,16 @@ def contact_at_target(
     power: float,
     tolerance: float = ROUND_OFF,
 ) -> tuple[C, int, float]:
-    """Find the contact that has the prescribed force or approach.
+    """Find the contact radius at which a contact has the prescribed normal force or approach.
 
     The unknown is the logarithm of the contact radius, and the method is the secant method. The
-    function returns the contact, the number of radii tried, and the exponent of force or approach
-    as a power of the radius.
+    function returns the solved contact, the number of radii tried, and the exponent b of the local
+    power law: force (or approach) proportional to the radius to the power b.
 
-    solve      function that solves the contact of a radius [length]
+    solve      function that solves the contact of a given radius [length]
     target     prescribed normal force or approach
-    radius     initial guess of the radius [length]
-    power      expected exponent of force or approach as a power of the radius
+    radius     initial guess of the contact radius [length]
+    power      expected exponent b, for the first secant step
     tolerance  bound of the relative error of force or approach
     raises     NotConverged, and the errors of `solve`
     """
@@ -201,9 +212,10 @@ def contact_at_target(
 def _contact_at_rim(solve: Callable[..., Disc], target: Target, whole: Disc) -> Disc:
     """Solve the frictionless contact over the whole face of an indenter with a rim.
 
-    Force and pressure are linear in the approach, so two contacts determine the approach.
+    The contact radius is that of the rim. Force and pressure are linear in the approach, so two
+    solved contacts determine the approach.
 
-    solve   function that solves the contact of a radius [length] and an approach [length]
+    solve   function that solves the contact of a given radius and approach [length]
     target  prescribed normal force or approach
     whole   contact that just reaches the rim
     """
@@ -216,11 +228,12 @@ def _contact_at_rim(solve: Callable[..., Disc], target: Target, whole: Disc) -> 
 
 
 def lower_radius_estimate(bodies: Bodies, indenter: ShapedBody, target: Target) -> float:
-    """Return a lower estimate of the contact radius, as an initial guess [length].
+    """Estimate the contact radius from below under a prescribed load, as an initial guess [length].
 
-    Under a prescribed approach the estimate is the radius r at which the undeformed gap f(r) equals
-    the approach. Under a prescribed force, E r f(r) equals the force, with the upper bound E of all
-    moduli. An estimate from below saves time, because larger radii are more expensive with layers.
+    Under a prescribed approach the estimate is about the radius r at which the undeformed gap f(r)
+    equals the approach. Under a prescribed force, E r f(r) equals the force, with the upper bound E
+    of all moduli. An estimate from below saves time, because larger radii are more expensive with
+    layers.
 
     bodies    normal response of both bodies
     indenter  shape of the indenter
@@ -231,7 +244,7 @@ def lower_radius_estimate(bodies: Bodies, indenter: ShapedBody, target: Target) 
     def short(r: float) -> bool:
         """Return true if a trial radius is smaller than the lower estimate of the contact radius.
 
-        Used to double or halve the trial radius until it is near the estimate.
+        The trial radius is doubled or halved until the answer changes.
 
         r  trial radius [length]
         """

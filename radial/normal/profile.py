@@ -29,15 +29,15 @@ ANGLES = 16
 
 @dataclass(frozen=True)
 class Profile:
-    """Undeformed gap f of an indenter over a contact r < a, by its Abel transform S.
+    """Undeformed gap f between the surfaces over a contact of radius a, by its Abel transform S.
 
         S(t) = t ∫₀^(π/2) f'(t sin φ) dφ
 
-    f' is the derivative with respect to r/a. The pressure between half-spaces is the Abel transform
-    of δ - S with the approach δ (Sneddon 1965). t is a coordinate between the axis (0) and the
-    contact edge (1).
+    f' is the derivative with respect to r/a. The coordinate t runs from 0 at the axis to 1 at the
+    contact edge. The pressure between half-spaces is the Abel transform of δ - S with the approach
+    δ (Sneddon 1965).
 
-    abel  Legendre coefficients of S in 2t - 1 [length]
+    abel  coefficients of S(t) in Legendre polynomials of 2t - 1 [length]
     apex  true if the gap has a nonzero slope at the axis, where the pressure is infinite
     """
 
@@ -45,13 +45,13 @@ class Profile:
     apex: bool
 
     def evaluate_abel(self, t: Array) -> Array:
-        """Evaluate the Abel transform S of the undeformed gap f at points t [length].
+        """Evaluate the Abel transform S of the undeformed gap f between the surfaces [length].
 
             S(t) = t ∫₀^(π/2) f'(t sin φ) dφ
 
         f' is the derivative with respect to r/a, with the contact radius a.
 
-        t  coordinates between the axis (0) and the contact edge (1)
+        t  coordinates, from 0 at the axis to 1 at the contact edge (any shape)
         """
         return evaluate_legendre(self.abel, t)
 
@@ -59,28 +59,30 @@ class Profile:
     def abel_at_edge(self) -> float:
         """Return the Abel transform S(1) of the undeformed gap at the contact edge [length].
 
-        S(1) is the approach at which the pressure of half-spaces is zero at the contact radius.
+        S(1) is the approach at which the pressure between half-spaces is zero at the contact edge.
         """
         return float(np.sum(self.abel))
 
     @cached_property
     def rate(self) -> Array:
-        """Return the Legendre coefficients of the derivative dS/dt [length], in 2t - 1.
+        """Compute the Legendre coefficients of the rate dS/dt of the gap's Abel transform S.
 
-        S(t) is the Abel transform of the undeformed gap, and t a coordinate between the axis (0)
-        and the contact edge (1).
+        S(t) is the Abel transform of the undeformed gap, with t from 0 at the axis to 1 at the
+        contact edge. The polynomials have the argument 2t - 1. The unit of the coefficients is
+        [length].
         """
         return np.asarray(2 * legendre.legder(self.abel))
 
 
 def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
-    """Compute the Abel transform of the undeformed gap of an indenter over a contact.
+    """Compute the Abel transform of the undeformed gap of an indenter over a contact disc.
 
-    The gap is interpolated at Chebyshev points. Their number is doubled until the last coefficients
-    are round-off.
+    The Abel transform determines the pressure. The gap is interpolated at Chebyshev points. Their
+    number is doubled until the last coefficients are round-off.
 
+    indenter  shape of the indenter
     radius    contact radius [length]
-    fineness  multiple of the number of points
+    fineness  factor on the number of points, 1 by default
     raises    UnsupportedScene if the gap is not a smooth function of the radius
     """
     count = FEWEST
@@ -109,9 +111,9 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
 
 
 def _fit_gap(indenter: ShapedBody, radius: float, count: int) -> Array:
-    """Fit a Chebyshev series in 2r/a - 1 to the undeformed gap over a contact.
+    """Fit a Chebyshev series to the undeformed gap of an indenter over a contact (count,) [length].
 
-    Returns the coefficients (count,) [length].
+    The polynomials have the argument 2r/a - 1, with the radius r and the contact radius a.
 
     indenter  shape of the indenter
     radius    contact radius a [length]
@@ -123,12 +125,12 @@ def _fit_gap(indenter: ShapedBody, radius: float, count: int) -> Array:
 
 @cache
 def _chebyshev_fit(count: int) -> tuple[Array, Array]:
-    """Return Chebyshev points on 0 < x < 1, and the matrix that fits a Chebyshev series there.
+    """Return Chebyshev points on 0 < x < 1, and the matrix that fits a Chebyshev series at them.
 
-    Used to represent the undeformed gap over a contact. The matrix (count, count) maps values at
-    the points to coefficients of the polynomials of 2x - 1.
+    The matrix (count, count) maps values at the points to coefficients of the polynomials of 2x -
+    1. Used to represent the undeformed gap over a contact.
 
-    count  number of points
+    count  number of points and of coefficients
     """
     points = chebyshev.chebpts1(count)
     fit = chebyshev.chebvander(points, count - 1).T * (2.0 / count)
@@ -138,14 +140,16 @@ def _chebyshev_fit(count: int) -> tuple[Array, Array]:
 
 @cache
 def _abel_matrix(count: int, fineness: int) -> Array:
-    """Return the matrix that maps the slope of the undeformed gap to its Abel transform S.
+    """Compute the matrix that maps the slope f' of the undeformed gap to its Abel transform S.
 
-    The slope f' and S(t) = t ∫₀^(π/2) f'(t sin φ) dφ are given by coefficients: Chebyshev
-    coefficients (count,) of the slope in 2x - 1, Legendre coefficients (count + 1,) of S in 2t - 1.
-    The shape is (count, count + 1).
+        S(t) = t ∫₀^(π/2) f'(t sin φ) dφ
 
-    count     number of Chebyshev coefficients
-    fineness  multiple of the number of quadrature points
+    f' has Chebyshev coefficients (count,) in 2x - 1, with x = r/a. S has Legendre coefficients
+    (count + 1,) in 2t - 1. The shape is (count, count + 1); a row of coefficients of f' is
+    multiplied from the left.
+
+    count     number of Chebyshev coefficients of the slope
+    fineness  factor on the number of quadrature points, 1 by default
     """
     t, weights = unit_gauss(count + 1)
     angles, shares = unit_gauss((ANGLES + count) * fineness)

@@ -24,12 +24,12 @@ PLACE = 1e-9  # error of the position of the largest pressure over the contact r
 def pressure(contact: Disc, x: Array) -> Array:
     """Compute the pressure of a frictionless contact at given radii (n,) [force/length²].
 
-    The pressure is 0 outside the contact, and infinite at an apex or a rim.
+    The pressure is 0 outside the contact, and infinite at an apex or a rim of the indenter.
 
         p(a x) = (E*/π a) [G(1)/√(1-x²) - ∫ₓ¹ G'(t)/√(t²-x²) dt]
 
-    G is the function of which the pressure is the Abel transform. The substitution t = x cosh y
-    makes the integrand smooth.
+    G is the function of which the pressure is the Abel transform, E* the contact modulus. The
+    substitution t = x cosh y makes the integrand smooth.
 
     contact  frictionless contact of radius a
     x        radii over the contact radius (n,)
@@ -48,12 +48,13 @@ def pressure(contact: Disc, x: Array) -> Array:
 
 
 def half_mean_pressure(contact: Disc, x: Array) -> Array:
-    """Compute half the mean pressure within the radius of each point (n,) [force/length²].
+    """Compute half the mean pressure within given radii of a contact (n,) [force/length²].
 
-    The value is ∫₀ˣ p x dx / x². The radial displacement by the pressure is proportional to it.
+    The value at x is ∫₀ˣ p x dx / x². The radial surface displacement of a half-space by the
+    pressure is proportional to this value times x.
 
-    contact  frictionless contact
-    x        radii of the points over the contact radius (n,)
+    contact  frictionless contact, which gives the pressure p
+    x        radii over the contact radius (n,)
     """
     found, x = np.empty_like(x), np.maximum(x, AXIS)
     inside = x < 1
@@ -74,13 +75,14 @@ def half_mean_pressure(contact: Disc, x: Array) -> Array:
 
 
 def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
-    """Return the largest pressure over the contact, at rings or between them [force/length²].
+    """Find the largest pressure of a frictionless contact, at or between rings [force/length²].
 
     The maximum is searched near the ring of largest pressure. The value at this ring is returned if
     it is the innermost ring, or if the pressure is infinite at a rim.
 
-    x  radii of the rings over the contact radius (n,)
-    p  pressure at the rings (n,) [force/length²]
+    contact  frictionless contact
+    x        radii of the rings over the contact radius, increasing (n,)
+    p        pressure at the rings (n,) [force/length²]
     """
     at = int(np.argmax(p))
     if at == 0 or contact.edge:
@@ -95,13 +97,13 @@ def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
 
 
 def abel_integral(contact: Disc, x: Array) -> Array:
-    """Compute ∫ G(t)/√(x²-t²) dt over t < x and t < 1, for the displacement by a pressure (n,).
+    """Compute ∫ G(t)/√(x²-t²) dt over t < x and t < 1, for the surface displacement (n,) [length].
 
-    G is the function of which the pressure is the Abel transform, t a coordinate between the axis
-    (0) and the contact edge (1). 2/π times the integral is the normal surface displacement of both
-    bodies without their layers [length].
+    G is the function of which the pressure is the Abel transform. t runs from 0 at the axis to 1 at
+    the contact edge. 2/π times the integral is the normal surface displacement of both bodies
+    without the contribution of their layers.
 
-    contact  frictionless contact
+    contact  frictionless contact, which gives G
     x        radii over the contact radius, above 0 (n,)
     """
     v, weights = unit_gauss(POINTS + len(contact.profile.abel) + len(contact.layers))
@@ -117,8 +119,9 @@ def displacement(contact: Disc, x: Array) -> Array:
         u_z = (2/π) [∫₀¹ G(t)/√(x²-t²) dt + ∫₀^∞ (X - 1) G~ J₀(κx) dκ]
 
     G is the function of which the pressure is the Abel transform and G~ its cosine transform. X - 1
-    is the contribution of the layers to the normal response, relative to half-spaces. u_z is that
-    of both bodies together, positive into each body.
+    is the contribution of the layers to the normal response at the wavenumber κ, relative to
+    half-spaces. u_z is the sum of both bodies, positive into each body. The gap outside the contact
+    follows from u_z.
 
     contact  frictionless contact
     x        radii over the contact radius, above 1 (n,)

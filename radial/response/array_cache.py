@@ -20,14 +20,16 @@ MAX_CACHED = 24 << 20  # limit of the cached results of a function [byte]
 def cache_within_bytes(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
     """Return a decorator that caches the results of a function, up to a limit in bytes.
 
-    The function has hashable arguments and returns an array or a tuple of arrays.
+    The decorated function has hashable arguments and returns an array or a tuple of arrays. Above
+    the limit, the least recently used results are removed before a new result is computed.
 
-    most  limit of the cached results [byte]; above it the least recently used results are removed
-          before a new result is computed
+    most  limit of the cached results of one function [byte]
     """
 
     def decorate(compute: Callable[P, R]) -> Callable[P, R]:
-        """Return a function that computes as a given function does and caches the results.
+        """Return a function that computes as the given function does and caches the results.
+
+        The cache is limited in bytes.
 
         compute  function with hashable arguments that returns an array or a tuple of arrays
         """
@@ -35,7 +37,7 @@ def cache_within_bytes(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
 
         @wraps(compute)
         def cached_call(*given: P.args, **named: P.kwargs) -> R:
-            """Return the cached result for the arguments, or compute the result and cache it."""
+            """Return the cached result for given arguments, or compute it and store it."""
             key = (given, *named.items())
             value = found.pop(key, None)
             if value is None:
@@ -52,5 +54,10 @@ def cache_within_bytes(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
 
 
 def _array_bytes(value: Any) -> int:
-    """Return the memory of an array, or of all arrays of a tuple [byte]."""
+    """Return the memory of an array, or of all arrays of a tuple [byte].
+
+    Used to limit the size of a cache.
+
+    value  array, or tuple of arrays
+    """
     return sum(map(_array_bytes, value)) if isinstance(value, tuple) else int(value.nbytes)

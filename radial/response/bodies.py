@@ -35,6 +35,9 @@ CACHED = 4
 class Bodies:
     """Normal response of both bodies to pressure: that of half-spaces, plus that of their layers.
 
+    The response is the normal surface displacement of both bodies by a pressure of given
+    wavenumber.
+
     layered  the bodies with layers (none, one or two)
     modulus  contact modulus E* of the outermost materials, which determines the response of
              half-spaces [force/length²]
@@ -51,41 +54,43 @@ class Bodies:
 
     @property
     def stiffest(self) -> float:
-        """Return an upper bound of the moduli of all materials [force/length²].
+        """Return an upper bound of the moduli of all materials of both bodies [force/length²].
 
-        The bound is an order of magnitude: 4 times the largest shear modulus, or E*.
+        The bound is the largest of E* and of 4 times the shear modulus of every material in the
+        bodies with layers. Used for an initial guess of the contact radius from below.
         """
         moduli = (4 * modulus for stack in self.layered for modulus in _shear_moduli(stack))
         return max([self.modulus, *moduli])
 
     @property
     def thickness(self) -> float:
-        """Return the thickness of the thinner outermost layer of both bodies [length].
+        """Return the smallest thickness of the outermost layers of both bodies [length].
 
-        It is infinite if no body has layers.
+        The thickness determines the number of wavenumbers. It is infinite if no body has layers.
         """
         return min((stack.layers[0].thickness for stack in self.layered), default=np.inf)
 
     def waves(self, radius: float, reach: float = 1.0, fineness: int = 1) -> Waves:
-        """Return the quadrature over wavenumbers at which the layers contribute to a contact.
+        """Return the quadrature over the wavenumbers at which the layers have an effect.
 
         Wavenumbers are multiplied by the contact radius.
 
         radius    contact radius [length]
         reach     largest distance of the points of evaluation from the axis, over the contact
                   radius
-        fineness  multiple of the number of wavenumbers
+        fineness  factor on the number of wavenumbers, 1 by default
         """
         least = LONGEST_WAVE * min(least_wavenumber(stack, radius) for stack in self.layered)
         return waves(REACH * radius / self.thickness, least, reach, fineness)
 
     def excess(self, waves: Waves, radius: float) -> Array:
-        """Return the relative contribution of layers to the normal response (κ,) [1].
+        """Compute the contribution of layers to the normal response over that of half-spaces.
 
-        The result is X - 1. X = k E* F_zz/2 is the response F_zz of both bodies to pressure, over
-        that of half-spaces of their outermost materials. The wavenumbers are k = κ/radius.
+        The result is X - 1 (κ,) [1], where X = k E* F_zz/2. F_zz is the normal displacement of both
+        bodies per unit pressure at the wavenumber k = κ/radius, and E* the contact modulus of the
+        outermost materials. X is 1 for half-spaces.
 
-        waves   dimensionless wavenumbers κ
+        waves   quadrature over dimensionless wavenumbers κ
         radius  contact radius [length]
         """
         stacks = tuple((stack, 1.0) for stack in self.layered)
@@ -94,15 +99,17 @@ class Bodies:
 
 @lru_cache(maxsize=CACHED)
 def layer_responses(stacks: tuple[tuple[Stack, float], ...], waves: Waves, radius: float) -> Array:
-    """Compute the contribution of layers to surface responses at wavenumbers k (4, κ).
+    """Compute the contribution of layers to the surface displacements at wavenumbers k (4, κ).
 
     The contribution of a body is its response minus that of a half-space of its outermost material.
-    The responses are displacements per unit traction, times k [length²/force]: along the wave
-    vector, coupling, normal, transverse. They are summed over the bodies.
+    A response is a displacement per unit traction, times k [length²/force]. The four rows are the
+    displacement along the wave vector by shear along it, the coupling of this direction with the
+    normal, the normal displacement by pressure, and the displacement across the wave vector by
+    shear across. The rows are summed over the bodies. The results are cached.
 
     stacks  bodies with layers, with the sign of their coupling response: 1 for the lower body, -1
             for the indenter
-    waves   dimensionless wavenumbers κ = k times radius
+    waves   quadrature over dimensionless wavenumbers κ = k times radius
     radius  contact radius [length]
     """
     k = waves.rule[0] / radius
@@ -114,9 +121,10 @@ def layer_responses(stacks: tuple[tuple[Stack, float], ...], waves: Waves, radiu
 
 
 def least_wavenumber(stack: Stack, radius: float) -> float:
-    """Estimate the wavenumber κ below which the layers of a body have no effect.
+    """Estimate the wavenumber below which the layers of a body change its response little [1].
 
-    κ is multiplied by the contact radius. The result is an order of magnitude.
+    The wavenumber is multiplied by the contact radius. The result is an order of magnitude. Used to
+    place the first interval of the quadrature over wavenumbers.
 
     stack   the body with its layers
     radius  contact radius [length]
@@ -127,9 +135,11 @@ def least_wavenumber(stack: Stack, radius: float) -> float:
 
 
 def _shear_moduli(stack: Stack) -> list[float]:
-    """Return the shear moduli of the layers and the base of a body [force/length²].
+    """Return the shear moduli of the layers and the base of a body, as a list [force/length²].
 
     A rigid base is omitted.
+
+    stack  the body with its layers
     """
     films = [film.shear_modulus for film in stack.layers]
     return films if stack.base is None else [*films, stack.base.shear_modulus]

@@ -12,7 +12,12 @@ from contact_scene.array_types import Array
 
 @lru_cache(maxsize=64)
 def unit_gauss(count: int) -> tuple[Array, Array]:
-    """Return `count` points and weights of Gauss-Legendre quadrature on the interval 0 < t < 1."""
+    """Return points and weights of Gauss-Legendre quadrature on the interval 0 < t < 1.
+
+    The results are cached.
+
+    count  number of points
+    """
     points, weights = legendre.leggauss(count)
     return (1 + points) / 2, weights / 2
 
@@ -27,7 +32,7 @@ def evaluate_legendre(coefficients: Array, t: Array) -> Array:
 
 
 def all_order_coefficients(coefficients: Array, first: int = 0) -> Array:
-    """Return the coefficients of a Legendre series of all orders from those of one parity.
+    """Return the coefficients of a Legendre series of all orders from those of even or odd orders.
 
     The other coefficients are 0. The result is evaluated with numpy's Legendre functions.
 

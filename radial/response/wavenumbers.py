@@ -31,12 +31,13 @@ MAX_AT_ONCE = 1 << 20  # numbers in a block of functions of the wavenumbers: 8 M
 
 
 class Waves(NamedTuple):
-    """Quadrature over dimensionless wavenumbers κ = k a, with the contact radius a.
+    """Gauss quadrature over dimensionless wavenumbers κ = k a, with the contact radius a.
 
-    Intervals (panels) near zero grow geometrically. Intervals of equal width follow. Each has Gauss
-    points.
+    The effect of layers on a contact is an integral over κ. The integration range is divided into
+    intervals with Gauss points: first intervals that grow by a factor of 3, then intervals of equal
+    width.
 
-    first   power of 3 (`GROWTH`) at which the first interval ends; it begins at 0
+    first   exponent n of the end 3ⁿ of the first interval, which begins at 0
     widest  width of the equal intervals
     equal   number of the equal intervals
     """
@@ -66,7 +67,8 @@ class Waves(NamedTuple):
 
             ∫₀¹ P_2n(t) cos κt dt = (-1)ⁿ j_2n(κ),    n < count
 
-        j is the spherical Bessel function (Abramowitz and Stegun 10.1.14). The results are cached.
+        j is the spherical Bessel function (Abramowitz and Stegun 10.1.14). The contribution of
+        layers to the pressure is a series of these polynomials. The results are cached.
 
         count  number of polynomials
         """
@@ -86,11 +88,13 @@ class Waves(NamedTuple):
         return found
 
     def legendre_transform(self, coefficients: Array) -> Array:
-        """Return the cosine transform of a Legendre series f on 0 < t < 1, at all wavenumbers (κ,).
+        """Compute the cosine transform of a Legendre series f on 0 < t < 1 at all wavenumbers κ.
 
             ∫₀¹ f(t) cos κt dt = Σ c_l Re iˡ exp(iκ/2) j_l(κ/2),    f = Σ c_l P_l(2t - 1)
 
-        coefficients  c_l; j_l is the spherical Bessel function
+        j_l is the spherical Bessel function. Used for the Abel transform of the undeformed gap.
+
+        coefficients  coefficients c_0, c_1, … of f
         """
         count = 8 * ceil(len(coefficients) / 8)
         return np.asarray(coefficients @ self._legendre_transforms(count)[: len(coefficients)])
@@ -117,13 +121,13 @@ def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> W
     """Choose the quadrature over wavenumbers that resolves all waves between two wavenumbers.
 
     Wavenumbers κ are multiplied by the contact radius. The quadrature consists of intervals with
-    Gauss points.
+    Gauss points. Similar wavenumbers give equal quadratures, which share cached transforms.
 
     shortest  κ of the shortest wave, at which the intervals end
     longest   κ of the longest wave, near which the first interval ends
     reach     largest distance of the points of evaluation from the axis, over the contact radius; a
               larger distance requires narrower intervals
-    fineness  multiple of the number of points
+    fineness  factor on the number of points, 1 by default
     """
     widest = PHASE / (1 + reach) / fineness
     first = floor(log(min(longest, widest)) / log(GROWTH))

@@ -1,9 +1,10 @@
-"""Fit of a circle to the tractions of a contact, with their smooth factor.
+"""Loaded circle that represents the tractions of a contact, for the stress below the surface.
 
-The smooth factor is the traction over √(1-η²), where η is the distance from the centre over the
-radius of the circle. Fields and edge of an axisymmetric contact are available at rings. With a
-tangential load, hats on rings do not end at the contact edge. p² is smooth there: a least-squares
-fit of p² over the outer rings has its zeros on the circle, and its values replace p near the edge.
+The solver gives tractions at rings. The stress requires tractions that end at a circular contact
+edge with √(1-η²), where η is the distance from the centre over the radius of the circle. Fields and
+edge of an axisymmetric contact are available at rings. With a tangential load, hats on rings do not
+end at the contact edge. p² is smooth there: a least-squares fit of p² over the outer rings has its
+zeros on the circle, and its values replace p near the edge.
 """
 
 from __future__ import annotations
@@ -28,15 +29,19 @@ PERIOD = 4  # angles beyond a full turn that the periodic spline repeats
 
 
 class EdgeFit(NamedTuple):
-    """Region and order of the least-squares fit of p² near the contact edge.
+    """Settings of the least-squares fit of the squared pressure p² near the contact edge.
 
-    begins       smallest radius of the fit over that of the outermost loaded ring
-    over         smallest pressure of the fit over the largest pressure; nodes beyond the edge have
-                 less
-    powers       highest power of 1 - r²/a²
-    fitted_from  radius over that of the circle, from which the fit replaces p
-    last         radius over that of the circle, up to which the ratio of shear to pressure is taken
-                 from the nodes
+    The fit determines the circle on which p² is zero. Two settings give an error estimate of the
+    stress below the surface.
+
+    begins       smallest radius of the fitted points over the radius of the outermost loaded ring
+    over         smallest pressure of the fitted points over the largest pressure; nodes beyond the
+                 edge have less
+    powers       highest power of 1 - r²/a² in the fit
+    fitted_from  distance from the centre, over the radius of the circle, from which the fit
+                 replaces p
+    last         distance from the centre, over the radius of the circle, up to which the ratio of
+                 shear to pressure is taken from the nodes
     """
 
     begins: float = 0.7
@@ -56,11 +61,13 @@ def axisymmetric_circle(
 ) -> LoadedCircle:
     """Represent the tractions of an axisymmetric contact, given at rings, as a loaded circle.
 
-    The loaded circle is used to compute the stress below the surface.
+    A loaded circle has pressure and shear proportional to √(1-η²), with the distance η from the
+    centre over the radius. It is used to compute the stress below the surface.
 
     radii               radii of the rings (n,) [length]
     radius              contact radius [length]
-    outward, around, p  q_r, q_θ and pressure at the rings (n,) [force/length²]
+    outward, around, p  radial shear q_r, circumferential shear q_θ and pressure at the rings (n,)
+                        [force/length²]
     raises              UnsupportedScene if too few rings resolve the contact
     """
     within = radii < (1 - 1e-9) * radius
@@ -80,13 +87,15 @@ def fit_tangential_circle(
 ) -> LoadedCircle:
     """Fit a loaded circle to the pressure and shear of a contact with tangential load.
 
-    The loaded circle is used to compute the stress below the surface. Its normal force is that of
-    the nodal pressures. The angles cover 0 to π, and the other half is the mirror image.
+    A loaded circle has pressure and shear proportional to √(1-η²), with the distance η from the
+    centre over the radius. It is used to compute the stress below the surface. Its normal force is
+    that of the nodal pressures. The angles cover 0 to π, and the other half is the mirror image.
 
     radii               radii of the nodes (n,) [length]
-    angles              angles from 0 to π (J + 1,)
-    outward, around, p  q_r, q_θ and pressure at the nodes (n, J + 1) [force/length²]
-    fit                 region and order of the fit
+    angles              angles from 0 to π (J + 1,) [radian]
+    outward, around, p  radial shear q_r, circumferential shear q_θ and pressure at the nodes (n, J
+                        + 1) [force/length²]
+    fit                 settings of the fit near the contact edge
     raises              UnsupportedScene if too few rings resolve the edge
     """
     size = float(radii[np.flatnonzero(np.max(p, axis=1) > 0)[-1]])
@@ -130,9 +139,9 @@ def fit_tangential_circle(
 def _refuse_few(rings: int) -> None:
     """Raise UnsupportedScene if too few rings resolve the edge of the contact.
 
-    The stress below the surface requires a fit of the pressure near the edge.
+    The stress below the surface requires an accurate pressure near the edge.
 
-    rings  number of rings near the edge
+    rings  number of rings near the edge, or in an axisymmetric contact
     """
     if rings < FEWEST:
         raise UnsupportedScene(
@@ -146,18 +155,19 @@ def _least_squares(
 ) -> Callable[[Array, Array], Array]:
     """Fit Σ c_mk cos mθ s^k to values near the contact edge by weighted least squares.
 
-    The fit is returned as a function of s and θ. Used for p² and for its smooth factor.
+    The result is a function of s and θ that evaluates the fit. Used for the squared pressure p²,
+    and for p² over its factor s.
 
     s, angles        coordinates of the points: s = 1 - r²/a² with a reference radius a, and θ (any
                      shape)
-    values, weights  values at the points and their weights
+    values, weights  values at the points and their weights in the squares (same shape)
     powers           highest power of s
     """
 
     def terms(s: Array, angle: Array) -> Array:
-        """Return the terms cos mθ s^k of the least-squares fit at points (…, terms).
+        """Return the terms cos mθ s^k of the least-squares fit at given points (…, terms).
 
-        s, angle  coordinates s = 1 - r²/a² and θ of the points (…)
+        s, angle  coordinates s = 1 - r²/a² and θ of the points near the contact edge (…)
         """
         return np.stack([
             np.cos(m * angle) * s**k for m in range(HARMONICS + 1) for k in range(powers + 1)
@@ -174,12 +184,14 @@ def _least_squares(
 def _fit_edge_circle(
     squared: Callable[[Array, Array], Array], angles: Array
 ) -> tuple[float, float]:
-    """Find centre and radius of the circle through the zeros of a fit of p², the contact edge.
+    """Find centre and radius of the circle on which a fit of the squared pressure is zero.
 
-    The zeros on rays are found by Newton's method. The centre lies on the x axis.
+    The circle is the contact edge. Newton's method finds a zero of the fit at each angle, and least
+    squares give the circle. The centre lies on the x axis. Both results are over the radius of the
+    outermost loaded ring.
 
     squared  fit of p² as a function of 1 - r² and the angle
-    angles   angles of the rays [radian]
+    angles   angles at which the zeros are found [radian]
     """
     s, step = np.zeros_like(angles), 1e-6
     for _ in range(STEPS):
@@ -193,11 +205,12 @@ def _fit_edge_circle(
 
 
 def _extend_outwards(ratio: Array, known: Mask) -> Array:
-    """Extend a field on rays with a constant value beyond the outermost known value of each ray.
+    """Extend a field at points on rays by its outermost known value on each ray.
 
-    Used for the ratio of shear to pressure near the contact edge.
+    Used for the ratio of shear to pressure, which is inaccurate near the contact edge. Values
+    within the outermost known point of a ray are unchanged. The shape is (n, rays).
 
-    ratio  field at nodes (n, rays)
+    ratio  field at the points, from the axis outwards on each ray (n, rays)
     known  true for known values (n, rays)
     """
     last = len(known) - 1 - np.argmax(known[::-1], axis=0)
@@ -208,13 +221,13 @@ def _extend_outwards(ratio: Array, known: Mask) -> Array:
 def _full_circle_spline(
     field: Array, r: Array, angles: Array, sense: int, degree: int
 ) -> RectBivariateSpline:
-    """Return a spline over the full circle through a field on half a circle and its mirror image.
+    """Create a spline over the full circle through a field on half a circle and its mirror image.
 
     field   values at the nodes (n, J + 1)
     r       radii of the nodes (n,)
-    angles  angles from 0 to π (J + 1,)
+    angles  angles from 0 to π (J + 1,) [radian]
     sense   1 for a field that is even about θ = 0, -1 for an odd field
-    degree  degree of the spline in r
+    degree  degree of the spline in r; the degree in θ is 3
     """
     whole = np.hstack([sense * field[:, :0:-1], field])
     turns = np.concatenate([-angles[:0:-1], angles])
@@ -225,12 +238,13 @@ def _full_circle_spline(
 
 
 def _normal_force(radii: Array, angles: Array, p: Array) -> float:
-    """Return the normal force ∫ p dA of nodal pressures with hat functions [force].
+    """Compute the normal force ∫ p dA of pressures at nodes of half a circle [force].
 
-    The angles cover half a circle, and the force includes the mirror image.
+    The pressure is linear in r between the nodes. The force includes the mirror image.
 
-    radii  radii of the nodes (n,) [length]
-    p      pressure at the nodes (n, angles) [force/length²]
+    radii   radii of the nodes (n,) [length]
+    angles  angles of the nodes from 0 to π (J + 1,) [radian]
+    p       pressure at the nodes (n, J + 1) [force/length²]
     """
     rings = 2 * np.asarray(np.trapezoid(p, angles, axis=1))
     inner, outer = radii[:-1], radii[1:]

@@ -30,12 +30,13 @@ SURFACE = 1e-16  # points at smaller depths over the contact radius are on the s
 def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -> Array:
     """Compute displacement and stress in a half-space below a frictionless contact (6, n).
 
-    The fields are u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²].
+    The fields are u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²], at n points of equal
+    depth.
 
     contact   frictionless contact, which gives the pressure
     material  elastic constants of the half-space
     x         radii of the points over the contact radius (n,)
-    depth     depth of the points over the contact radius, >= 0
+    depth     depth of the points over the contact radius, at least 0
     """
     true, x = x, np.maximum(x, AXIS)
     G, nu = material
@@ -68,14 +69,16 @@ def below_pressure(contact: Disc, material: HalfSpace, x: Array, depth: float) -
 
 
 def _wave_integrals(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
-    """Compute six integrals ∫ G~ exp(-κz) f dκ for displacement and stress below a pressure (n,).
+    """Compute six integrals over wavenumbers for displacement and stress below a pressure (n,).
 
-    f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x, with Bessel functions of κx. G~ is the cosine
-    transform of the function G of which the pressure is the Abel transform (see `disc`).
+    The integrals are ∫ G~ exp(-κz) f dκ with f = J₀, κ J₀, κ² J₀, J₁/x, κ J₁/x and κ² J₁/x, in this
+    order. The Bessel functions have the argument κx. G~ = ∫₀¹ G(t) cos κt dt is the cosine
+    transform of the function G of which the pressure is the Abel transform. Lengths are in units of
+    the contact radius.
 
-    contact  frictionless contact
-    x        radii of the points over the contact radius (n,)
-    depth    depth z over the contact radius, > 0
+    contact  frictionless contact, which gives G
+    x        radii of the points over the contact radius, above 0 (n,)
+    depth    depth z over the contact radius, above 0
     """
     offset, weights = _quadrature_offsets(contact, x, depth)
     t = x[:, None] + offset
@@ -87,13 +90,14 @@ def _wave_integrals(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
     end, last = (part[:, 0] for part in _complex_distances(x[:, None], depth, 1 - x[:, None]))
 
     def integrate_by_parts(inside: Complex, outside: Complex) -> Array:
-        """Return an integral ∫ G~ exp(-κz) κ f dκ over wavenumbers κ, integrated by parts.
+        """Return the integral ∫ G~ exp(-κz) κ f dκ over wavenumbers κ, integrated by parts (n,).
 
-        The pressure is the Abel transform of G, and G~ is the cosine transform of G. z is the
-        depth, and f a Bessel function of κx at the radius x.
+        The integral is a term of the stress at depth z. The pressure is the Abel transform of a
+        function G(t), and G~ is the cosine transform of G. f is a Bessel function of κx at the
+        radius x.
 
-        inside   factor of dG/dt at the quadrature points
-        outside  factor of G(1), the boundary term at the contact edge
+        inside   factor of dG/dt at the quadrature points (n, points)
+        outside  factor of G(1), the boundary term at the contact edge t = 1 (n,)
         """
         return np.asarray((1j * contact.edge * outside - 1j * np.sum(by_rate * inside, 1)).real)
 
@@ -109,15 +113,16 @@ def _wave_integrals(contact: Disc, x: Array, depth: float) -> tuple[Array, ...]:
 
 
 def _quadrature_offsets(contact: Disc, x: Array, depth: float) -> tuple[Array, Array]:
-    """Return quadrature points and weights for integrals over t below the pressure (n, points).
+    """Return quadrature points and weights for the stress below a pressure (n, points).
 
-    t is a coordinate between the axis (0) and the contact edge (1). The first result is t - x. The
-    substitution t = x + z sinh y removes the root of 1/R at t = x ± iz, where R = √(x² + (z +
-    it)²).
+    The integrals are over t, a coordinate between the axis (0) and the contact edge (1). Their
+    integrands contain 1/R with R = √(x² + (z + it)²), which is large near t = x. The points are
+    dense there, by the substitution t = x + z sinh y. The first result is t - x, the second the
+    weights.
 
-    contact  frictionless contact
+    contact  frictionless contact, whose number of polynomials determines the number of points
     x        radii of the points of evaluation over the contact radius (n,)
-    depth    depth z over the contact radius
+    depth    depth z over the contact radius, above 0
     """
     first, last = np.arcsinh(-x / depth), np.arcsinh((1 - x) / depth)
     count = ceil(2 * asinh(max(1.0, float(np.max(x))) / depth) / WIDTH)
@@ -129,13 +134,14 @@ def _quadrature_offsets(contact: Disc, x: Array, depth: float) -> tuple[Array, A
 
 
 def _complex_distances(x: Array, depth: float, offset: Array) -> tuple[Complex, Complex]:
-    """Compute the complex distances c = z + it and R = √(x² + c²) at t = x + offset.
+    """Compute the complex distances c = z + it and R = √(x² + c²) for the stress below a pressure.
 
-    1/R is the integral over all wavenumbers of the waves below the surface.
+    The integral of the waves exp(-κc) J₀(κx) over all wavenumbers κ is 1/R. Lengths are in units of
+    the contact radius.
 
-    x       radii of the points of evaluation over the contact radius
-    depth   depth z over the contact radius
-    offset  t - x, where t is the variable of integration
+    x       radii of the points of evaluation (n, 1)
+    depth   depth z
+    offset  t - x at the quadrature points, where t is the variable of integration (n, points)
     """
     t = x + offset
     c = np.asarray(depth + 1j * t, dtype=np.complex128)

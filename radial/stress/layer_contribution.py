@@ -33,12 +33,15 @@ DIED_OUT = 36.0
 
 
 class LayerContribution:
-    """Displacement and stress that the layers of one body add below tractions on a circle.
+    """Displacement and stress that the layers of one body add to those of a half-space.
+
+    The body carries tractions on a circle of its surface. The half-space has the material of the
+    outermost layer.
 
     stack     the body with its layers
     radius    radius of the circle, the unit of length of wavenumbers and positions [length]
     reach     largest distance of points from the axis over this radius
-    fineness  multiple of the number of wavenumbers
+    fineness  factor on the number of wavenumbers, 1 by default
     """
 
     def __init__(self, stack: Stack, radius: float, reach: float, fineness: int) -> None:
@@ -49,14 +52,16 @@ class LayerContribution:
     def fields(
         self, sources: NDArray[np.inexact], levels: Sequence[Level], r: Array, theta: Array
     ) -> Array:
-        """Compute the contribution of the layers at given depths and positions (levels, 9, n).
+        """Compute displacement and stress by layers at given depths and positions (levels, 9, n).
 
-        The fields are u_r, u_θ, u_z [length] and σ_rr, θθ, zz, θz, rz, rθ [force/length²].
+        Above the underside of the outermost layer, the fields are added to those of a half-space.
+        Below, they are the whole fields. They are u_r, u_θ, u_z [length] and σ_rr, θθ, zz, θz, rz,
+        rθ [force/length²].
 
-        sources   Hankel transforms of q_r + i q_θ, q_r - i q_θ and the pressure for the harmonics
-                  0 … M, times quadrature weights (3, M + 1, κ)
+        sources   Hankel transforms of q_r + i q_θ, q_r - i q_θ and the pressure for the angular
+                  harmonics 0 … M, times quadrature weights (3, M + 1, κ)
         levels    depths, each with the layer that contains it
-        r, theta  distances of the points from the axis over the radius of the circle, and angles
+        r, theta  distances of the n points from the axis over the radius of the circle, and angles
                   (n,)
         """
         h, found = self.stack.layers[0].thickness, np.zeros((len(levels), 9, len(r)))
@@ -77,10 +82,12 @@ class LayerContribution:
 
 
 def bessel_of_order(orders: Sequence[Array], m: int) -> Array:
-    """Return the Bessel function J_m of a positive or negative order m, from positive orders.
+    """Return the Bessel function J_m of any integer order m, from Bessel functions of orders m ≥ 0.
 
-    orders  J_0, J_1, … at the arguments
-    m       order
+    A negative order follows from J_{-m} = (-1)^m J_m.
+
+    orders  J_0, J_1, … at equal arguments
+    m       order, positive or negative
     """
     return orders[m] if m >= 0 else (-1) ** m * orders[-m]
 
@@ -89,18 +96,18 @@ def _inverse_transform(
     descent: Descent, level: Level, sources: NDArray[np.inexact], orders: Sequence[Array],
     turns: Complex, count: int,
 ) -> Array:  # fmt: skip
-    """Compute the contribution of the layers at one depth from its Hankel transforms (9, n).
+    """Sum waves to displacement and stress that layers add at one depth (9, n).
 
-    The fields are u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ, summed over wavenumbers and angular
-    harmonics m.
+    The fields are u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ. The sums are over the wavenumbers κ and
+    the angular harmonics m = 0 … M.
 
-    descent  propagation of the surface tractions to depths of the body
+    descent  object that propagates the surface tractions to depths of the body
     level    depth and the layer that contains it
     sources  Hankel transforms of q_r + i q_θ, q_r - i q_θ and the pressure, times quadrature
              weights (3, M + 1, κ)
     orders   Bessel functions J_0, J_1, … at κ r (κ, n)
-    turns    exp(imθ) at the points (M + 1, n)
-    count    number of wavenumbers that contribute
+    turns    exp(imθ) at the n points (M + 1, n)
+    count    number of wavenumbers that contribute at this depth
     """
     fields = descent.remainder(level)
     plane = in_plane_stresses(fields, material_at(descent.stack, level), descent.alpha)
@@ -110,12 +117,12 @@ def _inverse_transform(
         along, across = (B - A) / 2, -(A + B) / 2
 
         def sum_responses(entries: Array, along: Complex = along, p: Complex = p) -> Complex:
-            """Return the response to the pressure and the traction along a wave vector (κ,).
+            """Sum the responses to the pressure and to the traction along a wave vector (κ,).
 
-            entries  responses to a unit traction along the wave vector and to a unit pressure (2,
-                     κ)
-            along    traction along the wave vector (κ,)
-            p        pressure (κ,)
+            entries  responses at the depth to a unit traction along the wave vector and to a unit
+                     pressure (2, κ)
+            along    transform of the traction along the wave vector (κ,)
+            p        transform of the pressure (κ,)
             """
             return np.asarray(entries[0, :count] * along + entries[1, :count] * p)
 

@@ -23,15 +23,15 @@ PANEL, LOAD_POINTS, HARMONICS = 16, 128, 15
 
 @dataclass(frozen=True, eq=False)
 class LoadedCircle:
-    """Pressure and shear on the lower body, over a circular contact area.
+    """Pressure and shear on the lower body over a circular contact area, divided by √(1-η²).
 
-    The fields below the surface are computed from these tractions. η is the distance from the
-    centre over the radius. The tractions are `smooth` times √(1-η²).
+    The tractions are `smooth` times √(1-η²), where η is the distance from the centre over the
+    radius. The stress below the surface is computed from these tractions.
 
     radius  radius of the circle [length]
-    centre  x of the centre; y is 0 [length]
-    smooth  q_x, q_y, p over √(1-η²) at η = k/(n-1) and angles 2πj/J (3, n, J); for J = 1
-            axisymmetric q_r, q_θ, p [force/length²]
+    centre  x coordinate of the centre, whose y is 0 [length]
+    smooth  q_x, q_y, p over √(1-η²) at η = k/(n-1) and angles 2πj/J (3, n, J) [force/length²]; for
+            J = 1 the axisymmetric q_r, q_θ, p
     """
 
     radius: float
@@ -45,15 +45,16 @@ class LoadedCircle:
 
     @property
     def load(self) -> float:
-        """Return the normal force, the integral ∫ p dA of the pressure [force]."""
+        """Compute the normal force on the circle, the integral ∫ p dA of the pressure [force]."""
         eta, area = self.disc_rule(LOAD_POINTS)
         return float(2 * np.pi * self.radius**2 * self.harmonics(eta, HARMONICS)[2][0].real @ area)
 
     @staticmethod
     def disc_rule(count: int) -> tuple[Array, Array]:
-        """Return points η and weights η dη of Gauss quadrature over a disc of unit radius.
+        """Return points η and weights η dη of Gauss quadrature over the radius of a unit disc.
 
-        The substitution η = sin α removes the root of the tractions at the edge.
+        Used to integrate tractions over a loaded circle. The substitution η = sin α removes the
+        root of the tractions at the edge.
 
         count  least number of points
         """
@@ -64,16 +65,16 @@ class LoadedCircle:
         return eta, np.tile(weights, panels) / panels * (np.pi / 2) * np.cos(angle) * eta
 
     def tractions_on_upper_body(self) -> LoadedCircle:
-        """Return the tractions on the upper body, whose shear has the opposite sign.
+        """Return the tractions on the upper body, the indenter, whose shear has the opposite sign.
 
         The axis z points into the upper body. Used for the stress in the indenter.
         """
         return replace(self, smooth=self.smooth * np.array([-1.0, -1.0, 1.0])[:, None, None])
 
     def interpolate_tractions(self, x: Array, y: Array) -> Array:
-        """Interpolate the shear q_x, q_y and the pressure to given positions (3, …).
+        """Interpolate shear q_x, q_y and pressure to given positions (3, …) [force/length²].
 
-        They are 0 outside the circle.
+        The tractions are 0 outside the circle.
 
         x, y  coordinates from the centre of the circle over its radius (…)
         """
@@ -98,12 +99,14 @@ class LoadedCircle:
         return found
 
     def harmonics(self, eta: Array, highest: int) -> tuple[Complex, Complex, Complex]:
-        """Return the angular harmonics of the tractions on rings, for m = 0 … highest.
+        """Compute the angular harmonics 0 … M of the tractions on rings about the centre.
 
-        They are the complex amplitudes of exp(imθ) of q_r + i q_θ, q_r - i q_θ and the pressure,
-        each (highest + 1, n). Except for m = 0 they are doubled, as sums over m ≥ 0 require.
+        The three results are the complex amplitudes of exp(imθ) of q_r + i q_θ, q_r - i q_θ and the
+        pressure, each (M + 1, n) [force/length²]. Except for m = 0 they are doubled, as sums over m
+        ≥ 0 require.
 
-        eta  radii of the rings over that of the circle (n,)
+        eta      radii of the rings over the radius of the circle (n,)
+        highest  highest harmonic M
         """
         count = 2 * highest + 2
         theta = 2 * np.pi * np.arange(count) / count

@@ -28,14 +28,15 @@ MAX_AT_ONCE = 1 << 18  # quadrature points in a block
 def below_circle(
     circle: LoadedCircle, material: HalfSpace, x: Array, y: Array, depth: float, fineness: int = 1
 ) -> Array:
-    """Return displacement and stress in a half-space below a loaded circle (9, n).
+    """Compute displacement and stress in a half-space below a loaded circle (9, n).
 
-    The fields are u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²].
+    The fields are u_x, u_y, u_z [length] and σ_xx, yy, zz, yz, xz, xy [force/length²], at n points
+    of equal depth. They are integrals over the tractions of the circle, along rays from the point.
 
-    circle       tractions on the surface
+    circle       tractions on the surface, over a circle
     material     elastic constants of the half-space
     x, y, depth  coordinates of the points from the circle's centre, over its radius
-    fineness     multiple of the number of points
+    fineness     factor on the number of quadrature points per direction, 1 by default
     """
     found = np.empty((9, len(x)))
     r = np.hypot(x, y)
@@ -61,24 +62,26 @@ def below_circle(
 
 
 def _count_intervals(smallest: Array) -> Array:
-    """Return the number of intervals that grow in constant ratio from a smallest width to 1.
+    """Return the number of intervals of a quadrature that grow from a smallest width to 1.
 
-    Used for the quadrature over angles and rays. The number is not rounded.
+    The widths grow in constant ratio. The number is not rounded to an integer. Used for the
+    quadrature over angles and along rays below a loaded circle.
 
-    smallest  width of the smallest interval
+    smallest  width of the smallest interval (any shape)
     """
     return np.asarray(1 - np.log(smallest) / np.log(WIDER))
 
 
 def _ray_directions(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
-    """Return the directions of rays and their weights (n, rays), for points inside the circle.
+    """Return the directions of rays from points inside a loaded circle, and weights (n, rays).
 
-    The tractions are integrated along rays from each point. Directions are angles from the outward
-    direction [radian]. Rays are dense where they are nearly tangential to the edge.
+    The stress below each point is an integral of the tractions along these rays. Directions are
+    angles from the outward direction [radian]. Rays are dense where they are nearly tangential to
+    the edge.
 
-    r         distances of the points from the centre over the radius (n,)
+    r         distances of the points from the centre over the radius, below 1 (n,)
     count     number of intervals of a quadrant
-    fineness  multiple of the number of angles
+    fineness  factor on the number of angles, 1 by default
     """
     width = np.sqrt((1 - r) * (1 + r))
     v, weights = unit_gauss(ANGLES * fineness)
@@ -91,9 +94,10 @@ def _ray_directions(r: Array, count: int, fineness: int) -> tuple[Array, Array]:
 
 
 def _interval_ends(smallest: Array, count: int) -> Array:
-    """Return the ends of intervals between 0 and 1 that grow in constant ratio (…, count + 1).
+    """Return the ends of intervals of a quadrature from 0 to 1 that grow in constant ratio.
 
-    The ends are 0, the smallest value, …, 1. Used for the quadrature over angles and rays.
+    The ends are 0, the smallest value, …, 1, with the shape (…, count + 1). Used for the quadrature
+    over angles and along rays below a loaded circle.
 
     smallest  first end after 0 (…)
     count     number of intervals
@@ -109,15 +113,16 @@ def _integrate_all_rays(
 ) -> Array:  # fmt: skip
     """Compute displacement and stress below a loaded circle, for points with equal quadrature.
 
-    The shape is (9, n): u_x, u_y, u_z over the radius of the circle, then σ_xx, yy, zz, yz, xz, xy.
+    The shape is (9, n): u_x, u_y, u_z over the radius of the circle, then σ_xx, yy, zz, yz, xz, xy
+    [force/length²]. The tractions are integrated along rays from each of the n points.
 
-    circle       tractions on the surface
+    circle       tractions on the surface, over a circle
     material     elastic constants of the half-space
     x, y, depth  coordinates of the points from the circle's centre, over its radius
-    angles       angles of the rays from the outward direction, and weights; None for points outside
-                 the circle
+    angles       angles of the rays from the outward direction, and weights (n, rays); None for
+                 points outside the circle
     count        number of intervals of a ray
-    fineness     multiple of the number of points
+    fineness     factor on the number of quadrature points per direction, 1 by default
     """
     r = np.hypot(x, y)[:, None]
     outward = np.arctan2(y, x)[:, None]
@@ -164,13 +169,14 @@ def _integrate_all_rays(
 
 
 def _ray_quadrature(scale: Array, count: int, fineness: int) -> tuple[Array, Array]:
-    """Return quadrature positions along rays between 0 and 1, and weights (…, points).
+    """Return quadrature positions along rays, as fractions of the ray, and weights (…, points).
 
-    The points are dense towards 0, the start of the ray. Substitutions remove roots at both ends.
+    The points are dense towards the start of the ray at 0. Substitutions remove roots of the
+    integrand at both ends. Used to integrate tractions along rays below a loaded circle.
 
-    scale     width of the first interval over the length of the ray (…)
+    scale     width of the first interval over the length of the ray, for each ray (…)
     count     number of intervals
-    fineness  multiple of the number of points
+    fineness  factor on the number of points, 1 by default
     """
     edges = _interval_ends(scale, count)
     v, weights = unit_gauss(POINTS * fineness)
@@ -188,14 +194,14 @@ def _ray_quadrature(scale: Array, count: int, fineness: int) -> tuple[Array, Arr
 def _point_force_fields(material: HalfSpace, d: Array, depth: float) -> tuple[Array, ...]:
     """Compute displacement and stress by a unit point force on a half-space, times the distance d.
 
-    The factor d is the Jacobian of polar coordinates about the point of evaluation. For pressure
-    and for shear along the ray the results are u_s, u_z, σ_ss, σ_tt, σ_zz, σ_sz, and for shear
-    across the ray u_t, σ_st. s points along the ray towards the force, t across. Each has the shape
-    of d.
+    The factor d is the Jacobian of polar coordinates about the point of evaluation. The axis s
+    points along the ray from this point to the force, t across. Fourteen arrays with the shape of d
+    are returned: u_s, u_z, σ_ss, σ_tt, σ_zz, σ_sz by a normal force, these six fields by a force
+    along s, and u_t, σ_st by a force along t.
 
     material  elastic constants of the half-space
-    d         horizontal distance between the point and the force
-    depth     depth of the point
+    d         horizontal distance between the point and the force (any shape)
+    depth     depth of the point, in the unit of d
     """
     G, nu = material
     g, z = 1 - 2 * nu, depth
@@ -230,15 +236,17 @@ def _point_force_fields(material: HalfSpace, d: Array, depth: float) -> tuple[Ar
 def _integrate_each_ray(
     material: HalfSpace, t: Array, d: Array, weight: Array, depth: float, cos: Array, sin: Array
 ) -> Array:
-    """Integrate displacement and stress below tractions along every ray (8, n, rays).
+    """Integrate displacement and stress below tractions along each ray (8, n, rays).
 
-    The fields are u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st, with s along the ray and t across.
+    The fields are u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st at the n points where the rays start.
+    s points along the ray and t across.
 
     material   elastic constants of the half-space
-    t          tractions q_x, q_y, p at the points of the rays (3, n, rays, points)
-    d, weight  distances of these points from the start of the ray, and quadrature weights
+    t          tractions q_x, q_y, p at the quadrature points of the rays (3, n, rays, points)
+    d, weight  distances of the quadrature points from the start of the ray, and weights (n, rays,
+               points)
     depth      depth of the points of evaluation
-    cos, sin   cosine and sine of the direction of every ray
+    cos, sin   cosine and sine of the direction of each ray (n, rays)
     """
     pu, pw, pss, ptt, pzz, psz, su, sw, sss, stt, szz, ssz, tu, tst = _point_force_fields(
         material, d, depth
@@ -258,17 +266,20 @@ def _integrate_each_ray(
 def _finite_part(
     material: HalfSpace, here: Array, d: Array, weight: Array, length: Array, cos: Array, sin: Array
 ) -> Array:
-    """Return the correction of stress integrals along rays to their finite parts (8, n, rays).
+    """Compute the correction of singular stress integrals along rays at the surface (8, n, rays).
 
-    At the surface the integrals of t/d are singular, with the traction t and the distance d. For
-    the traction at the point of evaluation the correction is ln(length of the ray) minus the
-    quadrature of 1/d.
+    At the surface the integrals of t/d are singular, with the traction t and the distance d from
+    the point of evaluation. Their values are finite parts. For the traction at the point of
+    evaluation the correction of the quadrature is ln(length of the ray) minus the quadrature of
+    1/d. The fields are u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st, with s along the ray and t
+    across.
 
     material   elastic constants of the half-space
     here       tractions q_x, q_y, p at the points of evaluation (3, n)
-    d, weight  distances of the points of the rays, and quadrature weights
-    length     lengths of the rays
-    cos, sin   cosine and sine of the direction of every ray
+    d, weight  distances of the quadrature points from the start of the ray, and weights (n, rays,
+               points)
+    length     lengths of the rays (n, rays)
+    cos, sin   cosine and sine of the direction of each ray (n, rays)
     """
     left = np.log(length) - np.sum(weight / d, axis=-1)
     unit, g, nu = 1 / (2 * pi), 1 - 2 * material.poisson_ratio, material.poisson_ratio
@@ -283,10 +294,13 @@ def _finite_part(
 
 
 def _sum_over_rays(rays: Array, cos: Array, sin: Array, weight: Array) -> Array:
-    """Sum displacement and stress over all rays of every point, in x and y components (9, n).
+    """Sum displacement and stress over all rays of each point, in x, y, z components (9, n).
 
-    rays              u_s, u_t, u_z and stresses along and across every ray (8, n, rays)
-    cos, sin, weight  cosine and sine of the direction, and weight of every ray
+    The results are u_x, u_y, u_z and σ_xx, yy, zz, yz, xz, xy below a loaded circle.
+
+    rays              u_s, u_t, u_z, σ_ss, σ_tt, σ_zz, σ_sz, σ_st by each ray, with s along the ray
+                      and t across (8, n, rays)
+    cos, sin, weight  cosine and sine of the direction, and quadrature weight of each ray (n, rays)
     """
     u_s, u_t, u_z, ss, tt, zz, sz, st = rays * weight
     c2, s2, cs = cos * cos, sin * sin, cos * sin

@@ -1,6 +1,6 @@
-"""Displacement and stress in a layered body below the tractions of a circle.
+"""Displacement and stress in a layered body below the pressure and shear of a loaded circle.
 
-They are those of a half-space (`ray_integrals`), plus the contribution of the layers
+The fields are those of a half-space (`ray_integrals`), plus the contribution of the layers
 (`layer_contribution`).
 """
 
@@ -24,13 +24,13 @@ LEAST_POINTS = 64  # least number of quadrature points over the radius
 
 
 class SubsurfaceCircle:
-    """Displacement and stress of one body below a loaded circle.
+    """Displacement and stress of one body, with or without layers, below a loaded circle.
 
-    circle    tractions on the body
+    circle    tractions on the body, over a circle
     stack     the body, with or without layers
     reach     largest distance of points from the centre over the radius of the circle
     highest   highest angular harmonic of the tractions
-    fineness  multiple of the numbers of points and wavenumbers
+    fineness  factor on the numbers of points and wavenumbers, 1 by default
     """
 
     def __init__(
@@ -44,13 +44,13 @@ class SubsurfaceCircle:
             self._sources = self._hankel_transforms(kappa) * (weights * kappa)
 
     def _hankel_transforms(self, kappa: Array) -> Complex:
-        """Compute the Hankel transforms of the shear and pressure of the circle, for all harmonics.
+        """Compute the Hankel transforms of the shear and pressure on the circle, for all harmonics.
 
-        They are H_{m+1}(q_r + i q_θ), H_{m-1}(q_r - i q_θ) and H_m(p), with the transform H_n of
-        order n. The shape is (3, M + 1, κ), with the highest harmonic M. Lengths are in units of
-        the radius of the circle.
+        The transforms are H_{m+1}(q_r + i q_θ), H_{m-1}(q_r - i q_θ) and H_m(p) for the angular
+        harmonic m, with the Hankel transform H_n of order n. The shape is (3, M + 1, κ), with the
+        highest harmonic M. Layers contribute to the stress by these transforms.
 
-        kappa  wavenumbers κ
+        kappa  wavenumbers κ times the radius of the circle (κ,)
         """
         count = ceil(max(LEAST_POINTS, kappa[-1]) * self.fineness)
         eta, area = self.circle.disc_rule(count)
@@ -87,10 +87,12 @@ class SubsurfaceCircle:
 
 
 def _cartesian_components(polar: Array, cos: Array, sin: Array) -> Array:
-    """Transform displacement and stress from cylindrical to x and y components (levels, 9, n).
+    """Transform displacement and stress from cylindrical to Cartesian components (levels, 9, n).
 
-    polar     u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ (levels, 9, n)
-    cos, sin  cosine and sine of the angle θ of the points (n,)
+    The results are u_x, u_y, u_z and σ_xx, yy, zz, yz, xz, xy.
+
+    polar     u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ at n points of each depth (levels, 9, n)
+    cos, sin  cosine and sine of the angle θ of the points about the axis (n,)
     """
     u_r, u_t, u_z, rr, tt, zz, tz, rz, rt = np.moveaxis(polar, 1, 0)
     mean, half = (rr + tt) / 2, (rr - tt) / 2

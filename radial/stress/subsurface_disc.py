@@ -16,15 +16,15 @@ from semi_analytical.frf.stack import Stack
 
 
 class SubsurfaceDisc:
-    """Displacement and stress of one body below a frictionless contact on a disc.
+    """Displacement and stress of one body below the pressure of a frictionless contact.
 
-    They are those of a half-space (`half_space`), plus the contribution of the layers
+    The fields are those of a half-space (`half_space`), plus the contribution of the layers
     (`layer_contribution`).
 
     contact   frictionless contact, which gives the pressure
     stack     the body, with or without layers
     reach     largest radius of points over the contact radius
-    fineness  multiple of the number of wavenumbers
+    fineness  factor on the number of wavenumbers, 1 by default
     """
 
     def __init__(self, contact: Disc, stack: Stack, reach: float, fineness: int = 1) -> None:
@@ -39,7 +39,9 @@ class SubsurfaceDisc:
             self._sources = np.stack([0 * kappa, 0 * kappa, weights * kappa * transform])[:, None]
 
     def compute_fields(self, levels: Sequence[Level], r: Array) -> Array:
-        """Compute displacement and stress at given depths and radii (levels, 6, n).
+        """Compute displacement and stress below the pressure at given depths and radii.
+
+        The shape is (levels, 6, n).
 
         The fields are u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²]. Raises ValueError
         for a depth in a rigid base.
