@@ -15,10 +15,10 @@ from radial.plan import Plan
 
 @dataclass(frozen=True, kw_only=True)
 class Increment(RingIncrement):
-    """Converged state of the contact at the end of one increment of the load history.
+    """Converged state of the contact at the end of one increment of the load history, for output.
 
-    Fields are values at the rings. No ring lies where the pressure is infinite (the axis below a
-    tip, the rim of a punch). `peak_pressure` is then the largest pressure at a ring.
+    Fields are values at the output rings. No ring lies where the pressure is infinite (the axis
+    below a tip, the rim of a punch). `peak_pressure` is then the largest pressure at a ring.
 
     iterations  number of contact radii tried; for a contact at points (rings × angles) the number
                 of Newton steps
@@ -27,12 +27,12 @@ class Increment(RingIncrement):
 
 @dataclass(frozen=True)
 class Result:
-    """Result of a solve: scene, discretisation, plan and all increments.
+    """Result of a solve of a load history: scene, discretisation, plan and all increments.
 
     scene       the solved contact problem, in its normal form
     fineness    number of output rings, and tolerance of the residuals
-    plan        effects of the scene, and number of increments of each load step
-    increments  all increments of the load history, in order
+    plan        physical effects that the solve includes, and number of increments of each load step
+    increments  converged states at the ends of all increments of the load history, in order
     """
 
     scene: Scene

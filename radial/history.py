@@ -96,14 +96,14 @@ def solve(
 
 
 def _create_solver(scene: Scene, discretisation: RadialDiscretisation, plan: Plan) -> Any:
-    """Create the solver of load steps that the effects of a plan require.
+    """Create the solver of load steps for the physical effects that a scene has.
 
     The solvers are: tangential load or torsion at points (rings × angles), normal load with
     friction, normal load without friction, and torsion in closed form.
 
     scene           contact problem
-    discretisation  output rings and tolerance
-    plan            effects of the scene, such as friction and torsion
+    discretisation  number of output rings, and tolerance of the residuals
+    plan            physical effects of the scene, such as friction and torsion
     """
     if plan.circle:
         from radial.tangential.tangential_steps import TangentialSteps
@@ -127,14 +127,14 @@ def _create_solver(scene: Scene, discretisation: RadialDiscretisation, plan: Pla
 
 @dataclass(frozen=True)
 class _FrictionlessSteps(StepsOnRings):
-    """Solver of load steps of a contact without friction.
+    """Solver of load steps of a contact without friction under a normal load.
 
     The contact of an increment does not depend on the previous increment.
 
     scene      the contact problem
     bodies     normal response of both bodies
-    tolerance  upper bound of every residual
-    fineness   multiple of the numbers of polynomials and quadrature points
+    tolerance  upper bound of every residual [1]
+    fineness   factor on the numbers of polynomials and quadrature points, 1 by default
     radii      radii of the output rings (n,) [length]
     largest    contacts at the largest prescribed force and approach, solved to place the rings
     """
@@ -149,13 +149,13 @@ class _FrictionlessSteps(StepsOnRings):
     def of(
         cls, scene: Scene, discretisation: RadialDiscretisation, fineness: int
     ) -> _FrictionlessSteps:
-        """Create the solver of load steps without friction for a scene.
+        """Create the solver of load steps of a contact without friction, for a scene.
 
         The output rings are placed over the largest contact of the load history.
 
         scene           contact problem
         discretisation  number of output rings, and tolerance of the residuals
-        fineness        multiple of the numbers of polynomials and quadrature points
+        fineness        factor on the numbers of polynomials and quadrature points, 1 by default
         """
         bodies = Bodies.of(scene)
         largest = tuple(
@@ -176,7 +176,7 @@ class _FrictionlessSteps(StepsOnRings):
 
         ramp      load step
         start     contact at the start of the load step; None without contact
-        before    not used; the contact does not depend on the previous increment
+        before    not used, because the contact does not depend on the previous increment
         fraction  fraction of the linear change of the load, 0 to 1
         """
         reached = (start.normal_force, start.approach) if start else (0.0, 0.0)

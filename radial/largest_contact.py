@@ -22,10 +22,13 @@ FEW_ORDERS, NEAR = 16, 0.05
 
 @lru_cache(maxsize=8)
 def wavenumbers(scene: Scene) -> int:
-    """Return the number of wavenumbers of the Hankel integrals for the largest contact of a scene.
+    """Estimate the number of wavenumbers needed for the layers at the largest contact of a scene.
 
-    At least one body has layers. Raises UnsupportedScene if the contact radius is too large for the
+    The estimate is used before the solve, because its memory increases with this number. At least
+    one body must have layers. Raises UnsupportedScene if the contact radius is too large for the
     thickness of the layers.
+
+    scene  contact problem
     """
     bodies, radius = Bodies.of(scene), expected_radius(scene)
     polynomial_count(bodies.thickness / radius, profile(scene.indenter, radius).apex)
@@ -36,7 +39,10 @@ def wavenumbers(scene: Scene) -> int:
 def expected_radius(scene: Scene) -> float:
     """Estimate the radius of the largest contact of the load history, without friction [length].
 
-    Few polynomials give the radius to a few percent.
+    The frictionless contact is solved with few polynomials, which give the radius to a few percent.
+    Used before the solve, for cost estimates.
+
+    scene  contact problem
     """
     return max(
         normal_contact(Bodies.of(scene), scene.indenter, target, 1, FEW_ORDERS, NEAR).contact.radius

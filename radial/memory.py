@@ -54,7 +54,11 @@ def estimated_bytes(scene: Scene, plan: Plan) -> int:
 
 
 def refuse_if_too_large(scene: Scene, plan: Plan) -> None:
-    """Raise ResourceRefused if the estimated memory of a run exceeds the available memory."""
+    """Raise ResourceRefused if the estimated memory of a solve exceeds the available memory.
+
+    scene  contact problem
+    plan   physical effects of the scene, and number of increments of each load step
+    """
     needed, available = estimated_bytes(scene, plan), available_bytes()
     if needed > available:
         raise ResourceRefused(

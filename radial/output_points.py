@@ -35,8 +35,10 @@ NO_DISC = 1e-9
 def largest_targets(scene: Scene) -> Iterator[Target]:
     """Yield the largest normal force and the largest approach that the load steps prescribe.
 
-    Values at the ends of the load steps are compared. A kind of control that the history lacks is
-    skipped.
+    Values at the ends of the load steps are compared. If no load step prescribes a force (or an
+    approach), no value is yielded for it. Used to place rings over the largest contact.
+
+    scene  contact problem with its load history
     """
     ends = list(targets(scene))
     for by_force in (True, False):
@@ -49,6 +51,8 @@ def targets(scene: Scene) -> Iterator[Target]:
     """Yield the normal force or approach that each load step of a scene prescribes at its end.
 
     Load steps that end without contact are skipped.
+
+    scene  contact problem with its load history
     """
     for ramp in scene.load_path():
         if ramp.normal.end:
@@ -66,10 +70,10 @@ def target(scene: Scene, force: float | None, approach: float | None) -> Target:
 
 
 def output_radii(count: int, largest: Sequence[NormalContact], rim: float | None) -> Array:
-    """Return the radii of the rings at which fields are output [length].
+    """Return the radii of the rings at which fields are output (n,) [length].
 
-    They are denser towards the edge of the largest contact and end at twice its radius. Radii with
-    infinite pressure (the axis below a tip, a rim) are omitted.
+    The rings are denser towards the edge of the largest contact and end at twice its radius. Radii
+    with infinite pressure (the axis below a tip, a rim) are omitted.
 
     count    number of rings within the largest contact
     largest  contacts at the largest prescribed force and approach
@@ -96,27 +100,28 @@ class StepsOnRings:
 
     @property
     def most_spent(self) -> float:
-        """Return the work of the solver above which a failed increment is not bisected again.
+        """Return the work of the solver above which an increment is not bisected again.
 
-        Load stepping compares the value with `spent`. The value 0 sets no limit, because `spent`
-        returns 0 here.
+        An increment that does not converge is divided into halves until this limit. Load stepping
+        compares the value with `spent`. The value 0 sets no limit, because `spent` returns 0 here.
         """
         return 0.0
 
     def spent(self) -> float:
-        """Return the solver's work up to now, which limits the bisection of increments.
+        """Return the work of the solver up to now, such as a number of Newton steps.
 
-        The value is 0 if the solver does not count its work, as in this class.
+        Load stepping limits the bisection of increments that do not converge by this number. The
+        number is 0 if the solver does not count its work, as in this class.
         """
         return 0.0
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
-        """Return the gap of the undeformed surfaces at the points of an increment [length].
+        """Return the gap of the undeformed surfaces at first contact, at output points [length].
 
-        The gap is that at the approach 0, where the surfaces first touch.
+        The shape is that of the increment's gap: (rings,) or (rings, angles).
 
         last  increment whose rings are used
-        tilt  not used, since this solver does not tilt the indenter
+        tilt  not used, because this solver does not tilt the indenter
         """
         gap = np.asarray(self.scene.indenter.initial_gap(last.radii, 0.0))
         return np.array(np.broadcast_to(gap, last.gap.T.shape).T)
@@ -125,12 +130,12 @@ class StepsOnRings:
 def refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:
     """Raise UnsupportedScene if the contact area is not a single disc.
 
-    A negative pressure means that the surfaces separate within the contact. A negative gap means
-    that they touch outside it.
+    The solver assumes a contact disc of one radius. A negative pressure shows that the surfaces
+    separate within the disc. A negative gap shows that they touch outside the disc.
 
     radii  radii of the points (n,) [length]
-    p      pressure at the points (n,)
-    gap    gap at the points over the approach (n,)
+    p      pressure at the points (n,) [force/length²]
+    gap    gap at the points over the approach (n,) [1]
     """
     for wrong, what in (
         (p < -NO_DISC * np.max(p), "separate within the contact"),
@@ -146,8 +151,11 @@ def refuse_no_disc(radii: Array, p: Array, gap: Array) -> None:
 def refuse_round_off(contact: Disc, tolerance: float) -> None:
     """Raise UnsupportedScene if round-off keeps the error of a contact above the tolerance.
 
-    The error is that of the integral equation of the frictionless contact. `disc` has increased the
-    number of polynomials until this error decreased no further.
+    The error is that of the integral equation of the frictionless contact, over the approach. The
+    function `disc` has increased the number of polynomials until this error decreased no further.
+
+    contact    frictionless contact, with its error
+    tolerance  upper bound of every residual [1]
     """
     if contact.residual > tolerance:
         enough = 10.0 ** ceil(log10(contact.residual))

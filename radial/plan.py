@@ -1,6 +1,6 @@
-"""Plan of a solve: effects of a scene, numbers of increments, and checks of unsupported scenes.
+"""Plan of a solve: physical effects of a scene, numbers of increments, and unsupported scenes.
 
-The checks raise UnsupportedScene before the solve.
+The checks of unsupported scenes raise UnsupportedScene before the solve.
 """
 
 from __future__ import annotations
@@ -43,9 +43,10 @@ ELSEWHERE = "solve it with the semi-analytical solver"
 
 @dataclass(frozen=True)
 class Plan:
-    """Effects that the solve of a scene includes, and its numbers of increments.
+    """Plan of a solve: physical effects that it includes, and its numbers of increments.
 
-    The effects are pressure, and shear by friction, torsion or a tangential load.
+    The solver of load steps is chosen by the plan. The effects are pressure, and shear by friction,
+    torsion or a tangential load.
 
     coupled     true if pressure or bulk strain displaces the surfaces relative to each other, so
                 that friction acts under a normal load alone
@@ -53,11 +54,11 @@ class Plan:
     pushed      true with a tangential load
     increments  number of increments of each load step
     effects     all effects with reasons, for the output
-    direction   unit vector of the first tangential load; (1, 0) without one
+    direction   unit vector of the first tangential load in x and y; (1, 0) without one
     circle      angles of a contact at points (rings × angles), whose solve treats contact and
                 friction together; None if no such solve is necessary
-    fineness    multiple of the numbers of polynomials and quadrature points; with friction, of the
-                numbers of rings, angles and intermediate solves
+    fineness    factor on the numbers of polynomials and quadrature points, 1 by default; with
+                friction, factor on the numbers of rings, angles and intermediate solves
     """
 
     coupled: bool
@@ -92,14 +93,16 @@ class Plan:
 
     @property
     def has_shear(self) -> bool:
-        """Return true if the surfaces carry shear: by friction, torsion or a tangential load."""
+        """Return true if the surfaces carry shear by friction, torsion or a tangential load."""
         return self.coupled or self.twists or self.pushed
 
 
 def plan(scene: Scene) -> Plan:
-    """Determine the effects of a scene and the number of increments of each load step.
+    """Determine the physical effects of a scene and the number of increments of each load step.
 
     Raises UnsupportedScene if the solver does not support the scene.
+
+    scene  contact problem with its load history
     """
     scene = normal_form(scene)
     refuse_equator(scene)
@@ -146,12 +149,13 @@ def plan(scene: Scene) -> Plan:
 def _choose_circle(
     scene: Scene, frictional: bool, twists: bool, pushed: bool, curved: bool
 ) -> RingAngles | None:
-    """Determine the angles at which a contact with tangential load or torsion is solved on a ring.
+    """Choose the angles on a ring at which a contact with tangential load or torsion is solved.
 
-    A tangential load needs half a circle, or a whole one if the load turns or acts with torsion.
+    A tangential load needs half a circle, or a full one if the load turns or acts with torsion.
     Torsion alone needs one angle, unless its shear has a closed form. The result is None if no
     solve at points (rings × angles) is necessary.
 
+    scene       contact problem with its load history
     frictional  true if friction acts under a normal load alone
     twists      true with torsion
     pushed      true with a tangential load
@@ -174,13 +178,15 @@ def _path_increments(
 ) -> int:
     """Return the number of increments that the path dependence of friction requires in a load step.
 
-    Without a solve at points, a step is path-dependent if friction acts while the normal load or
-    the bulk strain changes. At points, the number is fixed if the normal load or the twist changes,
-    or if displacements are prescribed. Otherwise it is proportional to the change of the tangential
-    force over the friction limit. It is 1 if no load changes.
+    Without a solve at points (rings × angles), a load step is path-dependent if friction acts while
+    the normal load or the bulk strain changes. With such a solve, the number is fixed if the normal
+    load or the twist changes, or if displacements are prescribed. Otherwise the number is
+    proportional to the change of the tangential force over the friction limit. It is 1 if no load
+    changes.
 
+    scene       contact problem
     ramp        load step
-    circle      angles of a solve at points (rings × angles); None without such a solve
+    circle      angles of a solve at points; None without such a solve
     frictional  true if friction acts under a normal load alone
     """
     presses = ramp.normal.start != ramp.normal.end
@@ -202,7 +208,10 @@ def _path_increments(
 
 
 def _refuse_shape(scene: Scene) -> None:
-    """Raise UnsupportedScene if the indenter is not a body of revolution."""
+    """Raise UnsupportedScene if the indenter is not a body of revolution.
+
+    scene  contact problem, which contains the shape of the indenter
+    """
     indenter = scene.indenter
     if not indenter.is_of_revolution:
         raise UnsupportedScene(
@@ -214,12 +223,13 @@ def _refuse_shape(scene: Scene) -> None:
 def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) -> None:
     """Raise UnsupportedScene if the solver does not support the friction of a scene.
 
-    The solver does not support a coefficient of friction that varies over the surface. It supports
-    friction below an indenter with a rim only for torsion in closed form. Tangential load and
-    torsion at points require a coefficient above zero.
+    A coefficient of friction that varies over the surface is not supported. Friction below an
+    indenter with a rim is supported only for torsion in closed form. Tangential load and torsion at
+    points (rings × angles) require a coefficient above zero.
 
+    scene       contact problem with friction
     frictional  true if friction acts under a normal load alone
-    circle      angles of a solve at points (rings × angles); None without such a solve
+    circle      angles of a solve at points; None without such a solve
     """
     assert scene.friction is not None
     if scene.friction.coefficient_map is not None:
@@ -240,7 +250,10 @@ def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) 
 
 
 def _refuse_loads(scene: Scene) -> None:
-    """Raise UnsupportedScene if a load step prescribes a moment or a tilt."""
+    """Raise UnsupportedScene if a load step prescribes a moment or a tilt of the indenter.
+
+    scene  contact problem with its load history
+    """
     ramps = scene.load_path()
     if any(any(ramp.tilting.end) or ramp.tilting.kind is ControlKind.FORCE for ramp in ramps):
         raise UnsupportedScene(

@@ -11,11 +11,11 @@ from contact_scene.array_types import Array
 
 
 def contact_fraction(r: Array, start_radius: float, radius: float) -> Array:
-    """Return the fraction of an increment during which points at given radii are in contact (n,).
+    """Compute the fraction of an increment during which points are in contact (n,) [1].
 
-    The contact radius changes linearly in the increment. Points that a growing contact reaches slip
-    only after the passage of its edge, so their slip is multiplied by this fraction. The fraction
-    is 1 in a shrinking contact.
+    The contact radius changes linearly in the increment. In a growing contact, a point slips only
+    after the contact edge has reached the point. The caller multiplies the slip of the increment by
+    this fraction. The fraction is 1 in a shrinking contact.
 
     r                     radii of the points (n,) [length]
     start_radius, radius  contact radius at the start and at the end of the increment [length]
@@ -32,10 +32,10 @@ def extrapolate_stick_radius(
 ) -> float:
     """Extrapolate the stick radius to the end of an increment of the normal load [length].
 
-    The increment gives only the radius of the zone that sticks throughout, which is the stick
-    radius at its middle. The stick radius half an increment later is extrapolated linearly in the
-    contact radius, from the middles of this and the preceding increment. After a reversal of the
-    load the radius of the middle is returned.
+    The solve of an increment gives only the radius of the zone that sticks throughout, which is the
+    stick radius at the middle of the increment. The stick radius half an increment later is
+    extrapolated linearly in the contact radius, from the middles of this and of the preceding
+    increment. After a reversal of the load, the stick radius at the middle is returned.
 
     radius         contact radius at the end of this increment [length]
     start_radius   contact radius at the start of this increment [length]

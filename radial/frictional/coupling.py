@@ -1,4 +1,7 @@
-"""Surface displacements of both bodies by pressure and radial shear, for any contact radius."""
+"""Surface displacements of both bodies by axisymmetric pressure and radial shear, as matrices.
+
+Used for the contact with friction under a normal load. The contact radius is arbitrary.
+"""
 
 from __future__ import annotations
 
@@ -21,14 +24,16 @@ from semi_analytical.frf.stack import Stack, stack_of
 
 
 class RingResponse(NamedTuple):
-    """Compliance matrices between rings, of both bodies [length³/force].
+    """Compliance matrices of both bodies between rings of an axisymmetric contact [length³/force].
 
-    Rows are the positions of displacements, columns the nodes of tractions (see `Rings`).
+    Rows are the positions of displacements: nodes of the radius, then points outside the contact.
+    Columns are the nodes with tractions. Displacements are those of the lower body relative to the
+    indenter.
 
-    zz  normal displacement into the body, by pressure
-    zr  normal displacement into the body, by radial shear
-    rz  radial displacement, by pressure
-    rr  radial displacement, by radial shear
+    zz  normal displacement into the lower body, by pressure
+    zr  normal displacement into the lower body, by radial shear
+    rz  radial displacement by pressure
+    rr  radial displacement by radial shear
     """
 
     zz: Array
@@ -39,7 +44,7 @@ class RingResponse(NamedTuple):
 
 @dataclass(frozen=True)
 class Coupling:
-    """Elastic response of the surfaces of both bodies to pressure and shear.
+    """Elastic response of the surfaces of both bodies to pressure and shear, with their coupling.
 
     Displacements are those of the lower body relative to the indenter. Direct responses (normal by
     pressure, tangential by shear) of both bodies add. Coupling responses (normal by shear,
@@ -49,8 +54,9 @@ class Coupling:
     stacks   each body with layers, with the sign of its coupling response: 1 for the lower body, -1
              for the indenter
     direct   Σ (1-ν)/G of the outermost materials [length²/force]
-    across   Σ 1/G [length²/force]
-    crossed  Σ ± (1-2ν)/2G, plus for the lower body, minus for the indenter [length²/force]
+    across   Σ 1/G of the outermost materials [length²/force]
+    crossed  Σ ± (1-2ν)/2G of the outermost materials, plus for the lower body, minus for the
+             indenter [length²/force]
     """
 
     bodies: Bodies
@@ -61,7 +67,10 @@ class Coupling:
 
     @classmethod
     def of(cls, scene: Scene) -> Coupling:
-        """Create the elastic response of the surfaces of a scene to pressure and shear."""
+        """Create the elastic response of the surfaces of both bodies to pressure and shear.
+
+        scene  contact problem, which gives the materials and layers of both bodies
+        """
         stacks = ((stack_of(scene.body), 1.0), (stack_of(scene.indenter), -1.0))
         outer = [(stack.outer, sign) for stack, sign in stacks if not stack.is_rigid]
         return cls(
@@ -73,12 +82,13 @@ class Coupling:
         )
 
     def response(self, rings: Rings, radius: float) -> RingResponse:
-        """Compute the compliance matrices between rings of a contact.
+        """Compute the compliance matrices between the rings of a contact with given radius.
 
-        The outermost materials have closed forms or quadratures. Layers add u = ∫ k F t~ J dk, with
-        the frequency response F, the transform t~ of the traction and a Bessel function J.
+        The responses of half-spaces of the outermost materials have closed forms or quadratures.
+        Layers add u = ∫ k F t~ J dk, with the frequency response F, the transform t~ of the
+        traction and a Bessel function J.
 
-        rings   nodes over the contact
+        rings   nodes along the radius of the contact, and points outside
         radius  contact radius [length]
         """
         by_pressure, by_shear = rings.direct_responses
@@ -95,12 +105,14 @@ class Coupling:
         return RingResponse(zz, zr, rz, rr)
 
     def frictionless_displacement(self, contact: Disc, rings: Rings) -> Array:
-        """Return the radial surface displacement by the pressure without friction (rows,) [length].
+        """Compute the radial surface displacement by the pressure without friction [length].
 
         The displacement is that of the lower body relative to the indenter, at the nodes of the
-        rings and at points outside (`Rings.places`).
+        rings and at points outside the contact (rows,). It is the displacement against which
+        friction acts.
 
-        contact  frictionless contact
+        contact  frictionless contact, which gives the pressure
+        rings    nodes along the radius of the contact, and points outside
         """
         a, x = contact.radius, rings.places
         found = -self.crossed * a * x * half_mean_pressure(contact, x)

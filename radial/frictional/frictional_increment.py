@@ -1,4 +1,7 @@
-"""Slip, stick radius and energies of an increment of normal loading with friction."""
+"""State of a contact with friction under a normal load at the end of an increment.
+
+The module computes slip, stick radius and energies from the solved tractions.
+"""
 
 from __future__ import annotations
 
@@ -19,24 +22,27 @@ from radial.normal.pressing import Target
 
 @dataclass(frozen=True)
 class FrictionalState:
-    """State of a contact with friction at the end of an increment of normal loading.
+    """State of a contact with friction under a normal load at the end of an increment.
+
+    The next increment starts from this state.
 
     end               solved contact, with the slip of the increment
     target            prescribed normal force or approach
-    slip              radial slip at the output rings since first contact of two particles (n,)
+    slip              radial slip since first contact of two particles, at the output rings (n,)
                       [length]; the rings are equal in all increments, so sticking particles keep
                       their slip exactly
     start_radius      contact radius at the start of the increment; 0 for the first increment
                       [length]
     mid_stick_radius  radius of the zone that sticks throughout the increment, which is the stick
                       radius at its middle [length]
-    front             stick radius at the end [length]
+    front             stick radius at the end of the increment [length]
     work              work of the load since the start of the history [force length]
     dissipated        energy dissipated since the start of the history [force length]
     uncertainty       uncertainty of `dissipated` by finite increments [force length]
-    power             exponent of the prescribed quantity as a power of the contact radius
+    power             exponent b of the local power law: force (or approach) ∝ contact radius to the
+                      b
     iterations        number of contact radii tried
-    strain            bulk strain of the lower body since first contact, equal in all directions
+    strain            bulk strain of the lower body since first contact, equal in all directions [1]
     """
 
     end: FrictionalContact
@@ -59,20 +65,21 @@ class FrictionalState:
 
     @property
     def approach(self) -> float:
-        """Return the approach of the indenter, prescribed or computed [length].
+        """Return the approach of the indenter since first contact, prescribed or computed [length].
 
-        With a spring in the rig (test machine) it is the approach of the far end of the spring.
+        With a spring in the rig (test machine) the value is the approach of the far end of the
+        spring.
         """
         prescribed = self.target.approach
         return self.target.actuator_approach(self.end) if prescribed is None else prescribed
 
     def interpolate_nodes(self, field: Array, r: Array) -> Array:
-        """Interpolate a field of this state linearly from the nodes to given radii (n,).
+        """Interpolate a nodal field of this contact linearly to given radii (n,).
 
         Used because the contacts of successive increments have different nodes along the radius.
         The field is zero outside the contact.
 
-        field  values at the nodes (nodes,)
+        field  values at the nodes of this contact (nodes,)
         r      radii (n,) [length]
         """
         return np.asarray(np.interp(r, self.end.radius * self.end.rings.x, field, right=0.0))
@@ -95,9 +102,9 @@ def frictional_state(
     target      prescribed normal force or approach
     radii       radii of the output rings (n,) [length]
     before      state at the start of the increment; None before first contact
-    power       exponent of the prescribed quantity as a power of the contact radius
+    power       exponent b of the local power law: force (or approach) ∝ contact radius to the b
     iterations  number of contact radii tried
-    strain      bulk strain of the lower body since first contact, equal in all directions
+    strain      bulk strain of the lower body since first contact, equal in all directions [1]
     """
     x, a = end.rings.x, end.radius
     start_radius, force, depth = 0.0, 0.0, 0.0
@@ -135,11 +142,11 @@ def frictional_state(
 
 
 def stick_radius_ratio(end: FrictionalContact) -> float:
-    """Compute the stick radius over the contact radius from the slip of the nodes [1].
+    """Compute the stick radius over the contact radius from the slip at the nodes [1].
 
     The stick radius is that of a circle with the area of the stick zone. Near the border of the
-    stick zone, slip is proportional to the power 3/2 of the distance. This law determines the
-    border between two nodes.
+    stick zone, slip is proportional to the power 3/2 of the distance from the border. This law
+    determines the position of the border between two nodes.
 
     end  solved contact at the end of the increment
     """
@@ -160,10 +167,10 @@ def stick_radius_ratio(end: FrictionalContact) -> float:
 
 
 def finite_pressure(end: FrictionalContact) -> Array:
-    """Return the nodal pressure with a finite value at the axis (n + 1,) [force/length²].
+    """Return the nodal pressure of a contact, with a finite value at the axis [force/length²].
 
     Below a tip the pressure at the axis is infinite. It is replaced by the pressure at the adjacent
-    node.
+    node. The shape is (n + 1,). Used for friction limits.
 
     end  solved contact
     """

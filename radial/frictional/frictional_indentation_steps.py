@@ -67,12 +67,12 @@ MIDDLE = 0.5  # initial guess of the stick radius over the contact radius
 
 @dataclass(frozen=True)
 class FrictionalSteps(StepsOnRings):
-    """Solver of the increments of normal loading with friction.
+    """Solver of load steps of a contact with friction under a normal load.
 
     coupling   elastic response of both bodies
     friction   friction law
-    tolerance  upper bound of every residual
-    fineness   multiple of the number of rings, and of the number of solves within an increment
+    tolerance  upper bound of every residual [1]
+    fineness   factor on the number of rings, and on the number of solves within an increment
     radii      radii of the output rings (n,) [length]
     """
 
@@ -86,13 +86,13 @@ class FrictionalSteps(StepsOnRings):
     def of(
         cls, scene: Scene, discretisation: RadialDiscretisation, fineness: float
     ) -> FrictionalSteps:
-        """Create the solver of load steps with friction under normal load, for a scene.
+        """Create the solver of load steps with friction under a normal load, for a scene.
 
         The output rings are placed over the largest contact of the load history.
 
         scene           contact problem
         discretisation  number of output rings, and tolerance of the residuals
-        fineness        multiple of the number of rings, and of the number of solves within an
+        fineness        factor on the number of rings, and on the number of solves within an
                         increment
         """
         coupling = Coupling.of(scene)
@@ -111,7 +111,10 @@ class FrictionalSteps(StepsOnRings):
         before: FrictionalState | None,
         fraction: float,
     ) -> FrictionalState:
-        """Solve the contact at a fraction of a load step, through contacts of intermediate radii.
+        """Solve the contact with friction under a normal load at a fraction of a load step.
+
+        A large increment passes through contacts of intermediate radii, because the stick zone
+        depends on the path.
 
         ramp      load step
         start     state at the start of the load step; None without contact
@@ -156,19 +159,23 @@ class FrictionalSteps(StepsOnRings):
     def _contact_solver(
         self, rings: Rings, before: FrictionalState | None, strain: float
     ) -> Callable[[float], FrictionalContact]:
-        """Return a function that solves pressure and shear of a contact of given radius [length].
+        """Return a function that solves pressure and shear of a contact for a given radius.
 
-        The slip zone of the last solve is the initial guess of the next one.
+        The function is used in the search for the contact radius. The slip zone of its last solve
+        is the initial guess of the next one.
 
-        rings   nodes over the contact
-        before  state of the preceding contact; None before first contact
+        rings   nodes along the radius of the contact
+        before  state at the start of the increment; None before first contact
         strain  bulk strain of the lower body, equal in all directions [1]
         """
         radial_displacement = _reference_displacement(before, strain)
         like = before.end if before else None
 
         def solve(radius: float) -> FrictionalContact:
-            """Solve pressure and shear of a contact with friction of a given radius [length]."""
+            """Solve pressure, shear and slip zone of a contact with friction and given radius.
+
+            radius  contact radius [length]
+            """
             nonlocal like
             like = frictional_contact(
                 self.coupling, self.scene.indenter, radius, rings, self.friction,
@@ -179,11 +186,11 @@ class FrictionalSteps(StepsOnRings):
         return solve
 
     def _first_radius(self, target: Target, before: FrictionalState | None) -> tuple[float, int]:
-        """Estimate the contact radius under a prescribed load, as an initial guess [length].
+        """Estimate the contact radius under a prescribed normal load, as an initial guess [length].
 
         The estimate is extrapolated from the previous contact by a power law. Before first contact
-        it is the radius without friction. The second result is the number of radii tried for the
-        estimate.
+        the estimate is the radius without friction. The second result is the number of radii tried
+        for the estimate.
 
         target  prescribed normal force or approach
         before  state of the previous contact; None before first contact
@@ -196,12 +203,11 @@ class FrictionalSteps(StepsOnRings):
 
     @staticmethod
     def _load_exponent(target: Target, before: FrictionalState | None) -> float:
-        """Estimate the exponent of the normal load as a power of the contact radius.
+        """Estimate the exponent b of the power law: force (or approach) ∝ contact radius to the b.
 
-        The load is the prescribed force or approach. The exponent is that of the previous state if
-        this state prescribes an equal quantity. Otherwise it is 3 for a force and 2 for an
-        approach, as in Hertz contact. Used for the initial guess and the first secant step of the
-        contact radius.
+        Used for the initial guess and the first secant step of the contact radius. The exponent is
+        that of the previous state if the same quantity was prescribed there. Otherwise it is 3 for
+        a force and 2 for an approach, as in Hertz contact.
 
         target  prescribed normal force or approach
         before  state of the previous contact; None before first contact
@@ -282,10 +288,10 @@ class FrictionalSteps(StepsOnRings):
         return add_contact_displacements(increment, self.scene.rig)
 
     def _shear_at_rings(self, state: FrictionalState, p: Array, r: Array) -> Array:
-        """Interpolate the radial shear to the output rings (n,) [force/length²].
+        """Interpolate the radial shear of a contact to the output rings (n,) [force/length²].
 
         The ratio of shear to friction limit is interpolated from the nodes and multiplied by the
-        friction limit at the rings. Interpolation of the shear would be less accurate.
+        friction limit at the rings. This is more accurate than interpolation of the shear.
 
         state  state at the end of the increment
         p      pressure at the rings (n,) [force/length²]
@@ -306,7 +312,7 @@ def _reference_displacement(
     by the change of the bulk strain is subtracted.
 
     before  preceding state; None before first contact
-    strain  bulk strain at the end of the increment [1]
+    strain  bulk strain of the lower body at the end of the increment [1]
     """
     if before is None:
         return lambda radii: -strain * radii
@@ -316,9 +322,10 @@ def _reference_displacement(
 
 
 def _decaying_interpolant(r: Array, field: Array, limit: float) -> Callable[[Array], Array]:
-    """Return an interpolant of a surface field that continues outside the given positions.
+    """Return a function that interpolates a surface displacement and continues it to all radii.
 
-    Beyond the last position the field decays as 1/r to the value `limit`.
+    The displacement is known at positions in the contact and near it. Beyond the last position the
+    function decays as 1/r to the value `limit`.
 
     r      positions, from the axis to outside the contact [length]
     field  values at these positions
@@ -327,7 +334,7 @@ def _decaying_interpolant(r: Array, field: Array, limit: float) -> Callable[[Arr
     spline, last = CubicSpline(r, field), r[-1]
 
     def evaluate(radii: Array) -> Array:
-        """Evaluate the interpolated and continued surface field at given radii (…).
+        """Evaluate the interpolated and continued surface displacement at given radii (…).
 
         radii  radii, inside or outside the contact [length]
         """
@@ -338,9 +345,10 @@ def _decaying_interpolant(r: Array, field: Array, limit: float) -> Callable[[Arr
 
 
 def _intermediate_radii(start_radius: float, end: float, growth: float) -> Array:
-    """Return contact radii between the start and the end of an increment, in equal ratios.
+    """Return contact radii between the start and the end of an increment, in equal ratios [length].
 
-    The contact is solved at each of these radii, because the stick zone depends on the path.
+    The contact with friction is solved at each of these radii, because the stick zone depends on
+    the path. The start and the end are not included.
 
     start_radius, end  contact radius at the start and at the end of the increment [length]
     growth             largest ratio of adjacent radii
@@ -350,13 +358,13 @@ def _intermediate_radii(start_radius: float, end: float, growth: float) -> Array
 
 
 def _guess_slip_signs(was: FrictionalContact | None, rings: Rings) -> Signs:
-    """Return an initial guess of the slip zone of a contact from another contact (n + 1,).
+    """Return an initial guess of the slip zone of a contact, from another solved contact (n + 1,).
 
     The values are the signs of the shear of slipping nodes, and 0 for sticking nodes. A node takes
     the value of the other contact at an equal fraction of the contact radius.
 
     was    other contact; None for full stick
-    rings  nodes of the new contact
+    rings  n + 1 nodes of the new contact
     """
     if was is None:
         return np.zeros(len(rings.x), dtype=np.int64)
@@ -364,7 +372,7 @@ def _guess_slip_signs(was: FrictionalContact | None, rings: Rings) -> Signs:
 
 
 def _slip_direction_residual(end: FrictionalContact, friction: CoulombFriction) -> float:
-    """Compute the residual of the direction of slip in an increment with friction [1].
+    """Compute the residual of the friction law's condition that slip opposes the shear [1].
 
     The residual is |∫ (b|Δs| + q Δs) dA| / ∫ b|Δs| dA, with the friction limit b, the shear q and
     the slip Δs of the increment. It is zero where slip opposes a shear at the limit. Slip below

@@ -38,13 +38,14 @@ OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
 
 @dataclass(frozen=True, eq=False)
 class Rings:
-    """Nodes along the radius of a contact disc, and responses of half-spaces to tractions on them.
+    """Nodes along the radius of a contact disc, with responses of half-spaces to tractions.
 
     Tractions are hat functions φ of the nodes (linear between nodes) times √(1-x²), with x = r/a
     and the contact radius a. The responses are matrices. Their rows are the positions of
     displacements: the nodes, then points outside the contact. Their columns are nodal tractions:
     pressure at the nodes 0 to n - 1, or radial shear at the nodes 1 to n - 1. In the last element
-    tractions are multiples of √(1-x²). Objects are created by `rings_for_stick_radius`.
+    (interval between two nodes) tractions are multiples of √(1-x²). Objects are created by
+    `rings_for_stick_radius`.
 
     x  radii of the n + 1 nodes over the contact radius, from 0 to 1
     """
@@ -60,17 +61,18 @@ class Rings:
     def places(self) -> Array:
         """Return the radii at which displacements are evaluated, over the contact radius (rows,).
 
-        They are the n + 1 nodes, then points outside the contact. All response matrices have these
-        rows.
+        They are the n + 1 nodes, then points outside the contact. The rows of all response matrices
+        belong to these radii.
         """
         return np.concatenate([self.x, OUTSIDE])
 
     @cached_property
     def weights(self) -> Array:
-        """Return the weights of nodal tractions in integrals over the contact area (n + 1,).
+        """Return the weights of nodal tractions in integrals over the contact area (n + 1,) [1].
 
         A weight is ∫ φ x dx, with the hat function φ of the node, which contains the factor
-        √(1-x²), and x = r/a. ∫ p dA is 2πa² times the sum of weights and nodal values.
+        √(1-x²), and x = r/a. The normal force ∫ p dA is 2πa² times the sum of the products of
+        weights and nodal pressures.
         """
         return self._sum_at_nodes(*self._integrate_hats(1))
 
@@ -79,8 +81,8 @@ class Rings:
 
         The ratio of the traction to √(1-x²) is interpolated linearly.
 
-        field  traction at the nodes (n + 1,)
-        x      radii over the contact radius
+        field  traction at the nodes (n + 1,) [force/length²]
+        x      radii over the contact radius (any shape)
         """
         share = field[:-1] / _edge_root(self.x[:-1])
         return np.asarray(np.interp(x, self.x[:-1], share) * _edge_root(np.minimum(x, 1.0)))
@@ -141,10 +143,11 @@ class Rings:
         return by_shear[:, 1:-1], (by_pressure / reach)[:, :-1]
 
     def _integrate_hats(self, power: int) -> tuple[Array, Array]:
-        """Integrate the hat functions φ over every element, ∫ φ xᵐ dx.
+        """Integrate the hat functions φ of the nodes over each element of the radius, ∫ φ xᵐ dx.
 
-        Hat functions contain the factor √(1-x²). The two results (n,) belong to the hats of the
-        inner and of the outer node of each element.
+        An element is the interval between two nodes. Hat functions contain the factor √(1-x²) of
+        tractions. The first result (n,) belongs to the hats of the inner nodes of the elements, the
+        second to those of the outer nodes.
 
         power  exponent m of the radius x = r/a
         """
@@ -157,15 +160,15 @@ class Rings:
         return left.sum(-1), right.sum(-1)
 
     def _weighted_hats(self, s: Array, share: Array, weights: Array) -> tuple[Array, Array]:
-        """Evaluate hat functions at points of elements, multiplied by weights.
+        """Evaluate the hat functions of nodes at points of the elements, multiplied by weights.
 
-        The two results (…, n, points) are the hats of the inner and of the outer node of each
-        element. Hats contain the factor √(1-x²). In the last element the hat of the inner node
-        represents the whole traction.
+        An element is the interval between two nodes. The two results (…, n, points) are the hats of
+        the inner and of the outer node of each element. Hats contain the factor √(1-x²) of
+        tractions. In the last element the hat of the inner node represents the whole traction.
 
-        s        points (…, n, points)
-        share    fraction of the element between its inner node and the point
-        weights  factors of the result
+        s        points in the elements, over the contact radius (…, n, points)
+        share    fraction of the element between its inner node and the point (…, n, points)
+        weights  factors of the result, such as quadrature weights (…, n, points)
         """
         root = _edge_root(self.x)
         known = _edge_root(s) * weights
@@ -177,7 +180,10 @@ class Rings:
 
     @staticmethod
     def _sum_at_nodes(left: Array, right: Array) -> Array:
-        """Sum integrals over elements, the intervals between nodes, at their nodes (…, n + 1).
+        """Sum integrals over the elements of the radius at their nodes (…, n + 1).
+
+        An element is the interval between two nodes. Each node receives the contributions of both
+        adjacent elements.
 
         left, right  contributions of every element to its inner and to its outer node (…, n)
         """
@@ -188,16 +194,18 @@ class Rings:
 
     @cache_within_bytes(MAX_CACHED)
     def transforms(self, waves: Waves) -> tuple[Array, Array, Array, Array]:
-        """Compute Hankel transforms of the hat functions, and Bessel functions at the positions.
+        """Compute Hankel transforms of the hat functions of nodes, for displacements by layers.
 
-        Layers add displacements that are integrals of the products of both over the wavenumber κ. φ
-        is the hat function of a node. Rows are positions x of displacements, columns nodes of
-        tractions. The four results are
+        Layers add displacements that are integrals of transforms of tractions times Bessel
+        functions at the positions of displacements, over the wavenumber κ. Rows are positions x of
+        displacements, columns nodes of tractions with the hat function φ. The four results are
 
             ∫ φ J₀(κs) s ds for the pressure,    ∫ φ J₁(κs) s ds for the shear    (κ, columns)
             J₀(κx),    J₁(κx)    (rows, κ)
 
-        with κ of the panels `waves`. The results are cached.
+        The results are cached.
+
+        waves  quadrature over wavenumbers κ, multiplied by the contact radius
         """
         kappa = waves.rule[0]
         length = np.diff(self.x)[:, None]
@@ -223,10 +231,10 @@ def _edge_root(x: Array) -> Array:
 
 
 def layout_number(front: float) -> int:
-    """Return the number of the ring layout that is dense at a given stick radius.
+    """Return the number of the ring layout whose nodes are dense at a given stick radius c.
 
-    The number is log(c/(a - c)), rounded to multiples of an interval. Stick radii in one interval
-    share their rings, whose response matrices are cached.
+    The number is log(c/(a - c)) with the contact radius a, rounded to multiples of 0.08. Similar
+    stick radii thus share their rings, whose response matrices are cached.
 
     front  stick radius over the contact radius, c/a
     """
@@ -247,7 +255,7 @@ def rings_for_stick_radius(front: float, count: int) -> Rings:
 
 @lru_cache(maxsize=CACHED)
 def _create_rings(place: int, count: int) -> Rings:
-    """Create the rings of a layout: dense at the stick radius, at the axis and at the contact edge.
+    """Create nodes along the radius of a contact, dense at stick radius, axis and contact edge.
 
     place  number of the layout, returned by `layout_number` for a stick radius
     count  approximate number of rings, without those of dense regions

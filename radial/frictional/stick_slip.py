@@ -51,13 +51,14 @@ ALL_AT_ONCE = 8
 
 @dataclass(frozen=True)
 class FrictionalContact:
-    """Solution of a contact with friction, of a given contact radius.
+    """Solution of an axisymmetric contact with friction that has a given contact radius.
 
     Fields are (n + 1,) at the nodes of the rings unless stated otherwise. Rows are the nodes and
-    points outside the contact.
+    points outside the contact. u_r and u_z are displacements of the lower body relative to the
+    indenter.
 
-    contact              frictionless contact of the same radius
-    rings                nodes over the contact
+    contact              frictionless contact of equal radius
+    rings                nodes along the radius of the contact
     pressure_change      Δp, pressure minus that of `contact` [force/length²]
     shear                q, radial shear on the lower body, positive outward [force/length²]
     approach_change      approach minus that of `contact` [length]
@@ -66,7 +67,7 @@ class FrictionalContact:
     slip_increment       u_r minus the displacement that stick requires: the slip of the increment
                          [length]
     sliding              0 at a sticking node, else the sign of q
-    residual             residual of the gap over the approach [1]
+    residual             largest error of the closed gap over the approach [1]
     """
 
     contact: Disc
@@ -101,16 +102,18 @@ class FrictionalContact:
         return pressure(self.contact, self.rings.x) + self.pressure_change
 
     def integrate_over_contact(self, field: Array) -> float:
-        """Integrate a nodal field over the contact area, ∫ f dA.
+        """Integrate a nodal traction (or its product with a displacement) over the contact area.
 
-        field  f at the nodes (n + 1,); zero at the edge, where it varies as √(1-x²)
+        field  values at the nodes (n + 1,); zero at the edge, where the field varies as √(1-x²), x
+               = r/a
         """
         return float(2 * pi * self.radius**2 * (self.rings.weights @ field))
 
     def elastic_energy(self, gap: Array) -> float:
-        """Return the elastic energy of both bodies, ½ ∫ (p u_z + q u_r) dA [force length].
+        """Compute the elastic energy of both bodies, ½ ∫ (p u_z + q u_r) dA [force length].
 
-        Within the contact u_z = δ - f, with the approach δ and the undeformed gap f.
+        p and q are pressure and radial shear. Within the contact u_z = δ - f, with the approach δ
+        and the undeformed gap f.
 
         gap  f at the nodes (n + 1,) [length]
         """
@@ -136,7 +139,7 @@ def frictional_contact(
     coupling  elastic response of both bodies
     indenter  shape of the indenter
     radius    contact radius [length]
-    rings     nodes over the contact
+    rings     n + 1 nodes along the radius of the contact
     friction  friction law
     before    radial displacement that stick requires, at the nodes and points outside (rows,)
               [length]
@@ -175,17 +178,20 @@ def _solve_stick_and_slip(
     response: RingResponse, n: int, friction: CoulombFriction, smooth: Array,
     stick_displacement: Array, guess: Signs, places: Array,
 ) -> tuple[Array, Signs]:  # fmt: skip
-    """Solve for pressure change, shear and slip zone of a contact of given radius.
+    """Solve for pressure change, radial shear and slip zone of a contact of given radius.
 
-    The method is semismooth Newton: each step solves a linear system with fixed sticking and
-    slipping nodes. Returns the vector of Δp, q and the change of the approach, and the signs of the
-    shear of slipping nodes. Δp is the pressure minus that without friction.
+    The pressure change Δp is the pressure minus that of the frictionless contact. The method is
+    semismooth Newton: each step solves a linear system with fixed sticking and slipping nodes. The
+    function returns the vector of Δp, the shear q and the change of the approach, and the signs of
+    the shear of slipping nodes.
 
     response            compliance matrices between rings
-    n                   number of elements
+    n                   number of elements, the intervals between nodes
     friction            friction law
     smooth              pressure without friction, at the nodes between axis and edge (n - 1,)
+                        [force/length²]
     stick_displacement  radial displacement by Δp and q that stick requires, at these nodes (n - 1,)
+                        [length]
     guess               initial guess of the signs of the shear, 0 for sticking nodes (n - 1,)
     places              radii of these nodes over the contact radius (n - 1,)
     """

@@ -102,10 +102,13 @@ def layer_responses(stacks: tuple[tuple[Stack, float], ...], waves: Waves, radiu
     """Compute the contribution of layers to the surface displacements at wavenumbers k (4, κ).
 
     The contribution of a body is its response minus that of a half-space of its outermost material.
-    A response is a displacement per unit traction, times k [length²/force]. The four rows are the
-    displacement along the wave vector by shear along it, the coupling of this direction with the
-    normal, the normal displacement by pressure, and the displacement across the wave vector by
-    shear across. The rows are summed over the bodies. The results are cached.
+    A response is a displacement per unit traction, times k [length²/force]. The rows are summed
+    over the bodies. The results are cached. The four rows are
+
+        displacement along the wave vector by shear in this direction,
+        coupling of this direction with the normal,
+        normal displacement by pressure,
+        displacement across the wave vector by shear across the wave vector.
 
     stacks  bodies with layers, with the sign of their coupling response: 1 for the lower body, -1
             for the indenter

@@ -92,7 +92,8 @@ class Waves(NamedTuple):
 
             ∫₀¹ f(t) cos κt dt = Σ c_l Re iˡ exp(iκ/2) j_l(κ/2),    f = Σ c_l P_l(2t - 1)
 
-        j_l is the spherical Bessel function. Used for the Abel transform of the undeformed gap.
+        j_l is the spherical Bessel function. The shape is (κ,). Used for the Abel transform of the
+        undeformed gap.
 
         coefficients  coefficients c_0, c_1, … of f
         """
