@@ -24,9 +24,9 @@ FEW_ORDERS, NEAR = 16, 0.05
 def wavenumbers(scene: Scene) -> int:
     """Estimate the number of wavenumbers needed for the layers at the largest contact of a scene.
 
-    The estimate is used before the solve, because its memory increases with this number. At least
-    one body must have layers. Raises UnsupportedScene if the contact radius is too large for the
-    thickness of the layers.
+    The memory of the solve increases with this number. The estimate is made before the solve. At
+    least one body must have layers. Raises UnsupportedScene if the contact radius is too large for
+    the thickness of the layers.
 
     scene  contact problem
     """

@@ -102,8 +102,9 @@ class StepsOnRings:
     def most_spent(self) -> float:
         """Return the work of the solver above which an increment is not bisected again.
 
-        An increment that does not converge is divided into halves until this limit. Load stepping
-        compares the value with `spent`. The value 0 sets no limit, because `spent` returns 0 here.
+        Load stepping divides an increment that does not converge into halves, until the work for
+        the increment exceeds this value. The work is the increase of `spent`. The value 0 sets no
+        limit, because `spent` returns 0 here.
         """
         return 0.0
 

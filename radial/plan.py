@@ -72,7 +72,7 @@ class Plan:
 
     @property
     def rings(self) -> int:
-        """Return the number of rings inside the largest contact, for a solve at rings × angles.
+        """Return the number of rings inside the largest contact, for a solve at points on rings.
 
         The number does not include the dense rings at contact edges.
         """
@@ -80,7 +80,7 @@ class Plan:
 
     @property
     def highest(self) -> int:
-        """Return the highest angular harmonic of the tractions, for a solve at rings × angles."""
+        """Return the highest angular harmonic of the tractions, for a solve at points on rings."""
         return round(self.fineness * ANGLES)
 
     @property

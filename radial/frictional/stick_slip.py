@@ -104,8 +104,8 @@ class FrictionalContact:
     def integrate_over_contact(self, field: Array) -> float:
         """Integrate a nodal traction (or its product with a displacement) over the contact area.
 
-        field  values at the nodes (n + 1,); zero at the edge, where the field varies as √(1-x²), x
-               = r/a
+        field  values at the nodes (n + 1,); zero at the edge, where the field varies as √(1-x²),
+               x = r/a
         """
         return float(2 * pi * self.radius**2 * (self.rings.weights @ field))
 

@@ -158,9 +158,9 @@ class Disc:
 class _Galerkin:
     """Galerkin equations for the contribution of layers to the pressure of a frictionless contact.
 
-    The contact radius is given. The pressure is the Abel transform of a function G = f + C on 0 < t
-    < 1. f is the part without layers. C is the contribution of the layers, a series of Legendre
-    polynomials of even order with the unknown coefficients c_n.
+    The contact radius is given. The pressure is the Abel transform of a function G = f + C on
+    0 < t < 1. f is the part without layers. C is the contribution of the layers, a series of
+    Legendre polynomials of even order with the unknown coefficients c_n.
 
     waves   quadrature over dimensionless wavenumbers κ
     count   number of coefficients c_n

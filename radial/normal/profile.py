@@ -127,8 +127,8 @@ def _fit_gap(indenter: ShapedBody, radius: float, count: int) -> Array:
 def _chebyshev_fit(count: int) -> tuple[Array, Array]:
     """Return Chebyshev points on 0 < x < 1, and the matrix that fits a Chebyshev series at them.
 
-    The matrix (count, count) maps values at the points to coefficients of the polynomials of 2x -
-    1. Used to represent the undeformed gap over a contact.
+    The matrix (count, count) maps values at the points to coefficients of the polynomials of
+    2x - 1. Used to represent the undeformed gap over a contact.
 
     count  number of points and of coefficients
     """

@@ -102,12 +102,11 @@ class Waves(NamedTuple):
 
     @cache_within_bytes(MAX_CACHED)
     def _legendre_transforms(self, count: int) -> Array:
-        """Compute the cosine transforms of shifted Legendre polynomials (count, κ).
+        """Compute the cosine transforms of Legendre polynomials P_l(2t - 1) at all wavenumbers κ.
 
             ∫₀¹ P_l(2t - 1) cos κt dt = Re iˡ exp(iκ/2) j_l(κ/2),    l < count
 
-        j is the spherical Bessel function. The transforms are computed at all wavenumbers κ and
-        cached.
+        j is the spherical Bessel function. The shape is (count, κ). The results are cached.
 
         count  number of polynomials
         """
@@ -136,7 +135,7 @@ def waves(shortest: float, longest: float, reach: float, fineness: int = 1) -> W
 
 
 def wave_blocks(count: int, size: int) -> Iterator[slice]:
-    """Yield slices of an array of wavenumbers, for functions of them that need much memory.
+    """Yield slices of an array of wavenumbers, to evaluate large functions of them in blocks.
 
     The values of the functions on one slice take about 8 MiB.
 

@@ -93,8 +93,8 @@ def fit_tangential_circle(
 
     radii               radii of the nodes (n,) [length]
     angles              angles from 0 to π (J + 1,) [radian]
-    outward, around, p  radial shear q_r, circumferential shear q_θ and pressure at the nodes (n, J
-                        + 1) [force/length²]
+    outward, around, p  radial shear q_r, circumferential shear q_θ and pressure at the nodes
+                        (n, J + 1) [force/length²]
     fit                 settings of the fit near the contact edge
     raises              UnsupportedScene if too few rings resolve the edge
     """

@@ -54,9 +54,9 @@ class LayerContribution:
     ) -> Array:
         """Compute displacement and stress by layers at given depths and positions (levels, 9, n).
 
-        Above the underside of the outermost layer, the fields are added to those of a half-space.
-        Below, they are the whole fields. They are u_r, u_θ, u_z [length] and σ_rr, θθ, zz, θz, rz,
-        rθ [force/length²].
+        In the outermost layer the caller adds the results to the fields of a half-space. Below the
+        outermost layer the results are the whole fields. The fields are u_r, u_θ, u_z [length] and
+        σ_rr, θθ, zz, θz, rz, rθ [force/length²].
 
         sources   Hankel transforms of q_r + i q_θ, q_r - i q_θ and the pressure for the angular
                   harmonics 0 … M, times quadrature weights (3, M + 1, κ)

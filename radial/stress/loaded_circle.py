@@ -23,7 +23,7 @@ PANEL, LOAD_POINTS, HARMONICS = 16, 128, 15
 
 @dataclass(frozen=True, eq=False)
 class LoadedCircle:
-    """Pressure and shear on the lower body over a circular contact area, divided by √(1-η²).
+    """Pressure and shear on the lower body over a circular contact area, zero at its edge.
 
     The tractions are `smooth` times √(1-η²), where η is the distance from the centre over the
     radius. The stress below the surface is computed from these tractions.
@@ -102,8 +102,8 @@ class LoadedCircle:
         """Compute the angular harmonics 0 … M of the tractions on rings about the centre.
 
         The three results are the complex amplitudes of exp(imθ) of q_r + i q_θ, q_r - i q_θ and the
-        pressure, each (M + 1, n) [force/length²]. Except for m = 0 they are doubled, as sums over m
-        ≥ 0 require.
+        pressure, each (M + 1, n) [force/length²]. Except for m = 0 they are doubled, as sums over
+        m ≥ 0 require.
 
         eta      radii of the rings over the radius of the circle (n,)
         highest  highest harmonic M

@@ -41,10 +41,8 @@ class SubsurfaceDisc:
     def compute_fields(self, levels: Sequence[Level], r: Array) -> Array:
         """Compute displacement and stress below the pressure at given depths and radii.
 
-        The shape is (levels, 6, n).
-
-        The fields are u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz [force/length²]. Raises ValueError
-        for a depth in a rigid base.
+        The shape is (levels, 6, n). The fields are u_r, u_z [length], σ_rr, σ_θθ, σ_zz, σ_rz
+        [force/length²]. Raises ValueError for a depth in a rigid base.
 
         levels  depths, each with the layer that contains it
         r       radii of the points (n,) [length]

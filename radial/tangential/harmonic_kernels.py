@@ -29,8 +29,8 @@ UPWARDS, ROUND_OFF = 3.0, 18.0
 def equal_order_kernels(highest: int, r: Array, s: Array, apart: Array) -> Array:
     """Compute the kernels G_m(r, s) = ∫₀^∞ J_m(kr) J_m(ks) dk for the harmonics 0 to M [1/length].
 
-    The displacement of a half-space at radius r by a traction at radius s is proportional to the
-    kernel G_m, if the traction is the angular harmonic m. The shape is (M + 1, …).
+    The normal displacement of a half-space at radius r by a pressure at radius s is proportional to
+    the kernel G_m, if the pressure is an angular harmonic ∝ cos mθ. The shape is (M + 1, …).
 
     highest  highest harmonic M
     r, s     radii of pairs of points, above 0 (…) [length]

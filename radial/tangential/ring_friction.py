@@ -67,8 +67,8 @@ def solve_increment(
     loads      prescribed loads and rigid motions at the end of the increment
     before     state at the start of the increment; None before first contact
     tolerance  bound of the residual relative to the largest pressure, friction limit and loads
-    smooth     tractions and rigid motion of the frictionless contact, as an initial guess (3 N +
-               4,) for N points; None if unknown
+    smooth     tractions and rigid motion of the frictionless contact, as an initial guess
+               (3 N + 4,) for N points; None if unknown
     raises     NotConverged; GrossSliding if the tangential force reaches the friction limit, or if
                tangential force and torque exceed the limit load of the contact without them;
                ContactAtZoneEdge if the contact reaches the last ring

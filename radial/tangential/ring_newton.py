@@ -73,8 +73,8 @@ def _find_free_points(
     at        current iterate
     m         number of points on the rings with contact
     friction  friction law
-    units     square roots of the compliance of all components and points, as scales of tractions (3
-              m,)
+    units     square roots of the compliance of all components and points, as scales of tractions
+              (3 m,)
     """
     y, limit = at.y[:, :m], at.limit[:m]
     length = np.hypot(*y)

@@ -128,8 +128,8 @@ class ContactPoints:
     def compliance(self) -> Array:
         """Return the compliance matrix of all points: displacement times area by unit traction.
 
-        The displacements and tractions have the components r, θ, z. The shape is (3 n count, 3 n
-        count) for n rings with `count` angles each, the unit is [length^5/force].
+        The displacements and tractions have the components r, θ, z. The shape is
+        (3 n count, 3 n count) for n rings with `count` angles each, the unit is [length^5/force].
         """
         return self._over_harmonics(self._harmonic_transform, self._harmonic_energies)
 
@@ -339,8 +339,8 @@ class ContactPoints:
     def interpolate_angles(self, field: Array, sense: float) -> Array:
         """Interpolate a field from the angles of the points to the output angles (n, angles).
 
-        The interpolant on each of the n rings is a periodic spline in θ. Output angles include θ =
-        0.
+        The interpolant on each of the n rings is a periodic spline in θ. Output angles include
+        θ = 0.
 
         field  values at the points (n count,)
         sense  1 for a field that is even about θ = 0, -1 for an odd field; used for half a circle

@@ -62,13 +62,13 @@ class PointState:
                     [force/length²]
     moved           tangential displacements u_r, u_θ times the area of each point (2 N,) [length³]
     slip_increment  slip Δs of the increment times the area of each point (2 N,) [length³]
-    motion          rigid motion: shifts along θ = 0 and across it, twist, approach (4,) [length,
-                    radian]
+    motion          rigid motion: shifts along θ = 0 and across it, twist, approach (4,)
+                    [length, radian]
     changed         change of tractions and rigid motion in the increment (3 N + 4,)
     share           trial shear |q - Δs/d| over the friction limit, with the compliance d of the
                     point (N,) [1]; at most 1 at sticking points, infinite outside the contact
-    energy          elastic energy ½ ∫ (p u_z + q·u) dA of the bodies and the rig's springs [force
-                    length]
+    energy          elastic energy ½ ∫ (p u_z + q·u) dA of the bodies and the rig's springs
+                    [force length]
     residual        residual of the contact and friction laws over the largest pressure, friction
                     limit and load [1]
     steps           number of Newton steps of the solve
@@ -128,8 +128,8 @@ class PointState:
 def resultant_loads(points: ContactPoints, tractions: Array) -> Array:
     """Compute the resultant forces and torque of the tractions on a contact (4,).
 
-    The results are the tangential force along θ = 0 and across it [force], the torque [force
-    length] and the normal force [force].
+    The results are the tangential force along θ = 0 and across it [force], the torque
+    [force length] and the normal force [force].
 
     points     points of the contact, with their areas
     tractions  radial shear, circumferential shear and pressure of N points (3 N,) [force/length²]

@@ -480,8 +480,8 @@ class TangentialSteps(StepsOnRings):
 def _fix_excluded_motions(points: ContactPoints, loads: Loads) -> Loads:
     """Replace loads on rigid motions that symmetry excludes by prescribed zero motions.
 
-    Points at one angle per ring exclude shifts. Points on half a circle exclude the shift across θ
-    = 0 and the twist.
+    Points at one angle per ring exclude shifts. Points on half a circle exclude the shift across
+    θ = 0 and the twist.
 
     points  points of the contact (rings × angles)
     loads   prescribed loads and rigid motions of the indenter

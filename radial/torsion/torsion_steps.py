@@ -34,8 +34,8 @@ class TorsionState:
 
     normal_contact  frictionless contact under the normal load
     path            twist, torque and energies of torsion, with the history of load reversals
-    prescribed      kind of control (force or displacement), and the prescribed torque [force
-                    length] or twist [radian]
+    prescribed      kind of control (force or displacement), and the prescribed torque
+                    [force length] or twist [radian]
     """
 
     normal_contact: NormalContact
