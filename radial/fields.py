@@ -43,10 +43,13 @@ class Result:
 
     @property
     def tolerance(self) -> float:
-        """Return the upper bound of every residual at the end of every increment [1]."""
+        """Return the tolerance of the solve, an upper bound of all residuals of all increments."""
         return self.fineness.tolerance
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """Return the states at the ends of the load steps: the last increment of each, in order."""
+        """Return the contact states at the ends of the load steps, in order.
+
+        They are the last increments of the load steps.
+        """
         return tuple(i for i in self.increments if i.index == i.increments_in_step)

@@ -74,20 +74,25 @@ class Plan:
     def rings(self) -> int:
         """Return the number of rings inside the largest contact, for a solve at points on rings.
 
-        The number does not include the dense rings at contact edges.
+        A solve at points on rings treats a tangential load or torsion. The number does not include
+        the dense rings at contact edges.
         """
         return round(self.fineness * (ROUND_RINGS if self.circle is RingAngles.ONE else RINGS))
 
     @property
     def highest(self) -> int:
-        """Return the highest angular harmonic of the tractions, for a solve at points on rings."""
+        """Return the highest angular harmonic of pressure and shear in a solve at points on rings.
+
+        A solve at points on rings treats a tangential load or torsion.
+        """
         return round(self.fineness * ANGLES)
 
     @property
     def angles(self) -> int:
-        """Return the number of angles on a ring, for a solve at points (rings × angles).
+        """Return the number of angles on a ring, for a solve at points on rings.
 
-        The number is 0 if the plan has no such solve.
+        A solve at points on rings treats a tangential load or torsion. The number is 0 without such
+        a solve.
         """
         return 0 if self.circle is None else len(self.circle.angles(self.highest))
 

@@ -60,7 +60,10 @@ class FrictionalState:
 
     @property
     def normal_force(self) -> float:
-        """Return the normal force: prescribed, or computed under a prescribed approach [force]."""
+        """Return the normal force on the indenter [force].
+
+        The value is the prescribed force, or the computed force under a prescribed approach.
+        """
         return self.end.load if self.target.force is None else self.target.force
 
     @property

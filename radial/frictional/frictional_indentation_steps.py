@@ -334,9 +334,12 @@ def _decaying_interpolant(r: Array, field: Array, limit: float) -> Callable[[Arr
     spline, last = CubicSpline(r, field), r[-1]
 
     def evaluate(radii: Array) -> Array:
-        """Evaluate the interpolated and continued surface displacement at given radii (…).
+        """Evaluate a surface displacement at given radii, interpolated or continued (…).
 
-        radii  radii, inside or outside the contact [length]
+        The displacement is interpolated up to the last known position and continued as 1/r beyond
+        it.
+
+        radii  radii, inside or outside the contact (…) [length]
         """
         near = spline(np.minimum(radii, last))
         return np.asarray(limit + (near - limit) * last / np.maximum(radii, last))

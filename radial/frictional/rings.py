@@ -54,7 +54,7 @@ class Rings:
 
     @property
     def count(self) -> int:
-        """Return the number n of elements, the intervals between nodes along the radius."""
+        """Return the number n of elements of the radius, the intervals between its n + 1 nodes."""
         return len(self.x) - 1
 
     @cached_property
@@ -225,7 +225,9 @@ class Rings:
 def _edge_root(x: Array) -> Array:
     """Return √(1 - x²), the factor by which tractions decrease to zero at the contact edge.
 
-    x  radii over the contact radius
+    Pressure and shear are products of this factor and hat functions.
+
+    x  radii over the contact radius, at most 1 (any shape)
     """
     return np.asarray(np.sqrt((1 - x) * (1 + x)))
 

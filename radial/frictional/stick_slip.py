@@ -83,22 +83,28 @@ class FrictionalContact:
 
     @property
     def radius(self) -> float:
-        """Return the contact radius a [length]."""
+        """Return the radius a of the contact area, which is prescribed in this solve [length]."""
         return self.contact.radius
 
     @property
     def approach(self) -> float:
-        """Return the approach δ of the indenter since first contact [length]."""
+        """Return the approach δ of the indenter since first contact, with friction [length].
+
+        The value is the approach without friction plus its change by the shear.
+        """
         return self.contact.approach + self.approach_change
 
     @property
     def load(self) -> float:
-        """Return the normal force W: the integral of the pressure [force]."""
+        """Return the normal force W with friction, the integral of the pressure [force]."""
         return self.contact.load + self.integrate_over_contact(self.pressure_change)
 
     @cached_property
     def pressure(self) -> Array:
-        """Return the pressure p at the nodes, infinite at an apex (n + 1,) [force/length²]."""
+        """Return the pressure p of the contact with friction at the nodes (n + 1,) [force/length²].
+
+        The pressure is infinite at the axis below a tip.
+        """
         return pressure(self.contact, self.rings.x) + self.pressure_change
 
     def integrate_over_contact(self, field: Array) -> float:

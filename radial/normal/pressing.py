@@ -69,7 +69,10 @@ class Target:
 
     @property
     def prescribed_value(self) -> float:
-        """Return the prescribed normal force [force], or the prescribed approach [length]."""
+        """Return the prescribed value: the normal force [force], or the approach [length].
+
+        The approach is that of the far end of the rig's spring.
+        """
         value = self.approach if self.force is None else self.force
         assert value is not None
         return value
@@ -127,14 +130,18 @@ class NormalContact:
 
     @property
     def normal_force(self) -> float:
-        """Return the normal force: prescribed, or computed under a prescribed approach [force]."""
+        """Return the normal force on the indenter [force].
+
+        The value is the prescribed force, or the computed force under a prescribed approach.
+        """
         return self.contact.load if self.target.force is None else self.target.force
 
     @property
     def approach(self) -> float:
-        """Return the approach of the far end of the rig's spring [length].
+        """Return the approach of the indenter [length].
 
-        The value is the prescribed one, or that of the contact plus the shortening of the spring.
+        With a spring in the rig (test machine) the value is the approach of the far end of the
+        spring. It is the prescribed approach, or the computed one under a prescribed force.
         """
         prescribed = self.target.approach
         return self.target.actuator_approach(self.contact) if prescribed is None else prescribed

@@ -37,7 +37,10 @@ def cache_within_bytes(most: int) -> Callable[[Callable[P, R]], Callable[P, R]]:
 
         @wraps(compute)
         def cached_call(*given: P.args, **named: P.kwargs) -> R:
-            """Return the cached result for given arguments, or compute it and store it."""
+            """Return the cached result of a function, computed at the first call.
+
+            given, named  positional and keyword arguments of the function, all hashable
+            """
             key = (given, *named.items())
             value = found.pop(key, None)
             if value is None:

@@ -48,7 +48,10 @@ class Bodies:
 
     @classmethod
     def of(cls, scene: Scene) -> Bodies:
-        """Create the normal response of both bodies of a scene."""
+        """Create the normal response of both bodies of a scene to pressure, from their materials.
+
+        scene  contact problem, which gives materials and layers of both bodies
+        """
         stacks = (stack_of(scene.body), stack_of(scene.indenter))
         return cls([stack for stack in stacks if stack.layers], contact_modulus(scene))
 

@@ -49,9 +49,10 @@ class Waves(NamedTuple):
     @property
     @cache_within_bytes(MAX_CACHED)
     def rule(self) -> tuple[Array, Array]:
-        """Return the points κ (n,) and weights (n,) of the quadrature over wavenumbers.
+        """Return the Gauss points κ and the weights of the quadrature over wavenumbers, each (n,).
 
-        κ = k a is the wavenumber k times the contact radius a.
+        κ = k a is the wavenumber k times the contact radius a. Integrals over κ give the
+        contributions of layers to displacement and pressure.
         """
         last = floor(log(self.widest) / log(GROWTH))
         growing = GROWTH ** np.arange(self.first, last + 1.0)

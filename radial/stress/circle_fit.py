@@ -165,9 +165,11 @@ def _least_squares(
     """
 
     def terms(s: Array, angle: Array) -> Array:
-        """Return the terms cos mθ s^k of the least-squares fit at given points (…, terms).
+        """Return the terms cos mθ s^k of a least-squares fit near the contact edge (…, terms).
 
-        s, angle  coordinates s = 1 - r²/a² and θ of the points near the contact edge (…)
+        The angular harmonic m runs from 0 to 3, the power k from 0 to `powers`.
+
+        s, angle  coordinates s = 1 - r²/a² and θ of the points (…)
         """
         return np.stack([
             np.cos(m * angle) * s**k for m in range(HARMONICS + 1) for k in range(powers + 1)

@@ -54,7 +54,10 @@ class ContactPoints:
 
     @property
     def count(self) -> int:
-        """Return the number of angles, which is the number of points on each ring."""
+        """Return the number of angles at which each ring has a point.
+
+        Fields at the points of n rings have the shape (n count,).
+        """
         return len(self.angles)
 
     @property
@@ -238,7 +241,7 @@ class ContactPoints:
 
     @cached_property
     def axisymmetric(self) -> ContactPoints:
-        """Return the points of an axisymmetric contact: equal nodes, with one angle each.
+        """Return the points of an axisymmetric contact: rings of equal radii, with one angle each.
 
         Used as long as no tangential load acts.
         """

@@ -86,12 +86,15 @@ class PointState:
 
     @property
     def pressure(self) -> Array:
-        """Return the pressure p at all points of the contact (N,) [force/length²]."""
+        """Return the pressure p at all N points on the rings (N,) [force/length²]."""
         return self.tractions[2 * len(self.share) :]
 
     @property
     def shear(self) -> Array:
-        """Return the radial and circumferential shear at all points (2, N) [force/length²]."""
+        """Return the shear q at all N points on the rings (2, N) [force/length²].
+
+        The components are the radial shear q_r and the circumferential shear q_θ on the lower body.
+        """
         return self.tractions[: 2 * len(self.share)].reshape(2, -1)
 
     @property
@@ -108,10 +111,12 @@ class PointState:
         """
 
         def repeat_components(field: Array, count: int) -> Array:
-            """Repeat each component of an axisymmetric field at all angles.
+            """Repeat the components of an axisymmetric field of rings at all angles of each ring.
+
+            The shape is (count × N,) for N points.
 
             field  components at the rings (count × rings,)
-            count  number of components
+            count  number of components: 1 for a scalar, 2 for a shear, 3 for tractions
             """
             return points.repeat_angles(field.reshape(count, -1)).ravel()
 

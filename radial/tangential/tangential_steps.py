@@ -127,7 +127,10 @@ class TangentialSteps(StepsOnRings):
         edges = [largest, *(edge for edge in sorted(ends) if edge * count < NARROW * largest)]
 
         def create_solver(circle: RingAngles) -> TangentialSteps:
-            """Create the solver with rings that are dense at the contact edges found so far.
+            """Create the solver of load steps, with rings that are dense at given contact edges.
+
+            The edges are those found so far. Called first for axisymmetric contacts, to find the
+            edges, and then for the load history.
 
             circle  angles of the points on a ring: one angle, half a circle or the full circle
             """
@@ -231,10 +234,10 @@ class TangentialSteps(StepsOnRings):
     def _load_components(self, vector: Pair | None) -> tuple[float | None, float | None]:
         """Rotate a vector from the x and y axes of the scene to the axes of the tangential load.
 
-        The result has the components along and across the direction of the load. Without a vector
-        both components are None.
+        The result has the components along and across the direction of the load. Used for
+        prescribed tangential forces and shifts. Without a vector both components are None.
 
-        vector  x and y components, or None
+        vector  x and y components; None if no vector is prescribed
         """
         if vector is None:
             return None, None

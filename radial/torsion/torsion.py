@@ -121,7 +121,10 @@ class Torsion:
 
     @cached_property
     def gross_slip_torque(self) -> float:
-        """Return the torque of gross slip, the largest that friction carries [force length]."""
+        """Return the torque at which the whole contact slips, the limit of friction [force length].
+
+        All points then carry the shear µp.
+        """
         return self.partial_slip(0.0).torque
 
     @cached_property
@@ -313,7 +316,11 @@ class PartialSlip:
 
     @property
     def work(self) -> float:
-        """Compute the work ∫ M dφ of the torque M from twist 0 to this state [force length]."""
+        """Compute the work ∫ M dφ of the torque M from twist 0 to this state [force length].
+
+        φ is the twist of the indenter, which increases monotonically. The work is the elastic
+        energy plus the dissipated energy.
+        """
         return self.twist * self.torque - self.elastic_energy
 
     @property

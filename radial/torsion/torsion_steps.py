@@ -44,13 +44,19 @@ class TorsionState:
 
     @property
     def torque(self) -> float:
-        """Return the torque: prescribed, or computed under a prescribed twist [force length]."""
+        """Return the torque on the indenter about the axis [force length].
+
+        The value is the prescribed torque, or the computed torque under a prescribed twist.
+        """
         kind, value = self.prescribed
         return value if kind is ControlKind.FORCE else self.path.torque
 
     @property
     def twist(self) -> float:
-        """Return the twist of the indenter: prescribed, or computed under a torque [radian]."""
+        """Return the twist of the indenter about the axis [radian].
+
+        The value is the prescribed twist, or the computed twist under a prescribed torque.
+        """
         kind, value = self.prescribed
         return self.path.twist if kind is ControlKind.FORCE else value
 

@@ -75,12 +75,18 @@ class TwistPath:
 
     @property
     def twist(self) -> float:
-        """Return the twist φ of the indenter after all branches of the history [radian]."""
+        """Return the twist φ of the indenter at the end of the history of torsion [radian].
+
+        The twist is the sum of the changes between load reversals.
+        """
         return _sum_branches(self.branches, "twist")
 
     @property
     def torque(self) -> float:
-        """Return the torque M on the indenter after all branches of the history [force length]."""
+        """Return the torque M on the indenter at the end of the history of torsion [force length].
+
+        The torque is the sum of the changes between load reversals.
+        """
         return _sum_branches(self.branches, "torque")
 
     @property
@@ -94,13 +100,21 @@ class TwistPath:
         return 1.0 if last is None else last.stick
 
     def continue_to_twist(self, twist: float) -> TwistPath:
-        """Continue the torsion to a prescribed twist [radian], and return the new state."""
+        """Continue the torsion to a prescribed twist, and return the new state.
+
+        A change of direction is a load reversal.
+
+        twist  prescribed twist of the indenter at the end [radian]
+        """
         return self._continue_to("twist", twist)
 
     def continue_to_torque(self, torque: float) -> TwistPath:
-        """Continue the torsion to a prescribed torque [force length], and return the new state.
+        """Continue the torsion to a prescribed torque, and return the new state.
 
-        Raises GrossSliding if the torque is not below its friction limit.
+        A change of direction is a load reversal. Raises GrossSliding if the torque is not below its
+        friction limit.
+
+        torque  prescribed torque at the end [force length]
         """
         if abs(torque) >= self.of.gross_slip_torque * (1 - AT_LIMIT):
             raise GrossSliding(
