@@ -189,12 +189,12 @@ class _FrictionlessSteps(StepsOnRings):
     def report(
         self, reached: ConvergedIncrement[NormalContact], last: Increment | None
     ) -> Increment:
-        """Compute the output of an increment: pressure and gap at rings, energies and residuals.
+        """Compute the output of a frictionless increment: pressure, gap, energies and residuals.
 
-        Raises UnsupportedScene if the contact area is not a disc, and NotConverged if a residual
-        exceeds the tolerance.
+        Pressure and gap are given at the output rings. Raises UnsupportedScene if the contact area
+        is not a disc, and NotConverged if a residual exceeds the tolerance.
 
-        reached  solved state at the end of the increment
+        reached  solved contact at the end of the increment
         last     output of the previous increment, for the work of the loads
         """
         state = reached.state

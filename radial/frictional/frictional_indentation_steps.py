@@ -219,10 +219,11 @@ class FrictionalSteps(StepsOnRings):
     def report(
         self, reached: ConvergedIncrement[FrictionalState], last: Increment | None
     ) -> Increment:
-        """Compute the output of an increment: fields at the rings, energies and residuals.
+        """Compute the output of an increment with friction: fields, energies and residuals.
 
-        Raises UnsupportedScene if the contact area is not a disc, and NotConverged if a residual
-        exceeds the tolerance.
+        The fields at the output rings are pressure, gap, radial shear, radial slip and the stick
+        zone. Raises UnsupportedScene if the contact area is not a disc, and NotConverged if a
+        residual exceeds the tolerance.
 
         reached  solved state at the end of the increment
         last     output of the previous increment (not used)

@@ -86,7 +86,8 @@ class TangentialSteps(StepsOnRings):
     def most_spent(self) -> float:
         """Return the number of Newton steps above which a failed increment is not bisected again.
 
-        Load stepping compares this number with the Newton steps spent on the increment.
+        Load stepping compares this number with the Newton steps of all attempts to solve the
+        increment.
         """
         return 4.0 * MAX_STEPS
 

@@ -114,10 +114,11 @@ class TorsionSteps(StepsOnRings):
     def report(
         self, reached: ConvergedIncrement[TorsionState], last: Increment | None
     ) -> Increment:
-        """Compute the output of an increment: fields at the rings, energies and residuals.
+        """Compute the output of an increment with torsion: fields, energies and residuals.
 
-        Raises UnsupportedScene if slip does not begin at the edge, and NotConverged if a residual
-        exceeds the tolerance.
+        The fields at the output rings are pressure, gap, circumferential shear and slip, and the
+        stick zone. Raises UnsupportedScene if slip does not begin at the edge, and NotConverged if
+        a residual exceeds the tolerance.
 
         reached  solved state at the end of the increment
         last     output of the previous increment, for the work of the loads

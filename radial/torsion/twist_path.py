@@ -31,8 +31,8 @@ Named = Literal["twist", "torque"]
 class Branch:
     """Change of torsion in one direction of twist, since a load reversal or since the first twist.
 
-    All quantities of the change are `sense` times `weight` times those of a state of monotonic
-    torsion of the virgin contact, the equivalent first twist.
+    Shear, slip, twist and torque of the change are `sense` times `weight` times those of the
+    equivalent first twist: a state of monotonic torsion of the virgin contact.
 
     sense   direction of the twist, +1 or -1
     weight  1 for the first twist, 2 after a load reversal
@@ -46,8 +46,9 @@ class Branch:
     def quantity(self, of: str) -> float:
         """Return twist, torque, work or dissipated energy of the branch's equivalent first twist.
 
-        The equivalent first twist is a state of monotonic torsion of the virgin contact. The change
-        in the branch is a multiple of this state. The value is 0 at the start of the branch.
+        The equivalent first twist is a state of monotonic torsion of the virgin contact. The
+        changes in the branch are multiples of the values of this state. The value is 0 at the start
+        of the branch.
 
         of  name of the quantity: "twist" [radian], "torque", "work" or "dissipated" [force length]
         """
