@@ -28,10 +28,13 @@ def add_energies(
     """Add input work, elastic energy and the error of the dissipated energy to an increment.
 
     If the elastic energy and the work of the loads are defined, the stored input work is elastic
-    energy plus dissipated energy, and the difference from the work of the loads is stored as
+    energy plus dissipated energy. Its difference from the work of the loads is stored as
     `unresolved_work`.
 
+    scene      contact problem with the shape of the indenter
+    plan       tractions of the solve, and the load steps that are path-dependent
     before     previous increment of the history; None for the first increment
+    increment  increment of the result without energies
     on_strain  work of the shear on the imposed strain of the lower body in this increment [force
                length]
     """
@@ -95,12 +98,14 @@ COMPONENTS = ("radial", "circumferential", "along_load")
 
 
 def _change_magnitude(name: str, before: Increment | None, increment: Increment) -> Field:
-    """Compute the magnitude of the change of shear or slip from the previous increment.
+    """Compute the magnitude of the change of shear or slip in one increment, at every ring.
 
-    The result has the shape of the field: (rings,), or (rings, angles) if the field has angles.
+    The result has the shape of the field: (rings,), or (rings, angles) if the field depends on the
+    angle. Used to estimate the error of the dissipated energy.
 
-    name    prefix of the field names, "shear" or "slip"
-    before  previous increment; None counts as zero shear and slip
+    name       prefix of the field names, "shear" or "slip"
+    before     previous increment, at the start; None counts as zero shear and slip
+    increment  increment at whose end the field is taken
     """
     changes = []
     for component in COMPONENTS:
@@ -143,11 +148,16 @@ def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | No
 def _shear_components(
     plan: Plan, increment: Increment, hats: Hats
 ) -> Iterator[tuple[Field, Field, Field | None]]:
-    """Yield the fields of each shear component that do work in the elastic energy.
+    """Yield shear, slip and rigid displacement of each shear component, for the elastic energy.
 
-    The components are the one along the load and the circumferential one. Each item contains the
-    shear, the slip, and the rigid displacement integrated over the hat functions, all of shape
-    (rings,). The rigid displacement is None if the motion of the indenter is undefined.
+    The components are the one along the load and the circumferential one, each only if it exists.
+    Each item contains three arrays (rings,): the shear, the slip, and the rigid displacement of the
+    indenter integrated over the hat functions of the rings. The rigid displacement is None if the
+    motion of the indenter is undefined.
+
+    plan       direction of the tangential load
+    increment  increment with shear, slip and motion
+    hats       hat functions over the radius, one for each ring
     """
     if increment.shear_along_load is not None and increment.slip_along_load is not None:
         shift = increment.tangential_shift
@@ -160,9 +170,10 @@ def _shear_components(
 
 
 def _ring_hats(radii: Field) -> Hats:
-    """Create the hat functions over the radius whose corner nodes are the given rings.
+    """Create the hat functions over the radius for the rings of an increment of the result.
 
-    Used to integrate fields of an increment over the surface.
+    The rings are the corner nodes of the functions. The midside nodes are halfway between them.
+    Used to integrate fields of the increment over the surface.
 
     radii  radii of the rings, circles around the axis on the surface (rings,) [length]
     """
@@ -173,11 +184,13 @@ def _ring_hats(radii: Field) -> Hats:
 
 
 def _conjugate_loads(increment: Increment) -> tuple[Field, Field | None]:
-    """Return the forces and the conjugate motions of an increment, for the work of the loads.
+    """Return the loads of the indenter and its conjugate motions, for the work of the loads.
 
-    The forces are (W, T_x, T_y, M_z): normal force, tangential force and torque. The motions are
-    (approach, shift along x, shift along y, twist). The motions are None if the shift or the twist
-    is undefined.
+    The loads are (W, T_x, T_y, M_z): normal force, tangential force and torque. The motions are
+    (approach, shift along x, shift along y, twist). They are None if the shift or the twist is
+    undefined, as at the friction limit under force control.
+
+    increment  increment of the result
     """
     force, shift = increment.tangential_force, increment.tangential_shift
     torque, twist = increment.torque, increment.twist

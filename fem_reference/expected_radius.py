@@ -87,6 +87,8 @@ def _largest_ramps(scene: Scene) -> list[LoadRamp]:
     The list contains the load ramp with the largest final force, if force control occurs in the
     history, and the load ramp with the largest final approach, if approach control occurs. A load
     ramp is the linear change of the loads in one load step.
+
+    scene  contact problem with its load history
     """
     ramps = scene.load_path()
     kinds = [[r for r in ramps if r.normal.kind is kind and r.normal.end] for kind in ControlKind]
@@ -96,10 +98,11 @@ def _largest_ramps(scene: Scene) -> list[LoadRamp]:
 def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
     """Estimate the contact radius at the end of a load step from the outermost materials [length].
 
-    Each body is a half-space of its outermost material. The layers and the substrate below are
-    neglected. Used to recognise thick layers, and as the estimate for them.
+    Each body is treated as a half-space of its outermost material. The deeper layers and the
+    substrate are neglected. Used to recognise thick layers, and as the estimate for them.
 
-    ramp  linear change of the loads in the load step
+    scene  contact problem with its bodies
+    ramp   linear change of the loads in the load step
     """
     outermost = [
         body.model_copy(update={"material": body.layers[0].material, "layers": ()})
@@ -114,10 +117,12 @@ def _bare_radius(scene: Scene, ramp: LoadRamp) -> float:
 def _half_space_radius(scene: Scene, ramp: LoadRamp) -> float:
     """Estimate the contact radius at the end of a load step by half-space theory [length].
 
-    Each body is a half-space with the mean of (1-ν²)/E over its layers and its substrate. Raise
-    UnsupportedScene if the shape of the indenter has no closed form.
+    Each body is treated as a half-space. Its compliance is the mean of (1-ν²)/E over its layers and
+    its substrate. An indenter with a rim has the radius of the rim. Raise UnsupportedScene if the
+    shape of the indenter has no closed form.
 
-    ramp  linear change of the loads in the load step
+    scene  contact problem with its bodies
+    ramp   linear change of the loads in the load step
     """
     indenter, end, exponent = scene.indenter, ramp.normal.end, scene.indenter.gap_exponent
     if indenter.rim is not None:
@@ -147,11 +152,13 @@ def _mean_compliance(body: Body) -> float:
 
 
 def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
-    """Compute the contact radius at the end of a load step on coarse meshes [length].
+    """Compute the contact radius at the end of a load step by a solve on a coarse mesh [length].
 
-    Friction is neglected. The load is applied in one increment. The mesh is replaced until the
-    contact fits into its fine elements and is not much smaller than their zone.
+    Friction is neglected. The normal load is applied in one increment. The solve is repeated on
+    another mesh until the contact fits into the fine elements and is not much smaller than their
+    zone. Used for bodies whose layers are not thick.
 
+    scene  contact problem with its bodies
     ramp   linear change of the loads in the load step
     guess  contact radius for the first mesh [length]
     """
@@ -175,11 +182,12 @@ def _coarse_radius(scene: Scene, ramp: LoadRamp, guess: float) -> float:
 
 
 def _coarse_discretisation(scene: Scene, radius: float) -> FiniteElementDiscretisation:
-    """Return the discretisation of the coarse mesh that serves to estimate the contact radius.
+    """Return the discretisation of the coarse mesh on which the contact radius is estimated.
 
-    The outer boundary of the mesh is limited to LARGEST_COARSE_BOX contact radii if the layers are
+    The outer radius of the mesh is limited to LARGEST_COARSE_BOX contact radii if the layers are
     thin enough.
 
+    scene   contact problem with its bodies
     radius  largest contact radius for which the mesh is laid out [length]
     """
     to_radius = Scales(radius, outermost_modulus(scene)).dimensionless

@@ -75,7 +75,7 @@ class _IncrementSolver:
     most_spent: float = 0.0
 
     def spent(self) -> float:
-        """Return the work that the solver has spent on the history so far: always 0 here.
+        """Return the work of the solver on the load history so far: always 0 for this solver.
 
         The load stepping may use the work to limit the bisection of increments that do not
         converge. The finite-element solver sets no such limit.
@@ -89,10 +89,14 @@ class _IncrementSolver:
         before: PointState | None,
         fraction: float,
     ) -> PointState:
-        """Solve for the contact state at a given fraction of the load ramp of a load step.
+        """Solve for the contact state at a given fraction of a load ramp.
 
-        start     state at the start of the ramp; None at the start of the history
-        before    state at the end of the previous increment; None at the start of the history
+        A load ramp is the linear change of the prescribed loads in one load step.
+
+        ramp      loads at the start and the end of the load step
+        start     contact state at the start of the ramp; None at the start of the history
+        before    contact state at the end of the previous increment; None at the start of the
+                  history
         fraction  part of the ramp at the end of the increment, from 0 to 1
         """
         normal = (start.normal_force, start.approach) if start else (0.0, 0.0)
@@ -117,9 +121,9 @@ class _IncrementSolver:
         return np.array(np.broadcast_to(self.method.undeformed_gap, last.gap.T.shape).T)
 
     def report(self, reached: ConvergedIncrement[PointState], last: Increment | None) -> Increment:
-        """Convert a solved state to an increment of the result.
+        """Convert a solved contact state to an increment of the result.
 
-        The increment includes the energies and the displacements of the rig's springs.
+        The increment includes the energies and the displacements of the springs of the test rig.
 
         reached  solved state with its predecessor and its place in the load history
         last     previous increment of the result, whose energies are continued; None for the first
@@ -132,9 +136,9 @@ class _IncrementSolver:
         return add_energies(self.scene, self.method.plan, last, increment, resisted)
 
     def _tangential_control(self, ramp: LoadRamp) -> ScalarControl | None:
-        """Return the prescribed tangential load or motion of a load step as a scalar control.
+        """Return the prescribed tangential load or motion of a load step as a scalar quantity.
 
-        In torsion the result is the control of twist or torque. Under a tangential load it is the
+        In torsion the result is the torque or the twist. Under a tangential load it is the
         component of force or shift along the direction of the load. Return None without torsion and
         without a tangential load.
 

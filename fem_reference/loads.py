@@ -34,9 +34,11 @@ STILL = TangentialTarget(motion=0.0)
 
 @dataclass(frozen=True)
 class Loads:
-    """All prescribed loads and motions of the indenter at the end of an increment.
+    """Prescribed loads and motions of the indenter at the end of an increment.
 
-    strain  equibiaxial surface strain imposed on the lower body since first contact [1]
+    normal      normal force or approach
+    tangential  tangential load or motion; zero motion by default
+    strain      equibiaxial surface strain imposed on the lower body since first contact [1]
     """
 
     normal: NormalTarget

@@ -44,13 +44,14 @@ def run_bytes(factoring: float) -> float:
 
 
 def largest_bytes(elements: int, several_motions: bool) -> int:
-    """Estimate the memory to factorise the stiffness of a mesh from its number of elements [byte].
+    """Estimate the memory to factorise the stiffness of a body from its number of elements [byte].
 
-    Used for the cost estimate before a solve.
+    Used for the cost estimate before a solve, when the number of unknowns is not determined yet.
 
-    elements         number of elements of the mesh of one body
-    several_motions  True to assume motions with 3 displacement components, False for 2 components
-                     (normal loading)
+    elements  number of elements of the mesh of one body
+    several_motions
+              True to assume motions with 3 displacement components, False for 2 components (normal
+              loading)
     """
     unknowns, components = NODES_PER_ELEMENT * elements, 3 if several_motions else 2
     return int(required_bytes(elements, unknowns * components, components, False))

@@ -101,7 +101,9 @@ class ContactModel:
         return self.scene.friction or FRICTIONLESS
 
     def gap(self, r: Field) -> Field:
-        """Compute the gap between the undeformed surfaces at first touch [length].
+        """Compute the gap between the undeformed surfaces at first touch, at given radii [length].
+
+        The gap follows from the shape of the indenter.
 
         r  radii of surface particles before any load [length]
         """
@@ -131,22 +133,22 @@ class ContactModel:
         return self._compliances[of]
 
     def along_load(self) -> Field:
-        """Compute the compliance along a tangential load in Mindlin's approximation, shape (m, m).
+        """Compute the surface compliance along a tangential load in Mindlin's approximation (m, m).
 
-        The load acts along x. An entry is the displacement u_x of a node, averaged over the angle
-        θ, per unit nodal force f(r) along x [length/force]. With q_r = f cos θ and q_θ = -f sin θ,
-        the mean of u_x is (u_r - u_θ)/2 in the amplitudes of n = 1. Mindlin's approximation
-        neglects u_y and the part of u_x ∝ cos 2θ.
+        The load acts along x. An entry is the displacement u_x of a surface node, averaged over the
+        angle θ, per unit nodal force f(r) along x at a node [length/force]. With q_r = f cos θ and
+        q_θ = -f sin θ, the mean of u_x is (u_r - u_θ)/2 in the amplitudes of the harmonic n = 1.
+        Mindlin's approximation neglects u_y and the part of u_x ∝ cos 2θ.
         """
         C = self.compliance(SHEARING).matrix
         return np.asarray(0.5 * (C[0, :, 0] - C[0, :, 1] - C[1, :, 0] + C[1, :, 1]))
 
     def _spring_compliance(self, of: Motion) -> Field:
-        """Compute the displacement of the nodes by the springs of the test rig, per nodal force.
+        """Compute the displacement of the indenter by the springs of the test rig, per force.
 
-        The springs are in series with the contact and displace all nodes equally. The result has
-        one row and one column for each displacement component, shape (c, c) [length/force]. It is
-        zero for motions without a spring.
+        The springs are in series with the contact and displace all surface nodes equally. The
+        result (c, c) contains the displacement components per nodal force on each of the c
+        components [length/force]. It is zero for loadings without a spring.
 
         of  displacement field of one angular harmonic, such as that of normal loading
         """

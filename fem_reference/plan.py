@@ -107,7 +107,9 @@ def plan(scene: Scene) -> Plan:
 
 
 def _choose_path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> Path:
-    """Determine which tractions the solve computes, from the loads and the friction of the scene.
+    """Determine the tractions that the solve computes, from the loads and friction of the scene.
+
+    Examples are pressure alone, and pressure with shear along a tangential load.
 
     friction  True if the scene has friction
     loaded    True if a load step has a tangential force or shift
@@ -126,8 +128,12 @@ def _choose_path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> 
 def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
     """Determine for each load step whether its final state depends on the number of increments.
 
-    Friction makes a step path-dependent if there is shear while the normal load or the imposed
+    Friction makes a load step path-dependent if there is shear while the normal load or the imposed
     strain changes. For coupled pressure and shear a change of the tangential load is sufficient.
+    The result has one truth value for each load step.
+
+    ramps  linear changes of the loads in the load steps
+    path   tractions that the solve computes
     """
     matters = []
     sheared = path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
@@ -141,11 +147,12 @@ def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
 
 
 def _increment_counts(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
-    """Determine the number of increments of each load step.
+    """Determine the number of increments of each load step of a scene.
 
     The number is the one that the scene requests, if there is one. Otherwise it is the larger of
-    two numbers: for the path dependence of friction, and for closed load cycles.
+    two numbers: one for the path dependence of friction, and one for closed load cycles.
 
+    scene    contact problem with its load history
     matters  for each load step, True if its final state depends on the number of increments
     """
     ramps = scene.load_path()
@@ -157,12 +164,14 @@ def _increment_counts(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...
 
 
 def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
-    """Determine the number of increments of a load step whose final state depends on this number.
+    """Determine the number of increments of a path-dependent load step.
 
-    The error of the shear by finite increments is about 1 %. If only the tangential force changes,
-    each increment is at most LARGEST_SHARE of the friction limit.
+    The final state of such a step depends on the number. The error of the shear by finite
+    increments is about 1 %. If only the tangential force changes, each increment is at most the
+    part LARGEST_SHARE of the friction limit.
 
-    ramp  linear change of the loads in the load step
+    scene  contact problem with its friction
+    ramp   linear change of the loads in the load step
     """
     friction = scene.friction
     by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
@@ -180,11 +189,12 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
 def _list_effects(
     scene: Scene, path: Path, acting: tuple[bool, bool, bool, bool], why_coupled: str
 ) -> tuple[Effect, ...]:
-    """Return all effects of a solve, each with the reason why it is computed or omitted.
+    """Return the list of physical effects of a scene, each with the reason for or against it.
 
-    An effect is a part of the problem, such as friction or torsion. The list is printed for the
-    user.
+    An effect is a part of the problem, such as friction or torsion. Each item states whether the
+    solve computes the effect, and the reason. The list is printed for the user.
 
+    scene        contact problem
     path         tractions that the solve computes
     acting       True for friction, a tangential load, torsion, and coupling, in this order
     why_coupled  reason why pressure causes relative tangential displacement, or does not
@@ -213,7 +223,10 @@ def _list_effects(
 
 
 def _refuse_shapes(scene: Scene) -> None:
-    """Raise UnsupportedScene if the indenter or the coefficient of friction is not axisymmetric."""
+    """Raise UnsupportedScene if the indenter or the coefficient of friction is not axisymmetric.
+
+    The axisymmetric finite elements require bodies of revolution and one coefficient of friction.
+    """
     indenter, friction = scene.indenter, scene.friction
     if not indenter.is_of_revolution:
         raise UnsupportedScene(

@@ -16,10 +16,10 @@ LEAST_SLIP = 1e-3
 
 
 def over(part: float, whole: float) -> float:
-    """Divide two numbers of a residual or relative error, also if the denominator is zero.
+    """Compute the ratio part / whole of a residual or relative error, also for a zero denominator.
 
-    part, whole  numerator and denominator; the result is 0 if `part` is zero, and infinity if only
-                 `whole` is zero
+    The ratio is 0 if the numerator `part` is zero, and infinite if only the denominator `whole` is
+    zero.
     """
     if not part:
         return 0.0
@@ -27,7 +27,10 @@ def over(part: float, whole: float) -> float:
 
 
 def complementarity(p: Field, gap: Field, weights: Field, approach: float) -> float:
-    """Compute the complementarity residual of gap and pressure: Σ |g| p / (approach Σ w p) [1].
+    """Compute the residual of the complementarity of gap and pressure [1].
+
+    Pressure and gap must not both differ from zero at a ring, a circle around the axis on the
+    surface. The residual is Σ |g| p / (approach Σ w p).
 
     p         pressure at the rings (rings,) [force/length^2]
     gap       g, integral of the gap over each hat function (rings,) [length^3]
@@ -38,9 +41,10 @@ def complementarity(p: Field, gap: Field, weights: Field, approach: float) -> fl
 
 
 def penetration(gap: Field, weights: Field, approach: float) -> float:
-    """Compute the largest overlap of the surfaces, divided by the rigid approach [1].
+    """Compute the largest overlap of the two surfaces, divided by the rigid approach [1].
 
-    The overlap at a ring is the negative part of the mean gap, weighted with the hat function.
+    The result is the residual of the condition that the gap is not negative. The overlap at a ring
+    is the negative part of the mean gap, weighted with the hat function of the ring.
 
     gap       integral of the gap over each hat function (rings,) [length^3]
     weights   integral of each hat function (rings,) [length^2]

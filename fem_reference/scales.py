@@ -18,10 +18,12 @@ class Scales:
     modulus: float
 
     def dimensionless(self, body: Body) -> Body:
-        """Return a copy of a body in dimensionless units, for the mesh and the stiffness.
+        """Return a copy of a body in dimensionless units, for its mesh and its stiffness matrix.
 
         Layer thicknesses are divided by the unit of length, Young's moduli by the unit of stress.
         The copy has no surface shape, because the mesh requires the layers and materials only.
+
+        body  body in the units of the scene
         """
         layers = tuple(
             Layer(

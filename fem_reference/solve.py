@@ -115,9 +115,14 @@ def _create_method(
     discretisation: FiniteElementDiscretisation,
     method: Method,
 ) -> ContactMethod:
-    """Create the contact method that solves the increments of a scene on a model.
+    """Create the contact method of a solve: exact or penalty enforcement of the contact laws.
 
-    The requested method determines exact or penalty enforcement of the contact laws.
+    The contact method solves the increments of the scene.
+
+    model           the two bodies with their meshes, compliances, undeformed gap and friction
+    chosen_plan     tractions that the solve computes, and numbers of increments
+    discretisation  parameters of the penalty law, and number of angular harmonics
+    method          requested enforcement, exact or penalty
     """
     penalty = None
     if method is Method.PENALTY:

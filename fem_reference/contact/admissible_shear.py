@@ -17,7 +17,7 @@ def into_discs(q: Field, bound: Vector) -> Field:
     """Limit the shear at every point to the friction limit, without a change of direction.
 
     Shear vectors longer than the friction limit are shortened to the limit. All others are
-    unchanged.
+    unchanged. The result has the shape (2, points).
 
     q      shear vectors (2, points) [force/length^2]
     bound  friction limit of each point (points,) [force/length^2]
@@ -72,15 +72,15 @@ def project(
 
 
 def _load_slope(moved: Field, bound: Vector, along: Field, push: Field) -> float:
-    """Compute the derivative of the tangential load by the multiplier λ of the load.
+    """Compute the derivative of the tangential load with respect to its Lagrange multiplier λ.
 
-    The load is the resultant of the shear after its limitation to the friction limit. Used by the
-    Newton iteration for λ in `project`. Vectors that exceed the friction limit change their
-    direction only.
+    λ shifts all shear vectors in the direction of the load. The vectors are then limited to the
+    friction limit, and the load is their resultant. Vectors that exceed the limit change their
+    direction only. Used by the Newton iteration that finds λ for a prescribed load.
 
-    moved  shear vectors before the limitation (2, points)
-    bound  friction limit (points,)
-    along  factors of the shear in the resultant (2, points)
+    moved  shear vectors for the current λ, before the limitation (2, points)
+    bound  friction limit of each point (points,)
+    along  factors of the shear in the resultant Σ along · q (2, points)
     push   derivative of the shear vectors by λ (2, points)
     """
     length = np.sqrt(moved[0] ** 2 + moved[1] ** 2)

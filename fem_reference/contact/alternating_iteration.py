@@ -58,9 +58,10 @@ class CoupledProblem:
     tangential: TangentialTarget
 
     def bound(self, pressure: Vector) -> Vector:
-        """Compute the friction limit µp of every point (points,) [force/length^2].
+        """Compute the friction limit µp (largest shear) of every point [force/length^2].
 
-        The limit is zero at points that cannot carry shear, such as a point on the axis.
+        The result has the shape (points,). µ is the coefficient of friction. The limit is zero at
+        points that cannot carry shear, such as a point on the axis.
 
         pressure  p at the points (points,) [force/length^2]
         """
@@ -81,7 +82,9 @@ class CoupledProblem:
     def capacity(self, pressure: Vector) -> float:
         """Compute the largest tangential load that friction can carry under a given pressure.
 
-        The load is a force, or a torque in torsion. Used to detect gross slip.
+        The load is a force, or a torque in torsion. The result is the sum of friction limit times
+        area times lever arm over all points; the lever arm is 1 for a force. Used to detect gross
+        slip.
 
         pressure  pressure at the points (points,) [force/length^2]
         """
@@ -180,9 +183,10 @@ def solve_coupled(
 def approach_of(problem: CoupledProblem, pressed: PressureSolution) -> float:
     """Return the rigid approach of the indenter after a solve of the normal problem [length].
 
-    Under a prescribed approach the result is this approach. Under a prescribed force it is the
-    Lagrange multiplier of the force.
+    Under a prescribed approach the result is this approach. Under a prescribed normal force the
+    result is the Lagrange multiplier of the force.
 
+    problem  contact problem of the increment, with its prescribed loads
     pressed  solution of the normal problem
     """
     prescribed = problem.normal.approach
@@ -190,13 +194,14 @@ def approach_of(problem: CoupledProblem, pressed: PressureSolution) -> float:
 
 
 def solve_pressure(problem: CoupledProblem, q: Field, guess: Mask) -> PressureSolution:
-    """Solve the normal problem of an increment: the pressure at a given shear.
+    """Solve the normal problem of an increment: compute the pressure while the shear is fixed.
 
     Under a prescribed force, the approach is the multiplier of the solution. Raise NotConverged, or
     LinAlgError if the compliance matrix is not positive definite.
 
-    q      shear at the points (2, points) [force/length^2]
-    guess  True for points that are probably in contact (points,)
+    problem  compliance, gap and prescribed loads of the increment
+    q        shear at the points (2, points) [force/length^2]
+    guess    True for points that are probably in contact (points,)
     """
     compliance, target = problem.compliance, problem.normal
     w, K = compliance.areas, compliance.matrix
@@ -214,11 +219,13 @@ def solve_pressure(problem: CoupledProblem, q: Field, guess: Mask) -> PressureSo
 def _solve_shear_at_pressure(
     problem: CoupledProblem, p: Vector, start: Field, tolerance: float
 ) -> TangentialState:
-    """Solve the tangential problem of an increment: the shear at a given pressure.
+    """Solve the tangential problem of an increment: compute the shear while the pressure is fixed.
 
-    Unknowns are the shears of the points whose friction limit is positive. If the prescribed load
-    is at the friction limit (gross slip), the shear is the limit at all points.
+    This solve is one half of each alternating iteration. Unknowns are the shears of the points
+    whose friction limit is positive. If the prescribed load is at the friction limit (gross slip),
+    the shear is the limit at all points.
 
+    problem    compliance, friction and prescribed loads of the increment
     p          pressure (points,) [force/length^2]
     start      initial guess of the shear (2, points)
     tolerance  limit of the relative residual of the shear [1]
@@ -251,10 +258,11 @@ def _solve_shear_at_pressure(
 
 
 class _Anderson:
-    """Anderson mixing of the pressures of the alternating iteration.
+    """Anderson mixing of the pressures of the alternating iteration, to accelerate its convergence.
 
-    Each iteration computes a new pressure p' from a pressure p. Anderson mixing extrapolates the
-    last pressures to a fixed point p' = p.
+    Each alternating iteration computes a new pressure p' from a pressure p. Anderson mixing
+    extrapolates the pressures of the last iterations to a fixed point p' = p. The class stores the
+    pressures and their changes of the last REMEMBERED iterations.
     """
 
     def __init__(self, areas: Vector, force: float | None) -> None:
@@ -264,13 +272,14 @@ class _Anderson:
         self._changes: list[Vector] = []
 
     def mix_pressures(self, p: Vector, answer: Vector) -> Vector:
-        """Compute the pressure for the next iteration by extrapolation of all stored iterations.
+        """Compute the pressure for the next alternating iteration from the stored iterations.
 
-        The result is not negative and is zero where the last pressure is zero. It carries the
-        prescribed force, if there is one.
+        The extrapolation is a least-squares fit to zero change of the pressure. The result
+        (points,) is not negative and is zero where the last pressure is zero. Its resultant is the
+        prescribed normal force, if there is one.
 
-        p       pressure before the last iteration (points,)
-        answer  pressure after the last iteration (points,)
+        p       pressure before the last iteration (points,) [force/length^2]
+        answer  pressure after the last iteration (points,) [force/length^2]
         """
         self._points = [*self._points, p][-REMEMBERED:]
         self._changes = [*self._changes, answer - p][-REMEMBERED:]

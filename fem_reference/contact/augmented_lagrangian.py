@@ -44,11 +44,14 @@ class Penalty:
             raise ValueError(f"augmentations cannot be negative, as {self.augmentations} is")
 
     def stiffness(self, contact_modulus: float, edge_length: float) -> float:
-        """Compute the stiffness ε of the penalty springs per area [force/length^3].
+        """Compute the stiffness ε = c E* / h of the penalty springs per area [force/length^3].
 
-        contact_modulus  E* of the outermost materials [force/length^2]. An overlap is shorter than
-                         an edge and therefore deforms these materials only
-        edge_length      length of an element edge on the contact surface [length]
+        The springs act between the two surfaces in contact. c is the factor of the penalty method.
+
+        contact_modulus
+                     E* of the outermost materials [force/length^2]. An overlap is shorter than an
+                     element edge and therefore deforms these materials only
+        edge_length  h, length of an element edge on the contact surface [length]
         """
         return self.factor * contact_modulus / edge_length
 

@@ -63,12 +63,14 @@ def solve_by_continuation(
 class _PathPoint:
     """Converged point on the continuation path of an increment.
 
-    The path consists of the solutions of the contact problem for decreasing compliance of springs
-    between the surfaces.
+    The path consists of the solutions of the contact problem for decreasing compliance of
+    additional springs between the surfaces. It ends at zero compliance with the solution that is
+    sought.
 
-    root         iterate with its slipping points
+    root         iterate (tractions, rigid motion, spring compliance) with its slipping points
     values       scaled unknowns: tractions, rigid motion and spring compliance (3 points + 3,)
-    derivative   derivative of the equations by the scaled unknowns (3 points + 2, 3 points + 3)
+    derivative   derivative of the contact equations by the scaled unknowns (3 points + 2, 3 points
+                 + 3)
     corrections  number of Newton corrections
     """
 
@@ -79,13 +81,17 @@ class _PathPoint:
 
 
 class _Path:
-    """State of a continuation: current point on the path, direction, and length of the next step.
+    """Continuation of a contact problem: current point on the path, direction and step length.
 
-    The path consists of the solutions of a contact problem for decreasing compliance of springs
-    between the surfaces. Lengths along the path refer to scaled unknowns. Pressures are scaled by
-    the mean pressure and shears by the friction limit of this mean. The approach is scaled by its
-    initial value, the shift by the larger of shift and approach, and the spring compliance by the
-    compliance of the bodies at a point.
+    The path consists of the solutions of the contact problem for decreasing compliance of
+    additional springs between the surfaces. Lengths along the path refer to scaled unknowns.
+    Pressures are scaled by the mean pressure and shears by the friction limit of this mean. The
+    approach is scaled by its initial value, the shift by the larger of shift and approach, and the
+    spring compliance by the compliance of the bodies at a point.
+
+    problem   compliance, gap, friction and prescribed loads of the increment
+    begun     first point of the path, a solution with soft springs
+    softness  compliance of the bodies at a point [length^3/force]
     """
 
     def __init__(self, problem: CoupledProblem, begun: Root, softness: float) -> None:
@@ -99,8 +105,9 @@ class _Path:
         self._direction, self._sign = self._unit_tangent(derivative, -self._softer)
 
     def lost(self, tolerance: float) -> NotConverged:
-        """Create the exception that the continuation ended before the springs vanished.
+        """Create the exception NotConverged: the continuation ended before the springs vanished.
 
+        The continuation reduces the compliance of additional springs between the surfaces to zero.
         The exception states the last spring compliance over the compliance of the bodies.
 
         tolerance  tolerance that the exception states [1]
@@ -109,11 +116,12 @@ class _Path:
         return NotConverged("the path of continuation", self._solves, left, tolerance)
 
     def step(self, tolerance: float) -> Root | None:
-        """Try one step along the continuation path towards zero spring compliance.
+        """Try one step along the continuation path of a contact problem.
 
-        A step extrapolates the path and corrects the result by Newton's method. If the correction
-        fails, the next step is shorter. Return the solution without springs if the step ends there,
-        and None otherwise.
+        The path consists of the solutions with additional springs between the surfaces, and leads
+        to zero spring compliance. A step extrapolates the path and corrects the result by Newton's
+        method. If the correction fails, the next step is shorter. Return the solution without
+        springs if the step ends there, and None otherwise.
 
         tolerance  limit of the residual norm of the solution without springs [1]
         """
@@ -135,11 +143,12 @@ class _Path:
         return reached.root
 
     def _go_to(self, reached: _PathPoint) -> None:
-        """Move the current point of the continuation path to a converged point.
+        """Make a converged point the current point of the continuation path of a contact problem.
 
-        The direction of the path and the length of the next step are updated.
+        The direction of the path is updated. The length of the next step grows if the point needed
+        few Newton corrections.
 
-        reached  converged point, with the derivative of the equations there
+        reached  converged point, with the derivative of the contact equations there
         """
         direction, sign = self._unit_tangent(reached.derivative, self._direction)
         self._values = reached.values
@@ -148,10 +157,11 @@ class _Path:
             self._length = min(GROWTH * self._length, LONGEST)
 
     def _halve_step(self) -> None:
-        """Reduce the step length of the continuation by half after a failed correction.
+        """Reduce the step length along the continuation path by half after a failed correction.
 
-        If the step length falls below SHORTEST, the point is at a kink of the path. The direction
-        is then replaced by the direction on the other side of the kink.
+        If the step length falls below SHORTEST, the current point is at a kink of the path, where a
+        point of the surface changes between contact and gap or stick and slip. The direction is
+        then replaced by the direction on the other side of the kink.
         """
         self._length /= 2
         if self._length > SHORTEST:
@@ -162,14 +172,15 @@ class _Path:
         self._length = 100 * BEYOND_KINK
 
     def _correct_point(self, ahead: Vector, across: Vector, tolerance: float) -> _PathPoint | None:
-        """Compute the point in which the continuation path meets a plane, by Newton's method.
+        """Compute the intersection of the continuation path with a plane, by Newton's method.
 
-        Return None if Newton's method fails. The unknowns are tractions, rigid motion and spring
-        compliance, scaled.
+        The path consists of the solutions of the contact problem with springs between the surfaces,
+        in the space of the scaled unknowns: tractions, rigid motion and spring compliance. Used to
+        correct an extrapolated point of the path. Return None if Newton's method fails.
 
         ahead      point of the plane at which Newton's method starts (3 points + 3,)
         across     normal of the plane, a unit vector (3 points + 3,)
-        tolerance  limit of the norm of the residual [1]
+        tolerance  limit of the norm of the residual of the contact equations [1]
         """
         values = ahead
         for corrections in range(MAX_CORRECTIONS + 1):
@@ -186,7 +197,10 @@ class _Path:
         return None
 
     def _scaled_jacobian(self, values: Vector) -> Matrix:
-        """Compute the derivative of the contact equations by the scaled unknowns.
+        """Compute the derivative of the contact equations of an increment by the scaled unknowns.
+
+        The derivative has the shape (3 points + 2, 3 points + 3). Its null vector is the tangent of
+        the continuation path.
 
         values  scaled unknowns: tractions, rigid motion and spring compliance (3 points + 3,)
         """
@@ -194,10 +208,10 @@ class _Path:
         return np.asarray(jacobian * self._scales)
 
     def _unit_tangent(self, derivative: Matrix, along: Vector) -> tuple[Vector, float]:
-        """Compute the unit tangent of the continuation path, and the sign of a determinant.
+        """Compute the unit tangent of the continuation path of a contact problem, and a sign.
 
-        The determinant is that of the derivative of the equations, extended by the row `along`. A
-        tangent that preserves this sign continues the path in its direction.
+        The sign is that of the determinant of the derivative of the contact equations, extended by
+        the row `along`. A tangent that preserves this sign continues the path in its direction.
 
         derivative  derivative of the equations by the scaled unknowns (3 points + 2, 3 points + 3)
         along       vector with which the tangent has a positive scalar product (3 points + 3,)
@@ -208,13 +222,14 @@ class _Path:
         return tangent / np.linalg.norm(tangent), float(sign)
 
     def _solve_extended(self, derivative: Matrix, last: Vector, right: Vector) -> Vector:
-        """Solve the square linear system of a derivative and one additional row.
+        """Solve the linearised contact equations together with one additional linear equation.
 
-        The derivative has one row fewer than unknowns, because the spring compliance is an unknown.
+        The contact equations have one row fewer than unknowns, because the spring compliance is an
+        unknown of the continuation. The additional equation makes the system square.
 
         derivative  derivative of the equations by the scaled unknowns (3 points + 2, 3 points + 3)
-        last        additional row (3 points + 3,)
-        right       right-hand side (3 points + 3,)
+        last        coefficients of the additional equation (3 points + 3,)
+        right       right-hand side of all equations (3 points + 3,)
         raises      NotConverged if the system is singular
         """
         self._solves += 1
@@ -225,13 +240,15 @@ class _Path:
 
 
 def _unknown_units(equations: Equations, at: Iterate, softness: float) -> Vector:
-    """Compute the units by which the unknowns of the contact equations are scaled (3 points + 3,).
+    """Compute the units by which the continuation scales the unknowns of the contact equations.
 
-    The continuation measures lengths in the scaled unknowns: tractions, rigid motion and spring
-    compliance. Tractions are weighted with the areas of their points.
+    The result (3 points + 3,) has a unit for each traction, for the shift, the approach and the
+    spring compliance. Lengths along the continuation path are measured in the scaled unknowns.
+    Tractions are weighted with the areas of their points.
 
-    at        iterate from which mean pressure, shift and approach are taken
-    softness  compliance of the bodies at a point, unit of the spring compliance [length^3/force]
+    equations  contact equations of the increment
+    at         iterate from which mean pressure, shift and approach are taken
+    softness   compliance of the bodies at a point, unit of the spring compliance [length^3/force]
     """
     w, n = equations.w, equations.n
     p = at.tractions[2 * n :]

@@ -47,6 +47,8 @@ class InitialGuess:
 class Root:
     """Solution of the contact equations of an increment, found by Newton's method.
 
+    The equations are the contact and friction laws at all points and the prescribed loads.
+
     at       iterate: tractions, rigid motion and spring compliance
     in_slip  True for slipping points (points,)
     solves   number of linear systems solved
@@ -110,10 +112,10 @@ def find_root(
 
 
 def _newton_step(jacobian: Matrix, right: Vector) -> Vector:
-    """Compute the Newton step of the contact equations: solve the linearised equations.
+    """Compute the Newton step of the contact equations of an increment: solve their linearisation.
 
-    Equations with one diagonal entry are solved first. They belong to points without contact, and
-    to components that symmetry excludes.
+    The step (3 points + 2,) is the change of all unknowns. Equations with one diagonal entry are
+    solved first. They belong to points without contact, and to components that symmetry excludes.
 
     jacobian  generalised derivative of the equations (3 points + 2, 3 points + 2)
     right     negative residual (3 points + 2,)
@@ -159,12 +161,13 @@ def _search_along_step(
     """Search along a Newton step of the contact equations for an iterate with a smaller residual.
 
     The step is halved up to MAX_HALVINGS times. Return the first iterate whose residual norm is
-    below the bound. If there is none, return the iterate with the least norm, because at a kink all
-    steps may increase the norm. Return None if no norm is finite.
+    below the bound. If there is none, return the iterate with the smallest norm, because at a kink
+    of the equations all steps may increase the norm. Return None if no norm is finite.
 
-    at      iterate at which the step starts
-    change  Newton step (3 points + 3,)
-    bound   limit of the residual norm [1]
+    equations  contact equations of the increment
+    at         iterate at which the step starts
+    change     Newton step of all unknowns (3 points + 3,)
+    bound      limit of the residual norm [1]
     """
     nearest, least = None, np.inf
     for halvings in range(MAX_HALVINGS + 1):

@@ -12,21 +12,24 @@ AT_LIMIT = 1e-6
 
 
 def reaches_limit(load: float | None, capacity: float) -> bool:
-    """Return True if a tangential load reaches the friction limit of the contact (gross slip).
+    """Return True if a tangential load reaches the friction limit of a contact (gross slip).
 
-    The largest load that friction can carry is reached within the relative distance AT_LIMIT.
+    The load counts as reaching the limit if it differs from the largest load that friction can
+    carry by less than the relative amount AT_LIMIT, or exceeds this load.
 
-    load      force or torque; None if the motion is prescribed, then the result is False
-    capacity  largest load that friction can carry
+    load      tangential force or torque; None if the motion is prescribed, then the result is False
+    capacity  largest force or torque that friction can carry under the present pressure
     """
     return load is not None and abs(load) >= capacity * (1 - AT_LIMIT)
 
 
 def refuse_beyond_limit(load: float | None, capacity: float) -> None:
-    """Raise GrossSliding if a tangential force or torque exceeds the friction limit.
+    """Raise GrossSliding if a prescribed tangential force or torque exceeds the friction limit.
 
-    load      force or torque; None if the motion is prescribed
-    capacity  largest load that friction can carry
+    No equilibrium exists then. A relative excess up to AT_LIMIT is allowed.
+
+    load      tangential force or torque; None if the motion is prescribed
+    capacity  largest force or torque that friction can carry under the present pressure
     """
     if load is not None and abs(load) > capacity * (1 + AT_LIMIT):
         raise GrossSliding(

@@ -79,10 +79,13 @@ def advance(
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
-    """Raise NothingTouches if the prescribed approach is at most the gap at all points.
+    """Raise NothingTouches if the prescribed approach is at most the smallest undeformed gap.
 
-    contact  contact problem, with the undeformed gap of the points
-    loads    prescribed loads, of which the approach is compared
+    No ring of the surface would come into contact. An increment with a prescribed normal force
+    passes this check.
+
+    contact  contact problem, with the undeformed gap at the points (points,) [length]
+    loads    prescribed loads at the end of the increment; only the approach is used
     """
     approach, gap = loads.normal.approach, float(np.min(contact.gap))
     if approach is not None and approach <= gap:
@@ -94,14 +97,14 @@ def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
 
 @dataclass(frozen=True)
 class _Pass:
-    """Solution of one penalty pass of an increment, with its displacements and residuals.
+    """Solution of one penalty pass of a load increment, with its displacements and residuals.
 
-    With a penalty an increment consists of several solves, called passes. The tractions of a pass
-    are the multipliers of the next pass. The exact contact law needs one pass with zero
-    multipliers.
+    A pass is one solve of the contact problem of the increment. With a penalty an increment has
+    several passes. The tractions of a pass are the multipliers of the next pass. The exact contact
+    law needs one pass with zero multipliers.
 
     problem       compliance, gap, friction and prescribed loads of the pass
-    solution      tractions and rigid motion
+    solution      tractions and rigid motion of the indenter
     multiplier    tractions without the contribution of the penalty springs, r, θ, z (3, points)
     displacement  tangential displacement of the bodies (2, points) [length]
     law_gap       gap plus the strain of the springs (points,), zero in contact [length]
@@ -109,6 +112,7 @@ class _Pass:
                   the springs (2, points) [length]
     motion        shift [length] or twist [radian]; None at the friction limit under a prescribed
                   load
+    residuals     residuals of the contact and friction laws
     outer_iterations
                   number of alternating iterations in all attempts
     solves        number of linear systems in all attempts
@@ -127,9 +131,10 @@ class _Pass:
 
     @property
     def tractions(self) -> Field:
-        """Shear and pressure of all points in one array (3, points).
+        """Shear and pressure of a penalty pass at all points, in one array (3, points).
 
-        The components are r, θ, z [force/length^2].
+        The components are r, θ, z [force/length^2]. These tractions are the multipliers of the next
+        pass.
         """
         return np.concatenate([self.solution.shear, self.solution.pressure[None]])
 
@@ -137,7 +142,8 @@ class _Pass:
     def strain(self) -> Field:
         """Deformation of the penalty springs between the surfaces (3, points) [length].
 
-        The components are r, θ, z.
+        The components are r, θ, z. The deformation is the compliance of the springs times the part
+        of the tractions that the springs carry.
         """
         return self.problem.compliance.springs * (self.tractions - self.multiplier)
 
@@ -162,10 +168,11 @@ class _Pass:
 
 @dataclass(frozen=True)
 class _Increment:
-    """Solver of one increment: from a contact state to prescribed loads, in one or several passes.
+    """Solver of one load increment, from a contact state to prescribed loads, in penalty passes.
 
     A pass is a solve with given multipliers of the penalty law. The exact law needs one pass.
 
+    contact    contact problem at the points of the surface, without loads
     before     contact state at the start of the increment
     loads      prescribed loads or motions at the end of the increment
     tolerance  upper limit of every residual [1]
@@ -177,13 +184,13 @@ class _Increment:
     tolerance: float
 
     def first_pass(self) -> _Pass:
-        """Solve the first penalty pass of the increment, with the initial multipliers.
+        """Solve the contact problem of the increment with the initial penalty multipliers.
 
-        Without a penalty this pass is the only one, and the multipliers are zero. With a penalty at
-        nodes the multipliers are the tractions at the start of the increment, or zero if updates
-        are not allowed. At Gauss points the multiplier of the shear is the shear at the start. The
-        multiplier of the pressure is zero there, because oscillations would accumulate over the
-        increments otherwise.
+        The multipliers are the tractions at zero deformation of the penalty springs. Without a
+        penalty they are zero, and this pass is the only one. With a penalty at nodes they are the
+        tractions at the start of the increment, or zero if updates are not allowed. At Gauss points
+        the multiplier of the shear is the shear at the start. The multiplier of the pressure is
+        zero there, because pressure oscillations would otherwise accumulate over the increments.
         """
         before, penalty = self.before, self.contact.penalty
         multiplier = np.zeros_like(before.tractions)
@@ -195,10 +202,10 @@ class _Increment:
         return self._solve_pass(multiplier, before.tractions, motion)
 
     def next_pass(self, last: _Pass) -> _Pass:
-        """Solve the next penalty pass of the increment, with updated multipliers.
+        """Solve the contact problem of the increment again, with updated penalty multipliers.
 
-        The multipliers are the tractions of the last pass. In the result, the numbers of iterations
-        and linear systems are the sums over all passes.
+        The multipliers are the tractions of the last pass, so that the penalty springs carry less.
+        In the result, the numbers of iterations and linear systems are the sums over all passes.
 
         last  solution of the last pass
         """
@@ -211,16 +218,17 @@ class _Increment:
         return replace(after, outer_iterations=outer_iterations, solves=solves)
 
     def penalty_error(self, one: _Pass) -> float:
-        """Compute the relative error that the penalty springs cause in one pass [1].
+        """Compute the relative error [1] of one penalty pass by the deformation of its springs.
 
         Passes are repeated until this error is allowed. The error is the larger of two ratios. The
-        first is the overlap over the approach. The second is the tangential strain of the springs
-        over the largest tangential displacement in the history, both as means weighted with the
-        shear.
+        first is the largest overlap of the surfaces over the rigid approach. The second is the
+        tangential strain of the springs over the largest tangential displacement in the history,
+        both as means weighted with the shear.
 
-        At Gauss points the error is multiplied by (WIDEST_ZONE × contact radius / radius of the
-        mesh's contact zone)², at most 1. The discretisation error is proportional to the inverse of
-        this square, and the error of the penalty need not be smaller.
+        At Gauss points the error is multiplied by (WIDEST_ZONE × a/b)², at most 1. Here a is the
+        contact radius and b the outer radius of the mesh's contact zone. The discretisation error
+        is proportional to the inverse of this square, and the error of the penalty need not be
+        smaller.
 
         one  solution of the pass
         """
@@ -234,12 +242,13 @@ class _Increment:
         return left * min(1.0, WIDEST_ZONE * reached / rings.reach) ** 2
 
     def largest_displacement(self, one: _Pass) -> float:
-        """Compute the largest mean tangential displacement of the bodies in the history [length].
+        """Compute the largest mean tangential displacement of the bodies in the load history.
 
-        The history ends with the given pass. The mean over the contact is weighted with the shear.
-        The tangential error of the penalty springs is relative to this displacement.
+        The result [length] is the maximum over all increments, up to the given pass. The mean is
+        taken over the contact, weighted with the shear. The tangential error of the penalty springs
+        is divided by this displacement.
 
-        one  solution of a pass of the increment
+        one  solution of a pass of the current increment
         """
         return max(self.before.moved, self.shear_weighted_mean(one, one.displacement))
 
@@ -257,8 +266,9 @@ class _Increment:
     def end_state(self, passes: list[_Pass]) -> PointState:
         """Create the contact state at the end of the increment from its last penalty pass.
 
-        At Gauss points, the tractions for the contact edge are those of the first pass with a small
-        overlap.
+        Slip and dissipated energy are added to those at the start of the increment. At Gauss
+        points, the tractions that determine the contact edge are those of the first pass with a
+        small overlap, because later passes oscillate at the edge.
 
         passes  solutions of all passes; the exact law has one pass
         """
@@ -311,10 +321,10 @@ class _Increment:
     def _solve_pass(
         self, multiplier: Field, start: Field, motion: tuple[float | None, float]
     ) -> _Pass:
-        """Solve one penalty pass: the contact problem of the increment for given multipliers.
+        """Solve the contact problem of the increment for given multipliers of the penalty law.
 
-        The solve is repeated with a smaller tolerance of the algorithm until all residuals meet the
-        tolerance. The residuals follow from displacements that are computed again from the final
+        If a residual exceeds the tolerance, the solve is repeated with a smaller tolerance of the
+        algorithm. The residuals follow from displacements that are computed again from the final
         tractions, harmonic by harmonic, without the compliance matrix.
 
         multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
@@ -364,10 +374,13 @@ class _Increment:
         outer_iterations: int,
         solves: int,
     ) -> _Pass:
-        """Compute displacements, slip and residuals of a solution of the contact problem.
+        """Compute displacements, slip and residuals of a solution of the increment.
 
-        Return the solution together with these fields as a pass of the increment.
+        Return the solution together with these fields as a penalty pass. The residuals determine
+        whether the solution is accepted.
 
+        problem     compliance, gap, friction and prescribed loads
+        solution    tractions and rigid motion of the indenter
         multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
         outer_iterations, solves
                     numbers of alternating iterations and of linear systems so far
@@ -392,11 +405,11 @@ class _Increment:
         )  # fmt: skip
 
     def _touching_share(self, p: Vector, at_edges: Vector) -> Vector:
-        """Compute the part of the increment in which every point is in contact (points,).
+        """Compute the contact fraction of each point: the part of the increment in contact.
 
-        The part follows from the motion of the contact edge along the ray of the point, and is
-        between 0 and 1. A ray is the set of points at one angle. Used to count slip only while the
-        surfaces are in contact.
+        The fractions (points,) are between 0 and 1. They follow from the motion of the contact edge
+        along the ray of the point. A ray is the set of points at one angle. Used to count slip only
+        while the surfaces are in contact.
 
         p         pressure at the end of the increment (points,)
         at_edges  pressure from which the contact edge at the end is computed (points,)
@@ -425,13 +438,16 @@ class _Increment:
     def _law_residuals(
         self, problem: CoupledProblem, solution: CoupledSolution, g: Vector, passed: Field | None
     ) -> Residuals:
-        """Compute the residuals of the contact and friction laws for a solution.
+        """Compute the residuals of the contact law, the friction law and the loads for a solution.
 
-        With a penalty the residuals are those of the penalty law.
+        With a penalty the residuals are those of the penalty law. The increment is converged if all
+        residuals are at most the tolerance.
 
-        g       gap plus the strain of the springs (points,) [length]
-        passed  slip in the increment minus the strain of the springs (2, points) [length]; None if
-                the motion of the indenter is undefined
+        problem   compliance, gap, friction and prescribed loads
+        solution  tractions and rigid motion of the indenter
+        g         gap plus the strain of the penalty springs (points,) [length]
+        passed    slip in the increment minus the strain of the springs (2, points) [length]; None
+                  if the motion of the indenter is undefined
         """
         p, q, w = solution.pressure, solution.shear, problem.compliance.areas
         bound, approach = problem.bound(p), solution.approach
@@ -533,13 +549,13 @@ def touching_share(
     Particles slip past each other only while they are in contact. If the contact edge moves from a₀
     to a₁ and passes a ring of radius r, the ring is in contact for the fraction |a - r|/|a₁ - a₀|
     of the motion, with a the larger of a₀ and a₁. This fraction is correct to first order in the
-    increment, in which the motion follows the radius.
+    increment. The result has the shape (rings,).
 
     radii  radii of the rings, circles around the axis on the surface (rings,) [length]
     apart_before, apart
            True for rings with a gap at the start, and at the end (rings,)
     edge_before, edge
-           a₀ and a₁ [length], 0 without contact
+           radius a₀ of the contact edge at the start, and a₁ at the end [length]; 0 without contact
     """
     widest, travel = max(edge_before, edge), abs(edge - edge_before)
     passed = apart_before != apart

@@ -75,13 +75,15 @@ def _add_shear(
     """Add shear, slip, stick zone and tangential load to an increment of the result.
 
     In torsion, shear and slip are circumferential. Without coupling of pressure and shear they are
-    along the load. Otherwise they have a radial and, under a tangential load, a circumferential
-    component.
+    along the tangential load. Otherwise they have a radial and, under a tangential load, a
+    circumferential component.
 
     pressed    increment with pressure and gap
-    state      converged state at the points of the surface
+    contact    contact problem at the points of the surface
+    state      converged contact state at the points
     direction  unit vector (x, y) of the tangential load
-    edges      radius of the contact edge on every ray (angles,) [length]
+    edges      radius of the contact edge on every ray, the set of points at one angle (angles,)
+               [length]
     """
     path, (x, y) = contact.rings.path, direction
     components = {"radial": 0} if contact.axisymmetric else {"radial": 0, "circumferential": 1}
@@ -108,17 +110,19 @@ def _add_shear(
 
 
 def _result_field(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Convert a scalar field at the points of the surface to the shape of the result.
+    """Convert a scalar field at the points of the surface to the array shape of the result.
 
-    The shape is (rings,) if the contact is axisymmetric, else (rings, angles).
+    The shape is (rings,) if the contact is axisymmetric, else (rings, angles). A ring is a circle
+    around the axis on the surface.
 
-    values  field at the points, such as the pressure (points,)
+    contact  contact problem, which defines the rings and angles of the points
+    values   field at the points, such as the pressure (points,)
     """
     return _drop_angle_axis(contact, contact.compliance.scalar_on_grid(values))
 
 
 def _drop_angle_axis(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Remove the axis of angles from a field of the result if the contact is axisymmetric.
+    """Remove the array axis of angles from a field of the result if the contact is axisymmetric.
 
     An axisymmetric field (rings, 1) becomes (rings,). Other fields (rings, angles) are returned
     unchanged.
@@ -130,10 +134,13 @@ def _drop_angle_axis(contact: PointContact, on_grid: NDArray[Scalar]) -> NDArray
 
 
 def _contact_edges(contact: PointContact, state: PointState) -> Field:
-    """Compute the radius of the contact edge on every ray (angles,) [length].
+    """Compute the radius of the contact edge on every ray of the surface (angles,) [length].
 
     A ray is the set of points at one angle. The radius is the outer end of the last element if the
     last ring carries pressure, and 0 without contact.
+
+    contact  contact problem, which defines the rings and angles of the points
+    state    contact state with the pressure at the points
     """
     p = contact.compliance.scalar_on_grid(state.edge_tractions[2])
     return np.array([contact.rings.contact_edge(ray) for ray in p.T])
@@ -142,9 +149,10 @@ def _contact_edges(contact: PointContact, state: PointState) -> Field:
 def _contact_area(contact: PointContact, edges: Field) -> float:
     """Compute the contact area at the end of an increment, ½∫a² dθ [length^2].
 
-    a is the radius of the contact edge, and θ the angle around the axis.
+    a(θ) is the radius of the contact edge at the angle θ around the axis.
 
-    edges  a on every ray (angles,) [length]; a ray is the set of points at one angle
+    contact  contact problem, which defines the angles and their integration weights
+    edges    a on every ray, the set of points at one angle (angles,) [length]
     """
     return float(0.5 * np.sum(contact.compliance.grid.weights * np.square(edges)))
 
@@ -152,10 +160,12 @@ def _contact_area(contact: PointContact, edges: Field) -> float:
 def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float:
     """Compute the area of the stick zone at the end of an increment [length^2].
 
-    The area is ½∫c² dθ with the radius c of the edge of the stick zone on every ray. The area is at
-    most the contact area.
+    The area is ½∫c² dθ with the radius c of the edge of the stick zone on every ray. A ray is the
+    set of points at one angle. The area is at most the contact area.
 
-    edges  radius of the contact edge on every ray (angles,) [length]
+    contact  contact problem, with the friction limit of the points
+    state    contact state with tractions and slipping points
+    edges    radius of the contact edge on every ray (angles,) [length]
     """
     contact_area = _contact_area(contact, edges)
     if state.status is ContactStatus.FULL_STICK and contact.at_gauss_points:

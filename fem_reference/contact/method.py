@@ -71,6 +71,10 @@ class ContactMethod:
     def increment(self, state: PointState, place: IncrementPosition) -> Increment:
         """Convert the contact state at the end of an increment to an increment of the result.
 
+        The result contains the fields over rings and angles, and the loads and motions of the
+        indenter.
+
+        state  converged contact state at the points of the surface
         place  load step, and index of the increment in the load step
         """
         contact = self._axisymmetric_contact if state.axisymmetric else self._angular_contact
@@ -96,9 +100,10 @@ class ContactMethod:
 
     @property
     def undeformed_gap(self) -> NDArray[np.float64]:
-        """Gap between the undeformed surfaces at the rings (rings,) [length].
+        """Gap between the undeformed surfaces at first touch, at the rings (rings,) [length].
 
-        The value of a ring is the weighted mean over its basis function.
+        A ring is a circle around the axis on the surface. The value of a ring is the weighted mean
+        over its basis function.
         """
         return self._axisymmetric_contact.gap
 
@@ -106,7 +111,7 @@ class ContactMethod:
     def _axisymmetric_contact(self) -> PointContact:
         """Contact problem with one point per ring of the surface, without loads.
 
-        Used for fields that do not depend on the angle.
+        A ring is a circle around the axis. Used while the tractions do not depend on the angle.
         """
         return point_contact(self.model, self.plan.path, axisymmetric_grid(), self.penalty)
 
@@ -114,7 +119,8 @@ class ContactMethod:
     def _angular_contact(self) -> PointContact:
         """Contact problem with points at several angles on each ring of the surface, without loads.
 
-        Used for coupled bodies under a tangential load.
+        A ring is a circle around the axis. Used for coupled bodies under a tangential load, whose
+        tractions depend on the angle.
         """
         assert self.around is not None
         return point_contact(self.model, self.plan.path, self.around, self.penalty)
@@ -122,7 +128,11 @@ class ContactMethod:
     def _refuse_contact_at_edge(self, contact: PointContact, state: PointState) -> None:
         """Raise ContactAtZoneEdge if the contact reaches the end of the zone of fine elements.
 
+        The solver then repeats the solve on a larger mesh, unless the contact radius is prescribed.
         A contact that ends at the rim of the indenter is allowed.
+
+        contact  contact problem, which defines the rings of the surface
+        state    contact state with the pressure at the points
         """
         last = contact.compliance.ring_of_point == len(contact.rings.radii) - 1
         if not self.model.ends_at_rim and np.any(state.pressure[last] > 0):

@@ -42,17 +42,21 @@ class Iterate:
 
     @property
     def values(self) -> Vector:
-        """All unknowns of the contact equations in one vector (3 points + 3,).
+        """All unknowns of the contact equations of an increment in one vector (3 points + 3,).
 
-        The order is tractions, shift or twist, approach, spring compliance.
+        The order is tractions, shift or twist, approach, spring compliance. Newton's method works
+        on this vector.
         """
         return np.append(self.tractions, [self.shift, self.approach, self.springs])
 
     @classmethod
     def of(cls, values: Vector) -> "Iterate":
-        """Create an iterate of the contact equations from the vector of its unknowns.
+        """Create an iterate of the contact equations of an increment from its vector of unknowns.
 
-        values  tractions, shift or twist, approach and spring compliance (3 points + 3,)
+        Newton's method works on such vectors.
+
+        values  tractions r, θ, z (3 points), then shift or twist, approach and spring compliance (3
+                points + 3,)
         """
         shift, approach, springs = (float(value) for value in values[-3:])
         return cls(values[:-3], shift, approach, springs)
@@ -65,6 +69,8 @@ class Equations:
     written as equations between each traction and its projection onto the admissible tractions
     (natural map). The unknowns are tractions, rigid motion and the compliance of springs between
     the surfaces.
+
+    problem  compliance, gap, friction and prescribed loads of the increment
     """
 
     def __init__(self, problem: CoupledProblem) -> None:
@@ -166,11 +172,12 @@ class Equations:
         )
 
     def solution(self, at: Iterate, in_slip: Mask, solves: int) -> CoupledSolution:
-        """Convert a converged iterate to tractions that satisfy all inequalities exactly.
+        """Convert a converged Newton iterate to tractions that obey the contact laws exactly.
 
-        The pressure is set to its positive part. Each shear vector is limited to the friction
-        limit. The iterate must not contain springs.
+        Negative pressures are set to zero. Each shear vector is limited to the friction limit. The
+        iterate must not contain springs between the surfaces.
 
+        at       converged iterate: tractions and rigid motion
         in_slip  True for slipping points (points,)
         solves   number of linear systems solved
         """

@@ -41,7 +41,10 @@ class PointContact:
 
     @property
     def rings(self) -> RingCompliance:
-        """Rings of the surface that contain the points, with the compliance of the rings."""
+        """Rings of the surface that contain the points, with the compliance of the rings.
+
+        A ring is a circle around the axis on the surface.
+        """
         return self.compliance.rings
 
     @property
@@ -54,7 +57,10 @@ class PointContact:
 
     @property
     def axisymmetric(self) -> bool:
-        """True if there is one point per ring, for fields that do not depend on the angle."""
+        """True if the contact problem has one point on each ring (circle around the axis).
+
+        The fields then do not depend on the angle.
+        """
         return self.compliance.grid.highest == 0
 
     @property
@@ -67,7 +73,10 @@ class PointContact:
         return isinstance(self.rings.edge, GaussEdge)
 
     def state_before_contact(self) -> PointState:
-        """Create the contact state before first contact: no tractions and the undeformed gap."""
+        """Create the contact state before first contact: no tractions and the undeformed gap.
+
+        Used as the state at the start of the first increment.
+        """
         nothing = np.zeros((3, len(self.gap)))
         return PointState(
             axisymmetric=self.axisymmetric,
@@ -89,12 +98,12 @@ class PointContact:
         )
 
     def extend_to_points(self, state: PointState) -> PointState:
-        """Extend an axisymmetric contact state to several points on each ring.
+        """Extend an axisymmetric contact state to several points on each ring of the surface.
 
-        Used when the first tangential load on coupled bodies ends the axisymmetry. Every point
-        takes the values of its ring.
+        A ring is a circle around the axis. Used when the first tangential load on coupled bodies
+        ends the axisymmetry. Every point takes the values of its ring.
 
-        state  state with one point per ring
+        state  contact state with one point per ring
         """
         ring = self.compliance.ring_of_point
         lifted: dict[str, Any] = {
@@ -106,14 +115,16 @@ class PointContact:
 def point_contact(
     model: ContactModel, path: Path, grid: AngularGrid, penalty: Penalty | None = None
 ) -> PointContact:
-    """Create the contact problem of a model on the rings of its mesh and the angles of a grid.
+    """Create the contact problem of two bodies on the rings of their mesh and the angles of a grid.
 
-    The penalty law acts at Gauss points, except on Path.HARMONICS, where it acts at nodes. Raise
+    A ring is a circle around the axis on the surface. The penalty law acts at Gauss points, except
+    on Path.HARMONICS (coupled bodies under a tangential load), where it acts at nodes. Raise
     ResourceRefused if the memory is insufficient for the compliance matrix of all points.
 
-    path     tractions of the solve
+    model    the two bodies with their meshes, compliances, undeformed gap and friction
+    path     tractions that the solve computes
     grid     angular points on each ring
-    penalty  parameters of the penalty law; None for the exact laws
+    penalty  parameters of the penalty law; None for the exact laws of Signorini and Coulomb
     """
     rings = ring_compliance(
         model, path, grid.highest, at_gauss_points=bool(penalty) and path is not Path.HARMONICS

@@ -13,32 +13,38 @@ from contact_scene.quantities.summary import ContactStatus
 class PointState:
     """Converged contact state at the points of the surface, at the end of an increment.
 
-    Vectors (2, points) have the components r and θ. On Path.SHEARING the first component is the one
-    along the load, and the second is zero.
+    Vectors (2, points) have the components r and θ. On Path.SHEARING, a tangential load without
+    coupling of pressure and shear, the first component is the one along the load, and the second is
+    zero.
 
-    axisymmetric       True if each point represents a whole ring
-    displacement       tangential displacement of the lower surface relative to the upper one
-                       [length]
-    multiplier         tractions without the contribution of the penalty springs, r, θ, z (3,
-                       points); zero for the exact law
-    edge_tractions     tractions r, θ, z (3, points) from which the edges of contact and stick are
-                       computed. With a penalty at Gauss points, they are those of the first pass
-                       with a small overlap, because later passes oscillate at the edge
-    gap                gap between the surfaces, negative for an overlap [length]
-    slip               slip of the lower body relative to the indenter, accumulated since the start
-                       [length]
-    load               tangential force [force] or torque [force length]
-    motion             shift [length] or twist [radian]; None at the friction limit under a
-                       prescribed load
-    dissipated_energy  energy lost to friction since the start; None if the motion is None
-    overlap            largest overlap that the penalty springs permit [length]
-    moved              largest mean tangential displacement in the history, weighted with the shear
-                       [length]
+    axisymmetric    True if each point represents a whole ring (circle around the axis)
+    pressure        pressure (points,) [force/length^2]
+    shear           shear on the lower body (2, points) [force/length^2]
+    displacement    tangential displacement of the lower surface relative to the upper one (2,
+                    points) [length]
+    multiplier      tractions without the contribution of the penalty springs, r, θ, z (3, points);
+                    zero for the exact law
+    edge_tractions  tractions r, θ, z (3, points) from which the edges of contact and stick are
+                    computed. With a penalty at Gauss points, they are those of the first pass with
+                    a small overlap, because later passes oscillate at the edge
+    gap             gap between the surfaces (points,), negative for an overlap [length]
+    slip            slip of the lower body relative to the indenter, accumulated since the start (2,
+                    points) [length]
+    in_stick        True for points in the stick zone (points,)
+    status          full stick, partial slip, gross sliding, or no stick area left
+    load            tangential force [force] or torque [force length]
+    motion          shift [length] or twist [radian]; None at the friction limit under a prescribed
+                    load
+    dissipated_energy
+                    energy lost to friction since the start; None if the motion is None
+    overlap         largest overlap that the penalty springs permit [length]
+    moved           largest mean tangential displacement in the history, weighted with the shear
+                    [length]
     outer_iterations, solves
-                       numbers of alternating iterations and of linear systems
-    augmentations      number of augmented-Lagrangian updates of the multipliers
-    strain             equibiaxial strain imposed on the lower body since first contact [1]
-    algorithm          algorithm that solved pressure and shear; None if they are not coupled
+                    numbers of alternating iterations and of linear systems
+    augmentations   number of augmented-Lagrangian updates of the multipliers
+    strain          equibiaxial strain imposed on the lower body since first contact [1]
+    algorithm       algorithm that solved pressure and shear; None if they are not coupled
     """
 
     axisymmetric: bool
@@ -67,7 +73,7 @@ class PointState:
 
     @property
     def tractions(self) -> Field:
-        """Shear and pressure of all points in one array (3, points).
+        """Shear and pressure of a contact state at all points, in one array (3, points).
 
         The components are r, θ, z [force/length^2].
         """

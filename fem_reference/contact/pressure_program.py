@@ -31,7 +31,8 @@ ROUND_OFF = 1e-13
 class Total:
     """Linear condition v·x = t on the unknowns x of a quadratic program.
 
-    In the normal problem, x is the pressure and the condition prescribes the normal force.
+    In the normal problem of contact, x is the pressure of the points. The condition states that the
+    sum of the pressures times the areas is the prescribed normal force.
 
     weights  v > 0 (n,), such as the areas of the points
     value    t, such as the normal force
@@ -43,13 +44,14 @@ class Total:
 
 @dataclass(frozen=True)
 class PressureProgram:
-    """Quadratic program of the normal problem: minimise ½ xᵀA x - cᵀx with x >= 0.
+    """Quadratic program of the normal contact problem: minimise ½ xᵀA x - cᵀx with x >= 0.
 
-    The unknowns x (n,) are the pressures of the points.
+    The unknowns x (n,) are the pressures of the points. The gradient A x - c, minus λ v with the
+    multiplier λ of a condition, is the gap times the areas of the points.
 
     matrix  A (n, n), symmetric and positive definite
     right   c (n,)
-    total   linear condition v·x = t; None without a condition
+    total   linear condition v·x = t for the normal force; None without a condition
     """
 
     matrix: Matrix
@@ -77,9 +79,11 @@ class PressureSolution:
 def solve_program(program: PressureProgram, guess: Mask) -> PressureSolution:
     """Compute the minimiser of a quadratic program with x >= 0 from a guess of its free components.
 
-    Raise NotConverged if the set of free components does not converge.
+    In the normal contact problem, x (n,) is the pressure and the free components are the points in
+    contact. Raise NotConverged if the set of free components does not converge.
 
-    guess  True for components that are probably positive (n,)
+    program  quadratic program, minimise ½ xᵀA x - cᵀx with x >= 0 and, optionally, v·x = t
+    guess    True for components that are probably positive (n,)
     """
     free = guess
     seen: set[bytes] = set()
@@ -98,11 +102,13 @@ def solve_program(program: PressureProgram, guess: Mask) -> PressureSolution:
 
 
 def _solve_free(program: PressureProgram, free: Mask) -> tuple[Field, float]:
-    """Compute the minimiser of ½ xᵀA x - cᵀx whose components outside a given set are zero.
+    """Compute the minimiser of ½ xᵀA x - cᵀx among all x that are zero outside a given set.
 
+    In the normal contact problem, x is the pressure and the set contains the points in contact.
     Return x (n,) and the multiplier λ of the linear condition v·x = t, or 0 without a condition.
 
-    free  True for the free components (n,)
+    program  quadratic program with A, c, v and t
+    free     True for the free components, whose values are computed (n,)
     """
     A, c, total = program.matrix, program.right, program.total
     x = np.zeros(len(c))
@@ -122,8 +128,11 @@ def _solve_free(program: PressureProgram, free: Mask) -> tuple[Field, float]:
 def _lagrangian_gradient(program: PressureProgram, x: Field, multiplier: float) -> Field:
     """Compute the gradient A x - c - λ v of the Lagrangian of a quadratic program (n,).
 
-    In the normal problem the gradient is the gap times the area of each point.
+    In the normal contact problem, x is the pressure, λ the approach, and the gradient the gap times
+    the area of each point.
 
+    program     quadratic program, minimise ½ xᵀA x - cᵀx with x >= 0 and v·x = t
+    x           vector at which the gradient is computed (n,)
     multiplier  λ of the linear condition v·x = t
     """
     gradient = program.matrix @ x - program.right
@@ -133,10 +142,13 @@ def _lagrangian_gradient(program: PressureProgram, x: Field, multiplier: float) 
 
 
 def _update_free(program: PressureProgram, x: Field, multiplier: float, free: Mask) -> Mask:
-    """Update the set of free components of a quadratic program after a solve (n,).
+    """Update the set of free components of a quadratic program with x >= 0 after a solve (n,).
 
-    Negative components are fixed at zero. Components at zero with a negative gradient become free.
+    In the normal contact problem the free components are the points in contact. Free components
+    with a negative value leave the set and are fixed at zero. Fixed components with a negative
+    gradient, which is an overlap, enter the set.
 
+    program     quadratic program, minimise ½ xᵀA x - cᵀx with x >= 0 and v·x = t
     x           solution with the previous free components (n,)
     multiplier  λ of the linear condition v·x = t
     free        previous free components (n,)
@@ -148,13 +160,14 @@ def _update_free(program: PressureProgram, x: Field, multiplier: float, free: Ma
 
 
 def _minimise_by_descent(program: PressureProgram, spent: int) -> PressureSolution:
-    """Minimise a quadratic program by the primal active-set method, from a point x > 0.
+    """Minimise a quadratic program with x >= 0 by the primal active-set method, which cannot cycle.
 
-    Used if the primal-dual active-set method cycles. A step towards the minimiser of the free
-    components ends where the first of them becomes zero. Raise NotConverged after MAX_RELEASES
-    steps per component.
+    Used if the faster primal-dual active-set method cycles. The iteration starts with all
+    components free. A step towards the minimiser of the free components ends where the first of
+    them becomes zero. Raise NotConverged after MAX_RELEASES steps per component.
 
-    spent  number of linear systems that were already solved
+    program  quadratic program, minimise ½ xᵀA x - cᵀx with x >= 0 and v·x = t
+    spent    number of linear systems that were already solved
     """
     total, count = program.total, len(program.right)
     free = np.ones(count, dtype=bool)

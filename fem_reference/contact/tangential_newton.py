@@ -26,13 +26,15 @@ GRADIENT_STEPS = 2
 
 @dataclass(frozen=True)
 class ShearProblem:
-    """Tangential problem at a given pressure: the shear of least energy below the friction limit.
+    """Tangential problem of contact at a given pressure: the shear of least energy.
 
-    The energy is ½ qᵀKq − cᵀq of the shear q at the contact points.
+    The energy is ½ qᵀKq − cᵀq of the shear q at the contact points. Each shear vector must lie
+    within the friction limit of its point. The resultant of the shear may be prescribed.
 
     compliance  K (2 points, 2 points), components outermost, with w u_t = K q
     target      c = w (u_t − ω of the previous state − u_t by the new pressure) (2, points): the
-                area-weighted displacement by shear under full stick and zero shift
+                area-weighted displacement by shear under full stick and zero shift; ω is the rigid
+                motion
     areas       areas w that the points represent (points,) [length^2]
     along       factors of the shear in the load T = Σ along · q; also w times the displacement per
                 unit shift (2, points)
@@ -114,9 +116,10 @@ def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> Tangen
 
 
 def _integrate_magnitude(areas: Vector, vectors: Field) -> float:
-    """Compute the integral of the magnitude of the shear over the contact area [force].
+    """Compute the integral of the magnitude of a shear field over the contact area [force].
 
-    Used to make the residual of the tangential problem relative.
+    Used to compute the relative residual of the tangential problem: the integral of the change of
+    the shear over the integral of the shear.
 
     areas    areas that the points represent (points,) [length^2]
     vectors  shear vectors, or changes of shear vectors, at the points (2, points)
@@ -127,12 +130,12 @@ def _integrate_magnitude(areas: Vector, vectors: Field) -> float:
 def _line_minimum(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field, float]:
     """Compute the shear of least energy on the line between two shear fields.
 
-    The energy is that of the tangential problem, ½ qᵀKq − cᵀq. Return the shear and the decrease of
-    the energy from q.
+    The energy is that of the tangential problem, ½ qᵀKq − cᵀq. Return the shear (2, points) and the
+    decrease of the energy from the start of the line. Used as the line search of a Newton step.
 
-    K       compliance matrix (2 points, 2 points)
-    slope   gradient of the energy at q (2, points)
-    q, end  shear fields at the ends of the line (2, points)
+    K       compliance matrix of the contact points (2 points, 2 points)
+    slope   gradient K q − c of the energy at the start of the line (2, points)
+    q, end  shear fields at the start and the end of the line (2, points)
     """
     step = end - q
     falls = float(np.sum(slope * step))
@@ -146,14 +149,15 @@ def _line_minimum(K: Matrix, slope: Field, q: Field, end: Field) -> tuple[Field,
 def _newton_point(
     problem: ShearProblem, c: Field, z: Field, length: Vector, in_slip: Mask, d: Vector
 ) -> Field:
-    """Compute the shear that solves the tangential problem for fixed stick and slip zones.
+    """Compute the shear that solves the tangential problem while stick and slip zones are fixed.
 
-    The result is the target of one Newton step. Unknowns are both components at sticking points,
-    and at slipping points the component perpendicular to n = z/|z|. The component along n is equal
-    to the friction limit. A change of the direction of a slipping vector adds the stiffness (|z| −
-    bound) d / bound.
+    The result (2, points) is the end of one Newton step. Unknowns are both components at sticking
+    points. At slipping points the component along the direction n = z/|z| is equal to the friction
+    limit, and the component perpendicular to n is unknown. A change of the direction of a slipping
+    vector adds the stiffness (|z| − bound) d / bound.
 
-    c        linear term of the energy (2, points)
+    problem  compliance, friction limit and prescribed load of the tangential problem
+    c        linear term of the energy ½ qᵀKq − cᵀq (2, points)
     z        shear minus gradient/d, plus the multiplier term of a prescribed load (2, points)
     length   |z| (points,)
     in_slip  True for slipping points (points,)
@@ -169,10 +173,10 @@ def _newton_point(
     turning = (length[slip] - bound[slip]) * d[slip] / bound[slip]
 
     def restrict_rows(rows: Matrix) -> Matrix:
-        """Restrict the rows of a matrix to the unknowns of the Newton step for the shear.
+        """Restrict the rows of a matrix to the unknowns of a Newton step of the tangential problem.
 
-        The unknowns are both components at sticking points, then the component perpendicular to the
-        shear direction n at slipping points.
+        The unknowns are both shear components at sticking points, then the component perpendicular
+        to the shear direction at slipping points.
 
         rows  matrix with a row for each component of each point (2 points, k)
         """
