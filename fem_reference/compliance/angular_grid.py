@@ -40,12 +40,16 @@ class AngularGrid:
 
     @property
     def highest(self) -> int:
-        """Highest angular harmonic n that the points on a ring can represent."""
+        """Highest angular harmonic n (as in cos nθ) that the points on a ring can represent."""
         return len(self.cosines) - 1
 
     @property
     def transforms(self) -> tuple[Matrix, Matrix, Matrix]:
-        """Matrices from point values to harmonic amplitudes for the components r, θ and z."""
+        """Matrices from point values to harmonic amplitudes, for the vector components r, θ and z.
+
+        Each matrix has the shape (harmonics, points). The components r and z are sums of cos nθ,
+        the component θ is a sum of sin nθ.
+        """
         return self.cosines, self.sines, self.cosines
 
     @property
@@ -60,7 +64,10 @@ class AngularGrid:
         return np.asarray(1 / np.maximum(*powers))
 
     def amplitudes(self, values: Matrix) -> Matrix:
-        """Transform point values of a vector field to harmonic amplitudes.
+        """Transform a vector field at the points of rings to amplitudes of angular harmonics.
+
+        The components r and z are sums of cos nθ over n, the component θ is a sum of sin nθ. A ring
+        is a circle around the axis on the surface.
 
         values   components r, θ, z at the points (3, rings, points)
         returns  amplitudes of the components (3, rings, harmonics)
@@ -68,7 +75,10 @@ class AngularGrid:
         return np.stack([f @ d.T for f, d in zip(values, self.transforms, strict=True)])
 
     def evaluate_at_points(self, amplitudes: Matrix) -> Matrix:
-        """Transform harmonic amplitudes of a vector field to point values.
+        """Transform amplitudes of angular harmonics to a vector field at the points of rings.
+
+        The components r and z are sums of cos nθ over n, the component θ is a sum of sin nθ. A ring
+        is a circle around the axis on the surface.
 
         amplitudes  amplitudes of the components r, θ, z (3, rings, harmonics)
         returns     components r, θ, z at the points (3, rings, points)
@@ -95,9 +105,10 @@ def axisymmetric_grid() -> AngularGrid:
 def end_grid(highest: int) -> AngularGrid:
     """Create the angular grid θ_j = πj/J, j = 0…J, which includes θ = 0 and θ = π.
 
-    These two points are on the line y = 0 of the load, where the circumferential shear q_θ is zero.
+    These two angles are on the line of the tangential load, where the circumferential shear q_θ is
+    zero. Used for coupled bodies under a tangential load.
 
-    highest  J, highest harmonic
+    highest  J, highest angular harmonic
     """
     J = highest
     share = np.full(J + 1, 2 * np.pi / J)
@@ -112,10 +123,10 @@ def end_grid(highest: int) -> AngularGrid:
 def mid_grid(highest: int) -> AngularGrid:
     """Create the angular grid θ_j = π(j + ½)/J, j = 0…J−1, without the points θ = 0 and θ = π.
 
-    The grid can represent sin Jθ, but not cos Jθ. Used for tractions that are given at these
-    angles.
+    The grid can represent sin Jθ, but not cos Jθ. Used for the stress below tractions that are
+    given at these angles.
 
-    highest  J, highest harmonic and number of points on the half circle
+    highest  J, highest angular harmonic and number of points on the half circle
     """
     J = highest
     cosines = np.zeros((J + 1, J))

@@ -17,22 +17,28 @@ POINTS_PER_EDGE = 3
 
 
 class GaussPoints(TractionBasis):
-    """Traction basis of tractions that are concentrated on rings through Gauss points.
+    """Traction basis of the penalty law: tractions concentrated on rings through Gauss points.
 
-    The function of a point r_g is one at the point and zero at all others. The integral of f over r
-    dr is Σ f(r_g) w_g r_g with the Gauss weights w_g.
+    A ring is a circle around the axis on the surface. The basis function of a ring of radius r_g is
+    one at the ring and zero at all others. The integral of f over r dr is Σ f(r_g) w_g r_g with the
+    Gauss weights w_g.
     """
 
     def integrate(self, function: Callable[[Field], Field]) -> Field:
-        """Compute the integral of f(r) φ_g r dr for the function φ_g of each Gauss point (points,).
+        """Compute the integral of f(r) φ_g r dr for each Gauss-point function φ_g (points,).
 
-        function  f, a function of an array of radii
+        The basis function φ_g is one at its Gauss point and zero at all others, so that the
+        integral is a product with the Gauss weight.
+
+        function  f, a function of an array of radii, such as the undeformed gap
         """
         return self.weights * function(self.radii)
 
 
 def gauss_points(nodes: Field, reach: float = np.inf) -> GaussPoints:
-    """Create the Gauss points on all surface edges of elements, from the axis to a given radius.
+    """Create the basis of tractions at the Gauss points of all surface edges of elements.
+
+    Each edge in the contact zone has POINTS_PER_EDGE points. Used for the penalty law.
 
     nodes  radii of corner and midside nodes, alternating; first and last are corners (m,) [length]
     reach  outer radius of the tractions, rounded down to a corner [length]

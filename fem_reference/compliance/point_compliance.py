@@ -35,7 +35,7 @@ class PointCompliance:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Number of rings on the surface, including the axis, and number of angles on each ring."""
+        """Number of rings (circles around the axis, including the axis) and of angles on each."""
         return len(self.rings.radii), self.grid.points
 
     @cached_property
@@ -70,7 +70,8 @@ class PointCompliance:
     def stretch(self) -> Field:
         """Tangential displacement of the points per unit imposed strain (2, points) [length].
 
-        The strain of the surface is equibiaxial, so that the displacement is radial.
+        The strain of the lower body is equibiaxial, so that the displacement is radial and equal to
+        the radius.
         """
         outward = self.rings.stretch[self.ring_of_point]
         return np.stack([outward, np.zeros_like(outward)])
@@ -131,11 +132,12 @@ class PointCompliance:
         return K
 
     def displacement(self, pressure: Vector, shear: Field) -> tuple[Field, Vector]:
-        """Compute the displacement of the points by given tractions [length].
+        """Compute the displacement of the surface points by given tractions [length].
 
-        Return the tangential displacement (2, points) and the normal displacement (points,). The
-        computation is done harmonic by harmonic, independently of the compliance matrix. The
-        tangential displacement is set to zero at points that cannot carry shear.
+        Return the tangential displacement (2, points) and the normal displacement (points,), lower
+        body minus indenter. The computation is done harmonic by harmonic, independently of the
+        compliance matrix. The tangential displacement is set to zero at points that cannot carry
+        shear.
 
         pressure  pressure at the points (points,) [force/length^2]
         shear     shear at the points (2, points) [force/length^2]
@@ -154,20 +156,22 @@ class PointCompliance:
         return u[:2] * self.carries_shear, u[2]
 
     def scalar_on_grid(self, values: NDArray[Scalar]) -> NDArray[Scalar]:
-        """Convert a scalar field at the points of the surface to the shape (rings, angles).
+        """Convert a scalar field at the surface points to the array shape (rings, angles).
 
-        The value of the axis is repeated for all angles. Used for the fields of the result.
+        The value of the point on the axis is repeated for all angles. Used for the fields of the
+        result.
 
-        values  field at the points (points,)
+        values  field at the points, first the axis, then ring by ring (points,)
         """
         rings, angles = self.shape
         on_grid = [np.repeat(values[:1], angles), values[1:]]
         return np.concatenate(on_grid).reshape(rings, angles)
 
     def vector_on_grid(self, values: Field) -> Field:
-        """Convert a tangential vector field at the points to the shape (2, rings, angles).
+        """Convert a tangential vector field at the surface points to the shape (2, rings, angles).
 
-        The components of the result are r and θ. Used for the fields of the result.
+        The components of the result are r and θ. The vector at the point on the axis is repeated
+        for all angles. Used for the fields of the result.
 
         values  components at the points: x and y on the axis, else r and θ (2, points)
         """
@@ -177,8 +181,9 @@ class PointCompliance:
     def _e_x_around(self) -> Field:
         """Components r and θ of the unit vector along x at all angles of the grid (2, angles).
 
-        x is the direction of the tangential load. Used for a shift of the indenter and for the
-        traction on the axis. The component θ is zero on a grid that cannot represent it.
+        x is the direction of the tangential load. Used for the displacement of the points by a
+        shift of the indenter, and for the traction on the axis. The component θ is zero on a grid
+        that cannot represent it.
         """
         cos, sin = np.cos(self.grid.angles), np.sin(self.grid.angles)
         return np.stack([cos, np.where(np.any(self.grid.sines, axis=0), -sin, 0.0)])
@@ -187,6 +192,7 @@ class PointCompliance:
     def _axis_vectors(self) -> Field:
         """Components r, θ and z at all angles of unit tractions on the axis along x, y and z.
 
+        The point on the axis has one traction, which appears at all angles of the ring of radius 0.
         The shape is (3, 3, angles): component first, then direction. The traction along y is zero
         by mirror symmetry. On a grid of one angle the axis is treated as a ring, and the matrix is
         the identity.
@@ -199,9 +205,10 @@ class PointCompliance:
         return unit
 
     def _spread_over_rings(self, values: Field) -> Field:
-        """Convert a vector field at the points to the shape (3, rings, angles).
+        """Convert a vector field at the surface points to the array shape (3, rings, angles).
 
-        The components of the result are r, θ and z.
+        The components of the result are r, θ and z. The vector at the point on the axis is repeated
+        for all angles. Used before a transform to angular harmonics.
 
         values  components at the points: x, y, z on the axis, else r, θ, z (3, points)
         """
@@ -210,11 +217,11 @@ class PointCompliance:
         return np.concatenate([axis[:, None], values[:, 1:].reshape(3, rings - 1, angles)], axis=1)
 
     def _summed_on_axis(self, weak: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Convert area-weighted displacements on rings and angles to points (3, points, …).
+        """Convert displacements times areas on rings and angles to surface points (3, points, …).
 
-        On the axis the values of all
-        angles are summed to components x, y and z. This conversion is the transpose of
-        `_spread_over_rings`, so that the work of the tractions is preserved.
+        The axis is one point. Its values at all angles are summed to components x, y and z. This
+        conversion is the transpose of `_spread_over_rings`, which spreads tractions over rings and
+        angles, so that the work of the tractions is preserved.
 
         weak  displacements times areas, components r, θ, z (3, rings, angles, …)
         """

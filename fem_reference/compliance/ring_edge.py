@@ -91,6 +91,8 @@ class Edge(Protocol):
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
         """Compute the radius between two rings at which a traction decreases to zero [length].
 
+        The traction is the pressure, or the difference between friction limit and shear.
+
         radii   radii of the rings, circles around the axis on the surface (n,) [length]
         values  traction at the rings (n,), positive at the ring `last` and before it, zero at the
                 next ring

@@ -50,9 +50,9 @@ class NodalCompliance:
 def condense(section: SectionMesh, motion: Motion) -> NodalCompliance:
     """Compute the compliance of the surface of one body for one kind of loading.
 
-    The matrix contains displacements of the surface nodes per generalised nodal force. It is
-    computed by one sparse factorisation, or read from the cache. Raise ResourceRefused if the
-    memory is insufficient.
+    The matrix contains displacements of the surface nodes per generalised nodal force. All other
+    nodes are eliminated by one sparse factorisation. The matrix is read from the cache if it was
+    computed before. Raise ResourceRefused if the memory is insufficient.
 
     section  mesh of the meridional section of the body
     motion   displacement field of one angular harmonic, such as that of normal loading or torsion
@@ -95,10 +95,10 @@ def composite(
 
 
 def _cache_key(section: SectionMesh, motion: Motion) -> str:
-    """Compute the cache key of a compliance matrix.
+    """Compute the key under which the compliance matrix of a body is stored in the disk cache.
 
-    The key is a hash of all data that determine the matrix: mesh, materials, motion and source
-    code.
+    The key is a hash of all data that determine the matrix: mesh, materials, angular harmonic and
+    source code.
 
     section  mesh of the meridional section of the body
     motion   displacement field of one angular harmonic
@@ -117,9 +117,11 @@ def _cache_key(section: SectionMesh, motion: Motion) -> str:
 
 @cache
 def sources_digest(package: Path = PACKAGE) -> str:
-    """Compute the digest of the source code of mesh and elasticity, and of the library versions.
+    """Compute a digest of the source code that determines a compliance matrix.
 
-    The digest is part of the cache key, so that a change of the code invalidates the cache.
+    The source code is that of the packages `mesh` and `elasticity`. The versions of NumPy, SciPy
+    and scikit-fem are included. The digest is part of the cache key of a compliance matrix, so that
+    a change of the code invalidates the cache.
 
     package  folder that contains the subfolders FOLDERS
     """

@@ -63,9 +63,9 @@ class FactoredSection:
         self._far = self._numbering.factor * far[self._numbering.dofs]
 
     def displacement(self, forces: Field, nodes: Indices | slice = EVERYWHERE) -> Field:
-        """Compute the displacements of nodes of a body by generalised forces on its surface.
+        """Compute the displacements of nodes of a body by generalised forces on its surface nodes.
 
-        The result has the shape (c, nodes, k) for c components and k load cases.
+        The result has the shape (c, nodes, k) for c displacement components and k load cases.
 
         forces  generalised forces on the m surface nodes, the integrals of trace function times
                 traction over r dr (c, m, k)
@@ -86,10 +86,12 @@ class FactoredSection:
         return displacement
 
     def compliance(self) -> Field:
-        """Compute the displacement of the surface nodes per unit generalised force.
+        """Compute the displacement of the surface nodes of a body per unit generalised force.
 
-        The shape is (c, m, c, m) for c components and m surface nodes. The far field depends on the
-        resultant alone and makes the matrix slightly asymmetric. The result is the symmetric part.
+        The shape is (c, m, c, m) for c components and m surface nodes. The matrix is the inverse of
+        the stiffness after condensation on the contact zone, plus the effect of the prescribed
+        displacement far from the contact. This effect depends on the resultant alone and makes the
+        matrix slightly asymmetric. The result is the symmetric part.
         """
         numbering, first = self._numbering, self._numbering.contact
         stiffness = (self._lu.L[first:, first:] @ self._lu.U[first:, first:]).toarray()
@@ -103,7 +105,7 @@ class FactoredSection:
         return (0.5 * (matrix + matrix.T)).reshape(weights.shape * 2)
 
     def _far_displacements(self, basis: Basis) -> Field:
-        """Return the prescribed displacements on the far boundary for a unit resultant load.
+        """Return the displacements that a unit resultant load prescribes on the far boundary.
 
         The far boundary is the outer edge and the base of the mesh. The displacements are those of
         a half-space, or zero for a rigid base or for a motion without resultant. The array has an
@@ -126,9 +128,10 @@ class FactoredSection:
 def _assemble_stiffness(
     section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """Assemble the sparse stiffness matrix of all displacement degrees of freedom.
+    """Assemble the sparse stiffness matrix of a body for the displacements of one angular harmonic.
 
-    Entries with the value zero remain in the sparsity pattern, because fill-in needs them.
+    The matrix contains all displacement degrees of freedom, without boundary conditions. Entries
+    with the value zero remain in the sparsity pattern, because fill-in needs them.
 
     section    mesh with the materials of the elements
     motion     angular harmonic and components of the displacement
@@ -147,10 +150,11 @@ def _assemble_stiffness(
 def _add_pressure_unknowns(
     stiffness: csr_array, section: SectionMesh, motion: Motion, basis: Basis, numbering: Numbering
 ) -> csr_array:
-    """Extend the stiffness matrix by the pressures p of nearly incompressible elements.
+    """Extend the stiffness matrix of a body by the pressures of nearly incompressible elements.
 
-    The additional equations are volume strain = p / lambda, with Lamé's constant lambda. The
-    pressures enter the displacement equations by the transposed matrix.
+    The pressures p are separate unknowns, three in each element. The additional equations are
+    volume strain = p / lambda, with Lamé's constant lambda. The pressures enter the displacement
+    equations by the transposed matrix.
 
     stiffness  stiffness matrix of the displacements alone
     section    mesh with the materials of the elements
@@ -171,11 +175,11 @@ def _add_pressure_unknowns(
 
 
 def _element_unknowns(basis: Basis, numbering: Numbering) -> tuple[Dofs, Field]:
-    """Return the numbers and factors of the displacement unknowns of all elements, both (e, 9 c).
+    """Return the degrees of freedom of the nodal displacements of all elements, with their factors.
 
     A nodal displacement is its factor times one degree of freedom. The factor differs from 1 only
-    on the axis, where components are zero or depend on each other. The 9 nodes of each of the c
-    components are contiguous. Used to assemble element matrices.
+    on the axis, where components are zero or depend on each other. Both arrays have the shape (e, 9
+    c). The 9 nodes of each of the c components are contiguous. Used to assemble element matrices.
 
     basis      finite-element basis of one displacement component
     numbering  degree of freedom and factor of every nodal displacement

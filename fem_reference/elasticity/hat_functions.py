@@ -23,10 +23,13 @@ SAME = 1e-9
 
 @BilinearForm  # type: ignore[untyped-decorator]
 def product(hat: Any, trace: Any, w: Any) -> Any:
-    """Return the product φ ψ r that scikit-fem integrates over the radius r.
+    """Return the integrand φ ψ r of the integral over the radius r that scikit-fem assembles.
 
     φ is a hat function of the tractions and ψ a quadratic trace function of the displacements. The
-    integrals convert tractions at rings to forces on nodes.
+    integrals convert tractions at rings to forces on surface nodes.
+
+    hat, trace  values of φ and ψ at the quadrature points
+    w           scikit-fem data, with r as the first coordinate `w.x[0]`
     """
     return hat * trace * w.x[0]
 
@@ -62,20 +65,25 @@ class TractionBasis(ABC):
 
     @abstractmethod
     def integrate(self, function: Callable[[Field], Field]) -> Field:
-        """Compute the integral of f(r) φ_j(r) r dr for each basis function φ_j (n,).
+        """Compute the integral of f(r) φ_j(r) r dr for each traction basis function φ_j (n,).
+
+        Used to average the undeformed gap over each function.
 
         function  f, a function of an array of radii
         """
 
 
 class Hats(TractionBasis):
-    """Traction basis of hat functions, one for each corner node.
+    """Traction basis of hat functions over the radius, one for each corner node on the surface.
 
-    A hat function is one at its node, zero at all others and linear in between.
+    A hat function is one at its node, zero at all others and linear in between. Used for the exact
+    contact law, and for the penalty law at nodes.
     """
 
     def integrate(self, function: Callable[[Field], Field]) -> Field:
-        """Compute the integral of f(r) φ_j(r) r dr for each hat function φ_j (n,).
+        """Compute the integral of f(r) φ_j(r) r dr for each hat function φ_j of the tractions (n,).
+
+        Used to average the undeformed gap over each function.
 
         function  f, a function of an array of radii
         """
@@ -112,7 +120,10 @@ def hats_on(nodes: Field, reach: float = np.inf) -> Hats:
 
 
 def _hat_basis(radii: Field) -> Basis:
-    """Create the scikit-fem basis of hat functions over the radius.
+    """Create the scikit-fem basis of hat functions over the radius of the surface.
+
+    A hat function is one at its corner node, zero at all others and linear in between. The hat
+    functions represent tractions.
 
     radii  radii of the corner nodes of the surface (n,) [length]
     """

@@ -48,7 +48,7 @@ class Motion:
         return self.harmonic > 0 or self.components != TORSION.components
 
     def resultant_weights(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the factors by which the nodal forces are summed to the resultant load (c, m).
+        """Return the factors that sum the nodal forces on the surface to their resultant (c, m).
 
         The resultant is the normal force W, the tangential force T or the torque M_z. The forces
         are generalised forces of the c components at m surface nodes.
@@ -117,9 +117,10 @@ SHEARING = Motion(1, (0, 1, 2), (1.0, -1.0, 0.0), (np.pi, -np.pi, 0.0), 0, cerru
 def motion(harmonic: int) -> Motion:
     """Return the form of the displacement field of a body for one angular harmonic n.
 
-    The result contains the displacement components and their conditions on the axis and far away.
-    The surface tractions have the same harmonic. For n = 0 the loading is normal, not torsion.
-    Raise ValueError for a negative n.
+    The displacements u_r and u_z are proportional to cos n theta, u_theta is proportional to sin n
+    theta. The result contains the displacement components and their conditions on the axis and far
+    away. The surface tractions have the same harmonic. For n = 0 the loading is normal, not
+    torsion. Raise ValueError for a negative n.
 
     harmonic  n >= 0
     """

@@ -81,10 +81,11 @@ def number_unknowns(
 
 
 def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Indices) -> Indices:
-    """Compute two sort keys of each node for the order of elimination (2, n).
+    """Compute two sort keys of each node of a mesh for the order of elimination (2, n).
 
     Nodes are eliminated in the order of the second key; the first key decides between equal ones.
     In this order, nodes on the line between two parts of the mesh follow the nodes of both parts.
+    The factors of the stiffness matrix then remain sparse.
 
     points, quads  corner positions (2, k), and corner indices of the elements (4, e)
     elements       the 9 nodes of every element (e, 9)
@@ -102,11 +103,11 @@ def _elimination_keys(points: NDArray[np.float64], quads: Indices, elements: Ind
 
 
 def _number_leaves(points: NDArray[np.float64], quads: Indices) -> Indices:
-    """Divide the elements into small groups, the leaves of a binary tree, and number them (e,).
+    """Divide the elements of a mesh into small groups of neighbours and number the groups (e,).
 
     The mesh is cut in two at the median position of its elements, then each half is cut, and so on.
-    The tree determines the order of elimination. The result contains the number of the leaf of each
-    element.
+    The groups are the leaves of this binary tree, which determines the order of elimination of the
+    unknowns. The result contains the number of the leaf of each element.
 
     points, quads  corner positions (2, k), and corner indices of the elements (4, e)
     """

@@ -111,8 +111,13 @@ def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
 def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str, Field]:
     """Compute the strains of the shape functions at the quadrature points of all elements.
 
-    The result maps the name of each strain to an array (e, 9 c, q) for c components and q points.
-    The 9 shape functions of a component are contiguous.
+    The result maps the name of each strain, such as "rr", to an array (e, 9 c, q) for c
+    displacement components and q points. The 9 shape functions of a component are contiguous. Used
+    to compute the element stiffness.
+
+    basis       finite-element basis of one displacement component
+    harmonic    angular harmonic n
+    components  indices of the components in the motion: u_r (0), u_theta (1), u_z (2)
     """
     elements, points = basis.dx.shape
     found: dict[str, Field] = {}
@@ -128,9 +133,11 @@ def _strains_of(basis: Basis, harmonic: int, components: Components) -> dict[str
 def _project_volume(basis: Basis, strain: dict[str, Field]) -> Field:
     """Compute the projection of volume strains of shape functions onto linear functions.
 
-    The result (e, 9 c, 3) contains the coefficients of 3 orthonormal linear functions of each
-    element, for the 9 shape functions of each of the c components.
+    The projection prevents locking of nearly incompressible materials. The result (e, 9 c, 3)
+    contains the coefficients of 3 orthonormal linear functions of each element, for the 9 shape
+    functions of each of the c components.
 
+    basis   finite-element basis of one displacement component
     strain  strains of the shape functions at the quadrature points, by name (e, 9 c, q)
     """
     volume = sum(strain[name] for name in NORMAL if name in strain) * basis.dx[:, None]
@@ -142,10 +149,10 @@ def _project_volume(basis: Basis, strain: dict[str, Field]) -> Field:
 def _linear_functions(basis: Basis) -> Field:
     """Evaluate the linear functions 1, r and z of each element at its quadrature points (e, 3, q).
 
-    r and z are measured from the middle of the element and divided by its size. The volume strain
-    is projected onto these functions. They also represent the pressure of nearly incompressible
-    elements. The linear functions of scikit-fem on quadrilaterals are bilinear and therefore not
-    suitable.
+    The volume strain of an element is projected onto these functions. They also represent the
+    pressure of nearly incompressible elements. r and z are measured from the middle of the element
+    and divided by its size. The linear functions of scikit-fem on quadrilaterals are bilinear and
+    therefore not suitable.
 
     basis  displacement basis whose quadrature points are used
     """
@@ -158,7 +165,8 @@ def _linear_functions(basis: Basis) -> Field:
 def _orthonormal_functions(basis: Basis, linear: Field) -> Field:
     """Transform the linear functions 1, r and z of each element to orthonormal functions (e, 3, q).
 
-    The volume strain is projected onto these functions.
+    The volume strain of an element is projected onto these functions. The scalar product is the
+    integral over the element with the weight r.
 
     basis   displacement basis whose quadrature defines the scalar product
     linear  values of 1, r and z at the q points at which the result is evaluated (e, 3, q)
@@ -172,8 +180,9 @@ def _orthonormal_functions(basis: Basis, linear: Field) -> Field:
 class Dilatation:
     """Resistance of every element to a change of volume, in terms of Lamé's constant lambda.
 
-    lambda = 2 mu nu / (1 - 2 nu) is infinite at nu = 1/2. If lambda is much larger than mu, the
-    pressure becomes an unknown, because the shear stiffness would be lost in round-off.
+    lambda = 2 mu nu / (1 - 2 nu), with the shear modulus mu and Poisson's ratio nu, is infinite at
+    nu = 1/2. If lambda is much larger than mu, the pressure becomes an unknown, because the shear
+    stiffness would be lost in round-off.
 
     resistance  lambda (e,), in units of the moduli; 0 if the pressure is an unknown
     mixed       True for elements whose pressure is an unknown (e,)

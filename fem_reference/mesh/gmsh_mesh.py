@@ -86,10 +86,10 @@ def gmsh_section_mesh(
 
 @contextmanager
 def _gmsh_model() -> Iterator[Any]:
-    """Provide the gmsh module with a new empty model, as a context manager.
+    """Provide the gmsh library with a new empty model, as a context manager.
 
-    On exit the model is removed and the previous gmsh options are restored. Raise GmshMissing if
-    gmsh cannot be loaded.
+    Used to mesh the section of a body. On exit the model is removed and the previous gmsh options
+    are restored. Raise GmshMissing if gmsh cannot be loaded.
     """
     try:
         import gmsh
@@ -118,7 +118,7 @@ def _gmsh_model() -> Iterator[Any]:
 
 
 def _restore_broken_pipes() -> None:
-    """Restore Python's handling of broken pipes (SIGPIPE).
+    """Restore Python's handling of broken pipes (SIGPIPE) after the start of gmsh.
 
     gmsh replaces Python's handler, so that a broken pipe would terminate the process.
     """
@@ -128,8 +128,9 @@ def _restore_broken_pipes() -> None:
 
 
 def _set(gmsh: Any, options: Mapping[str, float]) -> None:
-    """Set numerical gmsh options, such as the meshing algorithm.
+    """Set numerical options of the mesher gmsh, such as the meshing algorithm.
 
+    gmsh     gmsh module
     options  value of each option by its gmsh name
     """
     for name, value in options.items():
@@ -137,9 +138,10 @@ def _set(gmsh: Any, options: Mapping[str, float]) -> None:
 
 
 def _draw(geometry: Any, outline: SectionOutline) -> None:
-    """Create the lines and surfaces of a section in gmsh, and divide the lines into elements.
+    """Create the lines and surfaces of the meridional section of a body in gmsh.
 
-    Curve loops start along r, then follow z.
+    The lines are divided into elements. Layers become structured blocks of quadrilaterals; an
+    elastic substrate becomes one unstructured block. Curve loops start along r, then follow z.
 
     geometry  gmsh geometry kernel of the current model
     outline   edges, interfaces and element sizes of the section

@@ -53,9 +53,10 @@ class SectionMesh:
 
     @property
     def mesh(self) -> MeshQuad:
-        """Mesh for scikit-fem with the named boundaries "axis", "contact" (contact zone) and "far".
+        """Mesh of the section for scikit-fem, with the boundaries "axis", "contact" and "far".
 
-        The far boundary has zero displacement, or the displacement of a half-space.
+        "contact" is the surface of the contact zone. "far" is the outer edge and the base, where
+        the displacement is zero or that of a half-space.
         """
         outline = self.outline
         boundaries = {
@@ -67,18 +68,18 @@ class SectionMesh:
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
-        """Area of every element in the (r, z) plane (e,).
+        """Area of every element of the mesh in the (r, z) plane (e,).
 
-        The unit of length is the contact radius.
+        The unit of length is the contact radius. Used to detect holes and overlaps of the mesh.
         """
         (r0, r1, r2, r3), (z0, z1, z2, z3) = self.points[:, self.quads]
         return np.abs((r2 - r0) * (z3 - z1) - (r3 - r1) * (z2 - z0)) / 2.0
 
     @cached_property
     def layer(self) -> NDArray[np.int64]:
-        """Index of the material of every element (e,), 0 for the outermost layer.
+        """Index of the material of every element of the mesh (e,), 0 for the outermost layer.
 
-        The index refers to `outline.materials`.
+        The index refers to `outline.materials`. An elastic substrate has the last index.
         """
         middle = self.points[1, self.quads].mean(axis=0)
         return np.searchsorted(np.asarray(self.outline.interfaces), middle)

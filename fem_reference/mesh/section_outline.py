@@ -56,7 +56,10 @@ class SectionOutline:
 
     @property
     def pieces(self) -> tuple[tuple[float, float], ...]:
-        """Upper and lower depth of every layer; an elastic substrate counts as the last layer."""
+        """Upper and lower depth of every layer of the section, in units of the contact radius.
+
+        An elastic substrate counts as the last layer.
+        """
         return tuple(zip((0.0, *self.interfaces[:-1]), self.interfaces, strict=True))
 
 
@@ -127,7 +130,8 @@ def sufficient_box(body: Body) -> float:
 def _stiffness_difference(layer: IsotropicMaterial, substrate: IsotropicMaterial) -> float:
     """Compute the relative difference of stiffness between a layer and the substrate [1].
 
-    The result is the larger of the differences of the shear modulus and the plane-strain modulus.
+    The result is the larger of the relative differences of the shear modulus and the plane-strain
+    modulus. Used to estimate the size of the mesh that a layered body requires.
     """
     return max(
         abs(layer.shear_modulus / substrate.shear_modulus - 1.0),
@@ -138,8 +142,8 @@ def _stiffness_difference(layer: IsotropicMaterial, substrate: IsotropicMaterial
 def graded_lines(start: float, end: float, origin: float, size: float) -> NDArray[np.float64]:
     """Compute the coordinates of graded mesh lines between two ends, both included.
 
-    Neighbouring elements grow by about the factor GROWTH with the distance from `origin`. There are
-    at least LAYER_ELEMENTS elements.
+    The sizes of neighbouring elements grow by about the factor GROWTH with the distance from
+    `origin`. There are at least LAYER_ELEMENTS elements.
 
     start, end  coordinates of the first and the last line
     origin      coordinate at which elements have the size `size`; it may be outside of the interval

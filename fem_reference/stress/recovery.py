@@ -65,7 +65,10 @@ class Recovery:
     share: Field
 
     def amplitude(self, of: Motion, u: Field, scales: Scales) -> Amplitude:
-        """Compute displacement and stress at all points from the nodal displacement of one motion.
+        """Compute displacement and stress at the nodes of a section from nodal displacements.
+
+        The nodal displacements belong to one angular harmonic. A node on an interface has one
+        stress for each material.
 
         of      motion: angular harmonic and components of the displacement
         u       dimensionless nodal displacement (c, nodes) for c components
@@ -91,9 +94,10 @@ class Recovery:
 
 
 def recovery_of(section: SectionMesh) -> Recovery:
-    """Create the stress recovery for the mesh of a body, for use with all motions.
+    """Create the stress recovery for the mesh of a body, for use with all angular harmonics.
 
-    The recovery computes the stress at the nodes from the strains in the elements.
+    The recovery computes the stress at the nodes from the strains at the Gauss points of the
+    elements.
 
     section  mesh of the meridional section of the body
     """
@@ -116,9 +120,10 @@ def recovery_of(section: SectionMesh) -> Recovery:
 
 
 def _extrapolation_matrix(nodes: Field) -> Field:
-    """Return the matrix from the 2 x 2 Gauss points to the nodes of an element (9, 4).
+    """Return the matrix that extrapolates the stress from Gauss points to the nodes of an element.
 
-    The first coordinate of the Gauss points varies slowest.
+    The extrapolation from the 2 x 2 Gauss points is bilinear. The first coordinate of the Gauss
+    points varies slowest. The matrix has the shape (9, 4).
 
     nodes  positions of the 9 nodes in the unit square (9, 2)
     """

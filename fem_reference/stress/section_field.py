@@ -89,18 +89,21 @@ class SectionField:
         return self._sort_points(on_it & (self.material == material), self.points[0])
 
     def _sort_points(self, chosen: NDArray[np.bool_], along: Field) -> Indices:
-        """Return the indices of chosen points of a section, sorted by a coordinate.
+        """Return the indices of chosen points of a meridional section, sorted by a coordinate.
 
-        Points with equal coordinates are sorted by their material.
+        Points with equal coordinates are sorted by their material, because a node on an interface
+        has one point for each material. Used for points along the axis or an interface.
 
         chosen  True for the points to return (n,)
-        along   coordinate of every point (n,)
+        along   coordinate of every point, r or z (n,)
         """
         found = np.flatnonzero(chosen)
         return found[np.lexsort((self.material[found], along[found]))]
 
     def _sum_motions(self, fields: list[Field], as_sine: tuple[int, ...], theta: float) -> Field:
-        """Compute displacement or stress at the angle theta as a sum over the motions of the body.
+        """Compute displacement or stress at the angle theta as a sum over the angular harmonics.
+
+        Each harmonic n has the amplitudes of one motion, such as that of normal loading or torsion.
 
         fields   amplitudes of the field in every motion, such as the stress (6, n)
         as_sine  indices of the components that are ∝ sin n theta; all others are ∝ cos n theta

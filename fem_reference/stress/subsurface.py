@@ -83,11 +83,14 @@ def subsurface(
 
 
 def _node_positions(body: Body, section: SectionMesh, nodes: Field, length: float) -> Field:
-    """Return the positions (2, n) of nodes in the unit of the scene [length].
+    """Return the positions (r, z) of the nodes of a stress mesh in the unit of the scene (2, n).
 
     Depths of nodes on interfaces are set to the exact sums of the layer thicknesses.
 
-    nodes  positions in units of `length` (2, n)
+    body     body with its layer thicknesses [length]
+    section  mesh of the body, in units of `length`
+    nodes    positions in units of `length` (2, n)
+    length   unit of length of the mesh [length]
     """
     points = nodes * length
     bottoms = np.cumsum([layer.thickness for layer in body.layers])
@@ -99,22 +102,27 @@ def _node_positions(body: Body, section: SectionMesh, nodes: Field, length: floa
 def _stress_mesh(
     body: Body, discretisation: FiniteElementDiscretisation, zone: float
 ) -> SectionMesh:
-    """Create the mesh for the stress: half the elements per radius, each divided into 4 elements.
+    """Create the mesh for the stress in a body: a coarse mesh, each element divided into 4.
 
-    The elements of a mesh made for displacements grow faster with depth. Such a mesh has a stress
-    error of 2e-3 for any element size at the surface.
+    The coarse mesh has half the requested elements per radius. The elements of a mesh made for
+    displacements grow faster with depth. Such a mesh has a stress error of 2e-3 for any element
+    size at the surface.
 
-    body  layers and substrate; the unit of length is the radius of the loaded circle
-    zone  least outer radius of the zone of equal elements, in the same unit
+    body            layers and substrate; the unit of length is the radius of the loaded circle
+    discretisation  number of elements per radius, and size of the section
+    zone            least outer radius of the zone of equal elements, in the same unit
     """
     coarse = max(2, ceil(discretisation.elements_per_radius / 2))
     return section_mesh(body, coarse, discretisation.box, zone).refined()
 
 
 def _refuse_incompressible(section: SectionMesh) -> None:
-    """Raise UnsupportedScene if a material is nearly incompressible.
+    """Raise UnsupportedScene if a material of the mesh is nearly incompressible.
 
-    The pressure in such a material does not follow from the strain.
+    The stress is computed from the strain. The pressure in such a material does not follow from the
+    strain.
+
+    section  mesh with the materials of the elements
     """
     if np.any(dilatation(section).mixed):
         raise UnsupportedScene(
@@ -125,7 +133,10 @@ def _refuse_incompressible(section: SectionMesh) -> None:
 
 @dataclass(frozen=True, eq=False)
 class _LoadPoints:
-    """Integration points of the surface tractions, between all corner nodes and rings.
+    """Integration points of the surface tractions, for their conversion to nodal forces.
+
+    The points are between all corner nodes of the mesh and all rings on which the tractions are
+    given.
 
     radii     radii of the integration points (k,), dimensionless
     weighted  ψ w r at the points for every node of the surface (m, k), with the trace function ψ
@@ -139,15 +150,16 @@ class _LoadPoints:
 def _load_preserving_amplitudes(
     tractions: SurfaceTractions, points: _LoadPoints, length: float
 ) -> list[tuple[Motion, Field]]:
-    """Compute traction amplitudes whose normal load is equal to that of the contact solve.
+    """Compute amplitudes of surface tractions whose normal load equals that of the contact solve.
 
     The contact solve interpolates tractions linearly between rings. Tractions that decrease like a
     square root at the contact edge have a slightly larger load. All amplitudes are therefore
-    multiplied by the ratio of the loads. Each item of the list contains a motion and its amplitudes
-    at the integration points.
+    multiplied by the ratio of the loads. Each item of the list contains a motion (angular harmonic)
+    and its amplitudes at the integration points.
 
-    points  integration points of the tractions
-    length  unit of length of the mesh [length]
+    tractions  surface tractions on rings
+    points     integration points of the tractions
+    length     unit of length of the mesh [length]
     """
     radii, weight = points.radii * length, points.weighted.sum(axis=0)
     found = tractions.amplitudes(radii)
@@ -161,11 +173,14 @@ def _load_preserving_amplitudes(
 def _create_load_points(
     section: SectionMesh, tractions: SurfaceTractions, length: float
 ) -> _LoadPoints:
-    """Create the integration points of the surface tractions on a section.
+    """Create the integration points of the surface tractions on the mesh of a body.
 
-    Between two adjacent corner nodes or rings there are POINTS_BETWEEN Gauss points.
+    The points serve to convert tractions to nodal forces. Between two adjacent corner nodes or
+    rings there are POINTS_BETWEEN Gauss points.
 
-    length  unit of length of the section [length]
+    section    mesh of the meridional section, in units of `length`
+    tractions  surface tractions on rings
+    length     unit of length of the section [length]
     """
     nodes = section.radii
     corners = nodes[::2]

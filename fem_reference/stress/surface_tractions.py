@@ -140,24 +140,26 @@ class SurfaceTractions:
     def _least_element_count(self) -> float:
         """Least number of elements with pressure on any ray of the contact.
 
-        A ray is the set of points at one angle. The contact edge cannot be located with too few
-        elements.
+        A ray is the set of surface points at one angle. Used to detect contacts with too few
+        elements to locate the contact edge.
         """
         return float(np.min(np.count_nonzero(self._ray_pressures > 0, axis=0)) / self._per_element)
 
     @property
     def _ray_pressures(self) -> Field:
-        """Pressure at the rings on every ray (rings, angles).
+        """Pressure at the rings on every ray of the surface (rings, angles) [force/length^2].
 
-        An axisymmetric pressure has one angle.
+        A ring is a circle around the axis, a ray is the set of points at one angle. An axisymmetric
+        pressure has one ray.
         """
         return self.pressure.reshape(len(self.radii), -1)
 
     @cached_property
     def _angular_grid(self) -> AngularGrid:
-        """Angular grid of the rays on which the tractions are given.
+        """Angular grid of the rays on which the tractions are given, with transforms to harmonics.
 
-        The first ray is at θ = 0, or half a step away from it.
+        A ray is the set of surface points at one angle. The first ray is at θ = 0, or half a step
+        away from it.
         """
         assert self.angles is not None
         count = len(self.angles)
@@ -165,17 +167,18 @@ class SurfaceTractions:
 
     @property
     def _per_element(self) -> int:
-        """Number of rings per element: 1 for hat functions, POINTS_PER_EDGE for Gauss points.
+        """Number of rings on which tractions are given per element: 1 or POINTS_PER_EDGE.
 
-        Gauss points are recognised by the absence of a ring on the axis.
+        There is one ring per element for hat functions, which have a ring on the axis. There are
+        POINTS_PER_EDGE rings for Gauss points, which have none on the axis.
         """
         return 1 if self.radii[0] == 0.0 else POINTS_PER_EDGE
 
     @cached_property
     def _edge_radii(self) -> Field:
-        """Radius of the contact edge on every ray (angles,) [length].
+        """Radius of the contact edge on every ray of the surface (angles,) [length].
 
-        A ray is the set of points at one angle.
+        A ray is the set of points at one angle. The radius is resolved between the rings.
         """
         edge: Edge = HatEdge(self.edge)
         if self._per_element > 1:
@@ -183,12 +186,13 @@ class SurfaceTractions:
         return np.array([contact_edge(self.radii, ray, edge) for ray in self._ray_pressures.T])
 
     def _interpolate_linearly(self, radii: Field, rays: Field) -> Field:
-        """Interpolate the surface tractions linearly between rings, and compute their harmonics.
+        """Interpolate surface tractions linearly between rings, and transform them to harmonics.
 
-        The result contains amplitudes of the tractions (4, radii, harmonics).
+        The result contains amplitudes of the angular harmonics (4, radii, harmonics), or the
+        interpolated tractions (4, radii, 1) if they are axisymmetric.
 
         radii  radii at which the tractions are evaluated [length]
-        rays   q_r, q_theta, shear along the load, and pressure (4, rings, angles)
+        rays   q_r, q_theta, shear along the load, and pressure on rings and rays (4, rings, angles)
         """
         found = [[np.interp(radii, self.radii, ray) for ray in part.T] for part in rays]
         return self._transform_angles(np.swapaxes(found, 1, 2))
@@ -198,11 +202,12 @@ class SurfaceTractions:
 
         The pressure is √(1 - r²/a²) times a smooth factor, with the radius a of the contact edge.
         The shear is the pressure times a ratio. Factor and ratio are interpolated between the rays
-        first, because a differs from ray to ray. The result contains amplitudes of the tractions
-        (4, radii, harmonics).
+        first, because a differs from ray to ray. The result contains amplitudes of the angular
+        harmonics (4, radii, harmonics), or the interpolated tractions (4, radii, 1) if they are
+        axisymmetric.
 
         radii  radii at which the tractions are evaluated [length]
-        rays   q_r, q_theta, shear along the load, and pressure (4, rings, angles)
+        rays   q_r, q_theta, shear along the load, and pressure on rings and rays (4, rings, angles)
         """
         factors = np.empty((4, len(radii), rays.shape[2]))
         for ray, edge in enumerate(self._edge_radii):
@@ -245,9 +250,9 @@ class SurfaceTractions:
 def _smooth_factor(radii: Field, at: Field, pressed: Field, edge: float, per_element: int) -> Field:
     """Compute the smooth factor p / √(1 - r²/a²) of the pressure p on one ray, at given radii.
 
-    a is the radius of the contact edge. The factor varies slowly up to the edge and can therefore
-    be interpolated. Near the edge the factor is a straight line, which is fitted without the last
-    element.
+    A ray is the set of surface points at one angle, and a the radius of the contact edge on the
+    ray. The factor varies slowly up to the edge and can therefore be interpolated. Near the edge
+    the factor is a straight line, which is fitted without the last element.
 
     radii        radii at which the factor is evaluated [length]
     at, pressed  radii and pressures of the rings with pressure
