@@ -59,7 +59,8 @@ def input_work(before: Increment | None, increment: Increment) -> float | None:
     motions of the indenter: approach, shift and twist. Return None as soon as a motion is
     undefined, that is at the friction limit under force control.
 
-    before  previous increment, whose work is continued; None for the first increment
+    before     previous increment, whose work is continued; None for the first increment
+    increment  increment whose contribution is added
     """
     worked = 0.0 if before is None else before.trapezoidal_work
     forces, motions = (np.zeros(4), np.zeros(4)) if before is None else _conjugate_loads(before)
@@ -78,7 +79,9 @@ def dissipation_uncertainty(
     change of the shear q times the change of the slip s in an increment. Return None if the
     dissipated energy is None.
 
-    before  previous increment, whose estimate is continued; None for the first increment
+    plan       load steps that are path-dependent
+    before     previous increment, whose estimate is continued; None for the first increment
+    increment  increment whose contribution is added
     """
     if increment.dissipated_energy is None:
         return None

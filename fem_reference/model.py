@@ -66,7 +66,7 @@ class ContactModel:
 
     @cached_property
     def radii(self) -> Field:
-        """Radii of the surface nodes in the contact zone (m,) [length].
+        """Radii of the surface nodes of the meshes in the contact zone (m,) [length].
 
         Corner and midside nodes alternate.
         """
@@ -161,6 +161,9 @@ def _create_section(body: Body, discretisation: FiniteElementDiscretisation) -> 
     """Create the mesh of the meridional section of a body, or return None for a rigid body.
 
     The discretisation selects the mesher: tensor-product rectangles, or gmsh.
+
+    body            layers and substrate in units of the expected contact radius
+    discretisation  number of elements per radius, outer radius of the mesh, and mesher
     """
     if not body.deforms:
         return None

@@ -56,13 +56,14 @@ CROSS_SLIP = dict.fromkeys(Path, "nothing pushes sideways") | {
 
 @dataclass(frozen=True)
 class Plan:
-    """Description of a solve: the tractions that it computes, and the increments of each load step.
+    """Plan of a solve: the tractions that it computes, and the increments of each load step.
 
     path          tractions of the solve
     direction     unit vector (x, y) of the tangential load, (1, 0) without one
     increments    number of increments of each load step
     path_matters  for each load step, True if its final state depends on the number of increments
-    effects       all effects with the reasons for or against them, for output
+    effects       all physical effects, such as friction, with the reasons for or against them, for
+                  output
     """
 
     path: Path

@@ -16,7 +16,9 @@ from contact_scene.array_types import Matrix, Vector
 
 @dataclass(frozen=True)
 class AngularGrid:
-    """Angles on the half circle, with the transforms between point values and harmonic amplitudes.
+    """Angles of the points on a ring, with transforms between point values and angular harmonics.
+
+    A ring is a circle around the axis on the surface. The half circle is sufficient by symmetry.
 
     angles   θ_j (points,) [radian]
     weights  angle of the full circle that each point represents (points,), with the sum 2π

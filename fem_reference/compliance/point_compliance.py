@@ -40,7 +40,7 @@ class PointCompliance:
 
     @cached_property
     def ring_of_point(self) -> NDArray[np.intp]:
-        """Index of the ring that contains each surface point (points,)."""
+        """Index of the ring (circle around the axis) on which each surface point lies (points,)."""
         rings, angles = self.shape
         return np.concatenate([[0], np.repeat(np.arange(1, rings), angles)])
 

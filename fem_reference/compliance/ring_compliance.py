@@ -60,7 +60,10 @@ class RingCompliance:
     edge: Edge
 
     def contact_edge(self, pressure: Vector) -> float:
-        """Compute the radius of the contact edge, at which the pressure decreases to zero [length].
+        """Compute the radius of the contact edge from the pressure at the rings [length].
+
+        The pressure decreases to zero at the contact edge, which may lie between two rings. A ring
+        is a circle around the axis on the surface.
 
         pressure  pressure at the rings (rings,) [force/length^2]
         """

@@ -134,13 +134,14 @@ def _first_iterate(
 ) -> tuple[Iterate, int]:
     """Create the first iterate of Newton's method from the initial guess of an increment.
 
-    Return also the number of linear systems solved. If the guess has no pressure, the first iterate
-    is the solution of the frictionless contact, because Newton's step is undefined for separated
-    bodies. Prescribed motions replace those of the guess.
+    The iterate contains tractions, rigid motion and spring compliance. Return also the number of
+    linear systems solved. If the guess has no pressure, the first iterate has the pressure of the
+    frictionless contact, because Newton's step is undefined for separated bodies. Prescribed
+    motions replace those of the guess.
 
     problem  compliance, gap, friction and prescribed loads of the increment
     start    initial guess of tractions and rigid motion
-    springs  compliance of springs between the surfaces [length^3/force]
+    springs  compliance of additional springs between the surfaces [length^3/force]
     """
     pressure, approach, solves = start.pressure, start.approach, 0
     if not np.any(pressure > 0):

@@ -255,9 +255,10 @@ class _Increment:
     def shear_weighted_mean(self, one: _Pass, vectors: Field) -> float:
         """Compute the mean length of tangential vectors over the contact, weighted with the shear.
 
-        The result has the unit of the vectors and is 0 without shear.
+        Used for the mean tangential displacement, and for the mean tangential strain of the penalty
+        springs. The result has the unit of the vectors and is 0 without shear.
 
-        one      solution of the pass whose shear is the weight
+        one      solution of the penalty pass whose shear is the weight
         vectors  vectors at the points, such as displacements (2, points)
         """
         shear = self.contact.compliance.areas * np.hypot(*one.solution.shear)

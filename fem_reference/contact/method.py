@@ -47,7 +47,10 @@ class ContactMethod:
     around: AngularGrid | None = None
 
     def advance(self, before: PointState | None, loads: Loads, tolerance: float) -> PointState:
-        """Solve one increment from the state at its start and return the state at its end.
+        """Solve one load increment: compute the contact state at its end from that at its start.
+
+        The points of the surface are selected by the load: one point per ring if the fields do not
+        depend on the angle, else points at several angles. A ring is a circle around the axis.
 
         before     state at the start of the increment; None before first contact
         loads      prescribed loads or motions at the end of the increment

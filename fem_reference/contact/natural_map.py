@@ -149,11 +149,12 @@ class Equations:
         return missed, jacobian, in_slip & (bound > 0)
 
     def residual_norm(self, missed: Vector, at: Iterate) -> float:
-        """Compute the norm of a residual vector of the contact equations [1].
+        """Compute the norm of a residual vector of the contact equations of an increment [1].
 
         The norm is the sum of the pressure residuals relative to the normal load and of the shear
         residuals relative to the friction limit. The norm is infinite without a prescribed normal
-        force and without pressure.
+        force and without pressure. Newton's method has converged if the norm is at most its
+        tolerance.
 
         missed  residual vector (3 points + 2,)
         at      iterate at which the residual was computed

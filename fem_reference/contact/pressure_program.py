@@ -61,11 +61,13 @@ class PressureProgram:
 
 @dataclass(frozen=True)
 class PressureSolution:
-    """Minimiser of a quadratic program with non-negative unknowns.
+    """Solution of the normal contact problem: minimiser of a quadratic program with x >= 0.
+
+    The components of x are the pressures of the points.
 
     values      x (n,)
-    multiplier  λ of the linear condition, with A x = c + λ v for the free components; 0 without a
-                condition
+    multiplier  λ of the linear condition v·x = t, with A x = c + λ v for the free components; 0
+                without a condition. Under a prescribed normal force, λ is the approach
     free        True for free components, the points in contact; False for components at zero (n,)
     steps       number of linear systems solved
     """

@@ -52,10 +52,11 @@ class ShearProblem:
 
 @dataclass(frozen=True)
 class TangentialState:
-    """Solution of the tangential problem at a given pressure.
+    """Solution of the tangential contact problem at a given pressure: shear and shift.
 
     shear     shear at the points (2, points) [force/length^2]
-    shift     shift [length] or twist [radian]; None at the friction limit, where it is undefined
+    shift     shift [length] or twist [radian] of the indenter; None at the friction limit, where it
+              is undefined
     in_slip   True for slipping points (points,)
     residual  relative residual of the shear [1]
     solves    number of linear systems solved
@@ -71,9 +72,11 @@ class TangentialState:
 def solve_shear(problem: ShearProblem, start: Field, tolerance: float) -> TangentialState:
     """Solve the tangential problem at a given pressure: the shear, and the shift of the indenter.
 
-    Newton steps for fixed stick and slip zones alternate with a projection onto the admissible
-    shears.
+    The shear minimises the energy ½ qᵀKq − cᵀq, and each shear vector is within the friction limit
+    of its point. Newton steps for fixed stick and slip zones alternate with a projection onto the
+    admissible shears.
 
+    problem    compliance, friction limit and prescribed load of the tangential problem
     start      initial guess of the shear (2, points)
     tolerance  limit of Σ w|q − P(q − ∇/d)| / Σ w|q| [1], with the areas w, the gradient ∇ of the
                energy, the projection P onto the admissible shears and the weights d of its norm

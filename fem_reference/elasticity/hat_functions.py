@@ -38,8 +38,8 @@ def product(hat: Any, trace: Any, w: Any) -> Any:
 class TractionBasis(ABC):
     """Basis functions φ_j of the radius whose sums represent the surface tractions, with integrals.
 
-    There is one function for each of n rings on the surface. ψ_i are the quadratic trace functions
-    of the m surface nodes of the displacement.
+    There is one function for each of n rings, circles around the axis on the surface. ψ_i are the
+    quadratic trace functions of the m surface nodes of the displacement.
 
     radii     radii of the rings, whose tractions are the unknowns (n,) [length]
     products  ∫ ψ_i φ_j r dr (m, n) [length^2]
@@ -55,8 +55,9 @@ class TractionBasis(ABC):
     def compliance(self, nodal: Matrix) -> Matrix:
         """Convert the compliance of the surface nodes to the compliance of the rings (n, n).
 
-        The ring compliance Mᵀ C M contains the displacement, integrated over each function φ_i r
-        dr, per unit traction at each ring. M is the matrix `products` of integrals.
+        A ring is a circle around the axis on the surface. The ring compliance Mᵀ C M contains the
+        displacement, integrated over each function φ_i r dr, per unit traction at each ring. M is
+        the matrix `products` of integrals.
 
         nodal  C, displacement per generalised force at the surface nodes (m, m) [length/force]
         """

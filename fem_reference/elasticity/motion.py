@@ -44,7 +44,10 @@ class Motion:
 
     @property
     def changes_volume(self) -> bool:
-        """True if the displacement field can change the volume of the material. Torsion cannot."""
+        """True if the displacement field can change the volume of the material. Torsion cannot.
+
+        Nearly incompressible elements then need a pressure as an unknown.
+        """
         return self.harmonic > 0 or self.components != TORSION.components
 
     def resultant_weights(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:

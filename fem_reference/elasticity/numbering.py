@@ -48,7 +48,10 @@ class Numbering:
 def number_unknowns(
     section: SectionMesh, motion: Motion, basis: Basis, mixed: NDArray[np.bool_]
 ) -> Numbering:
-    """Number the degrees of freedom of a section and determine the order of their elimination.
+    """Number the degrees of freedom of a body's mesh and determine the order of their elimination.
+
+    The order keeps the factors of the stiffness matrix sparse. The degrees of freedom of the
+    contact zone are the last.
 
     section  mesh of the meridional section of a body
     motion   displacement components, and their conditions on the axis

@@ -17,11 +17,12 @@ EXACT = 5
 
 
 def displacement_basis(section: SectionMesh, quadrature: Any = None) -> Basis:
-    """Create the basis of one displacement component on a meridional section of a body.
+    """Create the finite-element basis of one displacement component on a meridional section.
 
-    Integrals over the basis have the weight r. The attribute `grad` of the functions contains u/r,
-    u_,r and u_,z.
+    Integrals over the basis have the weight r. The attribute `grad` of the functions contains u/r
+    and the derivatives of u by r and by z, from which the strains follow.
 
+    section     mesh of the meridional section of a body
     quadrature  points and weights on the unit square; None for exact integration of the energy
     """
     basis = Basis(section.mesh, ElementQuad2(), intorder=EXACT, quadrature=quadrature)

@@ -32,13 +32,15 @@ NORMAL = ("rr", "tt", "zz")
 
 
 def strains(u: Any, component: int, n: int) -> dict[str, Field]:
-    """Compute the strains that one displacement component of the harmonic n causes.
+    """Compute the strains that one displacement component of the angular harmonic n causes.
 
-    The result maps the names rr, tt, zz, rz, rt and tz to the strain at the points. Shear strains
-    are engineering strains. Strains that the component does not cause are absent.
+    The result maps the names rr, tt, zz, rz, rt and tz to the strain at the quadrature points.
+    Shear strains are engineering strains. Strains that the component does not cause are absent.
 
-    u          scikit-fem field of the component whose `grad` contains u/r, u_,r and u_,z
+    u          scikit-fem field of the component whose `grad` contains u/r and the derivatives of u
+               by r and z
     component  0 for u_r, 1 for u_theta, 2 for u_z
+    n          angular harmonic, 0 for axisymmetric displacements
     """
     over_r, along_r, along_z = u.grad
     found = (
@@ -195,9 +197,9 @@ class Dilatation:
 
 
 def dilatation(section: SectionMesh) -> Dilatation:
-    """Compute the resistance of every element of a section to a change of volume.
+    """Compute the resistance of every element of a mesh to a change of volume.
 
-    Determine also the nearly incompressible elements, whose pressure is a separate unknown.
+    The result also marks the nearly incompressible elements, whose pressure is a separate unknown.
 
     section  mesh with the materials of the elements
     """
@@ -213,5 +215,5 @@ def dilatation(section: SectionMesh) -> Dilatation:
 
 
 def shear_moduli(section: SectionMesh) -> Field:
-    """Return the shear modulus mu of every element of a section (e,)."""
+    """Return the shear modulus mu of every element of a mesh, that of its layer (e,)."""
     return np.array([m.shear_modulus for m in section.outline.materials])[section.layer]

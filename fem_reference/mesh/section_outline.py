@@ -31,7 +31,10 @@ of the surface displacement, and elements down to this depth take much memory an
 
 @dataclass(frozen=True)
 class SectionOutline:
-    """Outline of the section 0 <= r <= box, 0 <= z <= depth, in units of the contact radius.
+    """Outline of the meridional section of a body: outer edges, interfaces and element sizes.
+
+    The section covers 0 <= r <= box and 0 <= z <= depth. All lengths are in units of the contact
+    radius.
 
     size        side of the square elements in the contact zone
     zone        outer radius of the contact zone, an even number of elements

@@ -21,14 +21,15 @@ SAME_DEPTH = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Amplitude:
-    """Amplitudes of the displacement and stress of one motion with the angular harmonic n.
+    """Amplitudes of displacement and stress in one angular harmonic n, at the points of a section.
 
-    A motion is a displacement field of one harmonic, such as that of normal loading or torsion.
+    The motion is the displacement field of the harmonic, such as that of normal loading or torsion.
     u_theta and the stresses tz and rt are ∝ sin n theta, all other components ∝ cos n theta. The
     fields of torsion do not depend on theta.
 
-    displacement  u_r, u_theta, u_z (3, n) [length]
-    stress        rr, tt, zz, tz, rz, rt (6, n), tension positive [force/length^2]
+    motion        angular harmonic and displacement components
+    displacement  u_r, u_theta, u_z (3, points) [length]
+    stress        rr, tt, zz, tz, rz, rt (6, points), tension positive [force/length^2]
     """
 
     motion: Motion
@@ -38,14 +39,14 @@ class Amplitude:
 
 @dataclass(frozen=True, eq=False)
 class SectionField:
-    """Displacement and stress of one body at the points of its section, with z into the body.
+    """Displacement and stress of one body at the points of its meridional section, z into the body.
 
     A node on an interface is represented by one point for each material.
 
     points    positions r and z (2, n) [length]
     material  index of the material of every point (n,), 0 for the outermost layer
     cells     points of every element (e, 9): corners, midsides, middle
-    parts     contributions of the motions, whose sum is the field
+    parts     contributions of the angular harmonics, whose sum is the field
     """
 
     points: Field
@@ -54,16 +55,21 @@ class SectionField:
     parts: tuple[Amplitude, ...]
 
     def displacement(self, theta: float = 0.0) -> Field:
-        """Compute the displacement u_r, u_theta, u_z (3, n) at the angle theta [length].
+        """Compute the displacement u_r, u_theta, u_z below the surface at one angle [length].
 
-        The angle is counted from the direction of the load.
+        The result has the shape (3, n) for the n points of the meridional section.
+
+        theta  angle from the direction of the tangential load [radian]
         """
         return self._sum_motions([part.displacement for part in self.parts], (1,), theta)
 
     def stress(self, theta: float = 0.0) -> Field:
-        """Compute the stress rr, tt, zz, tz, rz, rt (6, n) at the angle theta [force/length^2].
+        """Compute the stress rr, tt, zz, tz, rz, rt of a body below its surface at one angle.
 
-        The angle is counted from the direction of the load. Tension is positive.
+        The result has the shape (6, n) for the n points of the meridional section [force/length^2].
+        Tension is positive.
+
+        theta  angle from the direction of the tangential load [radian]
         """
         return self._sum_motions([part.stress for part in self.parts], AS_SINE, theta)
 
@@ -71,7 +77,7 @@ class SectionField:
     def axis(self) -> Indices:
         """Indices of the points on the axis of the body, in the order of increasing depth.
 
-        Used for the stress along the axis. At an interface the point of the upper material is
+        Used for the stress along the axis. At an interface the point of the upper material is the
         first.
         """
         return self._sort_points(self.points[0] == 0.0, self.points[1])
@@ -79,8 +85,8 @@ class SectionField:
     def interface_points(self, depth: float, material: int) -> Indices:
         """Return the indices of the points on one side of an interface between two materials.
 
-        The indices are in the order of increasing radius. The stress may jump between the two
-        sides.
+        Used for the stress along the interface, which may jump between the two sides. The indices
+        are in the order of increasing radius.
 
         depth     depth of the interface [length]
         material  index of the material on the requested side, 0 for the outermost layer

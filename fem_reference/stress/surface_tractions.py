@@ -62,7 +62,12 @@ class SurfaceTractions:
 
     @classmethod
     def of(cls, increment: Increment) -> SurfaceTractions:
-        """Create the surface tractions of an increment, with linear interpolation between rings."""
+        """Create the surface tractions of an increment, for the stress below the surface.
+
+        The tractions are linear between the rings on which the increment states them.
+
+        increment  increment of the result, with pressure and shear
+        """
         return cls(
             increment.radii,
             increment.pressure,
@@ -111,8 +116,9 @@ class SurfaceTractions:
     def amplitudes(self, radii: Field) -> list[tuple[Motion, Field]]:
         """Compute the amplitudes of the surface tractions in all angular harmonics, at given radii.
 
-        Each item of the list contains a motion (harmonic and displacement components) and the
-        amplitudes (c, radii) of its components among q_r, q_theta and p [force/length^2].
+        Each item of the list contains a motion, which defines the harmonic and its displacement
+        components, and the amplitudes (c, radii) of the c components among q_r, q_theta and p
+        [force/length^2].
 
         radii  radii at which the tractions are evaluated [length]
         """
