@@ -26,7 +26,7 @@ State = tuple[tuple[Kind, tuple[float, ...]], ...]
 
 @dataclass(frozen=True)
 class LoadCycle:
-    """Load cycle between the ends of two load steps with equal loads.
+    """Load cycle: section of a load history between the ends of two load steps with equal loads.
 
     start  number of the load step at whose end the cycle begins, from 1
     end    number of the load step at whose end the cycle closes
@@ -37,11 +37,11 @@ class LoadCycle:
 
 
 def load_cycles(path: Iterable[LoadRamp]) -> tuple[LoadCycle, ...]:
-    """Find the load cycles of a load path: for each load step, the shortest cycle that its end
-    closes.
+    """Find the load cycles of a load history: for each load step, the shortest cycle it closes.
 
-    A cycle is closed if the kinds and the values of all controls equal those at the end of an
-    earlier load step. A load step of constant load closes none.
+    A cycle is closed if the kinds and the values of all controls (prescribed forces and
+    displacements) equal those at the end of an earlier load step. A load step of constant load
+    closes none.
 
     path  load ramps of all load steps
     """
@@ -80,8 +80,12 @@ def _increments_of_ramp(ramp: LoadRamp) -> int:
 
 
 def _end_loads(ramp: LoadRamp) -> Iterator[tuple[Kind, tuple[float, ...]]]:
-    """Yield the prescribed forces and displacements at the end of a load ramp.
+    """Yield the prescribed forces and displacements at the end of a load step.
 
+    Used to compare the loads of two load steps. The bulk strain of the lower body counts as one
+    load.
+
+    ramp    load ramp of the load step
     yields  coordinate of the indenter and kind of the control (force or displacement); its values,
             one or two (the bulk strain: three or none)
     """

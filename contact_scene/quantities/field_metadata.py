@@ -25,8 +25,11 @@ OF_THE_INDENTER = (
 
 
 class Kind(Enum):
-    """Kind of a reported value. It determines the value of a load step from the values of its
-    increments."""
+    """Kind of a reported value, such as scalar, vector or counter.
+
+    The kind determines the value of a load step from the values of its increments: the last value,
+    the largest value or the sum.
+    """
 
     SCALAR = "the value at the end of the step"
     VECTOR = "(x, y), the value at the end of the step"
@@ -60,7 +63,8 @@ class Reported:
 def reported(record: type) -> Mapping[str, Reported]:
     """Return unit and meaning of the reported values of a class, by attribute name.
 
-    Attributes come first, then properties. Attributes without such an annotation are left out.
+    A reported value is an attribute or a property with an annotation `Reported`. Attributes come
+    first, then properties; those without such an annotation are left out.
 
     record  class with annotated attributes, such as the scalars of an increment
     """

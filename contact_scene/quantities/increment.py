@@ -215,11 +215,11 @@ class State:
 
     @property
     def trapezoidal_work(self) -> float | None:
-        """Sum of ½(f₀ + f₁) Δω over all forces f, their displacements ω and all increments [force
-        length].
+        """Work of all loads since the start of the history, by the trapezoidal rule [force length].
 
-        f₀ and f₁ are the forces at the start and the end of an increment. None without an input
-        work.
+        The work is the sum of ½(f₀ + f₁) Δω over all forces f, their displacements ω and all
+        increments. f₀ and f₁ are the forces at the start and the end of an increment. The value is
+        None without an input work.
         """
         return None if self.input_work is None else self.input_work + (self.unresolved_work or 0.0)
 
@@ -313,17 +313,23 @@ COUNTERS: Mapping[str, Reported] = reported(Counters)
 
 
 def _remove_sign_of_zero(value: Any) -> Any:
-    """Replace -0.0 by 0.0 in a number or vector, since a sign of zero has no meaning in a
-    result."""
+    """Replace -0.0 by 0.0 in a reported number or vector.
+
+    The sign of a zero has no meaning in a result.
+
+    value  number, tuple of numbers, array or None
+    """
     if isinstance(value, tuple):
         return tuple(map(_remove_sign_of_zero, value))
     return value if value is None or isinstance(value, int) else value + 0.0
 
 
 def components(name: str) -> tuple[str, ...]:
-    """Return the column names of a scalar in a table: its name, or two names for a vector.
+    """Return the column names of a reported scalar in a table: one name, or two for a vector.
 
     The names of a vector have the endings _x and _y.
+
+    name  name of the scalar, such as "tangential_force"
     """
     if SCALARS[name].kind is Kind.VECTOR:
         return f"{name}_x", f"{name}_y"
@@ -331,9 +337,12 @@ def components(name: str) -> tuple[str, ...]:
 
 
 def numbers(increment: State | Quality) -> dict[str, float | int | None]:
-    """Return the scalars of an increment as numbers by column name.
+    """Return the reported scalars of an increment as plain numbers by column name.
 
-    Vectors are split into their components x and y. Undefined scalars are None.
+    Used for the rows of tables. Vectors are split into their components x and y. Undefined scalars
+    are None.
+
+    increment  results of an increment
     """
     found: dict[str, float | int | None] = {}
     for name in SCALARS:

@@ -18,6 +18,8 @@ def worst(*measures: float | None) -> float:
 
     Residuals that are None are ignored. The result is NaN if any residual is NaN, unlike that of
     Python's `max`.
+
+    measures  residuals [1]; None where the residual is not defined
     """
     return float(np.max([measure for measure in measures if measure is not None]))
 
@@ -42,7 +44,7 @@ class ShearResiduals:
 
     @property
     def worst(self) -> float:
-        """Largest residual of the tangential problem; NaN if any is NaN."""
+        """Largest residual of the tangential contact problem [1]; NaN if any is NaN."""
         return worst(*vars(self).values())
 
 
@@ -119,19 +121,19 @@ class Residuals:
     def with_shear(self, shear: ShearResiduals) -> "Residuals":
         """Combine the residuals of the normal problem with those of the tangential problem.
 
-        shear  residuals of the tangential problem, which replace the undefined ones
+        shear  residuals of the tangential problem, which replace those of this object
         """
         return replace(self, **vars(shear))
 
     @property
     def worst(self) -> float:
-        """Largest residual of the increment; NaN if any is NaN."""
+        """Largest residual of the contact equations of an increment [1]; NaN if any is NaN."""
         return worst(*vars(self).values())
 
     def require(self, tolerance: float, problem: str, iterations: int) -> None:
-        """Raise NotConverged if a residual exceeds the tolerance or is NaN.
+        """Raise NotConverged if a residual of an increment exceeds the tolerance or is NaN.
 
-        tolerance   limit of every residual
+        tolerance   limit of every residual [1]
         problem     name of the problem, for the message
         iterations  number of iterations, for the message
         """

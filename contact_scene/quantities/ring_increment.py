@@ -73,5 +73,5 @@ class RingIncrement(ReportedIncrement):
 
     @property
     def in_contact(self) -> Mask:
-        """Mask of the rings in contact: those with a positive pressure."""
+        """Mask of the rings in contact, circles around the axis with a positive pressure."""
         return np.asarray(self.pressure > 0)

@@ -58,6 +58,9 @@ def separated_increment(
 ) -> Reported:
     """Return the results of separated bodies at the end of an increment without contact.
 
+    Tractions, forces and elastic energy are 0. The gap, the position of the indenter and the
+    dissipated energy are kept or follow from the loads.
+
     last      results of the preceding increment
     ramp      load ramp of the load step
     fraction  fraction of the ramp at the end of the increment
@@ -97,12 +100,12 @@ def separated_increment(
 
 
 def virgin_increment(increment: Reported) -> Reported:
-    """Return the results of bodies that have not been in contact: all values are 0.
+    """Return the results of an increment before the bodies have been in contact: all values are 0.
 
-    Used for separated bodies before the first contact of a load history. The position in space and
-    in the history is kept.
+    Used for separated bodies before the first contact of a load history. The coordinates of the
+    points and the position in the history are kept.
 
-    increment  results in contact, which determine the shapes of the fields
+    increment  results of an increment in contact, which determine the shapes of the fields
     """
     of: Any = increment
     values = {f.name: _zero_of_type(getattr(of, f.name)) for f in fields(of) if f.init}
@@ -113,8 +116,8 @@ def virgin_increment(increment: Reported) -> Reported:
 def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
     """Determine tangential shift, twist and tilt of the indenter while the bodies are separated.
 
-    A prescribed displacement has its value on the load ramp. Other displacements keep their last
-    value.
+    A prescribed displacement has its value on the load ramp, the linear change of the loads in the
+    load step. Other displacements keep their last value.
 
     last      results of the preceding increment
     ramp      load ramp of the load step
@@ -190,9 +193,11 @@ def _add_values(first: Any, second: Any) -> Any:
 
 
 def _zero_of_type(value: Any) -> Any:
-    """Return the zero of the type of a reported value, for separated bodies.
+    """Return the zero of the type of a reported value, for the results of separated bodies.
 
     The types are numbers, arrays, pairs and residuals. The result is None for other types.
+
+    value  reported value of an increment in contact
     """
     if isinstance(value, Residuals):
         return Residuals(**{name: _zero_of_type(size) for name, size in vars(value).items()})

@@ -27,7 +27,7 @@ Value = TypeVar("Value", bound="WithFields")
 
 @dataclass(frozen=True, slots=True)
 class StoredArray:
-    """Reference to an array in a temporary file.
+    """Reference to an array of a result that is stored in a temporary file.
 
     file    open file
     offset  position of the first byte in the file
@@ -42,11 +42,11 @@ class StoredArray:
 
     @property
     def nbytes(self) -> int:
-        """Size of the stored array [byte]."""
+        """Size of the array in the temporary file [byte]."""
         return self.dtype.itemsize * math.prod(self.shape)
 
     def read(self) -> NDArray[Any]:
-        """Read a copy of the array from its file.
+        """Read a copy of the array from the temporary file.
 
         The copy is read-only, since changes would not reach the file.
         """
@@ -56,13 +56,15 @@ class StoredArray:
         return values
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        """Pickle the array instead of the reference to its file, which other processes cannot
-        read."""
+        """Pickle the array itself instead of the reference to its temporary file.
+
+        Other processes cannot read the file.
+        """
         return self.read().__reduce_ex__(protocol)
 
 
 class _StoredState(NamedTuple):
-    """Reference to the attributes of an object in a temporary file.
+    """Reference to the attributes of a result of an increment in a temporary file.
 
     The class is no dataclass: files of checkpoints accept frozen dataclasses, and must not contain
     such a reference, because its `read` unpickles bytes.
@@ -77,8 +79,10 @@ class _StoredState(NamedTuple):
     size: int
 
     def read(self) -> dict[str, Any]:
-        """Read the attributes of the object from the file; arrays remain in the file as
-        references."""
+        """Read the attributes of a result from the temporary file.
+
+        Arrays remain in the file; the attributes contain references to them.
+        """
         content = np.memmap(self.file, np.uint8, "r", self.offset, (self.size,)).tobytes()
         state, arrays = pickle.loads(content)
         return state | {
@@ -141,7 +145,12 @@ class FieldStore:
         self._known: dict[int, tuple[NDArray[Any], NDArray[Any] | StoredArray]] = {}
 
     def store(self, value: Value) -> Value:
-        """Store a result of an increment; return an equivalent object that may refer to the file.
+        """Store the result of an increment and return an equivalent object with less memory.
+
+        Large arrays of the returned object, or all its attributes, are in the temporary file and
+        are read on access.
+
+        value  result of an increment
 
         Raises OSError if the file cannot grow.
         """
@@ -159,9 +168,10 @@ class FieldStore:
         return copied if self._file is None else self._store_attributes(copied, self._file)
 
     def _store_attributes(self, value: Value, file: IO[bytes]) -> Value:
-        """Write the attributes of a result to the file; return an object that refers to them.
+        """Write the attributes of a result to the temporary file; return a reference object.
 
-        Arrays that are in the file already are not written again.
+        The returned object reads the attributes from the file on access. Arrays that are in the
+        file already are not written again.
 
         value  result of an increment
         file   open temporary file
@@ -189,8 +199,9 @@ class FieldStore:
         return StoredArray(self._file, place, array.dtype, array.shape)
 
     def _append_bytes(self, content: bytes | memoryview) -> int:
-        """Append bytes to the temporary file, which is created if needed.
+        """Append bytes to the temporary file of the results, which is created if needed.
 
+        content  bytes of an array, or of the attributes of a result
         returns  position of the first byte in the file
 
         Raises OSError if the folder of temporary files is full or missing.

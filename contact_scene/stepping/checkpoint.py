@@ -14,7 +14,7 @@ S = TypeVar("S")
 
 @dataclass(frozen=True)
 class ResumePoint(Generic[S]):
-    """Position in a load history, with the states that the next increment needs.
+    """Position in a load history at which an interrupted solve resumes, with the solver states.
 
     done   number of completed increments of all load steps
     state  state of the solver after the last of them; None without contact
@@ -29,7 +29,9 @@ class ResumePoint(Generic[S]):
     last: Any = None
 
     def completed_in_step(self, before: int, count: int) -> int:
-        """Return the number of completed increments of one load step, from which a solve resumes.
+        """Return the number of increments of one load step that precede the resume point.
+
+        A resumed solve skips these increments.
 
         before  number of increments of all earlier load steps
         count   number of increments of the load step
@@ -39,12 +41,13 @@ class ResumePoint(Generic[S]):
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """Stored state of a solve after an increment, from which the solve can continue.
+    """Stored state of a solve after an increment, from which an interrupted solve resumes.
 
     increments  all increments reported so far
-    point       resume point of the load history
+    point       resume point of the load history: position, and states of the solver
     extent      size of the grid or mesh
-    settled     names of computations for all increments whose work the counters contain already
+    settled     names of computations for all increments, such as a factorisation, whose work the
+                counters of earlier increments contain already
     """
 
     increments: tuple[Any, ...]
@@ -57,10 +60,15 @@ class CheckpointStore(Protocol):
     """Interface of a storage for the checkpoints of one solve, outside of its process."""
 
     def last(self) -> Checkpoint | None:
-        """Return the checkpoint that was stored last; None if there is none."""
+        """Return the checkpoint of the solve that was stored last; None if there is none."""
 
     def keep(self, checkpoint: Checkpoint) -> None:
-        """Store a checkpoint. Called after every increment; an implementation may skip calls."""
+        """Store a checkpoint of the solve. Called after every increment; may skip calls.
+
+        An interrupted solve resumes from the checkpoint that was stored last.
+
+        checkpoint  increments so far, and states for the next increment
+        """
 
 
 def store_checkpoints(

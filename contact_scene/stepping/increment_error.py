@@ -67,9 +67,14 @@ def near_gross_slip(scene: Scene) -> tuple[bool, ...]:
 
 
 def _is_independent_of_increments(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
-    """Determine if the end state of a load history is proved to be independent of the increments.
+    """Determine if the end state of a load history is proved not to depend on the increments.
 
-    ramps  load ramps of the history up to this state
+    The proof covers histories without shear, and two cases at constant pressure: torsion of bodies
+    of revolution, and a straight tangential load on equal bodies without layers and with Poisson's
+    ratio 0.
+
+    scene  bodies and friction
+    ramps  load ramps of the history, one for each load step up to this state
     """
     if scene.friction is None or scene.friction.uniform == 0:
         return True
@@ -95,18 +100,23 @@ def _is_independent_of_increments(scene: Scene, ramps: Sequence[LoadRamp]) -> bo
 
 
 def _follows_force(ramp: LoadRamp) -> bool:
-    """Determine if the control of shift or twist changes from force to displacement, or back.
+    """Determine if the control of shift or twist changes between force and displacement.
 
-    The value at the start of the load step is then a result of the solve, and may cause shear.
+    A load step that prescribes the other quantity than the preceding step starts from a result of
+    the solve. The start value is not prescribed and may cause shear.
+
+    ramp  load ramp of the load step
     """
     return ramp.tangential.start is None or ramp.twisting.start is None
 
 
 def _are_equal_without_poisson(scene: Scene) -> bool:
-    """Return true if both bodies have no layers and Poisson's ratio 0.
+    """Return True if both bodies have no layers and Poisson's ratio 0.
 
-    The direction of slip of a straight push is then constant, which proves that its result does not
-    depend on the increments.
+    The direction of slip under a straight tangential load is then constant, which proves that the
+    result does not depend on the number of increments.
+
+    scene  bodies with their materials
     """
     materials = {body.material for body in (scene.body, scene.indenter)}
     layers = scene.body.layers or scene.indenter.layers

@@ -71,7 +71,7 @@ class Control(Generic[Value]):
 def _interpolate_ramp(begin: Any, end: Any, fraction: float) -> Any:
     """Interpolate a force, displacement or bulk strain linearly within a load step.
 
-    Tuples are interpolated component by component.
+    Tuples are interpolated component by component. The value at the end is exact.
 
     begin, end  values at the start and the end of the load step
     fraction    fraction of the load step, from 0 to 1
@@ -87,7 +87,10 @@ VectorControl = Control[Vector]
 
 @dataclass(frozen=True)
 class LoadRamp:
-    """Load step with explicit controls of all coordinates of the indenter.
+    """Load step of a scene, resolved into the linear changes of all loads of the indenter.
+
+    Each coordinate of the indenter has a control: a prescribed force or displacement, with values
+    at the start and at the end of the step.
 
     step        number of the load step, counted from 1
     normal      normal force or approach
@@ -108,8 +111,12 @@ class LoadRamp:
     stretch: tuple[Strain, Strain] | None = None
 
     def strain(self, fraction: float) -> Strain | None:
-        """Interpolate the bulk strain of the lower body at a fraction of the load step; None
-        without one."""
+        """Interpolate the bulk strain of the lower body at a fraction of the load step.
+
+        The result (εxx, εyy, εxy) is None without a bulk strain in the history.
+
+        fraction  fraction of the load step, from 0 to 1
+        """
         strain: Strain | None = self.stretch and _interpolate_ramp(*self.stretch, fraction)
         return strain
 
@@ -169,7 +176,9 @@ def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tupl
 def first_direction(ramps: Sequence[LoadRamp]) -> tuple[float, float]:
     """Return the direction of the first nonzero tangential force or shift of a load history.
 
-    The direction is a unit vector (x, y); it is (1, 0) without a tangential load.
+    The direction is a unit vector (x, y). It is (1, 0) without a tangential load.
+
+    ramps  load ramps of the history, one for each load step
     """
     for ramp in ramps:
         x, y = ramp.tangential.end
@@ -179,9 +188,12 @@ def first_direction(ramps: Sequence[LoadRamp]) -> tuple[float, float]:
 
 
 def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
-    """Determine if the tangential forces and shifts at the ends of all load steps lie on one line.
+    """Determine if the tangential loads at the ends of all load steps lie on one line.
 
-    Values of 0 lie on every line; deviations of round-off are allowed.
+    The loads are tangential forces or shifts (x, y). A value of 0 lies on every line, and
+    deviations of round-off are allowed.
+
+    ramps  load ramps of the history, one for each load step
     """
     ends = [ramp.tangential.end for ramp in ramps]
     longest = max(ends, key=lambda end: hypot(*end))
@@ -196,7 +208,10 @@ def _bulk_strain_of_step(
 ) -> tuple[Strain, Strain] | None:
     """Determine the bulk strain of the lower body at the start and end of a load step.
 
-    step     load step
+    The bulk strain is a uniform strain parallel to the surface, given directly or by a stress. A
+    step without one keeps the strain of the preceding step.
+
+    step     load step as written in the scene
     last     ramp of the preceding load step
     base     material of the substrate, for a bulk stress
     returns  both strains (εxx, εyy, εxy); None without a bulk strain in the history
@@ -213,13 +228,13 @@ def _next_control(
 ) -> Control[Value]:
     """Determine the control of one coordinate of the indenter in a load step.
 
-    A control is a prescribed force or displacement that changes linearly. A coordinate without a
-    prescribed value keeps its last control.
+    A control is a prescribed force or displacement that changes linearly within the step. A
+    coordinate without a prescribed value keeps the last value of its control.
 
-    force, displacement  values that the load step prescribes; at most one of them is not None
-    last                 control of the coordinate in the preceding load step
-    at_rest              True if force and displacement are both zero so far, so that the ramp
-                         starts from 0
+    force, displacement
+             values that the load step prescribes; at most one of them is not None
+    last     control of the coordinate in the preceding load step
+    at_rest  True if force and displacement are both zero so far, so that the ramp starts from 0
     """
     named = displacement if force is None else force
     if named is None:

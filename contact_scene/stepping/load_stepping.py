@@ -36,8 +36,13 @@ Report = TypeVar("Report")
 
 @dataclass(frozen=True)
 class IncrementPosition:
-    """Position of an increment in the load history: load step and increment, each counted from
-    1."""
+    """Position of an increment in the load history.
+
+    step   number of the load step, counted from 1
+    index  number of the increment in the load step, counted from 1
+    increments_in_step
+           number of increments of the load step
+    """
 
     step: int
     index: int
@@ -46,13 +51,13 @@ class IncrementPosition:
 
 @dataclass(frozen=True)
 class ConvergedIncrement(Generic[S]):
-    """Converged solve of an increment, from which a solver creates its reported increment.
+    """Converged solve of a load increment, from which a solver creates its reported increment.
 
     place     position of the increment in the load history
-    before    state at the start of the increment; None before first contact
-    state     state at the end of the increment
-    halvings  number of bisections
-    spent     work of the solver for the increment, in its unit
+    before    state of the solver at the start of the increment; None before first contact
+    state     state of the solver at the end of the increment
+    halvings  number of bisections of the increment
+    spent     work of the solver for the increment, in the unit that the solver chooses
     """
 
     place: IncrementPosition
@@ -72,11 +77,17 @@ class Solver(Protocol[S, Report]):
     def most_spent(self) -> float: ...
 
     def spent(self) -> float:
-        """Return the work of the solver so far, in a unit that the solver chooses."""
+        """Return the work of the solver on the load history so far, in a unit of its choice.
+
+        The load stepping does not bisect an increment that has taken too much work.
+        """
 
     def advance(self, ramp: LoadRamp, start: S | None, before: S | None, fraction: float) -> S:
-        """Solve for the state of contact at a fraction of a load ramp.
+        """Solve for the contact state at a fraction of a load ramp.
 
+        A load ramp is the linear change of all loads in a load step.
+
+        ramp      prescribed forces and displacements at the start and end of the load step
         start     state at the start of the ramp; None without contact
         before    state at the end of the previous increment; None without contact
         fraction  fraction of the ramp, from 0 to 1
@@ -86,16 +97,18 @@ class Solver(Protocol[S, Report]):
         """
 
     def report(self, reached: ConvergedIncrement[S], last: Report | None) -> Report:
-        """Create the reported increment from a converged solve.
+        """Create the reported increment, with scalars and fields, from a converged solve.
 
-        reached  converged solve
-        last     previous reported increment; None before the first
+        reached  converged solve: states at start and end, and position in the load history
+        last     previous reported increment, whose energies are continued; None before the first
         """
 
     def undeformed_gap(self, last: Report, tilt: Any) -> Field:
-        """Compute the gap of the undeformed bodies at an approach of 0 and a tilt [length].
+        """Compute the gap of the undeformed bodies at an approach of 0 and a given tilt [length].
 
-        last  increment at whose points the gap is computed
+        Used for increments in which the bodies are separated.
+
+        last  reported increment at whose points the gap is computed
         tilt  tilt (x, y) of the indenter [radian]; None without tilt
         """
 
@@ -126,11 +139,13 @@ def resumable_increments(
     def empty(
         last: Report, ramp: LoadRamp, end: float, approach: float | None, place: IncrementPosition
     ) -> Report:
-        """Return the reported increment of separated bodies (empty contact) at a fraction of a load
-        ramp.
+        """Return the reported increment of separated bodies at a fraction of a load ramp.
+
+        Separated bodies have no tractions (empty contact), so that no solve is needed.
 
         last      preceding reported increment
-        end       fraction of the ramp
+        ramp      prescribed forces and displacements of the load step
+        end       fraction of the ramp at the end of the increment
         approach  prescribed approach [length]; None for the approach of first contact
         place     position of the increment in the load history
         """
@@ -197,9 +212,11 @@ def resumable_increments(
 def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
     """Compute the fractions of a load ramp at which its increments end.
 
-    The increments are uniform in the contact radius if the normal load starts or ends at 0, else
-    uniform in the load.
+    A load ramp is the linear change of the loads in a load step. The increments are uniform in the
+    contact radius if the normal load starts or ends at 0, else uniform in the load.
 
+    scene    contact problem with the shape of the indenter
+    ramp     load ramp of the load step
     count    number of increments
     returns  fractions in ascending order; the last is 1
     """
@@ -222,8 +239,13 @@ def _solve_with_bisection(
     most_spent: float,
     halvings_left: int = MAX_HALVINGS,
 ) -> tuple[S, int]:
-    """Solve one increment of a load ramp, by bisection if the solve does not converge.
+    """Solve one load increment, in two halves if the solve of the whole does not converge.
 
+    Each half may be divided again. All parts but the last only provide the state from which the
+    next part starts.
+
+    solver         solver of single increments
+    ramp           load ramp of the load step
     start          state at the start of the ramp
     before         state at the start of the increment; None before first contact
     fractions      fractions of the ramp at the start and the end of the increment
