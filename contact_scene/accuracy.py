@@ -72,7 +72,7 @@ class AccuracyRequest(_Named):
 
     @property
     def named_quantities(self) -> tuple[str, ...]:
-        """Names of the quantities with an error limit by name, in the order of the results."""
+        """Names of the quantities with an individual error limit, in the order of the results."""
         return tuple(name for name in BOUND if getattr(self, name) is not None)
 
     def shares(self) -> Mapping[str, float]:

@@ -34,23 +34,21 @@ class Body(Description):
 
     @property
     def elastic_materials(self) -> tuple[IsotropicMaterial, ...]:
-        """Elastic materials of the body: those of the layers, outermost first, and of an elastic
-        substrate."""
+        """Elastic materials of the body: its layers, outermost first, then an elastic substrate."""
         substrate = (self.material,) if isinstance(self.material, IsotropicMaterial) else ()
         return *(layer.material for layer in self.layers), *substrate
 
     @property
     def deforms(self) -> bool:
-        """True if a layer or the substrate of the body is elastic."""
+        """True if the body can deform elastically: if a layer or the substrate is elastic."""
         return bool(self.elastic_materials)
 
     @property
     def thinnest(self) -> float:
-        """Smallest depth of nearly uniform material in the body [length]; infinite for a uniform
-        body.
+        """Smallest depth of nearly uniform material in the layered body [length].
 
         A grid or mesh must resolve this depth. Adjacent layers count as one layer if their
-        materials differ by less than `NEARLY_EQUAL`.
+        materials differ by less than `NEARLY_EQUAL`. The depth is infinite for a uniform body.
         """
         return min(map(self._uniform_depth, range(len(self.layers))), default=inf)
 

@@ -11,12 +11,12 @@ UNCOUPLED = 1e-12
 
 
 def coupling(scene: Scene) -> tuple[bool, str]:
-    """Determine if pressure displaces the two surfaces relative to each other in the tangential
-    direction.
+    """Determine if pressure displaces the two surfaces tangentially relative to each other.
 
     In this case the normal and the tangential problem are coupled. The criterion for half-spaces is
     Dundurs' constant β ≠ 0 (Dundurs 1969). Layered bodies are coupled unless both bodies are equal.
 
+    scene    bodies with their layers and materials
     returns  True for coupled problems; reason in one sentence
     """
     lower, upper = scene.body, scene.indenter
@@ -79,8 +79,9 @@ def _outermost_material(body: Body) -> Material:
 def refuse_contrast(scene: Scene, most: float, why: str) -> None:
     """Raise UnsupportedScene if the shear moduli of the materials within one body differ too much.
 
-    most  largest allowed ratio of the shear moduli
-    why   reason of the limit, for the message
+    scene  bodies with their layers and materials
+    most   largest allowed ratio of the shear moduli
+    why    reason of the limit, for the message
     """
     for name, body in (("body", scene.body), ("indenter", scene.indenter)):
         moduli = [material.shear_modulus for material in body.elastic_materials]

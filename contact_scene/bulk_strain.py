@@ -26,7 +26,10 @@ ROUND_OFF = 1e-12
 def strain_under(stress: Sequence[float], material: Material) -> Strain:
     """Compute the strain (εxx, εyy, εxy) of an elastic material under a plane stress.
 
-    stress  (σxx, σyy, σxy) [force/length^2]
+    Used for a bulk stress that a load step prescribes.
+
+    stress    (σxx, σyy, σxy) [force/length^2]
+    material  isotropic elastic material
     """
     assert isinstance(material, IsotropicMaterial)
     E, nu = material.young_modulus, material.poisson_ratio
@@ -37,7 +40,10 @@ def strain_under(stress: Sequence[float], material: Material) -> Strain:
 def stress_by(strain: Sequence[float], body: Body, layer: int) -> Vector:
     """Compute the plane stress that the bulk strain causes in one layer of the lower body.
 
+    The bulk strain is a uniform strain parallel to the surface, equal in all layers.
+
     strain   (εxx, εyy, εxy) of the lower body
+    body     lower body with its layers
     layer    index of the layer from the surface; the number of layers for the substrate
     returns  σxx, σyy, σzz, σyz, σxz, σxy [force/length^2], shape (6,); 0 for a rigid material
     """
@@ -51,7 +57,7 @@ def stress_by(strain: Sequence[float], body: Body, layer: int) -> Vector:
 
 
 def add_bulk_strain(increment: Reported, strain: Strain | None) -> Reported:
-    """Enter the bulk strain of the lower body at the end of an increment in its results.
+    """Add the bulk strain of the lower body at the end of an increment to its results.
 
     increment  results of the increment
     strain     (εxx, εyy, εxy) of the lower body; None without bulk strain, which leaves the results

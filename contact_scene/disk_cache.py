@@ -56,7 +56,10 @@ def cached_array(
 
 @contextlib.contextmanager
 def without_cache() -> Iterator[None]:
-    """Disable the disk cache within a `with` block, to measure the cost of a solve."""
+    """Disable the disk cache of compliances within a `with` block.
+
+    Used to measure the cost of a solve, which then computes all operators.
+    """
     before = _ignored.set(True)
     try:
         yield
@@ -85,9 +88,10 @@ def cache_directory() -> Path | None:
 def _read_entry(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.float64] | None:
     """Read an array from its file in the disk cache.
 
-    Returns None if the file is missing, unreadable or damaged, or belongs to another key.
+    Return None if the file is missing, unreadable or damaged, or belongs to another key.
 
-    key    hash in the header of the file
+    path   file of the array
+    key    hash of the data that determine the array, stored in the header of the file
     shape  shape of the array
     """
     size = 8 * int(np.prod(shape))
@@ -110,9 +114,13 @@ def _read_entry(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.floa
 
 
 def _write_entry(path: Path, key: str, values: NDArray[np.float64]) -> None:
-    """Store an array in the disk cache atomically, and delete the entries beyond its largest size.
+    """Store an array in the disk cache atomically, and delete the oldest arrays beyond its limit.
 
-    An array larger than a quarter of the cache is not stored.
+    An array of more than LARGEST_CACHE / 4 bytes is not stored.
+
+    path    file of the array
+    key     hash of the data that determine the array
+    values  array to store
     """
     body = values.astype("<f8").tobytes()
     if len(body) > LARGEST_CACHE // 4:
@@ -131,16 +139,20 @@ def _write_entry(path: Path, key: str, values: NDArray[np.float64]) -> None:
 
 
 def _entry_header(key: str, body: bytes) -> bytes:
-    """Build the header of a cache file: format, key of the entry and checksum of the numbers."""
+    """Build the header of a file in the disk cache: format, key of the array and checksum.
+
+    key   hash of the data that determine the array
+    body  numbers of the array in bytes, from which the checksum is computed
+    """
     return FIRST_LINE + f"{key}\n{sha256(body).hexdigest()}\n".encode()
 
 
 def _delete_old_entries(newest: Path) -> None:
-    """Delete the least recently used entries of the disk cache above its size LARGEST_CACHE.
+    """Delete the least recently used arrays of the disk cache above its size LARGEST_CACHE.
 
     Files without the suffix of the cache remain.
 
-    newest  file of the newest entry, which is deleted last
+    newest  file of the newest array, which is deleted last
     """
     entries = []
     for entry in os.scandir(newest.parent):

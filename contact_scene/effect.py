@@ -30,9 +30,11 @@ PRESSURE = Effect("pressure", True, "the indenter is pressed on")
 
 
 def second_body(scene: Scene) -> Effect:
-    """Return the effect of a second elastic body, which acts if both bodies of the scene deform.
+    """Describe the effect of a second elastic body, for the plan of a solve.
 
-    The compliances of two elastic bodies add.
+    The effect acts if both bodies of the scene deform. Their compliances then add.
+
+    scene  contact problem with its two bodies
     """
     both = scene.body.deforms and scene.indenter.deforms
     if both:
@@ -65,9 +67,12 @@ def friction(scene: Scene) -> Effect:
 
 
 def strained(scene: Scene) -> Effect:
-    """Describe the effect of the bulk strain of the lower body, for the plan of a solve.
+    """Describe the effect of a bulk strain of the lower body, for the plan of a solve.
 
-    The effect acts if a load step prescribes a bulk strain.
+    The effect acts if a load step prescribes a bulk strain, which is uniform and parallel to the
+    surface. The plan lists the effects that the solve computes.
+
+    scene  contact problem with its load steps
     """
     on = any(ramp.stretch for ramp in scene.load_path())
     why = "a step prescribes" if on else "no step prescribes"
@@ -75,9 +80,11 @@ def strained(scene: Scene) -> Effect:
 
 
 def coupled(scene: Scene, on: bool, why: str) -> Effect:
-    """Create the description of the coupling of the normal and the tangential problem.
+    """Describe the coupling of the normal and the tangential problem, for the plan of a solve.
 
-    scene  scene of the plan
+    The problems are coupled if pressure displaces the surfaces tangentially relative to each other.
+
+    scene  contact problem
     on     True if the problems are coupled
     why    reason; replaced by the absence of shear in a scene without friction
     """
@@ -87,8 +94,10 @@ def coupled(scene: Scene, on: bool, why: str) -> Effect:
 
 
 def load_history(on: bool) -> Effect:
-    """Create the effect of the load history, which acts if the final state depends on the load
-    path.
+    """Describe the effect of the load history, for the plan of a solve.
+
+    The effect acts if the final contact state depends on the load path, not on the final loads
+    alone.
 
     on  True if the final state depends on the load path
     """

@@ -59,8 +59,11 @@ class FrictionMap(Description):
 
     @property
     def extent(self) -> Pair:
-        """Side lengths of the largest rectangle about the origin of the contact that the map covers
-        [length]."""
+        """Side lengths of the largest rectangle about the origin that the map covers [length].
+
+        The origin is the point of first contact. The coefficient of friction is defined in this
+        rectangle.
+        """
         L_x, L_y = (
             count * spacing - 2.0 * abs(middle)
             for count, spacing, middle in zip(
@@ -71,8 +74,7 @@ class FrictionMap(Description):
 
     @cached_property
     def constant(self) -> float | None:
-        """Coefficient of friction if all values of the map are equal; None if the coefficient
-        varies."""
+        """Coefficient of friction if all values of the map are equal; None if they differ."""
         values = self.map.values
         return float(values[0, 0]) if np.all(values == values[0, 0]) else None
 
@@ -131,8 +133,10 @@ class CoulombFriction(Description):
 
     @property
     def uniform(self) -> float | None:
-        """Coefficient µ if the friction limit is µ times the pressure with equal µ everywhere; else
-        None."""
+        """Coefficient of friction µ if the friction limit is µ times the pressure everywhere.
+
+        The value is None if µ differs from point to point or depends on the pressure.
+        """
         lowest, highest = self.slope(0.0), self.slope(HIGHEST_PRESSURE)
         if self.coefficient_map is not None or not np.array_equal(lowest, highest):
             return None
@@ -146,8 +150,10 @@ class CoulombFriction(Description):
 
     @property
     def extent(self) -> Pair | None:
-        """Side lengths of the rectangle about the origin where the coefficient of friction is
-        defined [length]; None without a map."""
+        """Side lengths of the rectangle about the origin where the friction is defined [length].
+
+        The value is None without a map of the coefficient of friction.
+        """
         return self.coefficient.extent if isinstance(self.coefficient, FrictionMap) else None
 
     def on_grid(self, cells: tuple[int, int], spacing: Pair) -> "CoulombFriction":
@@ -176,8 +182,10 @@ class CoulombFriction(Description):
 
     @property
     def largest(self) -> float:
-        """Largest coefficient of friction on the surface: slope of the friction limit at zero
-        pressure [1]."""
+        """Largest coefficient of friction on the surface [1].
+
+        The value is the slope of the friction limit at zero pressure.
+        """
         return float(np.max(self.slope(0.0)))
 
     def slope(self, pressure: Field | float, where: Where = ...) -> Field:
@@ -198,7 +206,9 @@ class CoulombFriction(Description):
         return np.asarray(self._at(where) * pressure)
 
     def _at(self, where: Where) -> float | Field:
-        """Return the coefficient of friction of the selected cells: one number if it is uniform.
+        """Return the coefficient of friction of the selected cells of the surface.
+
+        The result is one number if the coefficient is uniform.
 
         where  index of the cells in the arrays of the friction map, such as a mask of the contact
         """
@@ -210,7 +220,9 @@ class CoulombFriction(Description):
     def largest_tangential_force(self, normal_force: float) -> float | None:
         """Compute the largest tangential force that friction carries under a normal force [force].
 
-        Returns None if this force depends on the distribution of the pressure.
+        The result is None if this force depends on the distribution of the pressure.
+
+        normal_force  normal force [force]
         """
         mu = self.uniform
         return None if mu is None else mu * normal_force

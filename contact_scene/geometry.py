@@ -79,23 +79,28 @@ class ShapedBody(Body):
 
     @property
     def rim(self) -> float | None:
-        """Radius of an edge of the indenter that bounds the contact at every load [length]; None
-        without such an edge."""
+        """Radius of an edge of the indenter that bounds the contact at every load [length].
+
+        An example is the edge of a flat punch. The value is None without such an edge.
+        """
         return None
 
     @property
     def extent(self) -> Pair | None:
-        """Side lengths along x and y of the region about the origin where the gap of the indenter
-        is defined [length]; None if the gap is defined everywhere."""
+        """Side lengths along x and y of the region where the indenter's gap is defined [length].
+
+        The region is a rectangle about the origin. The value is None if the gap is defined
+        everywhere.
+        """
         return None
 
     @property
     def gap_exponent(self) -> float | None:
-        """Exponent k of the gap of the indenter as a power of the distance from the point of first
-        contact.
+        """Exponent k of the gap as a power of the distance from the point of first contact.
 
-        Under a growing load the approach is proportional to a^k and the normal force to a^(k+1),
-        with the contact radius a. None if the contact does not grow or follows no such law.
+        The gap is that of the undeformed indenter; k = 2 for a paraboloid. Under a growing load the
+        approach is proportional to a^k and the normal force to a^(k+1), with the contact radius a.
+        The value is None if the contact does not grow or follows no such law.
         """
         return None
 
@@ -138,8 +143,10 @@ class SmoothTip(ShapedBody):
 
     @property
     def gap_exponent(self) -> float:
-        """Exponent of the gap as a power of the distance from the tip: 2, since the tip is a
-        parabola to second order."""
+        """Exponent of the gap of the indenter as a power of the distance from the tip: 2.
+
+        The tip is a parabola to second order.
+        """
         return 2
 
     @property
@@ -175,7 +182,7 @@ class RoundTip(SmoothTip):
 
     @property
     def is_of_revolution(self) -> bool:
-        """True: the gap depends on the distance from the origin only, for every radius."""
+        """True: the gap of the indenter depends on the distance from the origin only."""
         return True
 
     @property
@@ -190,8 +197,12 @@ class Sphere(RoundTip):
     shape: Literal["sphere"] = "sphere"
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Compute the height of the arc of the sphere above the plane; beyond the equator, the gap
-        is R."""
+        """Compute the undeformed gap of the sphere: the height of its arc above the plane [length].
+
+        Beyond the equator, the gap is the radius R.
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
         R = self.radius
         r = np.minimum(np.hypot(x, y), R)
         return np.asarray(r * (r / (R + np.sqrt((R - r) * (R + r)))))
@@ -216,12 +227,12 @@ class Ellipsoid(SmoothTip):
 
     @property
     def is_of_revolution(self) -> bool:
-        """True if the radii of curvature along x and y are equal."""
+        """True if the radii of curvature of the indenter along x and y are equal."""
         return self.radii[0] == self.radii[1]
 
     @property
     def is_even(self) -> bool:
-        """True: the gap is equal at (x, y), (-x, y) and (x, -y), for all radii."""
+        """True: the gap of the indenter is equal at (x, y), (-x, y) and (x, -y)."""
         return True
 
     @property
@@ -244,13 +255,15 @@ class Cone(ShapedBody):
 
     @property
     def gap_exponent(self) -> float:
-        """Exponent of the gap as a power of the distance from the tip: 1, since the flank is
-        straight."""
+        """Exponent of the gap of the cone as a power of the distance from the tip: 1.
+
+        The flank of the cone is straight.
+        """
         return 1
 
     @property
     def is_of_revolution(self) -> bool:
-        """True: the gap depends on the distance from the origin only, for every slope."""
+        """True: the gap of the cone depends on the distance from the origin only."""
         return True
 
     def contact_at(self, approach: float) -> Pair:
@@ -289,7 +302,7 @@ class FlatPunch(ShapedBody):
 
     @property
     def is_of_revolution(self) -> bool:
-        """True: the gap depends on the distance from the origin only, for every radius."""
+        """True: the gap of the punch depends on the distance from the origin only."""
         return True
 
     @property
@@ -324,8 +337,10 @@ class HeightMap(ShapedBody):
 
     @property
     def gap_exponent(self) -> float:
-        """Exponent of the gap as a power of the distance from first contact: 2, for the first
-        asperities."""
+        """Exponent of the gap as a power of the distance from first contact: 2.
+
+        The value is that of a paraboloid and applies to the first asperities in contact.
+        """
         return 2
 
     @property
@@ -357,8 +372,10 @@ class HeightMap(ShapedBody):
 
     @property
     def heights(self) -> Gap:
-        """Heights of the map above the body [length], with interpolated values at points without a
-        measurement."""
+        """Heights of the height map, positive away from the body (nx, ny) [length].
+
+        Points without a measurement have interpolated values.
+        """
         return _interpolated_surface(self.file, self.height_unit, self.flip)[0]
 
     @property
@@ -368,11 +385,13 @@ class HeightMap(ShapedBody):
         return any(at in (0.0, n - 1.0) for at, n in zip(place, self.file.shape, strict=True))
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Interpolate the height of the map above its lowest point, which is the undeformed gap
-        [length].
+        """Compute the undeformed gap of the height map: its height above its lowest point [length].
 
-        The lowest point is the minimum of the interpolated surface between the outermost points of
-        the map. Raises ValueError if a point (x, y) lies outside the map.
+        The height is interpolated at the points (x, y). The lowest point is the minimum of the
+        interpolated surface between the outermost points of the map. Raises ValueError if a point
+        lies outside the map.
+
+        x, y  coordinates in the plane of contact [length], broadcast together
         """
         heights, lowest, dip, _ = _interpolated_surface(self.file, self.height_unit, self.flip)
         return np.asarray(interpolate(heights - lowest, self.spacing, x, y) - dip)
@@ -382,7 +401,10 @@ class HeightMap(ShapedBody):
 def _interpolated_surface(
     file: ArrayFile, unit: float, flip: bool
 ) -> tuple[Gap, float, float, Pair]:
-    """Evaluate the heights of a map and the minimum of their interpolated surface.
+    """Compute the heights of a height map and the minimum of their interpolated surface.
+
+    The surface is interpolated between the points of the map. Its minimum is the point of first
+    contact.
 
     file     measured values, with NaN at points without a measurement
     unit     factor of the values to SI [length]
@@ -408,10 +430,12 @@ SHAPES: dict[str, type[ShapedBody]] = {
 
 
 def nearest_shape(written: Any) -> str:
-    """Return the name of the indenter shape that is most similar to a text; empty without a similar
-    one.
+    """Return the name of the indenter shape whose name is most similar to a text.
 
-    Used to suggest a shape for a misspelt name in a scene file.
+    Used to suggest a shape for a misspelt name in a scene file. The result is empty without a
+    similar name.
+
+    written  name of the shape as written in the scene file
     """
     if not isinstance(written, str):
         return ""
@@ -420,7 +444,7 @@ def nearest_shape(written: Any) -> str:
 
 
 def _indenter_tag(value: Any) -> str:
-    """Return the tag of the indenter class that validates the indenter of a scene.
+    """Return the tag that selects the class of indenter for the validation of a scene.
 
     A table with a misspelt shape is validated by the class of the most similar shape, so that all
     its other mistakes are found as well.

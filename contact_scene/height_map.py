@@ -40,18 +40,25 @@ HeightUnit = Annotated[
 
 
 def _is_name(value: Any) -> bool:
-    """Determine if a value is the name of a unit alone, such as "um", instead of a quantity."""
+    """Determine if a value is the name of a unit alone, such as "um", instead of a quantity.
+
+    Used for the unit of the heights of a height map.
+
+    value  value as written in the scene
+    """
     return isinstance(value, str) and value[:1].isalpha()
 
 
 def fill_missing_heights(heights: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Replace the missing heights of a map (NaN) by interpolated heights that solve Laplace's
-    equation.
+    """Replace the missing heights of a height map (NaN) by interpolated heights.
 
-    The measured heights are the boundary values; the error is about 1 % of the adjacent heights.
-    The method is cascadic multigrid: a Jacobi iteration that starts from the solution on half the
-    points along each side (Bornemann and Deuflhard 1996, Numer. Math. 75, 135). Every iterate is a
-    mean of measured heights and not below the lowest of them.
+    The interpolated heights solve Laplace's equation, with the measured heights as boundary values.
+    The error is about 1 % of the adjacent heights. The method is cascadic multigrid: a Jacobi
+    iteration that starts from the solution on half the points along each side (Bornemann and
+    Deuflhard 1996, Numer. Math. 75, 135). Every iterate is a mean of measured heights and not below
+    the lowest of them.
+
+    heights  measured heights, NaN where missing (nx, ny) [length]
     """
     known = np.isfinite(heights)
     if np.all(known):
@@ -135,8 +142,8 @@ def _rows_with_neighbours(
 ) -> NDArray[np.float64]:
     """Return a block of rows of a height map, with one more row or column on every side.
 
-    The added rows and columns are those of the map; beyond the outermost points they are
-    extrapolated.
+    The interpolation between the points of the block needs the added values. They are those of the
+    map, or extrapolated beyond the outermost points.
 
     heights     heights at the points, (nx, ny) [length]
     begin, end  first and last row of the block
@@ -147,14 +154,14 @@ def _rows_with_neighbours(
 
 
 def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, tuple[float, float]]:
-    """Find the minimum of the interpolated surface of a padded map, if it is below a limit.
+    """Find the minimum of the interpolated surface of a height map, if it is below a limit.
 
     A patch is the surface between four adjacent points, interpolated from 16 values. The surface
     undershoots the lowest of these values by at most `_NEGATIVE_WEIGHTS` times their range. This
     bound selects the patches that can be below the limit. The minimum of these patches is located
     on grids that shrink around it.
 
-    padded   map with one more value beyond the outermost points on every side [length]
+    padded   heights with one more value beyond the outermost points on every side [length]
     limit    value above which a minimum is ignored [length]
     returns  minimum, or the limit if no value is below it [length]; position in indices of points
     """
@@ -180,12 +187,12 @@ def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, t
 
 
 def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
-    """Select the patches of an interpolated map that can contain values below a limit.
+    """Select the patches of an interpolated height map that can contain values below a limit.
 
     A patch is the surface between four adjacent points. Its lower bound follows from the 16 values
     from which it is interpolated.
 
-    padded   map with one more value beyond the outermost points on every side [length]
+    padded   heights with one more value beyond the outermost points on every side [length]
     limit    limit of the lower bound [length]
     returns  centres of at most `_MAX_PATCHES` patches with the lowest bounds, in indices of points,
              (count, 2)
@@ -208,11 +215,11 @@ def _evaluate_convolution(
     j: NDArray[np.intp],
     t: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Evaluate the cubic convolution of a padded map at given points, from 4 x 4 values each.
+    """Interpolate a height map at given points by cubic convolution, from 4 x 4 values each.
 
-    padded  map with added rows and columns on every side
+    padded  heights with added rows and columns on every side
     i, j    indices of the first of the four values along each axis, in the padded map
-    s, t    distances of the points from the second value, in spacings
+    s, t    distances of the points from the second value, in spacings of the map
     """
     across, along = _convolution_weights(s), _convolution_weights(t)
     result = np.zeros(np.broadcast_shapes(s.shape, t.shape))
@@ -249,6 +256,8 @@ def _locate_between_points(
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """Determine the position of coordinates between the points of a map along one axis.
 
+    The map contains heights or coefficients of friction. Used to interpolate between its points.
+
     coordinate  coordinates relative to the centre of the map [length]
     count       number of points of the map along the axis
     spacing     distance between adjacent points [length]
@@ -274,10 +283,13 @@ def _locate_between_points(
 
 
 def _extrapolate_rows(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Extrapolate a map beyond its outermost rows, for cubic convolution at the boundary.
+    """Extrapolate a height map beyond its outermost rows, for the interpolation at its boundary.
 
     Two rows are added before the first and two after the last row. The extrapolation in each column
     is a parabola through three rows.
+
+    rows     heights (n, m)
+    returns  extended heights (n + 4, m)
     """
     first = 3.0 * rows[0] - 3.0 * rows[1] + rows[2]
     second = 3.0 * first - 3.0 * rows[0] + rows[1]
@@ -287,7 +299,9 @@ def _extrapolate_rows(rows: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _convolution_weights(t: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
-    """Compute the four weights of cubic convolution along one axis (Keys 1981).
+    """Compute the weights of four adjacent heights in the interpolation between the middle two.
+
+    The interpolation is cubic convolution along one axis (Keys 1981).
 
     t  distance of the point from the second of the four values, in spacings, from 0 to 1
     """

@@ -17,7 +17,7 @@ NEITHER_WAITING_NOR_TEXT = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY"
 
 
 def available_bytes() -> int:
-    """Determine the memory that is available without swapping [byte]."""
+    """Determine the memory of this machine that is available without swapping [byte]."""
     try:
         with MEMORY.open("rb") as lines:
             for line in lines:
@@ -42,10 +42,11 @@ def one_thread() -> Iterator[None]:
 
 @lru_cache(maxsize=1)
 def _threaded_libraries(imported: int) -> ThreadpoolController:
-    """Find the loaded libraries whose threads can be limited (BLAS, OpenMP), with a cache.
+    """Find the loaded libraries whose threads can be limited (BLAS, OpenMP).
 
-    imported  number of imported modules, the key of the cache; a new search is needed only after an
-              import
+    The result is cached until another module is imported, because only an import loads libraries.
+
+    imported  number of imported modules, the key of the cache
     """
     return ThreadpoolController()
 

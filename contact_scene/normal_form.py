@@ -50,9 +50,12 @@ def normal_form(scene: Scene) -> Scene:
 
 
 def _merge_equal_layers(body: B) -> B:
-    """Return a body in which adjacent layers of equal material are merged into one layer.
+    """Merge adjacent layers of a body that have the same material into one layer.
 
-    A lowest layer that has the material of the substrate becomes part of the substrate.
+    A lowest layer that has the material of the substrate becomes part of the substrate. Used for
+    the normal form of a scene, which contains no inputs without effect.
+
+    body  layered body, which is not changed
     """
     equal = groupby(body.layers, key=lambda layer: layer.material)
     layers = [
@@ -65,14 +68,15 @@ def _merge_equal_layers(body: B) -> B:
 
 
 def _controls_without_effect(scene: Scene, ramps: tuple[LoadRamp, ...]) -> Unnamed:
-    """Determine the controls of a scene that have no effect and are replaced by the defaults.
+    """Determine the prescribed loads and displacements of a scene that have no effect.
 
     A control prescribes a force or a displacement of one coordinate of the indenter. Such a control
     has no effect if it is zero in all load steps and, by symmetry or without friction, equals the
-    default control of its coordinate (free shift, fixed twist, fixed tilt).
+    default control of its coordinate (free shift, fixed twist, fixed tilt). The normal form of the
+    scene contains the default instead.
 
     scene    scene after all other replacements
-    ramps    load ramps of the scene
+    ramps    load ramps of the scene, one for each load step
     returns  default control and its value 0, by the name of the control that it replaces
     """
     tilts = any(any(ramp.tilting.end) for ramp in ramps)

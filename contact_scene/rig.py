@@ -48,8 +48,11 @@ class Rig(Description):
 
 
 def compliances(rig: Rig | None) -> Pair:
-    """Return the compliances 1/k of the springs of a test rig [length/force].
+    """Return the compliances 1/k of the springs of a test rig, of stiffness k [length/force].
 
+    The springs are between the actuator and the indenter.
+
+    rig      springs of the test rig, or None
     returns  compliance along the normal and along the surface; 0 for a rigid direction or without a
              rig
     """
@@ -61,9 +64,10 @@ def compliances(rig: Rig | None) -> Pair:
 def prescribed_motions(rig: Rig | None) -> tuple[str, str]:
     """Return the names of the displacements in a result that load steps prescribe.
 
-    With a spring of the test rig, a load step prescribes the displacement of the actuator
-    ("actuator_approach"), else the displacement of the contact ("approach").
+    With a spring between actuator and indenter, a load step prescribes the displacement of the
+    actuator ("actuator_approach"), else the displacement of the contact ("approach").
 
+    rig      springs of the test rig, or None
     returns  name of the approach, name of the tangential shift
     """
     names = zip(compliances(rig), MOTIONS.items(), strict=True)
@@ -92,5 +96,10 @@ def add_contact_displacements(increment: Reported, rig: Rig | None) -> Reported:
 
 
 def plain(value: Any) -> Any:
-    """Convert a number or an array of numpy to a float or to a tuple of floats."""
+    """Convert a number or a vector of numpy to a Python float or to a tuple of floats.
+
+    Used for displacements and energies of a result.
+
+    value  number, or array (n,)
+    """
     return tuple(map(float, value)) if np.ndim(value) else float(value)

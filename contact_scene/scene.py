@@ -63,8 +63,10 @@ class Scene(Description):
 
     @property
     def array_files(self) -> dict[str, ArrayFile]:
-        """Arrays of the scene from files, by their keys: `file` of a height map, `map` of a
-        friction map."""
+        """Arrays that the scene reads from files, by their keys.
+
+        The keys are `file` for a height map and `map` for a friction map.
+        """
         found = {"file": getattr(self.indenter, "file", None)}
         if self.friction is not None:
             found["map"] = getattr(self.friction.coefficient, "map", None)
@@ -98,10 +100,10 @@ class Scene(Description):
         return self.model_copy(update={"loading": loading})
 
     def load_path(self) -> tuple[LoadRamp, ...]:
-        """Resolve the load steps into load ramps: one ramp per load step, with the controls of all
-        coordinates.
+        """Return the load ramps of the scene: the linear changes of all loads in each load step.
 
-        A coordinate that a load step does not prescribe keeps its last control.
+        There is one ramp per load step, with the prescribed force or displacement of every
+        coordinate. A coordinate that a load step does not prescribe keeps its last value.
         """
         return load_path(self.loading, self.body.material)
 

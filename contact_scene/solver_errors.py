@@ -43,8 +43,10 @@ class ContactAtWindowEdge(SolverError):
 
 
 class ContactAtZoneEdge(SolverError):
-    """Error for a contact that reaches the end of the fine elements or rings, which cuts off its
-    tractions."""
+    """Error for a contact that reaches the end of the fine elements or rings.
+
+    The end would cut off the tractions of the contact.
+    """
 
 
 class ContactNotResolved(SolverError):

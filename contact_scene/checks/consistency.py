@@ -39,10 +39,10 @@ _SHEARING = {
 
 
 def inconsistencies(tables: Mapping[str, Any]) -> tuple[Problem, ...]:
-    """Find the contradictions between the tables of a scene file.
+    """Find the contradictions between the tables of a scene file, each of which is valid alone.
 
     A check runs if all tables that its parameters name are valid. The parameter `ramps` contains
-    the load steps, resolved into load ramps.
+    the load steps, resolved into load ramps (linear changes of all loads).
 
     tables  valid tables of the scene file by their keys
     """
@@ -76,10 +76,12 @@ def _first_step_without_normal_load(loading: Sequence[LoadStep]) -> Iterator[Pro
 
 
 def _loads_without_contact(ramps: Sequence[LoadRamp]) -> Iterator[Problem]:
-    """Find load steps that separate the bodies but prescribe a load on them.
+    """Find load steps that separate the bodies but prescribe a tangential force, torque or moment.
 
-    Separated bodies carry no tangential force, torque or moment. A tilted indenter at an approach
-    of 0 may still touch the body and is also refused.
+    Separated bodies carry none of these loads. A tilted indenter at an approach of 0 may still
+    touch the body and is also refused.
+
+    ramps  load ramps of all load steps
     """
     for index, ramp in enumerate(ramps):
         if ramp.normal.end != 0:
@@ -120,11 +122,16 @@ def _shear_without_friction(
 def _gross_sliding(
     friction: CoulombFriction | None, loading: Sequence[LoadStep], ramps: Sequence[LoadRamp]
 ) -> Iterator[Problem]:
-    """Find load steps under force control with a tangential force above the friction limit mu W.
+    """Find load steps whose prescribed tangential force exceeds the friction limit mu W.
 
-    A force at the limit is refused if another load step follows, since the shift is undefined. |T|
-    - mu W, with the tangential force T and the normal force W, is convex along a ramp, so the ends
-    of the ramps suffice.
+    Only steps under force control are checked. A force at the limit is refused if another load step
+    follows, since the shift is then undefined. |T| - mu W, with the tangential force T, the
+    coefficient mu and the normal force W, is convex along a ramp. The ends of the ramps therefore
+    suffice.
+
+    friction  friction law of the scene; None without friction
+    loading   load steps as written in the scene
+    ramps     load ramps of all load steps
     """
     for index, ramp in enumerate(ramps):
         limit = (
@@ -154,10 +161,12 @@ def _gross_sliding(
 
 
 def _key_of_shear(index: int, step: LoadStep) -> Path:
-    """Return the key to change in a load step that slides: the tangential load or the normal force.
+    """Return the key that the user must change in a load step with gross sliding.
+
+    The key is that of the tangential load, or else of the normal force.
 
     index  index of the load step from 0
-    step   load step
+    step   load step as written in the scene
     """
     names = ("tangential_force", "tangential_shift", "normal_force")
     named = [name for name in names if getattr(step, name) is not None]
@@ -167,12 +176,15 @@ def _key_of_shear(index: int, step: LoadStep) -> Path:
 def _moment_beyond_the_contact(
     indenter: Indenter, loading: Sequence[LoadStep], ramps: Sequence[LoadRamp]
 ) -> Iterator[Problem]:
-    """Find load steps with a moment that shifts the normal force beyond the indenter, which tips
-    over.
+    """Find load steps whose moment moves the normal force beyond the indenter, which tips over.
 
     Only steps under force control are checked. |M| - W reach, with the moment M, the normal force W
-    and the half width `reach` of the indenter, is convex along a ramp, so the ends of the ramps
-    suffice.
+    and the half width `reach` of the indenter, is convex along a ramp. The ends of the ramps
+    therefore suffice.
+
+    indenter  indenter with its rim or extent
+    loading   load steps as written in the scene
+    ramps     load ramps of all load steps
     """
     half_x, half_y = (side / 2 for side in indenter.extent or (math.inf, math.inf))
     for index, ramp in enumerate(ramps):

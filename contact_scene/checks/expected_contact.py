@@ -64,9 +64,10 @@ def refuse_equator(scene: Scene) -> None:
 def contact_approach(scene: Scene, approach: float, modulus: float) -> float:
     """Estimate the approach of the bodies from the approach of the actuator of a test rig [length].
 
-    The normal spring of the rig takes up the difference. The estimate is by Hertz theory and
-    bisection.
+    The normal spring between actuator and indenter takes up the difference. The estimate is by
+    Hertz theory and bisection.
 
+    scene     bodies, indenter shape and springs
     approach  approach of the actuator [length]
     modulus   contact modulus E* [force/length^2]
     """
@@ -101,15 +102,20 @@ class ExpectedContact:
 
     @property
     def stiffness(self) -> float:
-        """Normal stiffness of the contact [force/length], up to 30 % above the tangential
-        stiffness."""
+        """Normal stiffness of the expected contact [force/length].
+
+        The tangential stiffness is up to 30 % smaller.
+        """
         return 2 * self.modulus * self.radius
 
 
 def estimate_contacts(scene: Scene) -> Iterator[ExpectedContact]:
-    """Yield an estimate of the contact at the end of every load step.
+    """Yield an estimate of the contact at the end of every load step, from Hertz theory.
 
-    The estimate is from Hertz theory. There is none for shapes without an exponent of the gap.
+    The estimate contains contact radius, modulus and strain. There is none for shapes whose gap is
+    not a power of the distance from first contact.
+
+    scene  bodies, indenter shape and load steps
     """
     k, outermost = scene.indenter.gap_exponent, contact_modulus(scene)
     if k is None:
@@ -118,8 +124,14 @@ def estimate_contacts(scene: Scene) -> Iterator[ExpectedContact]:
         by_force, end = ramp.normal.kind is ControlKind.FORCE, ramp.normal.end
 
         def radius(modulus: float, by_force: bool = by_force, end: float = end) -> float:
-            """Estimate the contact radius at the end of the load step [length]; NaN without an
-            estimate."""
+            """Estimate the contact radius at the end of the load step for one modulus [length].
+
+            The result is NaN if the shape of the indenter has no estimate.
+
+            modulus   contact modulus E* [force/length^2]
+            by_force  True under a prescribed normal force, False under a prescribed approach
+            end       normal force or approach at the end of the load step
+            """
             power = (
                 scene.indenter.contact_under(end, modulus)
                 if by_force
@@ -136,11 +148,12 @@ def estimate_contacts(scene: Scene) -> Iterator[ExpectedContact]:
 
 
 def _modulus_within(scene: Scene, radius: float) -> float:
-    """Compute the contact modulus E* of the materials within a depth of about one contact radius.
+    """Compute the contact modulus E* of the materials to a depth of about one contact radius.
 
-    The materials are the substrate below thin layers, or the outermost layer. Layers of a body are
-    thin if their total thickness is below the radius.
+    The materials are the substrate below thin layers, or else the outermost layer. The layers of a
+    body are thin if their total thickness is below the radius.
 
+    scene    bodies with their layers
     radius   contact radius [length]
     returns  E* [force/length^2]; 0 if these materials are rigid
     """
@@ -178,9 +191,11 @@ def beyond_linear_theory(scene: Scene, ends: Iterable[State]) -> tuple[str, ...]
 def _estimate_strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
     """Estimate the strains in both bodies at the end of a load step, to an order of magnitude.
 
-    The strain is the mean pressure over a modulus. For layers on rigid substrates there is also the
-    approach over the thickness of the layers.
+    Used to warn about strains beyond linear elasticity. The strain is the mean pressure over a
+    modulus. For layers on rigid substrates there is also the approach over the thickness of the
+    layers.
 
+    scene   bodies with their layers
     end     solved state at the end of the load step; without contact there are no strains
     yields  strain and its location in words
     """
@@ -222,7 +237,11 @@ def _layer_modulus(layer: Layer, contact_radius: float) -> float:
 
     The bond restrains a layer thinner than the contact radius a. The layer is compressed in
     uniaxial strain, with the modulus E (1 - nu) / ((1 + nu) (1 - 2 nu)), or squeezed out in shear,
-    with the modulus G a/h and the thickness h, whichever is softer.
+    with the modulus G a/h and the thickness h, whichever is softer. The ratio for a thicker layer
+    is E/(1 - nu^2).
+
+    layer           layer with its thickness h and its constants E, nu and G
+    contact_radius  a [length]
     """
     material, nu = layer.material, layer.material.poisson_ratio
     if layer.thickness >= contact_radius:

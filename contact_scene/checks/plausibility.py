@@ -154,8 +154,10 @@ def _quantity_text(value: float, usual: Usual) -> str:
 def _scene_numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
     """Yield every number in a part of a scene, with the path of its key.
 
+    Used to compare each number with the usual range of its quantity.
+
     value  model, tuple, number or array of the scene; of an array, the largest value is yielded
-    path   path of the value in the scene
+    path   keys and indices of the value in the scene
     """
     if isinstance(value, BaseModel):
         for name in type(value).model_fields:
@@ -170,10 +172,12 @@ def _scene_numbers(value: object, path: Path) -> Iterator[tuple[Path, float]]:
 
 
 def _is_dimensionless(scene: Scene) -> bool:
-    """Determine if the numbers of a scene are dimensionless.
+    """Determine if the numbers of a scene are dimensionless, so that usual ranges do not apply.
 
-    This is assumed if all Young's moduli are below that of rubber and all radii above that of a
+    This is assumed if all Young's moduli are below that of rubber and all radii are above that of a
     ball.
+
+    scene  bodies and indenter shape
     """
     known = list(_scene_numbers(scene, ()))
     moduli = [value for path, value in known if path[-1] == "young_modulus"]
@@ -210,6 +214,9 @@ def _size_warnings(
 ) -> Iterator[str]:
     """Warn about a window or a finite-element mesh that is smaller than the expected contact.
 
+    The window is the region of the surface that the cells of the semi-analytical solver cover.
+
+    scene     bodies, indenter shape and load steps
     pressed   expected contacts at the ends of the load steps
     fineness  discretisation tables of the scene file, by name
     """
@@ -229,9 +236,12 @@ def _size_warnings(
 
 
 def _layer_warnings(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about layers so thin that they have no effect, or so thick that the material below has
-    none.
+    """Warn about layers without effect on the contact, and about layers that hide all others.
 
+    A layer that is thin relative to the contact radius has no effect. Below a thick layer, the
+    other materials have none.
+
+    scene    bodies with their layers
     pressed  expected contacts at the ends of the load steps
     """
     a = max((end.radius for end in pressed), default=0.0)
@@ -315,8 +325,10 @@ def _yield_warnings(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
 
 
 def _normal_load(end: ExpectedContact) -> str:
-    """Write the key of the prescribed normal load of a step with its value, such as "approach: 1
-    µm"."""
+    """Write the prescribed normal load of a load step as text, such as "approach: 1 µm".
+
+    end  expected contact at the end of the load step
+    """
     by_force = end.ramp.normal.kind is ControlKind.FORCE
     load = quantity(end.ramp.normal.end, "N" if by_force else "m")
     return f"{'normal_force' if by_force else 'approach'}: {load}"

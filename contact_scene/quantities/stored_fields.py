@@ -56,9 +56,9 @@ class StoredArray:
         return values
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        """Pickle the array itself instead of the reference to its temporary file.
+        """Return the pickle data of the array itself instead of the reference to its file.
 
-        Other processes cannot read the file.
+        Other processes cannot read the temporary file.
         """
         return self.read().__reduce_ex__(protocol)
 

@@ -40,7 +40,7 @@ class ArrayFile:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Number of values of the array along x and along y."""
+        """Number of values of the height map or friction map along x and along y."""
         nx, ny = self.values.shape
         return nx, ny
 
@@ -89,9 +89,10 @@ FileKey = Annotated[
 
 
 def _path_in_folder(folder: Path, name: str) -> Path:
-    """Resolve the name of a file in or below a folder to its path.
+    """Resolve the name of an array file in a scene to its path.
 
-    Raises a validation error for other names, and for links to other folders.
+    The file must be in or below the folder of the scene file. Raises a validation error for other
+    names, and for links to other folders.
 
     folder  folder of the scene file
     name    file name, relative to the folder
@@ -111,10 +112,10 @@ def _path_in_folder(folder: Path, name: str) -> Path:
 
 
 def _read_array(path: Path, name: str) -> NDArray[Any]:
-    """Read the array of a text file, or map the array of a `.npy` file into memory.
+    """Read the array of a height map or friction map from its file.
 
-    A mapped array allocates no memory. Raises a validation error for missing, incomplete or other
-    files.
+    The array of a `.npy` file is mapped into memory and allocates no memory. Other files are text.
+    Raises a validation error for missing or incomplete files, and for other contents.
 
     path  path of the file
     name  name of the file in the scene, for messages
@@ -140,10 +141,11 @@ def _read_array(path: Path, name: str) -> NDArray[Any]:
 
 
 def _read_text_array(path: Path, name: str) -> NDArray[Any]:
-    """Read an array from a text file in the orientation of a top view: x to the right, y upwards.
+    """Read a height map or friction map from a text file in the orientation of a top view.
 
-    Fields are separated by semicolons, tabs, commas or spaces; lines before the first numbers are
-    skipped. Fields of `_MISSING` become NaN.
+    x points to the right and y upwards. Fields are separated by semicolons, tabs, commas or spaces.
+    Lines before the first numbers are skipped. Fields for missing values, such as "nan", become
+    NaN.
 
     path  path of the file
     name  name of the file in the scene, for messages
@@ -204,7 +206,10 @@ def _check_array(values: NDArray[Any], name: str) -> ArrayFile:
 
 
 def refuse_missing(array: ArrayFile) -> None:
-    """Raise a validation error if a value of an array is missing (NaN), with its position."""
+    """Raise a validation error if a value of an array file is missing (NaN), with its position.
+
+    array  array of a scene, such as a friction map
+    """
     _refuse_values(np.isnan(array.values), array.values, array.name)
 
 

@@ -22,11 +22,14 @@ class EngineeringUnit:
     name: str
 
     def labelled(self, text: str) -> str:
-        """Append the unit to the label of a plot axis, as in `x (mm)`."""
+        """Append the unit to the label of a plot axis, as in `x (mm)`.
+
+        text  label of the axis
+        """
         return f"{text} ({self.name})"
 
     def text(self, value: float, digits: int = 4) -> str:
-        """Write a value with the unit.
+        """Write a quantity as text with this unit, such as "0.6 mm".
 
         value   value in SI
         digits  number of significant digits

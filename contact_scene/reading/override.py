@@ -24,13 +24,16 @@ _EXPECTED = "key=value such as semi_analytical.cells=[128,128] or loading[2].inc
 
 
 def override(document: dict[str, Any], assignment: str) -> Path:
-    """Set one key of a scene document in place to the value of a text; return the path of the key.
+    """Set one key of a scene document to the value in an assignment, such as `--set key=value`.
 
+    The document is the nested tables of a scene file and is changed in place. Missing tables are
+    created, missing array entries are not. Raises `SceneError` and leaves the document unchanged if
+    there is no such key.
+
+    document    tables by their keys
     assignment  `dotted.key=value`. Array entries count from 1: `loading[2].increments=5`. A value
-                that is not TOML, such as a bare word or `18 mm`, is a text.
-
-    Missing tables are created, missing array entries are not. Raises `SceneError` and leaves the
-    document unchanged if there is no such key.
+                that is not TOML, such as a bare word or `18 mm`, is a text
+    returns     path of the key
     """
     key, equals, text = assignment.partition("=")
     source = origin(assignment)
@@ -42,14 +45,14 @@ def override(document: dict[str, Any], assignment: str) -> Path:
 def assign(document: dict[str, Any], key: str, value: Any, source: str = "") -> Path:
     """Set one key of a scene document, the nested tables of a scene file, to a Python value.
 
+    Missing tables are created, missing array entries are not. Raises `SceneError` and leaves the
+    document unchanged if there is no such key.
+
     document  tables by their keys, changed in place
     key       dotted key. Array entries count from 1: `loading[2].increments`
     value     new value
     source    name of the option that sets the key, for messages
     returns   path of the key
-
-    Missing tables are created, missing array entries are not. Raises `SceneError` and leaves the
-    document unchanged if there is no such key.
     """
     path = _parse_key(key)
     if not path:
@@ -62,10 +65,13 @@ def assign(document: dict[str, Any], key: str, value: Any, source: str = "") -> 
 def _replace_value(holder: Any, path: Path, value: Any, problem: Problem) -> Any:
     """Return a copy of a part of a scene document, with another value at a path of keys.
 
-    holder   table, model or array of a scene document
+    The document is the nested tables of a scene file. Raises `SceneError` for a path that does not
+    exist.
+
+    holder   table, model or array of the document
     path     keys and indices from `holder` to the value; missing tables are created
     value    new value
-    problem  template of the error for a path that does not exist
+    problem  template of the error
     """
     if not path:
         return value
@@ -107,8 +113,10 @@ def _parse_value(text: str) -> Any:
 
 
 def origin(assignment: str) -> str:
-    """Return the text that names an override in messages, such as "--set key=value".
+    """Return the text that names an assignment of a key in messages, such as "--set key=value".
 
     Messages contain the text in place of the name of a scene file.
+
+    assignment  `dotted.key=value`
     """
     return f"--set {shown(assignment)[1:-1]}"

@@ -72,7 +72,7 @@ class Quantity:
 
     @property
     def expected(self) -> str:
-        """Expected value of the quantity in words, with an example, for messages."""
+        """Expected value of the physical quantity in words, with an example, for messages."""
         return f"{self.wanted} such as {self.kind.example}" if self.kind.units else self.wanted
 
     def __call__(self, value: Any) -> float:
@@ -107,8 +107,9 @@ class Quantity:
             raise refusal(f"got {shown(value)}", self.expected) from None
 
     def _hint_for(self, value: Any) -> str:
-        """Return a hint for a script that passed an unsupported number, such as an object with a
-        unit.
+        """Return a hint for a script that passed an unsupported number for a quantity.
+
+        An example is an object with a unit. The hint is part of the error message.
 
         value    received object
         returns  hint on the value to pass instead; empty without a hint
@@ -197,9 +198,12 @@ class WholeNumber:
 
 
 def is_plain(value: Any) -> bool:
-    """Determine if a value can be converted to a real number without loss.
+    """Determine if a value of a scene can be converted to a real number without loss.
 
-    Excludes values with a unit, mask, imaginary part or several entries, truth values and times.
+    Values with a unit, mask, imaginary part or several entries are excluded, and also truth values
+    and times.
+
+    value  value passed in Python
     """
     if type(value) in (float, int):
         return True
@@ -211,8 +215,12 @@ def is_plain(value: Any) -> bool:
 
 
 def has_unit(value: Any) -> bool:
-    """Determine if a value is an object with a unit from a library such as pint, astropy or
-    unyt."""
+    """Determine if a value is an object with a unit from a Python library, such as pint.
+
+    Scenes refuse such objects and require numbers in SI.
+
+    value  value passed in Python
+    """
     return hasattr(value, "units") or hasattr(value, "unit")
 
 

@@ -16,7 +16,7 @@ _MAX_SHOWN = 60  # characters
 
 @dataclass(frozen=True)
 class Problem:
-    """One mistake in a scene.
+    """One mistake in a scene, with its place and the expected value, for a message.
 
     path      keys and indices of the wrong value in the document; indices count from 0
     message   mistake, or received value
@@ -35,8 +35,10 @@ class Problem:
 
     @property
     def key(self) -> str:
-        """Dotted key of the wrong value: `loading[2].normal_force` for the second step, counted
-        from 1."""
+        """Dotted key of the wrong value in the scene, such as `loading[2].normal_force`.
+
+        Entries of arrays count from 1.
+        """
         return dotted_key(self.path)
 
     def __str__(self) -> str:
@@ -76,7 +78,9 @@ def dotted_key(path: Path) -> str:
 
 
 def refusal(message: str, expected: str = "", hint: str = "") -> PydanticCustomError:
-    """Create a validation error for pydantic, with separate message, expectation and hint.
+    """Create a validation error for pydantic, with separate message, expected value and hint.
+
+    Used by the validators of a scene.
 
     message   mistake, or received value
     expected  expected value; may be empty
@@ -90,8 +94,12 @@ def refusal(message: str, expected: str = "", hint: str = "") -> PydanticCustomE
 
 
 def shown(value: Any) -> str:
-    """Convert a value to printable text of limited length for a message, in the notation of
-    TOML."""
+    """Convert a value of a scene to printable text of limited length for a message.
+
+    The notation is that of TOML. Tables and long arrays are only named.
+
+    value  value as written in the scene file or passed in Python
+    """
     if isinstance(value, str):
         return '"' + printable(shorten_text(value)) + '"'
     if isinstance(value, bool):
@@ -108,7 +116,7 @@ def shown(value: Any) -> str:
 
 
 def printable(text: str) -> str:
-    """Escape control characters and quotes of a text, so that a terminal or a log can show it."""
+    """Escape control characters and quotes in a text, so that a terminal or a log can show it."""
     return "".join(c if c.isprintable() and c != '"' else ascii(c)[1:-1] for c in text)
 
 
@@ -119,11 +127,21 @@ def _shown_array(items: list[Any] | tuple[Any, ...]) -> str:
 
 
 def shorten_text(text: str, longest: int = _MAX_SHOWN) -> str:
-    """Cut a text to a maximum number of characters, with "…" in place of the rest."""
+    """Limit a text to a maximum number of characters, with "…" in place of the rest.
+
+    Used for texts of the user in messages.
+
+    text     text to shorten
+    longest  maximum number of characters
+    """
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
 def is_bare_key(part: str) -> bool:
-    """Determine if TOML allows a key without quotes: letters, digits, hyphens and underscores
-    only."""
+    """Determine if TOML allows a key without quotes.
+
+    Such a key has only letters, digits, hyphens and underscores.
+
+    part  key of a table
+    """
     return re.fullmatch(r"[A-Za-z0-9_-]+", part) is not None

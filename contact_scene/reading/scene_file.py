@@ -75,7 +75,7 @@ def _add_place(
 
     The place is the file and the line of its key, or the command-line option that set the key.
 
-    problem  problem without a place
+    problem  mistake in the scene, without a place
     file     name of the scene file
     lines    line of each key in the scene file
     options  command-line options by the keys that they set
@@ -92,8 +92,9 @@ def _add_place(
 
 
 def read_accuracy(text: str, option: str) -> AccuracyRequest:
-    """Parse and check the text of a requested accuracy: "0.1%" or "peak_pressure 0.1%, approach
-    1%".
+    """Parse and check the requested accuracy in the text of a command-line option.
+
+    Examples of the text are "0.1%" and "peak_pressure 0.1%, approach 1%".
 
     text    text of the command-line option
     option  name of the option, for messages
@@ -113,10 +114,12 @@ class _Accuracy(Description):
 
 
 def replace_keys(scene: Scene, changes: Mapping[str, Any]) -> Scene:
-    """Return a scene with other values of some keys, checked like a scene file; see
-    `Scene.replace`.
+    """Return a scene with other values of some keys, checked like a scene file.
 
-    changes  values by dotted keys
+    scene    scene that is not changed
+    changes  values by dotted keys, such as "loading[2].increments"
+
+    Raises `SceneError` with every mistake.
     """
     document = dict(scene)
     for key, value in changes.items():

@@ -50,8 +50,12 @@ def describe(
 
 
 def shape_text(indenter: Body) -> str:
-    """Describe the shape of an indenter and its parameters in words, such as "sphere, radius 18
-    mm"."""
+    """Describe the shape of an indenter in words with its parameters: "sphere, radius 18 mm".
+
+    Used in messages.
+
+    indenter  indenter with its shape
+    """
     return _table_text(indenter, Body.model_fields)
 
 

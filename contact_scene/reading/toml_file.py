@@ -94,8 +94,10 @@ def _file_error(
 
 
 class NestedTooDeep(ValueError):
-    """Error for more than `MAX_DEPTH` nested tables, arrays or dotted keys, with the line in
-    `line`."""
+    """Error for a scene file with more than `MAX_DEPTH` nested tables, arrays or dotted keys.
+
+    line  line in the file at which the limit is exceeded
+    """
 
     def __init__(self, line: int) -> None:
         self.line = line

@@ -112,7 +112,9 @@ def _did_you_mean(key: str) -> str:
 
 
 def _unknown_shape(path: Path, given: Any) -> Problem:
-    """Return the problem of an unknown or missing shape of the indenter.
+    """Create the problem for an unknown or missing shape of the indenter.
+
+    The problem suggests the shape with the most similar name.
 
     path   path of the key `shape`
     given  name of the shape, or table of the indenter
@@ -127,11 +129,13 @@ def _unknown_shape(path: Path, given: Any) -> Problem:
 
 
 def _bracket_hint(path: Path, given: Any) -> str:
-    """Return a hint if single and double brackets of a table header may have been confused.
+    """Return a hint if single and double brackets of a TOML table header may be confused.
+
+    A table has single brackets, an array of tables has double brackets.
 
     path     path of the table in the scene document
     given    value at the path
-    returns  hint; empty without such a confusion
+    returns  hint; empty without such a mistake
     """
     if path[-1:] != ("layers",) and len(path) != 1:
         return ""
@@ -154,15 +158,22 @@ _MODEL_IN_BRANCH: dict[str, type[BaseModel]] = {
 
 
 def _is_branch(part: str | int) -> bool:
-    """Return true if a part of a pydantic error location names a member of a union of models.
+    """Return True if a part of a pydantic error location names one member of a union of models.
 
-    Such a part is no key of the scene file and is left out of the message.
+    Such a part is no key of the scene file. It is left out of the message.
+
+    part  key, index or name of a member in the location
     """
     return isinstance(part, str) and part.startswith("<")
 
 
 def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
-    """Return the model class of the table at a pydantic error location; None if there is none."""
+    """Return the model class of the table at a pydantic error location; None if there is none.
+
+    Used to find the expected keys of the table for a message.
+
+    location  keys, indices and names of union members from the scene file to the table
+    """
     model: type[BaseModel] | None = SceneFile
     for part in location:
         if isinstance(part, int):
@@ -175,7 +186,7 @@ def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
 
 
 def _expected_value(location: Location) -> str:
-    """Describe the expected value of a key in words, for a message.
+    """Describe the expected value of a key of the scene in words, for a message.
 
     location  pydantic error location of the key
     returns   description; empty for an unknown key
@@ -192,7 +203,7 @@ def _expected_value(location: Location) -> str:
 
 
 def _expected_table(location: Location) -> str:
-    """Describe the expected table in words, with its required keys, for a message.
+    """Describe the expected table of the scene in words, with its required keys, for a message.
 
     location  pydantic error location of the table
     """
