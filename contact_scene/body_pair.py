@@ -47,7 +47,10 @@ def dundurs_beta(scene: Scene) -> float | None:
 def outermost_beta(scene: Scene) -> float:
     """Compute Dundurs' constant β of the outermost materials of the two bodies [1].
 
-    β determines the singularity of the tractions at an edge of the contact.
+    β determines the singularity of the tractions at an edge of the contact. Layers below the
+    outermost material are ignored.
+
+    scene  bodies with their layers and materials
     """
     difference = total = 0.0
     for sign, body in ((1, scene.body), (-1, scene.indenter)):

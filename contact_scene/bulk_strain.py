@@ -70,10 +70,10 @@ def add_bulk_strain(increment: Reported, strain: Strain | None) -> Reported:
 
 
 def requires_bulk_strain(strains: Sequence[Strain], pushed: bool) -> bool:
-    """Return true if an axisymmetric solver has to apply a bulk strain of the lower body.
+    """Return True if an axisymmetric solver has to apply a bulk strain of the lower body.
 
-    Such a solver can apply an equibiaxial strain only, without a tangential load or torsion. Raises
-    UnsupportedScene for other strains.
+    The bulk strain is uniform and parallel to the surface. Such a solver can apply an equibiaxial
+    strain only, without a tangential load or torsion. Raises UnsupportedScene for other strains.
 
     strains  bulk strains (εxx, εyy, εxy) of the load steps
     pushed   True if the scene has a tangential load or a torsion

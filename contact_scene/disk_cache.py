@@ -35,7 +35,7 @@ log = logging.getLogger(__name__)
 def cached_array(
     identity: str, shape: tuple[int, ...], compute: Callable[[], NDArray[np.float64]]
 ) -> NDArray[np.float64]:
-    """Return an array from the disk cache, or compute the array and store it there.
+    """Return an array, such as a compliance matrix, from the disk cache, or compute and store it.
 
     identity  text that determines every bit of the array; its hash is the name of the file
     shape     shape of the array
@@ -56,7 +56,7 @@ def cached_array(
 
 @contextlib.contextmanager
 def without_cache() -> Iterator[None]:
-    """Disable the disk cache of compliances within a `with` block.
+    """Disable the use of the disk cache of compliances within a `with` block.
 
     Used to measure the cost of a solve, which then computes all operators.
     """

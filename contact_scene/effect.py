@@ -47,7 +47,9 @@ def layers(scene: Scene) -> Effect:
     """Describe the effect of the layers of both bodies, for the plan of a solve.
 
     The effect acts if a body of the scene has layers. The reason states the number of layers of
-    each body.
+    each body. The plan lists the effects that the solve computes.
+
+    scene  contact problem with its two bodies
     """
     where = [
         f"the {name} has {len(body.layers)} layer{'s' if len(body.layers) > 1 else ''}"
@@ -60,7 +62,10 @@ def layers(scene: Scene) -> Effect:
 def friction(scene: Scene) -> Effect:
     """Describe the effect of friction, for the plan of a solve.
 
-    The effect acts if the scene has a friction law.
+    The effect acts if the scene has a friction law. The plan lists the effects that the solve
+    computes.
+
+    scene  contact problem with its friction law
     """
     on = scene.friction is not None
     return Effect("friction", on, "[friction] is given" if on else "the scene has no friction")

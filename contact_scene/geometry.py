@@ -108,7 +108,9 @@ class ShapedBody(Body):
     # k + 1.
 
     def contact_at(self, approach: float) -> Pair | None:
-        """Estimate the size of the contact at an approach, to an order of magnitude.
+        """Estimate the size of the contact at a given approach of the indenter.
+
+        The estimate is correct to an order of magnitude and serves to choose a grid or mesh.
 
         approach  approach of the bodies [length]
         returns   a^k along x and along y [length^k], with the half width a of the contact and the
@@ -117,7 +119,9 @@ class ShapedBody(Body):
         return None
 
     def contact_under(self, force: float, modulus: float) -> Pair | None:
-        """Estimate the contact size of half-spaces under a normal force, to an order of magnitude.
+        """Estimate the size of the contact of half-spaces under a given normal force.
+
+        The estimate is correct to an order of magnitude and serves to choose a grid or mesh.
 
         force    normal force [force]
         modulus  contact modulus E* [force/length^2]
@@ -214,7 +218,12 @@ class Paraboloid(RoundTip):
     shape: Literal["paraboloid"] = "paraboloid"
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Compute the undeformed gap (x^2 + y^2) / 2R of the paraboloid."""
+        """Compute the undeformed gap (x^2 + y^2) / 2R of the paraboloid at first contact [length].
+
+        R is the radius of curvature at the tip.
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
         return np.asarray((np.square(x) + np.square(y)) / (2.0 * self.radius))
 
 
@@ -241,7 +250,12 @@ class Ellipsoid(SmoothTip):
         return self.radii
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Compute the undeformed gap x^2 / 2Rx + y^2 / 2Ry of the elliptical paraboloid."""
+        """Compute the undeformed gap x^2 / 2Rx + y^2 / 2Ry of the indenter [length].
+
+        Rx and Ry are the radii of curvature along x and y at the tip.
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
         Rx, Ry = self.radii
         return np.asarray(np.square(x) / (2.0 * Rx) + np.square(y) / (2.0 * Ry))
 
@@ -289,7 +303,12 @@ class Cone(ShapedBody):
         return math.tan(self.slope_angle)
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Compute the undeformed gap r tan(slope) of the cone, with the distance r from the tip."""
+        """Compute the undeformed gap r tan(slope) of the cone at first contact [length].
+
+        r is the distance from the tip, and slope the angle between flank and plane.
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
         return np.asarray(np.hypot(x, y) * np.tan(self.slope_angle))
 
 
@@ -311,7 +330,12 @@ class FlatPunch(ShapedBody):
         return self.radius
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
-        """Return the undeformed gap of the punch: 0 at its end face and edge, infinity outside."""
+        """Return the undeformed gap of the punch at first contact [length].
+
+        The gap is 0 at the end face and its edge, and infinite outside.
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
         return np.where(np.hypot(x, y) <= self.radius, 0.0, np.inf)
 
 
@@ -345,7 +369,10 @@ class HeightMap(ShapedBody):
 
     @property
     def is_even(self) -> bool:
-        """True if the heights are even about both axes of the map, bit for bit."""
+        """True if the heights of the map are symmetric about the planes x = 0 and y = 0.
+
+        The heights must be equal bit for bit. Solvers may then compute one part of the window only.
+        """
         return all(np.array_equal(self.heights, np.flip(self.heights, axis)) for axis in (0, 1))
 
     @property

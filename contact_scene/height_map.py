@@ -118,8 +118,9 @@ def interpolate(
 def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, float]]:
     """Find the minimum of the interpolated surface of a height map between its outermost points.
 
-    The surface is that of `interpolate`. Beyond the outermost points the surface is extrapolated
-    and therefore ignored. The search is by blocks of rows, without a copy of the map.
+    The minimum is the point of first contact. The surface is that of `interpolate`, by cubic
+    convolution. Beyond the outermost points the surface is extrapolated and therefore ignored. The
+    search is by blocks of rows, without a copy of the map.
 
     heights  heights at the points, (nx, ny) [length]
     returns  minimum minus the lowest of the heights [length]; position of the minimum in indices of

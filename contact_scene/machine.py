@@ -54,7 +54,10 @@ def _threaded_libraries(imported: int) -> ThreadpoolController:
 def open_own(path: Path) -> BufferedReader:
     """Open a file for reading if its owner is this user or the administrator.
 
-    Raises OSError for files of other users, and for pipes and devices, which may not end.
+    Used for files of the cache and for checkpoints, which another user could have written. Raises
+    OSError for files of other users, and for pipes and devices, which may not end.
+
+    path  path of the file
     """
     descriptor = os.open(path, os.O_RDONLY | NEITHER_WAITING_NOR_TEXT)
     try:

@@ -91,7 +91,7 @@ class Scene(Description):
         return replace_keys(self, changes)
 
     def with_increments(self, increments: Sequence[int]) -> "Scene":
-        """Return the scene with other numbers of increments.
+        """Return a copy of the scene with other numbers of increments in its load steps.
 
         increments  number of increments of each load step, in order
         """

@@ -59,12 +59,13 @@ def resumable_solve(
 
 @dataclass(frozen=True)
 class _IncrementSolver:
-    """Finite-element solver in the form that the load stepping of `contact_scene` requires.
+    """Finite-element solver of single increments, called by the load stepping of `contact_scene`.
 
-    The load stepping calls `advance` for each increment and `report` for its result. It could limit
-    the repetition of increments with smaller steps by their work. This limit is not used here, so
-    that `spent` and `most_spent` are zero.
+    The load stepping calls `advance` for each increment and `report` for its result. The load
+    stepping could limit the bisection of increments by the work of the solver. This limit is not
+    used here, so that `spent` and `most_spent` are zero.
 
+    scene      contact problem
     method     contact method of the scene
     tolerance  upper limit of every residual [1]
     """
@@ -113,6 +114,7 @@ class _IncrementSolver:
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
         """Return the gap between the undeformed surfaces at the rings of an increment [length].
 
+        Used for increments in which the bodies are separated. A ring is a circle around the axis.
         The array has the shape of the gap of the increment `last`: (rings,) or (rings, angles).
 
         last  increment whose rings are used

@@ -19,11 +19,12 @@ NODES_PER_ELEMENT = 4  # biquadratic: about one corner, two midsides and one cen
 
 
 def required_bytes(elements: int, unknowns: int, components: int, with_pressure: bool) -> float:
-    """Estimate the memory to assemble and factorise the stiffness of a meridional section [byte].
+    """Estimate the memory to assemble and factorise the stiffness of a body's mesh [byte].
 
-    The estimate is correct within a factor of 2.
+    The estimate is correct within a factor of 2. Used to refuse a solve that would exceed the
+    memory of the machine.
 
-    elements       number of elements of the section
+    elements       number of elements of the mesh
     unknowns       number of degrees of freedom
     components     number of displacement components in the motion, 1 to 3
     with_pressure  True if the pressures of nearly incompressible elements are unknowns

@@ -54,9 +54,11 @@ class ContactModel:
     def of(
         cls, scene: Scene, discretisation: FiniteElementDiscretisation, radius: float
     ) -> "ContactModel":
-        """Create the model of a scene, with meshes for contacts up to a given radius.
+        """Create the model of a scene, with meshes of both bodies for contacts up to one radius.
 
-        radius  largest expected contact radius, the unit of length of the meshes [length]
+        scene           contact problem
+        discretisation  number of elements per radius, outer radius of the mesh, and mesher
+        radius          largest expected contact radius, the unit of length of the meshes [length]
         """
         scales = Scales(radius, outermost_modulus(scene))
         lower, upper = (scales.dimensionless(body) for body in (scene.body, scene.indenter))

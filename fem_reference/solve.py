@@ -137,8 +137,8 @@ def _count_factorisations(
 ) -> Iterator[tuple[Increment, ResumePoint[PointState]]]:
     """Yield the increments of a load history with the number of sparse factorisations of each.
 
-    The number counts the factorisations since the previous increment. Each increment comes with its
-    resume point.
+    The number counts the factorisations of the stiffness since the previous increment. Each
+    increment comes with its resume point, from which an interrupted solve continues.
 
     model    model of the bodies, which counts its factorisations
     history  increments with their resume points

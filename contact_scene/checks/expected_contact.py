@@ -37,6 +37,8 @@ def refuse_equator(scene: Scene) -> None:
 
     The limit is an approach equal to the radius. Under force control of bodies without layers, the
     limit is the normal force at that approach.
+
+    scene  bodies, indenter shape and load steps
     """
     indenter = scene.indenter
     if not isinstance(indenter, Sphere):
@@ -172,7 +174,8 @@ def beyond_linear_theory(scene: Scene, ends: Iterable[State]) -> tuple[str, ...]
     The warning states the largest strain. The result is empty if all strains are at most
     `SMALL_STRAIN`.
 
-    ends  solved states at the ends of the load steps
+    scene  bodies with their layers and materials
+    ends   solved states at the ends of the load steps
     """
     found = [
         (strain, where, step)

@@ -92,9 +92,11 @@ _DEEP, _THIN = 20.0, 1e-4
 def implausible_input(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     """Return warnings about implausible numbers of a scene, with the probable intention.
 
-    fineness  discretisation tables of the scene file, by name
+    An example is a modulus of 210 without a unit, which was probably meant in GPa. A dimensionless
+    scene, with consistent numbers near 1, causes no warnings.
 
-    A dimensionless scene, with consistent numbers near 1, causes no warnings.
+    scene     bodies, friction and loads
+    fineness  discretisation tables of the scene file, by name
     """
     return (
         *unlikely_numbers(scene, **fineness),
@@ -291,8 +293,9 @@ def _spring_warnings(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iter
     """Warn about springs of a test rig that are too soft for a prescribed displacement.
 
     With a spring much softer than the contact, a prescribed displacement of the actuator nearly
-    prescribes the force.
+    prescribes the force on the indenter.
 
+    scene    contact problem with the springs of the test rig
     pressed  expected contacts at the ends of the load steps
     """
     pairs = zip(SPRINGS, compliances(scene.rig), strict=True)
@@ -309,7 +312,10 @@ def _spring_warnings(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Iter
 
 
 def _yield_warnings(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about the first load step with a pressure beyond the hardness of most stiff materials.
+    """Warn about the first load step whose mean pressure exceeds the hardness of most metals.
+
+    The hardness of most metals and ceramics is at most about _HARD times the contact modulus E*.
+    The materials would yield, which linear elasticity excludes.
 
     pressed  expected contacts at the ends of the load steps
     """
@@ -335,7 +341,9 @@ def _normal_load(end: ExpectedContact) -> str:
 
 
 def _strain_warnings(pressed: tuple[ExpectedContact, ...]) -> Iterator[str]:
-    """Warn about the first load step with strains far beyond linear elasticity.
+    """Warn about the first load step with expected strains beyond linear elasticity.
+
+    The limit is SMALL_STRAIN. The warning states the normal load and the strain.
 
     pressed  expected contacts at the ends of the load steps
     """

@@ -61,9 +61,9 @@ def load_cycles(path: Iterable[LoadRamp]) -> tuple[LoadCycle, ...]:
 def loop_increments(path: Iterable[LoadRamp]) -> tuple[int, ...]:
     """Return the number of increments of each load step that its load cycle needs.
 
-    The work of a cycle is a trapezoidal sum over the increments, which needs this number to be
-    accurate. The number is 1 outside of cycles and in load steps with constant tangential load,
-    torsion and bulk strain.
+    A load cycle is a section of the history that returns to equal loads. The work of a cycle is a
+    trapezoidal sum over the increments, which needs this number to be accurate. The number is 1
+    outside of cycles and in load steps with constant tangential load, torsion and bulk strain.
 
     path  load ramps of all load steps
     """

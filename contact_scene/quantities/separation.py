@@ -136,10 +136,11 @@ def position(last: Any, ramp: LoadRamp, fraction: float) -> dict[str, Any]:
 
 
 def ramp_since_separation(ramp: LoadRamp, apart: Any) -> LoadRamp:
-    """Return a load ramp whose displacements are counted from their values at separation.
+    """Return a load ramp whose shift, twist and bulk strain are counted from the separation.
 
-    A contact after a separation starts without memory of earlier contacts. Its solve therefore
-    counts shift, twist and bulk strain from the separation.
+    A load ramp is the linear change of the loads in a load step. A contact after a separation of
+    the bodies starts without memory of earlier contacts. Its solve therefore counts these
+    quantities from their values at separation.
 
     ramp   load ramp of the load step
     apart  results of the last increment without contact
@@ -169,10 +170,10 @@ def _control_since_separation(control: Any, motion: Any, *, from_zero: bool) -> 
 
 
 def add_values_at_separation(apart: Any, increment: Reported) -> Reported:
-    """Add the displacements and energies at separation to the results of a later contact.
+    """Add the displacements and energies at a separation to the results of a later contact.
 
-    The solve of a later contact counts shift, twist, work and dissipation from the separation; the
-    results count them from the start of the history.
+    The solve of a later contact counts shift, twist, work and dissipation from the separation of
+    the bodies. The results count them from the start of the history.
 
     apart      results of the last increment without contact
     increment  results of the increment as solved

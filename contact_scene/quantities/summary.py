@@ -247,13 +247,16 @@ class RunSummary(Description):
 
 
 def dump_summary(summary: RunSummary) -> str:
-    """Convert the summary of a run to JSON text. A key without a value is null."""
+    """Convert the summary of a run to JSON text, the content of `summary.json`.
+
+    A key without a value is null.
+    """
     record = summary.model_dump(mode="json")
     return json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def load_summary(text: str) -> RunSummary:
-    """Read the summary of a run from its JSON text.
+    """Read the summary of a run from its JSON text, the content of `summary.json`.
 
     Raises ValueError with the first mistake in the text.
     """

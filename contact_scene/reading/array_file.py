@@ -46,11 +46,14 @@ class ArrayFile:
 
 
 def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
-    """Validate the value of a key that names an array file, and return the array.
+    """Validate the value of a key that names a height map or friction map, and return the array.
 
     A scene file names a `.npy`, `.csv` or `.txt` file in or below its folder,
     `info.context["folder"]`. A stored run contains the array in `info.context["arrays"]`, by its
     key. Python code may pass any path or the array.
+
+    value  file name, path or array
+    info   key of the value, and context of the validation
     """
     if isinstance(value, ArrayFile):
         return value
@@ -181,7 +184,8 @@ def _array_name(name: str) -> str:
 def _check_array(values: NDArray[Any], name: str) -> ArrayFile:
     """Check shape and type of the array of a height map or friction map, and copy it to float64.
 
-    The checks precede the copy, which allocates memory.
+    The checks precede the copy, which allocates memory. Raises a validation error for an array that
+    is too small, too large, infinite or not of real numbers.
 
     values  array as read or as given in Python
     name    name of the file in the scene; empty for an array made in Python

@@ -28,8 +28,12 @@ class Description(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _refuse_sets(cls, given: Any) -> Any:
-        """Raise a validation error for a value that is a set, since steps, layers and components
-        have an order."""
+        """Raise a validation error if a value of a scene is a Python set.
+
+        Load steps, layers and components have an order, which a set has not.
+
+        given  values of a table by their keys
+        """
         for name, value in given.items() if isinstance(given, dict) else ():
             if isinstance(value, set | frozenset):
                 raise refusal(f"got a set for {name}", "a tuple or list, which has an order")

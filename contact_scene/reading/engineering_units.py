@@ -38,7 +38,9 @@ class EngineeringUnit:
 
 
 def engineering_unit(magnitude: float, unit: str) -> EngineeringUnit:
-    """Select the prefix of an SI unit so that numbers up to a magnitude are readable.
+    """Select the prefix of an SI unit so that numbers up to a given magnitude are readable.
+
+    For a length of 0.0006 m the result is mm.
 
     magnitude  largest magnitude [SI unit]
     unit       SI unit without a prefix; empty for pure numbers

@@ -76,9 +76,11 @@ class Quantity:
         return f"{self.wanted} such as {self.kind.example}" if self.kind.units else self.wanted
 
     def __call__(self, value: Any) -> float:
-        """Convert a number, or a text with a unit, to SI and check its limits.
+        """Convert the value of a physical quantity to SI and check its limits.
 
         Raises a validation error with the received and the expected value.
+
+        value  number in SI, or text with a unit such as "18 mm"
         """
         number = self._convert_value(value)
         if not math.isfinite(number):
@@ -172,9 +174,11 @@ class WholeNumber:
     at_most: int
 
     def __call__(self, value: Any) -> int:
-        """Return a whole number within the limits.
+        """Return a whole number of a scene, such as a number of cells, if it is within its limits.
 
         Raises a validation error for all other values, also for 5.0 and true.
+
+        value  value as written in the scene
         """
         try:
             number = index(value) if is_plain(value) else None

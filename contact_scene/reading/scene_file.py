@@ -156,12 +156,13 @@ def _valid_tables(
 ) -> dict[str, Any]:
     """Return the valid tables of an invalid scene document, as models.
 
-    Used to check their consistency in spite of errors in other tables. Of the load steps, those
-    before the first invalid one are returned. Absent tables have their default values.
+    The document is the nested tables of a scene file. The valid tables are checked for consistency
+    in spite of errors in other tables. Of the load steps, those before the first invalid one are
+    returned. Absent tables have their default values.
 
     document  tables by their keys
     error     validation errors of the document
-    context   context of pydantic's validators
+    context   context of pydantic's validators, with the folder of the scene file
     """
     places = [detail["loc"] for detail in error.errors(include_url=False)]
     bad = {place[0] for place in places if place[0] != "loading" or len(place) == 1}

@@ -107,8 +107,9 @@ class NestedTooDeep(ValueError):
 def locate_keys(document: str) -> dict[Path, int]:
     """Determine the line of every key and array entry of a valid TOML document.
 
-    Lines count from 1, array entries from 0. The line of a table is that of its header, else that
-    of its first key. The time is linear in the length of the document.
+    Used to state the line of a mistake in a scene file. Lines count from 1, array entries from 0.
+    The line of a table is that of its header, else that of its first key. The time is linear in the
+    length of the document.
 
     Raises `NestedTooDeep`, also for invalid documents.
     """
@@ -151,7 +152,10 @@ def locate_keys(document: str) -> dict[Path, int]:
 def _toml_tokens(document: str) -> Iterator[tuple[str, bool, int]]:
     """Yield the tokens of a TOML document: keys, values, marks and ends of lines.
 
-    yields  text of the token; True if it may be a key; its line. The last token ends a line
+    Used to determine the line of each key of a scene file.
+
+    document  text of the document
+    yields    text of the token; True if it may be a key; its line. The last token ends a line
     """
     line = 1
     for match in _TOKEN.finditer(document):

@@ -87,10 +87,11 @@ def _convert_error(document: Mapping[str, Any], detail: ErrorDetails) -> Problem
 def _document_path(document: Mapping[str, Any], detail: ErrorDetails) -> Path:
     """Convert the location of a validation error to the path of the key in the scene document.
 
-    The location contains branches of unions, which the document lacks. The path ends at the deepest
-    part that the document contains.
+    The location contains names of union members (classes of the model), which are no keys of the
+    document. The path ends at the deepest part that the document contains.
 
-    detail  one validation error of pydantic
+    document  nested tables of the scene file
+    detail    one validation error of pydantic
     """
     path: list[str | int] = []
     value: Any = document

@@ -49,8 +49,10 @@ def near_gross_slip(scene: Scene) -> tuple[bool, ...]:
     """Determine for each load step if the tangential force has come close to the friction limit.
 
     This is the case from the first load step on that has an increment error and, under force
-    control, ends above `NEAR_GROSS_SLIP` of the friction limit. Shift and energy
-    there depend strongly on the number of increments.
+    control, ends above `NEAR_GROSS_SLIP` of the friction limit. Shift and energy then depend
+    strongly on the number of increments.
+
+    scene  contact problem with its load history
     """
     reached, found = False, []
     for ramp, matters in zip(scene.load_path(), has_increment_error(scene), strict=True):

@@ -20,7 +20,7 @@ STRAIGHT = 1e-9
 
 
 class ControlKind(Enum):
-    """Kind of a control: prescribed force, or prescribed displacement."""
+    """Kind of the prescribed quantity of a coordinate of the indenter: force or displacement."""
 
     FORCE = "force"
     DISPLACEMENT = "displacement"
@@ -46,7 +46,7 @@ class Control(Generic[Value]):
     def prescribed(
         self, fraction: float, reached: tuple[Value, Value | None]
     ) -> tuple[Value | None, Value | None]:
-        """Compute the prescribed force or displacement at a fraction of the load step.
+        """Compute the prescribed force or displacement of the indenter within a load step.
 
         At the end of the step, and for a constant control, the value is exactly `end`, so that
         equal loads of different steps are equal bit for bit.
@@ -138,10 +138,11 @@ _AT_REST = LoadRamp(
 
 
 def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tuple[LoadRamp, ...]:
-    """Resolve load steps into load ramps with the controls of all coordinates.
+    """Resolve the load steps of a scene into load ramps: linear changes of all loads.
 
-    A coordinate that a load step does not prescribe keeps its last control at a constant value. The
-    history starts from first contact without load.
+    Each coordinate of the indenter has a prescribed force or displacement in each ramp. A
+    coordinate that a load step does not prescribe keeps its last value. The history starts from
+    first contact without load.
 
     loading  load steps in order; the first must prescribe a normal load
     base     material of the substrate, for bulk stresses; without a material, bulk stresses are

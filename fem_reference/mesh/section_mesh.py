@@ -86,7 +86,10 @@ class SectionMesh:
 
     @cached_property
     def radii(self) -> NDArray[np.float64]:
-        """Radii of the surface nodes in the contact zone (m,), corners and midsides alternating."""
+        """Radii of the surface nodes in the contact zone (m,), corners and midsides alternating.
+
+        The unit of length is the contact radius.
+        """
         r, z = self.points
         corners = np.sort(r[(z == 0.0) & (r <= self.outline.zone)])
         radii = np.empty(2 * corners.size - 1)

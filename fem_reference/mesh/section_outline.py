@@ -54,7 +54,7 @@ class SectionOutline:
 
     @property
     def depth(self) -> float:
-        """Depth of the base of the section, in units of the contact radius."""
+        """Depth of the base of the meridional section, in units of the contact radius."""
         return self.interfaces[-1]
 
     @property
