@@ -63,9 +63,12 @@ def outermost_beta(scene: Scene) -> float:
 
 
 def contact_modulus(scene: Scene) -> float:
-    """Compute the contact modulus E* of the outermost materials of the two bodies [force/length^2].
+    """Compute the contact modulus E* of the outermost materials of the two bodies.
 
-    1/E* is the sum of (1-ν²)/E over the elastic ones of the two materials.
+    1/E* is the sum of (1-ν²)/E over the elastic ones of the two materials, with Young's modulus E
+    and Poisson's ratio ν. The result is E* [force/length^2].
+
+    scene  bodies with their layers and materials
     """
     outermost = map(_outermost_material, (scene.body, scene.indenter))
     return 1 / sum(

@@ -191,6 +191,9 @@ class CoulombFriction(Description):
     def slope(self, pressure: Field | float, where: Where = ...) -> Field:
         """Compute the derivative of the friction limit with respect to the pressure [1].
 
+        The friction limit is the largest shear. Its derivative is the coefficient of friction of
+        each cell.
+
         pressure  pressure of the selected cells [force/length^2]
         where     index of these cells in the friction map; absent: all cells of the map
         """
@@ -198,7 +201,9 @@ class CoulombFriction(Description):
         return np.broadcast_to(mu, np.broadcast_shapes(np.shape(mu), np.shape(pressure)))
 
     def limit(self, pressure: Field, where: Where = ...) -> Field:
-        """Compute the friction limit, the largest shear under a pressure [force/length^2].
+        """Compute the friction limit of cells: the largest shear under a pressure [force/length^2].
+
+        The limit is the coefficient of friction times the pressure.
 
         pressure  pressure of the selected cells [force/length^2]
         where     index of these cells in the friction map; absent: all cells of the map

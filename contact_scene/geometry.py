@@ -161,8 +161,10 @@ class SmoothTip(ShapedBody):
     def contact_at(self, approach: float) -> Pair:
         """Estimate the square of the half width a of the contact along x and y at an approach.
 
-        The estimate a^2 = R delta is an upper bound. R is the radius of curvature along the axis
-        and delta the approach [length].
+        The estimate a^2 = R delta is an upper bound, with the radius of curvature R of the tip
+        along the axis and the approach delta. The results [length^2] are for x and for y.
+
+        approach  delta, approach of the bodies [length]
         """
         R_x, R_y = self.tip_radii
         return R_x * approach, R_y * approach
@@ -170,8 +172,11 @@ class SmoothTip(ShapedBody):
     def contact_under(self, force: float, modulus: float) -> Pair:
         """Estimate the cube of the half width a of the contact along x and y under a normal force.
 
-        The estimate is a^3 = 3 W R / 4 E*, by Hertz theory. W is the normal force, E* the contact
-        modulus and R the larger radius of curvature.
+        The estimate is a^3 = 3 W R / 4 E* by Hertz theory, with the larger radius of curvature R of
+        the tip. The results [length^3] for x and y are equal.
+
+        force    W, normal force [force]
+        modulus  E*, contact modulus [force/length^2]
         """
         power = 3.0 * force * max(self.tip_radii) / (4.0 * modulus)
         return power, power
@@ -283,8 +288,10 @@ class Cone(ShapedBody):
     def contact_at(self, approach: float) -> Pair:
         """Estimate the contact radius a of the cone at an approach: a = 2 delta / pi tan(slope).
 
-        delta is the approach of the bodies, and slope the angle between flank and plane. See
-        Johnson 1985, section 5.2.
+        slope is the angle between the flank and the plane of contact (Johnson 1985, section 5.2).
+        The results [length] for x and y are equal.
+
+        approach  delta, approach of the bodies [length]
         """
         reach = 2.0 * approach / (np.pi * self._slope)
         return reach, reach
@@ -292,8 +299,11 @@ class Cone(ShapedBody):
     def contact_under(self, force: float, modulus: float) -> Pair:
         """Estimate the square of the contact radius a of the cone under a normal force.
 
-        The square is a^2 = 2 W / pi E* tan(slope), with the normal force W, the contact modulus E*
-        and the angle slope between flank and plane.
+        The square is a^2 = 2 W / pi E* tan(slope), with the angle slope between the flank and the
+        plane of contact. The results [length^2] for x and y are equal.
+
+        force    W, normal force [force]
+        modulus  E*, contact modulus [force/length^2]
         """
         power = 2.0 * force / (np.pi * modulus * self._slope)
         return power, power

@@ -28,9 +28,10 @@ class GrossSliding(SolverError):
 
 
 def motion_undefined() -> GrossSliding:
-    """Create the error for a load history that continues from an undefined shift or twist.
+    """Create the error GrossSliding for a history that continues from an undefined shift or twist.
 
-    Under force control, the tangential shift and the twist are undefined at the friction limit.
+    Under force control, the tangential shift and the twist of the indenter are undefined at the
+    friction limit.
     """
     return GrossSliding(
         "the previous increment reached the friction limit under force control, where the shift or "

@@ -57,6 +57,7 @@ def meshed_radius(scene: Scene, prescribed: float | None) -> float:
     The radius is that of the indenter's rim if there is a rim, else the prescribed radius, else the
     expected contact radius.
 
+    scene       contact problem
     prescribed  radius requested in the discretisation [length]; None without one
     """
     return scene.indenter.rim or prescribed or expected_radius(scene)

@@ -66,7 +66,7 @@ class Result:
 
     @property
     def solver(self) -> str:
-        """Name of the solver and of the contact method, as printed in a summary."""
+        """Name of the solver with its contact method, such as "fem_reference.penalty"."""
         return f"fem_reference.{self.method.value}"
 
     @property

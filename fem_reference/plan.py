@@ -245,8 +245,10 @@ def _refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> N
     """Raise UnsupportedScene for combinations of loads that this solver does not support.
 
     The solver supports no tilts, no tangential loads along more than one line, and no torsion
-    combined with a tangential load or with coupled bodies.
+    combined with a tangential load or with coupled bodies. Bodies are coupled if pressure displaces
+    their surfaces tangentially relative to each other.
 
+    scene    contact problem with its load history
     loaded   True if a load step has a tangential force or shift
     twisted  True if a load step has a torque or twist
     coupled  True if normal loading causes shear

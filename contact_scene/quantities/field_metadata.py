@@ -40,7 +40,9 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Reported:
-    """Annotation of a reported value with its unit and meaning.
+    """Annotation of a reported value, such as the normal force, with its unit and meaning.
+
+    Tables, files and JSON Schemas read the unit and the meaning from this annotation.
 
     unit      SI unit; empty if dimensionless
     meaning   meaning of the value in a sentence

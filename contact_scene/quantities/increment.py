@@ -287,12 +287,13 @@ class Counters:
 
 @dataclass(frozen=True, kw_only=True)
 class ReportedIncrement(Counters, Quality, State, WithFields):
-    """Results of one increment: its scalars, residuals and counters, and its position in the
-    history.
+    """Results of one load increment: scalars, residuals, counters, and position in the history.
 
-    step, index         load step, and increment within the load step, counted from 1
-    increments_in_step  number of increments of the load step
-    residuals           residual of each equation of the contact problem
+    step, index     load step, and increment within the load step, counted from 1
+    increments_in_step
+                    number of increments of the load step
+    residuals       residual of each equation of the contact problem
+    worst_residual  largest of the residuals
     """
 
     step: int

@@ -89,7 +89,9 @@ class CoarseSolveRecord(Description):
 
 @dataclass(frozen=True)
 class StatedErrors:
-    """Error estimates of a result, and the coarse solves from which they are computed.
+    """Error estimates of the scalars of a result, and the coarse solves behind the estimates.
+
+    A coarse solve solves the same scene with fewer cells, elements, rings or increments.
 
     steps          errors of each load step, by the names of the scalars
     coarse_solves  coarse solves of the scene

@@ -42,11 +42,13 @@ class Description(BaseModel):
 
 @cache
 def field_descriptions(model: type) -> dict[str, str]:
-    """Return the description of each field of a model, by the name of the field.
+    """Return the description of each field of a pydantic model, by the name of the field.
 
     The description is given to pydantic's `Field`, or is the docstring below the field. Docstrings
     are read from the source on demand, since reading them takes longer than the solve of a small
     contact.
+
+    model  class of a table of the scene, or of a record of results
     """
     found: dict[str, str] = {}
     for base in reversed(model.__mro__[:-1]):

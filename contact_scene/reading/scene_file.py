@@ -29,9 +29,11 @@ D = TypeVar("D", bound=Description)
 
 
 def load_scene(path: str | PathLike[str]) -> Scene:
-    """Read the scene of a scene file.
+    """Read the scene (bodies, friction and load steps) of a scene file in TOML.
 
     Raises `SceneError` with every mistake.
+
+    path  path of the scene file
     """
     return read_scene_file(path).scene
 

@@ -24,8 +24,9 @@ def describe(
     discretisation: SurfaceDiscretisation,
     elements: FiniteElementDiscretisation | None = None,
 ) -> Iterator[Line]:
-    """Yield lines that describe a scene: its tables, its load steps and its discretisation.
+    """Yield lines that describe a scene to the user: its tables, load steps and discretisation.
 
+    scene           contact problem
     discretisation  settings of the semi-analytical solver
     elements        settings of the finite-element solvers; only values other than the default are
                     shown
@@ -62,7 +63,9 @@ def shape_text(indenter: Body) -> str:
 def _key_texts(model: BaseModel) -> Iterator[Line]:
     """Yield the name of each key of a table of the scene, with its value in a readable unit.
 
-    The text of the value is empty for a key without a value.
+    Used for the description of a scene. The text of the value is empty for a key without a value.
+
+    model  table of the scene, such as a load step
     """
     for name, field in type(model).model_fields.items():
         yield name, _value_text(getattr(model, name), _unit_of_field(field))
@@ -100,9 +103,12 @@ def _value_text(value: object, unit: str = "") -> str:
 
 
 def _unit_of_field(field: FieldInfo) -> str:
-    """Return the SI unit of a key of the scene, to write its value with a unit.
+    """Return the SI unit of the values of a key of the scene, such as "m" for a radius.
 
-    The result is empty for pure numbers and for values that are not quantities.
+    Used to write values with a unit. The result is empty for pure numbers and for values that are
+    not quantities.
+
+    field  definition of the key in its pydantic model
     """
     unit = next(_quantity_units((*field.metadata, field.annotation)), "")
     return unit if unit != "1" else ""

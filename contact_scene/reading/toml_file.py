@@ -37,6 +37,7 @@ _TOKEN = re.compile(
 def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
     """Read a scene file in TOML, and determine the line of each of its keys for error messages.
 
+    file     path of the scene file
     returns  contents of the file; line of every key and array entry
 
     Raises `SceneError` for a file that is missing, too large or not valid.

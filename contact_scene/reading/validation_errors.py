@@ -26,10 +26,14 @@ _NO_ARRAY = ("tuple_type", "list_type")
 
 
 def problems_of(document: Mapping[str, Any], error: ValidationError) -> list[Problem]:
-    """Convert the validation errors of a scene document to problems without duplicates.
+    """Convert pydantic's validation errors of a scene to problems (mistakes with their keys).
 
-    Consequences of another mistake are left out: an array of invalid entries that is therefore too
-    short, and a missing key that is present under a misspelt name.
+    Duplicates and consequences of another mistake are left out. Examples of consequences are an
+    array of invalid entries that is therefore too short, and a missing key that is present under a
+    misspelt name.
+
+    document  nested tables of the scene file
+    error     validation errors of the document
     """
     details = error.errors(include_url=False)
     found = [

@@ -28,7 +28,7 @@ class ControlKind(Enum):
 
 @dataclass(frozen=True)
 class Control(Generic[Value]):
-    """Linear change of one prescribed force or displacement during a load step.
+    """Prescribed force or displacement of one coordinate of the indenter, linear in a load step.
 
     The force may be a moment or torque, the displacement a rotation.
 
@@ -36,7 +36,7 @@ class Control(Generic[Value]):
                 displacements [length] or rotations [radian]
     start, end  values at the start and at the end of the load step. The start is None if the
                 preceding control is of the other kind; its value is a result of the preceding load
-                step.
+                step
     """
 
     kind: ControlKind
@@ -122,7 +122,10 @@ class LoadRamp:
 
     @property
     def strains(self) -> bool:
-        """True if the bulk strain of the lower body changes in the load step."""
+        """True if the bulk strain of the lower body changes in the load step.
+
+        The bulk strain is a uniform strain parallel to the surface.
+        """
         return self.stretch is not None and self.stretch[0] != self.stretch[1]
 
 

@@ -68,7 +68,10 @@ class ConvergedIncrement(Generic[S]):
 
 
 class Solver(Protocol[S, Report]):
-    """Interface of a solver of single increments, called by load stepping.
+    """Interface of a solver of single load increments, which the load stepping calls.
+
+    The load stepping is the loop over all increments of the history. An increment that does not
+    converge is bisected.
 
     most_spent  work above which an increment that does not converge is not bisected any further
     """

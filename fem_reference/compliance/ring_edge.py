@@ -103,10 +103,11 @@ class Edge(Protocol):
 
 @dataclass(frozen=True)
 class HatEdge:
-    """Rule that locates the edge of tractions given at corner nodes and linear in between.
+    """Rule that locates the edge of contact or stick for tractions given at corner nodes.
 
-    The distance of the edge from the last ring with a positive traction follows from the ratio of
-    the last two positive tractions.
+    The tractions are linear between the nodes and zero beyond the edge. The distance of the edge
+    from the last ring with a positive traction follows from the ratio of the last two positive
+    tractions. A ring is a circle around the axis.
 
     beyond  coefficients of the polynomial from this ratio to the distance in elements, lowest power
             first
@@ -151,10 +152,11 @@ class HatEdge:
 
 @dataclass(frozen=True)
 class GaussEdge:
-    """Rule that locates the edge of tractions given at the Gauss points of the element edges.
+    """Rule that locates the edge of contact or stick for tractions given at Gauss points.
 
-    The squares of the tractions near the edge are fitted by a parabola in r². The zero of the
-    parabola is the edge.
+    The Gauss points are those of the element edges on the surface. The squares of the tractions
+    near the edge are fitted by a parabola in r², the square of the radius. The zero of the parabola
+    is the edge.
 
     element  length of an element edge on the surface [length]
     """
@@ -163,7 +165,10 @@ class GaussEdge:
 
     @property
     def stick_rule(self) -> "GaussEdge":
-        """Rule for the edge of the stick zone, equal to the rule for the contact edge."""
+        """Rule that locates the edge of the stick zone, equal to the rule for the contact edge.
+
+        The tractions are given at Gauss points.
+        """
         return self
 
     def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:

@@ -159,7 +159,7 @@ class _Pass:
 
     @property
     def overlap_share(self) -> float:
-        """Largest overlap that the penalty springs permit, divided by the rigid approach [1].
+        """Largest overlap of the surfaces by the penalty springs, over the rigid approach [1].
 
         Used as the relative error of the penalty in the normal direction.
         """

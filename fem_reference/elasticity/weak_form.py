@@ -99,9 +99,10 @@ def volume_strain(basis: Basis, harmonic: int, components: Components) -> Field:
 
 
 def volume_strain_at(basis: Basis, points: Basis, strain: Field) -> Field:
-    """Evaluate the volume strain, given by linear functions in each element, at points (e, q).
+    """Evaluate the volume strain of the elements at given points in each element (e, q).
 
-    Used to recover the stress at points other than those of the stiffness.
+    The volume strain is stored as linear functions in each element. Used to recover the stress at
+    points other than those of the stiffness.
 
     basis   displacement basis with which the volume strain was projected onto linear functions
     points  displacement basis at whose q quadrature points the strain is evaluated
@@ -215,5 +216,8 @@ def dilatation(section: SectionMesh) -> Dilatation:
 
 
 def shear_moduli(section: SectionMesh) -> Field:
-    """Return the shear modulus mu of every element of a mesh, that of its layer (e,)."""
+    """Return the shear modulus mu of every element of a mesh, that of its layer (e,).
+
+    section  mesh with the materials of the layers
+    """
     return np.array([m.shear_modulus for m in section.outline.materials])[section.layer]

@@ -186,6 +186,7 @@ def _divide(geometry: Any, line: int, elements: NDArray[np.floating[Any]]) -> No
     rounded up to an even number, because a surface can only be filled with quadrilaterals if its
     boundary has an even number of elements.
 
+    geometry  gmsh geometry kernel of the current model
     line      gmsh tag of the line
     elements  coordinates of the element ends along the line
     """

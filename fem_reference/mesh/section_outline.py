@@ -69,7 +69,9 @@ class SectionOutline:
 def section_outline(
     body: Body, elements_per_radius: int, box: float | None, zone: float
 ) -> SectionOutline:
-    """Create the outline of the meridional section of a body: edges and element sizes.
+    """Create the outline of the meridional section of a body: outer edges and element sizes.
+
+    The outline is common to both meshers, tensor-product rectangles and gmsh.
 
     body    layers and substrate; the unit of length is the contact radius
     elements_per_radius
@@ -112,13 +114,15 @@ def section_outline(
 
 
 def sufficient_box(body: Body) -> float:
-    """Estimate the least outer radius L of the mesh of a body, in units of the contact radius.
+    """Estimate the outer radius L that the mesh of a body requires, in units of the contact radius.
 
     The displacement of a half-space of the substrate material is prescribed at this radius, with an
     error due to the layers. Let x be the sum over the layers of thickness times the relative
     difference of their stiffness from the substrate. The relative error of the tangential shift is
     about x / L^2, and that of the approach is smaller. Layers that spread the load (x > 1) cause an
     error of 0.06 x^2 / L^2. The limit of the error is 1e-5.
+
+    body  layers and substrate; the unit of length is the contact radius
     """
     thickness = sum(layer.thickness for layer in body.layers)
     x = 0.0
