@@ -1,4 +1,8 @@
-"""Catalogue of all verification cases by name; the module of a case is imported on demand."""
+"""Catalogue of all verification cases by name.
+
+A verification case is a set of solver runs whose results are judged against known answers. The
+Python module that defines a case is imported only when the case is needed.
+"""
 
 from __future__ import annotations
 
@@ -118,9 +122,9 @@ MODULE_OF = {name: module for module, names in MODULES.items() for name in names
 
 
 def case_of(name: str, level: Level) -> Case:
-    """Create the verification case with the given name.
+    """Create the verification case with the given name in the catalogue.
 
-    level  amount of computation
+    level  amount of computation: quick, standard or full, with finer grids at higher levels
 
     Raises KeyError for a name that is not in the catalogue.
     """
@@ -132,8 +136,10 @@ def case_of(name: str, level: Level) -> Case:
 
 
 def choose(level: Level, names: Collection[str] = ()) -> tuple[Case, ...]:
-    """Create the verification cases with the given names, or all cases, in the order of the
-    catalogue.
+    """Create the verification cases with the given names, in the order of the catalogue.
+
+    level  amount of computation: quick, standard or full
+    names  names of the cases; all cases if empty
 
     Raises KeyError with the first name that is not in the catalogue.
     """
@@ -144,7 +150,11 @@ def choose(level: Level, names: Collection[str] = ()) -> tuple[Case, ...]:
 
 
 class JudgedCase(Description):
-    """Outcome of a verification case, and the wall time of its solution and judgement [s]."""
+    """Hold the outcome of one verification case (all verdicts) and the wall time of the case.
+
+    outcome  verdicts, reported numbers and charts of the case
+    seconds  wall time of solving and judging the case [s]
+    """
 
     outcome: CaseOutcome
     seconds: float
@@ -152,20 +162,24 @@ class JudgedCase(Description):
 
 @dataclass(frozen=True)
 class CaseToJudge:
-    """Name and level of a verification case, which can be sent to a worker process.
+    """Hold the name and the level of a verification case that a worker process must judge.
 
-    The case itself cannot be sent.
+    A case contains functions, which cannot be sent to another process. The worker therefore
+    receives this description and creates the case.
 
-    name   name in the catalogue
-    level  name of the amount of computation, in capitals
+    name   name of the case in the catalogue
+    level  name of the amount of computation in capitals: QUICK, STANDARD or FULL
     """
 
     name: str
     level: str
 
     def compute(self) -> JudgedCase:
-        """Solve and judge the verification case without the disk cache, so that the present code is
-        judged."""
+        """Solve all runs of the verification case and judge the results, without the disk cache.
+
+        Stored results of earlier versions of the program could hide an error of the present
+        version.
+        """
         from verification.judging.case import Level
         from verification.judging.judgement import judge
         from verification.running.cold_cache import cache_directory
@@ -178,9 +192,12 @@ class CaseToJudge:
 
 
 def lost(case: Case, reason: str) -> CaseOutcome:
-    """Create the outcome of a verification case that could not be judged: one failed verdict.
+    """Create the outcome of a verification case that could not be computed: one failed verdict.
 
-    reason  cause of the failure
+    Used if the process that judges the case fails, so that the report still lists the case.
+
+    case    verification case that has no result
+    reason  cause of the failure, for the text of the verdict
     """
     return CaseOutcome(
         name=case.name,

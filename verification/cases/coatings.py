@@ -111,9 +111,13 @@ from verification.references import load_reference
 
 
 def modulus_weight(xi: float, poisson_ratio: float) -> float:
-    """Compute the weight I0 of a film's shear modulus in the contact stiffness of a flat punch [1].
+    """Compute the weight I0 of a film's shear modulus in the stiffness of a flat punch [1].
 
-    xi  film thickness over punch radius
+    To first order in the difference of film and substrate, I0 is the relative change of the contact
+    stiffness per relative change of the film's shear modulus (Gao, Chiu and Lee 1992).
+
+    xi             film thickness over punch radius
+    poisson_ratio  Poisson ratio of film and substrate
     """
     nu = poisson_ratio
     logarithm = (1 - 2 * nu) * xi * log((1 + xi**2) / xi**2)
@@ -121,7 +125,10 @@ def modulus_weight(xi: float, poisson_ratio: float) -> float:
 
 
 def ratio_weight(xi: float) -> float:
-    """Compute the weight I1 of a film's Poisson ratio in the contact stiffness of a flat punch [1].
+    """Compute the weight I1 of a film's Poisson ratio in the stiffness of a flat punch [1].
+
+    To first order, I1 is (1 - ν) times the derivative of the logarithm of the contact stiffness
+    with respect to the film's Poisson ratio ν, at fixed shear modulus (Gao, Chiu and Lee 1992).
 
     xi  film thickness over punch radius
     """
@@ -143,11 +150,15 @@ ON_MESHES = (
 
 
 def _error_ratio(what: Observable, result: Any, other: Any) -> float:
-    """Compute the ratio of the errors of a coated and an uncoated contact, less 1, as a magnitude.
+    """Compute by which fraction the solver's errors for a coated and an uncoated contact differ
+    [1].
+
+    The result is |error(coated) / error(uncoated) - 1|. Both contacts are solved by one scheme on
+    equal grids, so that the errors should have nearly equal constants.
 
     what    observable whose error is compared
-    result  result of the coated contact
-    other   result of the uncoated contact
+    result  result of the contact with the coating
+    other   result of the contact without coating
     """
     return abs(abs(what.error(EXACT)(result) / what.error(BARE)(other)) - 1)
 
@@ -155,11 +166,15 @@ def _error_ratio(what: Observable, result: Any, other: Any) -> float:
 def coated_paraboloid(
     level: Level = Level.QUICK, cells: Sequence[int] = (), required: Sequence[int] = (128, 256)
 ) -> Case:
-    """Create the verification case of coated bodies under a rigid ball on cells, without friction.
+    """Create the verification case of coated bodies under a rigid ball, without friction, on cells.
 
-    cells     numbers of cells per side for the coating with a convergence study, in place of those
-              of the level; without shifted grids
-    required  numbers of cells with an accuracy target, for all coatings
+    Approach, central pressure and contact radius are compared with semi-closed solutions. For one
+    coating the convergence under refinement of the cells is judged.
+
+    level     amount of computation: quick, standard or full
+    cells     numbers of cells per side for the coating whose convergence is judged; default: those
+              of the level, with additional grids that are shifted relative to the contact
+    required  numbers of cells per side for which an accuracy target exists; solved for all coatings
     """
     most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
     # Coarser grids have no accuracy target; they show the errors by refinement.
@@ -246,8 +261,9 @@ def unlike_ratios(film: float, substrate: float) -> Problem:
     """Create the problem of a rigid ball on a coating whose Poisson ratio differs from the
     substrate's.
 
-    Young's modulus is uniform, so that only the Poisson ratios differ. The reference uses constants
-    that are defined here again: those of the scene could contain an error of the program.
+    Young's modulus is equal in coating and substrate. The problem detects an exchange of the two
+    Poisson ratios in the program. The exact solution therefore takes elastic constants that are
+    computed here, not those of the scene.
 
     film       Poisson ratio of the coating
     substrate  Poisson ratio of the substrate
@@ -268,8 +284,11 @@ def unlike_ratios(film: float, substrate: float) -> Problem:
 
 
 def _normal_response(stack: Stack, k: Field) -> Field:
-    """Compute the normal surface displacement per unit pressure of a layered body at wavenumbers
-    k."""
+    """Compute the normal surface displacement per unit pressure of a layered body [length³/force].
+
+    stack  layers and substrate of the body
+    k      wavenumbers of a sinusoidal pressure [1/length]
+    """
     return np.asarray(scalars(stack, k).c22)
 
 
@@ -281,8 +300,13 @@ def _semi_closed(scene: Any, exact: LayeredIndentation) -> Problem:
 
 
 def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a coating whose Poisson ratio differs from that of its
-    substrate."""
+    """Create the verification case of coatings whose Poisson ratio differs from the substrate's.
+
+    A rigid ball is pressed on the coated body, on cells and by finite elements. Approach, contact
+    radius and central pressure are compared with a semi-closed solution.
+
+    level  amount of computation: quick, standard or full
+    """
     n = finest(level)
     on_grid = (
         Within(APPROACH, 2e-4, ON_128),
@@ -309,7 +333,12 @@ def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
 
 
 def pressure_difference(one: Any, other: Any) -> float:
-    """Compute the largest difference of the pressures of two results, over the largest pressure."""
+    """Compute the largest pressure difference of two results on equal cells, over the largest
+    pressure [1].
+
+    The pressures are those at the end of the last load step. The largest pressure is that of
+    `other`.
+    """
     p, q = one.steps[-1].pressure, other.steps[-1].pressure
     return float(np.max(np.abs(p - q)) / np.max(q))
 
@@ -320,9 +349,15 @@ NEARLY = 1 + 1e-9
 
 
 def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
-    """Create the verification case of equivalent descriptions of one coated contact.
+    """Create the verification case of different descriptions of one coated contact, which must
+    agree.
 
-    Homogeneous bodies that are described as coated are included.
+    Examples are a coated ball on a rigid body instead of a rigid ball on a coated body, and one
+    coating that is divided into three layers. Homogeneous bodies that are described as coated are
+    included.
+
+    level  amount of computation: quick, standard or full
+    cells  number of cells per side of the window
     """
     coating = film(2.0, 1.0)
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
@@ -399,11 +434,11 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
 
 @dataclass(frozen=True)
 class ThinLayer:
-    """Problem of a rigid ball on a thin layer that is bonded to a rigid base.
+    """Hold the problem of a rigid ball on a thin elastic layer that is bonded to a rigid base.
 
     poisson_ratio  ν of the layer
-    a_over_h       contact radius over layer thickness
-    load_ratio     exact load over its leading term for a >> h, computed outside this program
+    a_over_h       contact radius a over layer thickness h
+    load_ratio     exact normal load over its leading term for a >> h, computed outside this program
     radius         contact radius a [length]
     modulus        Young's modulus of the layer [force/length²]
     """
@@ -416,31 +451,39 @@ class ThinLayer:
 
     @property
     def name(self) -> str:
-        """Label of the runs of this layer."""
+        """Label of the solver runs of this layer: its ν and a/h."""
         return f"ν = {self.poisson_ratio:g}, a/h = {self.a_over_h:g}"
 
     @property
     def body(self) -> Body:
-        """Layer that is bonded to a rigid base."""
+        """Description of the lower body: the elastic layer on a rigid base."""
         material = IsotropicMaterial(young_modulus=self.modulus, poisson_ratio=self.poisson_ratio)
         layer = Layer(thickness=self.radius / self.a_over_h, material=material)
         return Body(material=RIGID, layers=(layer,))
 
     @cached_property
     def exact(self) -> LayeredIndentation:
-        """Semi-closed solution of the contact at the given contact radius."""
+        """Semi-closed solution of the contact of the ball and the layer, for the given contact
+        radius.
+        """
         return paraboloid(surface_of(self.body), paper.RADIUS, self.radius)
 
     @property
     def problem(self) -> Problem:
-        """Problem whose prescribed approach is that of the semi-closed solution."""
+        """Verification problem in which the ball is moved by the approach of the semi-closed
+        solution.
+        """
         step = LoadStep(approach=self.exact.approach)
         title = f"Rigid ball on a thin layer on a rigid base, {self.name}"
         return _semi_closed(pressed(title, rigid_ball(), self.body, step), self.exact)
 
     @property
     def leading_load(self) -> float:
-        """Leading term of the normal load for a >> h (Johnson 1985, section 5.8) [force]."""
+        """Leading term of the normal load for a >> h (Johnson 1985, section 5.8) [force].
+
+        a is the contact radius and h the layer thickness. The incompressible layer (ν = 1/2) has
+        another formula than compressible layers.
+        """
         E, nu, a, R = self.modulus, self.poisson_ratio, self.radius, paper.RADIUS
         h = a / self.a_over_h
         if nu == 0.5:
@@ -450,7 +493,11 @@ class ThinLayer:
 
     @property
     def rows(self) -> tuple[Row, ...]:
-        """Rows of the quantities that are judged for this layer."""
+        """Rows of this layer in the case: each has one measured quantity and its tolerance.
+
+        Judged are normal force, central pressure and contact radius. The load over its leading term
+        is reported.
+        """
         why = (
             "twice the accuracy target of coatings at 128 x 128 cells: layer and contact have "
             "different length scales"
@@ -468,8 +515,11 @@ class ThinLayer:
 
     @property
     def check(self) -> Check:
-        """Comparison of the semi-closed load with a number that was computed outside this
-        program."""
+        """Comparison of the semi-closed normal load with a number that was computed outside this
+        program.
+
+        Both loads are divided by the leading term for contact radius >> layer thickness.
+        """
         digits = 1e-6
         return Check(
             "semi_closed_load", "load over the leading term, from the semi-closed solution", "",
@@ -484,11 +534,14 @@ class ThinLayer:
 
 
 def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
-    """Create the verification case of thin layers on a rigid base.
+    """Create the verification case of a rigid ball on thin layers that are bonded to a rigid base.
 
-    A compressible layer behaves as an elastic foundation; an incompressible layer is included.
+    Normal force, central pressure and contact radius on cells are compared with semi-closed
+    solutions. Two layers are compressible and behave nearly as an elastic foundation; one is
+    incompressible.
 
-    cells  number of cells per side, in place of that of the level
+    level  amount of computation: quick, standard or full
+    cells  number of cells per side of the window; 0: that of the level
     """
     cells = cells or (256 if level is Level.QUICK else 512)
     layers = (
@@ -518,11 +571,13 @@ def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
 
 
 def stiffness(depth: float, shear_modulus: float, poisson_ratio: float) -> float:
-    """Compute the contact stiffness of a flat punch of unit radius on a film on a substrate with G
-    = 1.
+    """Compute the contact stiffness of a flat punch of radius 1 on a film on a substrate.
+
+    The substrate has the shear modulus 1 and the Poisson ratio 0.3. The result is the normal force
+    per approach, from the semi-closed solution.
 
     depth          film thickness over punch radius
-    shear_modulus  shear modulus of the film, over that of the substrate
+    shear_modulus  shear modulus of the film over that of the substrate
     poisson_ratio  Poisson ratio of the film
     """
     stack = Stack([Film(shear_modulus, poisson_ratio, depth)], HalfSpace(1.0, 0.3))
@@ -534,7 +589,11 @@ def stiffness(depth: float, shear_modulus: float, poisson_ratio: float) -> float
 
 def film_stiffness(level: Level = Level.QUICK) -> Case:
     """Create the verification case of the first-order effect of a film on the stiffness of a flat
-    punch."""
+    punch.
+
+    Central differences of the computed contact stiffness with respect to the film's shear modulus
+    and Poisson ratio are compared with closed forms (Gao, Chiu and Lee 1992). All levels are equal.
+    """
     nu, step = 0.3, 1e-4
     leaves = Required(
         2e-8,
@@ -587,13 +646,16 @@ def fem_coated(
     rows: Sequence[Any] | None = None,
     elements: Sequence[int] = (),
 ) -> Case:
-    """Create the verification case of coated bodies under a rigid ball by finite elements.
+    """Create the verification case of coated bodies under a rigid ball by finite elements, no
+    friction.
 
-    The quick level has one soft and one stiff coating. Errors on coarser meshes are reported, not
-    judged. The solver fits the meshes to the contact.
+    Approach, central pressure, contact radius and pressure profile on the finest mesh are compared
+    with tabulated semi-closed solutions. Errors on coarser meshes are reported, not judged. The
+    quick level has one soft and one stiff coating.
 
-    rows      rows of the reference table, in place of those of the level
-    elements  numbers of elements per radius, in place of those of the level
+    level     amount of computation: quick, standard or full
+    rows      rows of the table of coatings; default: those of the level
+    elements  numbers of elements per contact radius; default: those of the level
     """
     if rows is None:
         rows = ROWS
@@ -639,9 +701,14 @@ WITHIN = 0.995  # radii up to which pressures are compared: at the edge they hav
 
 
 def _pressure_error(result: Any, _: int, problem: Problem) -> float:
-    """Compute the largest pressure error of the radial solver, over p_H or the mean pressure [1].
+    """Compute the largest pressure error of the radial solver at the end of the last load step [1].
 
-    The points are the rings inside the contact, or the radii of a tabulated reference.
+    The points are the rings inside the contact, or the radii of a tabulated reference. The error is
+    divided by the peak pressure p_H of Hertz theory or, if the problem has none, by the mean
+    pressure.
+
+    result   result of the radial solver
+    problem  problem with the exact pressure
     """
     end, exact = result.steps[-1], problem.ends[0]
     scale = problem.scales.get(OVER_PEAK) or mean_pressure(problem)
@@ -657,10 +724,13 @@ def _pressure_error(result: Any, _: int, problem: Problem) -> float:
 
 
 def radial_pressing(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of frictionless contacts by the radial solver.
+    """Create the verification case of frictionless indentation by the radial solver.
 
-    The references are closed forms and, for coated bodies, integral equations. Above the quick
-    level the orders and points are doubled in addition.
+    Approach, contact radius and pressure of a ball, a cone, a flat punch and coated bodies are
+    compared with closed forms and with solutions of integral equations. Above the quick level each
+    contact is also solved with twice the number of polynomials and points.
+
+    level  amount of computation: quick, standard or full
     """
     why = "both have rounding errors, of which forty times are allowed; 1e-10 was the target"
     of_pressure = error_norm(
@@ -709,9 +779,14 @@ def _reference_stack(row: Mapping[str, Any]) -> Stack:
 
 @cache
 def _frf_errors(number: int) -> tuple[float, float]:
-    """Compute the relative errors of the FRF scalars and of the FRF matrix for one reference row.
+    """Compute the errors of the surface FRF of a layered body against one row of reference numbers.
 
-    number  index of the row
+    FRF: frequency response function, surface displacement per unit traction of a wavenumber. The
+    first result is the largest relative error of the FRF scalars (responses along and across the
+    wave vector, along z, and coupling). The second is the largest error of an entry of the 3 × 3
+    FRF matrix, over the largest entry.
+
+    number  index of the row in the reference table
     """
     row = FRF_ROWS[number]
     c11, c12, c22, csh = (float(row[key]) for key in ("C11", "C12", "C22", "Csh"))
@@ -737,7 +812,16 @@ def _influence_coefficients(G1: float, nu1: float, base: tuple[float, float], d:
 
 
 def _coefficient_error(row: Mapping[str, Any]) -> float:
-    """Compute the largest relative error of the influence coefficients of one reference row."""
+    """Compute the largest error of the influence coefficients of a layered body, for one reference
+    row.
+
+    An influence coefficient is the displacement at a cell centre per unit traction on another cell.
+    The error is relative to the larger of the normal and tangential displacement of the loaded
+    cell.
+
+    row  shear moduli and Poisson ratios of layer and base, cell side, distance, and reference
+         values
+    """
     K = _influence_coefficients(row["G1"], row["nu1"], (row["G2"], row["nu2"]), row["d"])
     i, j = round(row["x"] / row["d"]), round(row["y"] / row["d"])
     errors = [
@@ -748,9 +832,11 @@ def _coefficient_error(row: Mapping[str, Any]) -> float:
 
 
 def layered_reference(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of FRFs and influence coefficients against reference numbers.
+    """Create the verification case of the surface response of layered bodies against reference
+    numbers.
 
-    The bodies are layered. The case is equal at all levels.
+    Judged are frequency response functions (FRF: displacement per unit traction of a wavenumber)
+    and influence coefficients (displacement per unit traction on a cell). All levels are equal.
     """
     frf = "references/frf.json: boundary-value problem in the layer amplitudes, 50 digits"
     required = Required(5e-15, "required of layered FRFs by the project's accuracy targets")
@@ -792,9 +878,11 @@ def layered_reference(level: Level = Level.QUICK) -> Case:
 
 
 def frf_laws(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the laws of surface FRFs, for random layered bodies.
+    """Create the verification case of the laws that the surface response of any layered body obeys.
 
-    The case is equal at all levels.
+    The laws for the frequency response functions (FRF) are reciprocity, symmetries, positive
+    energy, limits and monotonicity. Each law is tested on random layered bodies; the largest
+    violation is judged. All levels are equal.
     """
     laws = sorted(SYMMETRY_LAWS + LIMIT_LAWS, key=lambda law: int(law.number[1:]))
     return case(

@@ -1,7 +1,8 @@
-"""Comparison of three solvers, and of CalculiX, on coated contacts with and without friction.
+"""Verification cases that compare the three solvers with each other, and with CalculiX.
 
-The tractions are compared on the line through the centre along the load, as a mean up to the
-contact edge. An error next to a kink of the shear counts by its fraction of the contact area.
+The contacts are a rigid ball on coated bodies, with and without friction. Tractions are compared on
+the line through the contact centre along the load. A difference counts by the area of the ring it
+lies on, so that the edges of contact and stick zone have a small weight.
 """
 
 from __future__ import annotations
@@ -81,10 +82,10 @@ HAND = "set by hand: three times the errors of both on the coarsest meshes here"
 
 @dataclass(frozen=True)
 class Contact:
-    """Contact of a rigid ball on a coated half-space that all three solvers compute.
+    """Hold a contact of a rigid ball on a coated half-space that all three solvers compute.
 
-    modulus_ratio  Young's modulus of the coating over that of the substrate
-    thickness      coating thickness over the Hertz radius of the uncoated substrate
+    modulus_ratio  Young's modulus E1 of the coating over E2 of the substrate
+    thickness      coating thickness over the Hertz contact radius of the uncoated substrate
     friction       coefficient of friction µ
     cells          number of cells per side of the window
     elements       number of finite elements over the frictionless contact radius
@@ -100,18 +101,22 @@ class Contact:
 
     @property
     def name(self) -> str:
-        """Label of the contact in reports."""
+        """Label of the contact in reports: modulus ratio, coating thickness, and friction."""
         numbers = f"E1/E2 = {self.modulus_ratio:g}, h = {self.thickness:g} a_H, µ = "
         return f"{numbers}{self.friction:g}" + (", pushed" if self.harmonics else "")
 
     @property
     def radius(self) -> float:
-        """Contact radius without friction [length]."""
+        """Contact radius without friction, from the semi-closed solution of the coated contact
+        [length].
+        """
         return exact_contact(coated(film(self.modulus_ratio, self.thickness))).contact_radius
 
     @property
     def runs(self) -> tuple[AnyRun, AnyRun, AnyRun]:
-        """Runs of the contact on cells, on finite elements, and by the radial solver."""
+        """Runs of the contact by the three solvers: on cells, on finite elements, and by the radial
+        solver.
+        """
         scene = self._coated_scene
         mesh = FiniteElementDiscretisation(
             elements_per_radius=self.elements,
@@ -144,10 +149,17 @@ class Contact:
         )
 
     def tractions(self, result: Any, step: int) -> tuple[Field, Field, Field]:
-        """Interpolate the tractions of a result to points on the line through the centre along the
-        load.
+        """Interpolate pressure and shear of a result to points on the line through the contact
+        centre.
 
-        Returns positions [length], pressure, and shear along the line, at the end of a load step.
+        The line has the direction of the tangential load. Without tangential load it begins at the
+        centre. Used to compare the tractions of solvers with different discretisations.
+
+        result  result of any solver
+        step    index of the load step, at whose end the tractions are taken
+
+        Returns the positions [length], the pressure and the shear component along the line
+        [force/length²], each of shape (801,).
         """
         surface, end = surface_of(result), result.steps[step]
         pressure, shear = surface.scalar(end, "pressure"), surface.vector(end, "shear")
@@ -163,12 +175,14 @@ class Contact:
         return x, np.interp(x, places, p), np.interp(x, places, q)
 
     def apart(self, of: str, step: int, one: Any, other: Any) -> float:
-        """Compute the difference of a traction of two results on the line along the load, relative.
+        """Compute the mean difference of the pressure or of the shear between two results [1].
 
-        The result is ∫|Δp| dA / ∫p dA for the pressure, and ∫|Δq| dA / ∫µp dA for the shear; areas
-        are those of rings through the points of the line.
+        The result is ∫|Δp| dA / ∫p dA for the pressure, and ∫|Δq| dA / ∫µp dA for the shear along
+        the load. Each point of the line through the centre stands for a ring of area ∝ |x|.
 
-        of  "pressure" or "shear"
+        of          compared traction: "pressure" or "shear"
+        step        index of the load step, at whose end the results are compared
+        one, other  results of two solvers
         """
         (x, p, q), (_, p_other, q_other) = (self.tractions(r, step) for r in (one, other))
         area, limit = np.abs(x), self.friction * p_other
@@ -176,7 +190,12 @@ class Contact:
         return float(np.sum(np.abs(off) * area) / np.sum(whole * area))
 
     def comparisons(self) -> tuple[Comparison, ...]:
-        """List the comparisons of every two solvers at the end of every load step."""
+        """List the judged comparisons of every two of the three solvers at the end of every load
+        step.
+
+        Compared are pressure and approach, with friction also the shear, and with a tangential load
+        also the stick area and the tangential shift.
+        """
         measures: dict[str, tuple[str, Callable[[int, Any, Any], float], float, str]] = {
             "pressure": (
                 "∫|Δp| dA / ∫p dA on the line of the load", partial(self.apart, "pressure"), 2e-3,
@@ -213,12 +232,16 @@ class Contact:
         )  # fmt: skip
 
     def stress_apart(self, one: Any, other: Any) -> float:
-        """Compute the largest difference of a stress component between cells and finite elements,
-        over p₀.
+        """Compute the largest stress difference between cells and finite elements, over the peak
+        pressure.
 
-        Points are on the axis from 0.1 to 3 contact radii, and on both sides of the interface up to
-        1.5 contact radii. The stress by elements takes the tractions of the result on a separate
-        mesh; the stress by cells takes a window of 1.5 times the width.
+        The points lie on the axis from 0.1 to 3 contact radii, and on both sides of the interface
+        up to 1.5 contact radii. The finite element tractions are applied to another section mesh
+        for the stress. The tractions on cells are extended by zeros to a window of 1.5 times the
+        width.
+
+        one    result on cells
+        other  result on finite elements
         """
         a, body = self.radius, self._coated_scene.body
         depth, end, grid = body.layers[0].thickness, one.steps[-1], one.grid
@@ -250,8 +273,15 @@ class Contact:
         return float(np.max(apart) / np.max(end.pressure))
 
     def panels(self, results: Results) -> tuple[Panel, Panel]:
-        """Draw pressure and shear on the line along the load: finite elements in grey below
-        cells."""
+        """Draw pressure and shear of the last load step on the line through the centre along the
+        load.
+
+        The curves of the finite elements are grey and lie below those of the cells.
+
+        results  results of the case by label of the run
+
+        Returns one panel for the pressure and one for the shear.
+        """
         (x, p, q), (_, p_grey, q_grey) = (
             self.tractions(results[run.label], -1) for run in self.runs[:2]
         )
@@ -280,8 +310,11 @@ def _approach_apart(step: int, one: Any, other: Any) -> float:
 
 
 def shift_apart(step: int, one: Any, other: Any) -> float:
-    """Compute the relative difference of the tangential shifts of two results at the end of a load
-    step."""
+    """Compute the relative difference of the tangential shift between two results [1].
+
+    step        index of the load step, at whose end the shifts are compared
+    one, other  results of two solvers; the difference is relative to the second
+    """
     return float(abs(shift_along_x(one.steps[step]) / shift_along_x(other.steps[step]) - 1))
 
 
@@ -304,9 +337,13 @@ EVERY_CONTACT = tuple(
 
 
 def contacts(level: Level) -> tuple[Contact, ...]:
-    """Return the contacts for an amount of computation; the last contact has a tangential load.
+    """Return the contacts that the comparison of the three solvers takes at an amount of
+    computation.
 
-    The full level has every combination of modulus ratio, thickness and friction.
+    The last contact has a tangential load, the others are pressed only. The full level has every
+    combination of modulus ratio, coating thickness and friction.
+
+    level  amount of computation: quick, standard or full
     """
     chosen, cells, elements, harmonics = {
         Level.QUICK: (FEW_CONTACTS, 96, 32, 8),
@@ -320,11 +357,14 @@ def contacts(level: Level) -> tuple[Contact, ...]:
 
 
 def cross_check(level: Level = Level.QUICK, given: tuple[Contact, ...] = ()) -> Case:
-    """Create the verification case that compares three solvers on equal contacts.
+    """Create the verification case that compares the three solvers on equal coated contacts.
 
-    The stress is compared for the first contact.
+    Judged are the differences of tractions, approach, stick area and shift between every two
+    solvers. The subsurface stress on cells and on finite elements is compared for the first
+    contact.
 
-    given  contacts, in place of those of the level
+    level  amount of computation: quick, standard or full
+    given  contacts to solve; default: those of the level
     """
     chosen = given or contacts(level)
     first = chosen[0]
@@ -382,16 +422,18 @@ MOVED_GAP = (1 - 2 * RATIO) * (1 + RATIO) * RECORDED_BALL.peak_pressure / (2 * M
 
 
 class Certain(NamedTuple):
-    """Number of the record, with its standard uncertainty."""
+    """Hold a number of the CalculiX record together with its standard uncertainty."""
 
     value: float
     uncertainty: float
 
 
 class Profile(NamedTuple):
-    """Recorded traction over p_H at radii over a_H, with one standard uncertainty for all radii.
+    """Hold a traction (pressure or shear) that CalculiX computed, as a function of the radius.
 
-    p_H and a_H are peak pressure and contact radius of Hertz theory.
+    radii        distances from the axis over the Hertz contact radius a_H (points,)
+    values       traction over the Hertz peak pressure p_H (points,)
+    uncertainty  standard uncertainty of all values [p_H]
     """
 
     radii: Field
@@ -401,16 +443,21 @@ class Profile(NamedTuple):
 
 @dataclass(frozen=True)
 class Recorded:
-    """Recorded CalculiX results of one scene.
+    """Hold the stored CalculiX results of one scene.
 
-    The record has three runs: a coarse mesh, a fine mesh, and the fine mesh with half the contact
-    stiffness.
+    The record has three runs: a coarse mesh, a mesh that is twice as fine, and the fine mesh with
+    half the contact stiffness (pressure per overlap of the surfaces). From these the results are
+    extrapolated to rigid contact, and their uncertainty is estimated.
     """
 
     record: Mapping[str, Any]
 
     def __post_init__(self) -> None:
-        """Check that the record has these three runs; raise ValueError if not."""
+        """Check that the record has a coarse run, a fine run and a fine run of half the contact
+        stiffness.
+
+        Raises ValueError if not.
+        """
         coarse, fine, soft = self.record["runs"]
         if not (
             fine["elements"] == soft["elements"] == 2 * coarse["elements"]
@@ -423,8 +470,11 @@ class Recorded:
 
     @property
     def normal_force(self) -> Certain:
-        """Normal force over the nominal force, corrected for the contact stiffness, with its
-        uncertainty."""
+        """Normal force of CalculiX over the nominal force, with its standard uncertainty [1].
+
+        The force is extrapolated to infinite contact stiffness. The uncertainty contains the change
+        by mesh refinement.
+        """
         coarse, fine, soft = (float(run["normal_force"]) for run in self.record["runs"])
         correction, refinement = fine - soft, fine - coarse
         errors = (LEFT_OF_CORRECTION * correction, refinement, MOVED_GAP * fine)
@@ -432,15 +482,19 @@ class Recorded:
 
     @cached_property
     def edge(self) -> float:
-        """Smallest of the outermost contact radii of the three runs, over a_H."""
+        """Radius of the outermost recorded traction over the Hertz contact radius, smallest of the
+        runs.
+        """
         return float(min(run["radii"][-1] for run in self.record["runs"]))
 
     def profile(self, traction: str, first: float, last: float) -> Profile:
-        """Return the recorded pressure or shear at the radii that both meshes have.
+        """Return the CalculiX pressure or shear at the radii that coarse and fine mesh have in
+        common.
 
-        traction  "pressure" or "shear"
-        first     smallest radius, over a_H
-        last      largest radius, over a_H
+        The traction is extrapolated to infinite contact stiffness.
+
+        traction     "pressure" or "shear"
+        first, last  smallest and largest radius, over the Hertz contact radius
         """
         coarse, fine, soft = self.record["runs"]
         radii = np.array(coarse["radii"])
@@ -457,7 +511,10 @@ class Recorded:
 
 
 def recorded(name: str) -> Recorded:
-    """Return the CalculiX record of a scene; raise KeyError for an unknown name."""
+    """Return the stored CalculiX results of a scene; raise KeyError for an unknown name.
+
+    name  name of the scene in references/external_code_calculix.json
+    """
     scenes = {each["name"]: each for each in load_reference(NAME)["scenes"]}
     return Recorded(scenes[name])
 
@@ -478,18 +535,22 @@ Reader = Callable[[Any, NDArray[np.float64]], NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class Load:
-    """Normal force at the end of the recorded load step [force]."""
+    """Hold the exact answer of a recorded scene: the normal force at the end of the load step
+    [force].
+    """
 
     load: float
 
 
 def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple[Judged, ...]:
-    """Create the judged force and tractions of one recorded scene, for finite elements and cells.
+    """Create the judged runs of one scene that CalculiX has computed, on finite elements and on
+    cells.
 
-    The prescribed approach, over that of Hertz theory, and the increments are those of the record.
+    Judged are the normal force and the tractions. The ball is moved by the approach of the record,
+    in the increments of the record.
 
-    name      label of the scene
-    of        record of the scene
+    name      label of the scene in reports
+    of        stored CalculiX results of the scene
     cells     number of cells per side
     elements  number of elements per contact radius
     """
@@ -530,13 +591,16 @@ def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple
 def _traction_row(
     problem: Problem, of: Recorded, name: str, part: float, unit: str, read: Reader
 ) -> tuple[Problem, Within]:
-    """Create the row that judges a recorded traction, and the problem with the uncertainty of the
-    record.
+    """Create the row that judges a computed traction against the stored CalculiX traction.
 
-    name  "pressure" or "shear"
-    part  error scale, as a fraction of p_H
-    unit  description of the error scale
-    read  function that interpolates the computed traction to given radii
+    Returns the problem with the uncertainty of this traction, and the row with the tolerance.
+
+    problem  problem of the recorded scene
+    of       stored CalculiX results of the scene
+    name     "pressure" or "shear"
+    part     error scale over the Hertz peak pressure p_H: 1, or µ for the shear
+    unit     description of the error scale
+    read     function that interpolates the computed traction to given radii
     """
     last = of.edge - EDGE
     known = of.profile(name, FIRST, last)
@@ -555,8 +619,14 @@ def _traction_row(
 
 
 def external_codes(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the comparison with CalculiX; higher levels have finer
-    meshes."""
+    """Create the verification case that compares cells and finite elements with stored CalculiX
+    results.
+
+    The contacts are a rigid ball on a coating, with and without friction. Normal force, pressure
+    and shear are judged.
+
+    level  amount of computation: quick, standard or full, with finer grids and meshes
+    """
     sizes = {Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 64)}[level]
     return case(
         "external_codes",

@@ -1,5 +1,8 @@
-"""Cases of fretting loops of equal bodies by all solvers, with figures 1 and 2 of the reference
-paper."""
+"""Verification cases of fretting loops: a ball under a tangential force that is reversed twice.
+
+All solvers are judged. The bodies are equal, except for one coated contact. One case reproduces
+figures 1 and 2 of the reference paper.
+"""
 
 from __future__ import annotations
 
@@ -108,7 +111,12 @@ BRANCHES = {2: "loading", 3: "unloading", 4: "reloading"}
 
 
 def hysteresis_chart(name: str, result: Result, exact: ExactLoop) -> Chart:
-    """Draw the hysteresis loop of tangential force against shift, with the closed form in grey."""
+    """Draw the hysteresis loop of a fretting test: tangential force over tangential shift.
+
+    name    file name of the chart
+    result  result on cells; each increment is a point
+    exact   closed form of the loop, drawn in grey
+    """
     forces, shifts = _closed_form_loop(exact)
     moved = [i for i in result.increments if i.step >= PRESSED]
     panel = Panel(
@@ -134,9 +142,12 @@ def hysteresis_chart(name: str, result: Result, exact: ExactLoop) -> Chart:
 
 
 def loading_history_chart(result: Result) -> Chart:
-    """Draw the tangential force over time, with the states of the traction chart marked.
+    """Draw the tangential force of a fretting loop over time, with letters at ten selected states.
 
-    The chart corresponds to figure 1 of the reference paper.
+    The chart reproduces figure 1 of the reference paper. `tractions_chart` draws the tractions in
+    the selected states.
+
+    result  result of the fretting loop on cells
     """
     count = len(result.increments) - 1
     time = [number / count for number, _ in enumerate(result.increments)]
@@ -168,9 +179,13 @@ def loading_history_chart(result: Result) -> Chart:
 
 
 def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
-    """Draw shear and friction limit along y = 0 in the marked states of a fretting loop.
+    """Draw shear and friction limit along y = 0 in ten selected states of a fretting loop.
 
-    The chart corresponds to figure 2 of the reference paper.
+    The chart reproduces figure 2 of the reference paper, with one panel for loading, unloading and
+    reloading each. `loading_history_chart` marks the states.
+
+    result  result of the fretting loop on cells
+    exact   closed form of the loop, drawn in grey
     """
     section = Section(result.grid, HERTZ.contact_radius)
     scale = FRICTION * HERTZ.peak_pressure
@@ -214,8 +229,15 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
 
 
 def _increment_number(result: Result, step: int, part: float) -> int:
-    """Return the index of the increment of a load step whose tangential force is nearest to part ·
-    µW."""
+    """Return the index of the increment of one load step whose tangential force is nearest to part
+    · µW.
+
+    Used to find the states that the charts show.
+
+    result  result of a fretting loop on cells
+    step    number of the load step
+    part    tangential force over the friction limit µW
+    """
     distances = [
         abs(force_along_x(i) * NEWTON_TO_LIMIT - part) if i.step == step else np.inf
         for i in result.increments
@@ -242,10 +264,12 @@ REQUIRED_SHEAR = {128: 2e-3, 256: 1e-3}
 
 
 def shear_allowed(rung: SizedRun) -> float:
-    """Return the accepted shear error on a refinement level of cells.
+    """Return the accepted shear error of a run on cells, over the friction limit [1].
 
-    The accuracy targets hold for some grids. For other grids the target of 128 cells is scaled by
-    the order 3/2.
+    The project has accuracy targets for 128 and 256 cells per side. For other numbers the target of
+    128 cells is scaled by the convergence order 3/2.
+
+    rung  refinement level: run and number of cells per side
     """
     return REQUIRED_SHEAR.get(rung.count, REQUIRED_SHEAR[128] * (128 / rung.count) ** 1.5)
 
@@ -255,7 +279,11 @@ def _largest_slip_amplitude(result: Any, *_: Any) -> float:
 
 
 def _cycle_rows() -> tuple[Row, ...]:
-    """Return the rows of quantities of a fretting cycle that are judged on every grid."""
+    """Return the rows of the fretting loop: judged and reported quantities with their tolerances.
+
+    The quantities are shear, shift, stick radius, slip, the fretting parameters F1 and F2 of Ruiz,
+    dissipated energy and energy balance. All grids of the case are judged.
+    """
     ruiz = "Ruiz, Boddington and Chen 1984, on Mindlin and Deresiewicz 1953"
     imbalance = error_norm(
         "largest_energy_imbalance",
@@ -331,13 +359,15 @@ def _cycle_rows() -> tuple[Row, ...]:
 
 
 def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter: int = 4) -> Case:
-    """Create the verification case of the fretting loop with ν = 0, for which the closed form is
-    exact.
+    """Create the verification case of a fretting loop of a ball with ν = 0, on cells.
 
-    The grids are the two with accuracy targets; the full level adds a finer grid.
+    For ν = 0 the closed form of Mindlin and Deresiewicz is exact. Judged are tractions, slip,
+    shift, energies and Ruiz's fretting parameters on the two grids with accuracy targets. The full
+    level adds a finer grid.
 
-    cells    numbers of cells per side, in place of those of the level
-    quarter  number of increments from zero to the largest force T*
+    level    amount of computation: quick, standard or full
+    cells    numbers of cells per side; default: those of the level
+    quarter  number of increments from zero to the largest tangential force
     """
     cells = cells or ((128, 256, 512) if level is Level.FULL else (128, 256))
     problem = loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter)
@@ -370,7 +400,10 @@ def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter
 def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
     """Create the verification case of the fretting loop in figures 1 and 2 of the reference paper.
 
-    The ball has its exact arc, ν is 0.3, and the increments are those of the paper.
+    The ball has its exact circular arc, ν is 0.3, and the increments are those of the paper. The
+    closed form is only approximate for ν > 0, so that the tolerances are wide.
+
+    level  amount of computation: quick, standard or full
     """
     cells = 128 if level is Level.QUICK else 256
     band = (
@@ -472,10 +505,14 @@ ACROSS = (
 
 
 def _shear_error(result: Any, _: int, problem: Problem) -> float:
-    """Compute the largest shear error of finite elements in all increments of a fretting loop, over
+    """Compute the largest shear error of finite elements in any increment of a fretting loop, over
     µp_H.
 
-    Radii within 0.1 contact radii of a stick edge are omitted.
+    p_H is the Hertz peak pressure. Rings within 0.1 contact radii of the present or an earlier edge
+    of the stick zone are left out, because the exact shear has a cusp there.
+
+    result   finite element result of the loop
+    problem  problem of the loop with its closed form
     """
     within = judged_within(result.discretisation.elements_per_radius)
     worst, edges = 0.0, []
@@ -506,10 +543,17 @@ OF_LOOP = (
 
 
 def _loop_profile(of: RefinementLevels, step: int, name: str, when: str, caption: str) -> Drawing:
-    """Return a function that draws the shear over the radius at the end of a load step of the loop.
+    """Return a function that draws the shear over the radius at the end of a step of the fretting
+    loop.
 
-    step  number of the load step, from 1
-    when  description of the state
+    The function receives the results of a case by run label, and draws the finite element shear and
+    the closed form.
+
+    of       refinement levels, of which the judged run is drawn
+    step     number of the load step, from 1
+    name     file name of the chart
+    when     description of the load at the end of the step
+    caption  caption of the chart
     """
 
     def draw(results: Mapping[str, Any]) -> Chart:
@@ -531,13 +575,15 @@ def fem_partial_slip(
     elements: int = 0,
     studied: Sequence[tuple[int, float]] | None = None,
 ) -> Case:
-    """Create the verification case of partial slip and a fretting loop by finite elements.
+    """Create the verification case of partial slip and of a fretting loop by finite elements.
 
-    Orders of convergence are judged above the quick level, for a single loading with ν = 0.
+    Shift, stick radius, dissipated energy and shear are compared with closed forms. Above the quick
+    level the orders of convergence are judged for a single tangential loading with ν = 0.
 
-    elements  numbers of elements per radius for the loop, in place of those of the level
-    studied   meshes for the single loading, with the position of the contact edge in its element;
-              from these the orders are computed
+    level     amount of computation: quick, standard or full
+    elements  number of elements per contact radius for the loop; 0: that of the level
+    studied   meshes for the orders of convergence: number of elements per radius, and position of
+              the contact edge within its element; default: those of the level
     """
     orders = bool(studied) or level is not Level.QUICK
     if studied is None:
@@ -622,9 +668,12 @@ def fem_partial_slip(
 
 
 def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a fretting loop and a ball in torsion by a penalty method.
+    """Create the verification case of partial slip by finite elements with a penalty method.
 
-    The solver is that of finite elements.
+    A fretting loop and a ball in torsion are compared with closed forms. The penalty method allows
+    a small elastic slip before Coulomb's law is applied.
+
+    level  amount of computation: quick, standard or full
     """
     gauss = "Shear at the Gauss points, the closed form, and their difference."
     n = (finest(level),)
@@ -665,7 +714,15 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
 
 
 def _shear_of_circle(result: Any, step: int, problem: Problem) -> float:
-    """Compute the mean error of the shear q_x over the contact area, over µp_H."""
+    """Compute the mean error of the shear q_x over the contact area, at the end of a load step
+    [µp_H].
+
+    The tangential force acts along x. p_H is the Hertz peak pressure.
+
+    result   result of the radial solver, with tractions at rings and angles
+    step     index of the load step
+    problem  problem with the exact shear
+    """
     end, surface = result.steps[step], surface_of(result)
     shear = surface.vector(end, "shear")
     assert shear is not None
@@ -676,8 +733,12 @@ def _shear_of_circle(result: Any, step: int, problem: Problem) -> float:
 
 
 def _shift_at_reversals(result: Any, _: int, problem: Problem) -> float:
-    """Compute the largest error of the tangential shift at the three force maxima of the loop
-    [length]."""
+    """Compute the largest error of the tangential shift at the three force maxima of a fretting
+    loop [length].
+
+    result   result of the loop; one load step ends at each maximum of the force
+    problem  problem with the closed form of the loop
+    """
     largest = problem.ends[-1].end.shift
     found = [shift_along_x(end) for end in result.steps[1:]]
     return float(np.max(np.abs(np.subtract(found, (largest, -largest, largest)))))
@@ -686,7 +747,10 @@ def _shift_at_reversals(result: Any, _: int, problem: Problem) -> float:
 def radial_tangential(level: Level = Level.QUICK) -> Case:
     """Create the verification case of tangential loads by the radial solver.
 
-    It contains closed forms, a fretting loop and a coated body.
+    Shift, stick radius and shear under a growing force, and shift and energy of a fretting loop are
+    compared with closed forms. A coated contact is pressed with friction and compared with a table.
+
+    level  amount of computation: quick, standard or full
     """
     stops = {1: 0.3, 2: 0.6, 3: 0.9}  # of µW, by loading step
     parts = tuple(stops.values())

@@ -1,5 +1,9 @@
-"""Cases of indentation with friction: stick and slip by all solvers, with refined cells and
-increments."""
+"""Verification cases of indentation with friction: a rigid ball that is pressed on an elastic body.
+
+The surface moves towards the axis below the ball; friction resists, so that the contact sticks in a
+central disc and slips outside. All solvers are judged, also under refinement of cells and
+increments.
+"""
 
 from __future__ import annotations
 
@@ -100,19 +104,23 @@ SMALLEST, LARGEST = -340.0, -(2.0**-52)
 
 
 def stick_ratio(friction: float, dundurs_beta: float) -> float:
-    """Compute the stick radius over the contact radius of an indentation with friction.
+    """Compute the ratio c/a of stick radius to contact radius for indentation with friction.
 
-    The ratio lies between 0 (gross slip) and 1 (full stick). The effect of the shear on the
-    pressure is neglected (Goodman, Spence).
+    c/a lies between 0 (gross slip) and 1 (full stick). The solution neglects the effect of the
+    shear on the pressure (Goodman, Spence). A ratio that differs from 0 or 1 by less than double
+    precision is returned as 0 or 1.
 
-    friction      µ > 0
-    dundurs_beta  β > 0; (1 - 2ν)/(2(1 - ν)) under a rigid indenter
-
-    A ratio that differs from 0 or 1 by less than double precision is returned as 0 or 1.
+    friction      coefficient of friction µ > 0
+    dundurs_beta  Dundurs' second constant β > 0; (1 - 2ν)/(2(1 - ν)) under a rigid indenter
     """
 
     def excess(log_c: float) -> float:
-        """Compute the difference of both sides of the equation for c/a, which grows with c/a."""
+        """Compute the difference of both sides of the equation for c/a; its zero is the solution.
+
+        The difference grows with c/a (c: stick radius, a: contact radius).
+
+        log_c  natural logarithm of c/a
+        """
         c = exp(log_c)
         # K of the modulus √(1 - c²), from its complementary parameter c².
         return float(atanh(c) / c - friction / dundurs_beta * ellipkm1(c * c))
@@ -144,13 +152,14 @@ Field = NDArray[np.float64]
 
 
 def at_centres(cells: tuple[int, int], field: Field) -> Field:
-    """Interpolate a field on cells (…, n, m) bilinearly to the centres of other cells of the same
-    window.
+    """Interpolate a field on cells bilinearly to the centres of the cells of a coarser or finer
+    grid.
 
-    Means over the other cells are no substitute: a mean over half a cell of the field misses half
-    of the change of the field across that cell, which is a first-order error on the whole surface.
+    Both grids divide one window. Used to compare tractions on two grids. Means over the cells of
+    the other grid are no substitute: they have a first-order error on the whole surface.
 
-    cells  numbers of the other cells along x and y
+    cells  numbers of cells of the other grid along x and y
+    field  values at the cell centres of the first grid (…, n, m)
     """
     along_x = _interpolation_weights(cells[0], field.shape[-2])
     along_y = _interpolation_weights(cells[1], field.shape[-1])
@@ -158,10 +167,11 @@ def at_centres(cells: tuple[int, int], field: Field) -> Field:
 
 
 def _interpolation_weights(to: int, of: int) -> Field:
-    """Compute the weights (to, of) of linear interpolation between cell centres of two divisions.
+    """Compute the matrix (to, of) of linear interpolation between the cell centres of two 1-D
+    divisions.
 
-    A unit length is divided into `of` cells with known values and into `to` cells of the result.
-    Beyond the outermost centres the value is constant.
+    A unit length is divided into `of` equal cells with known values and into `to` equal cells of
+    the result. Beyond the outermost known centres the interpolated value is constant.
     """
     position = np.clip((np.arange(to) + 0.5) * of / to - 0.5, 0, of - 1)
     left = np.minimum(position.astype(int), max(of - 2, 0))
@@ -183,12 +193,16 @@ STICK_PART = Observable(
 def _profile_drawings(
     of: RefinementLevels, one: Indentation, name: str, by: str, *drawn: str
 ) -> list[Drawing]:
-    """Return functions that draw pressure or shear over the radius, together with the reference.
+    """Return functions that draw computed and tabulated tractions of an indentation over the
+    radius.
 
-    of     refinement levels, of which the judged level is drawn
-    one    tabulated contact
-    name   beginning of the chart names
-    drawn  names of the fields
+    Each function receives the results of a case by run label and returns one chart.
+
+    of     refinement levels of the indentation, of which the judged level is drawn
+    one    contact with the tabulated reference
+    name   beginning of the file names of the charts
+    by     name of the discretisation in the caption
+    drawn  tractions to draw: "pressure", "shear" (magnitude) or "outward shear"
     """
     fields = {
         "pressure": ("p / p_H", of.problem.scale(OVER_PEAK), DRAWN_PRESSURE),
@@ -215,10 +229,14 @@ def _profile_drawings(
 
 
 def frictional_indentation(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a rigid ball that is pressed with friction on coupled bodies.
+    """Create the verification case of a rigid ball that is pressed with friction on an elastic
+    body.
 
-    The quick level has a coarse grid. Other levels have the grid of the accuracy targets, and judge
-    the stick radius in addition.
+    Pressure and shear are coupled. Approach, contact radius, pressure and shear on cells are
+    compared with tabulated solutions of integral equations. The quick level has a coarse grid; the
+    other levels judge the stick radius in addition.
+
+    level  amount of computation: quick, standard or full
     """
     why = "accuracy target of the coupled solver on 256 x 256 cells"
     cells, contacts = 256, [WEAK, STRONG, NU_ZERO, COATED]
@@ -280,9 +298,18 @@ def change(
     not_yet: NotYetAsymptotic | None = None,
     name: str = "",
 ) -> Order:
-    """Declare the order of the differences between successive levels; `Refined` has the levels.
+    """Declare the expected order at which the difference of two neighbouring refinement levels
+    falls.
 
+    Used where no exact solution is known: the difference falls with the order of the error. The
+    labels of the levels are added by `Refined.orders`.
+
+    of          quantity whose order is judged
+    meaning     description of the difference
     difference  function from the results of a coarse and a fine level to the difference
+    expected    expected exponent p of h^p
+    because     reason for the expected order
+    not_yet     allowance for levels that are too coarse for the theory
     name        name of the verdict after `order_of_`; default: the name of the quantity
     """
     name = f"order_of_{name or of.value.replace(' ', '_')}"
@@ -291,14 +318,16 @@ def change(
 
 @dataclass(frozen=True)
 class Refined:
-    """Runs with one refined discretisation parameter, coarse to fine, and differences between the
-    runs.
+    """Hold runs with one refined discretisation parameter (cells or increments), coarse to fine.
 
-    refined   kind of the discretisation parameter
+    The differences between the runs are judged by their order of convergence.
+
+    runs      runs, coarse to fine
+    refined   refined parameter: mesh or increments
     size      function from a result to the parameter h
     x_label   label of h in charts
     changes   differences whose order is judged
-    apart     number of levels between the two runs of a difference
+    apart     distance in the list between the two runs of a difference, for example 2
     left_out  number of coarse levels that are left out of an order, by quantity
     """
 
@@ -312,7 +341,9 @@ class Refined:
 
     @property
     def orders(self) -> tuple[Order, ...]:
-        """Orders of convergence of all differences between successive runs."""
+        """Declared orders of convergence, completed by the labels of the runs and the refined
+        parameter.
+        """
         labels = tuple(run.label for run in self.runs)
         return tuple(
             replace(
@@ -326,7 +357,10 @@ class Refined:
         )
 
     def chart(self, name: str, title: str, caption: str) -> Drawing:
-        """Return a function that draws the differences against the refined parameter."""
+        """Return a function that draws the differences between runs over the refined parameter h.
+
+        The function receives the results of a case by run label and returns the chart.
+        """
 
         def draw(results: Mapping[str, Any]) -> Chart:
             levels = [results[run.label] for run in self.runs]
@@ -344,7 +378,9 @@ class Refined:
 
 
 def _approach_change(coarse: Any, fine: Any) -> float:
-    """Compute the relative difference of the approach between a coarse and a fine run."""
+    """Compute the relative change of the approach from a coarse to a fine run at the end of the
+    history.
+    """
     return abs(approach(coarse) / approach(fine) - 1)
 
 
@@ -353,14 +389,18 @@ def _radius_change(coarse: Any, fine: Any) -> float:
 
 
 def _shift_change(coarse: Any, fine: Any) -> float:
-    """Compute the relative difference of the tangential shift between a coarse and a fine run."""
+    """Compute the relative change of the tangential shift from a coarse to a fine run, at the last
+    step.
+    """
     return abs(shift_along_x(coarse.steps[-1]) / shift_along_x(fine.steps[-1]) - 1)
 
 
 def _shear_change(coarse: Any, fine: Any) -> float:
-    """Compute the difference of the shear between two grids, Σ|q_coarse - q_fine| / Σµp.
+    """Compute the difference of the final shear between two grids, Σ|q_coarse - q_fine| / Σµp [1].
 
-    The fine shear is interpolated to the centres of the coarse cells.
+    The shear of the fine grid is interpolated to the centres of the coarse cells. µ and p are the
+    friction coefficient and the pressure of the contact whose stick radius is half the contact
+    radius.
     """
     found, other = shear_of(coarse.steps[-1]), shear_of(fine.steps[-1])
     size = np.hypot(*(found - at_centres(coarse.grid.cells, other)))
@@ -368,8 +408,11 @@ def _shear_change(coarse: Any, fine: Any) -> float:
 
 
 def _shear_change_on_rings(coarse: Any, fine: Any) -> float:
-    """Compute the difference of the shear between two meshes, ∫|q_coarse - q_fine| r dr / ∫µp r
-    dr."""
+    """Compute the difference of the final radial shear between two finite element runs [1].
+
+    The result is ∫|q_coarse - q_fine| r dr / ∫µp r dr. The fine run is interpolated to the rings of
+    the coarse run.
+    """
     one, other = coarse.steps[-1], fine.steps[-1]
     r = one.radii
     difference = np.abs(one.shear_radial - at_radii(other, other.shear_radial, r))
@@ -378,8 +421,11 @@ def _shear_change_on_rings(coarse: Any, fine: Any) -> float:
 
 
 def _increment_size(result: Any) -> float:
-    """Return the size of an increment as the fraction of a load step: number of steps over
-    increments."""
+    """Return the number of load steps over the number of increments of a result: the increment size
+    h.
+
+    Used as discretisation parameter for the order of convergence in the increments.
+    """
     return len(result.steps) / len(result.increments)
 
 
@@ -410,8 +456,11 @@ FIXED_SHEAR = (
 
 
 def _half_on_cells(cells: int, increments: int) -> Run:
-    """Create the run on cells of the indentation with stick radius c = a/2, with a number of
-    increments."""
+    """Create the run on cells of the indentation whose stick radius is half the contact radius.
+
+    cells       number of cells per side
+    increments  number of increments of the only load step
+    """
     return Run(
         f"{cells}x{cells}, {increments} increments",
         HALF.problem(20).scene,
@@ -426,7 +475,11 @@ def _approach_error(few: Any, many: Any) -> float:
 
 
 def _stick_error(few: Any, many: Any) -> float:
-    """Compute the relative error of the stick radius, extrapolated linearly to infinite increments.
+    """Compute the relative error of the stick radius after linear extrapolation in the increment
+    size.
+
+    Two results with different numbers of increments are extrapolated to infinitely many increments.
+    The contact is the one whose stick radius is half the contact radius.
 
     few   result with few increments
     many  result with twice the increments
@@ -436,9 +489,13 @@ def _stick_error(few: Any, many: Any) -> float:
 
 
 def indentation_refinement(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of indentation with friction, with refined cells and increments.
+    """Create the verification case of indentation with friction under refined cells and increments.
 
-    The quick level has two runs; other levels have series of runs and judge the orders.
+    At the quick level, approach and stick radius are extrapolated from two runs and compared with
+    Spence's solution. Other levels also judge the orders of convergence in the cells and in the
+    increments.
+
+    level  amount of computation: quick, standard or full
     """
     few, many = _half_on_cells(64, 8), _half_on_cells(64, 16)
     # Changes are taken over two levels: a factor of 2 in cells or increments. Grids divide the
@@ -526,10 +583,15 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
 def sheared_increments(
     level: Level = Level.QUICK, increments: Sequence[int] = (), cells: int = 48
 ) -> Case:
-    """Create the verification case of a coupled contact that is pressed and sheared in more and
-    more increments.
+    """Create the verification case of a rigid ball that is pressed and pushed in more and more
+    increments.
 
-    increments  numbers per load step, in place of those of the level; orders need five or more
+    Pressure and shear are coupled, and no exact solution is known. Judged is the rate at which
+    shift, shear and approach change with smaller increments.
+
+    level       amount of computation: quick, standard or full
+    increments  numbers of increments per load step; default: those of the level; orders of
+                convergence need five or more numbers
     cells       number of cells per side
     """
     counts = (
@@ -639,9 +701,13 @@ def _bonded_ball_error(nu: float, few: Any, many: Any) -> float:
 
 
 def no_slip_indentation(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of indentation in full stick, with its factor on the stiffness.
+    """Create the verification case of indentation in full stick by a flat punch and a ball, on
+    cells.
 
-    All levels have a flat punch; a ball is added above the quick level.
+    Friction is so large that no cell slips, which makes the contact stiffer. The effect on the
+    approach is compared with closed forms. The ball is added above the quick level.
+
+    level  amount of computation: quick, standard or full
     """
     few, many = 20, 40
     grid = paper.square_grid(96, 1.2 * HERTZ.contact_radius)
@@ -722,9 +788,13 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
 
 
 def spence_example(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of Kalker's published CONTACT example of Spence's problem.
+    """Create the verification case of a published example of Kalker's program CONTACT.
 
-    The example is solved on the published grid.
+    The example is Spence's problem: a rigid paraboloid is pressed with friction, and half of the
+    contact radius sticks. It is solved on the published grid and compared with the published
+    numbers.
+
+    level  amount of computation; all levels are equal
     """
     # The program's units are N and mm: gap 0.004116 r², G = 0.5, ν = 0, cells of 0.2.
     mm, megapascal = 1e-3, 1e6
@@ -785,18 +855,26 @@ def spence_example(level: Level = Level.QUICK) -> Case:
 
 
 def _mesh_level(one: Indentation, elements: int, increments: int) -> RefinementLevels:
-    """Create the finite element level of a tabulated indentation, with a given number of
-    increments.
+    """Create the finite element run of an indentation with a tabulated solution, as a refinement
+    level.
 
-    elements  number of elements per radius
+    one         contact with the tabulated solution
+    elements    number of elements per contact radius
+    increments  number of increments of the normal loading
     """
     meshes = on_elements(one.problem(increments), (elements,), over=0.97, of=one.name)
     return named(f"{one.name}, {increments} increments", meshes)
 
 
 def fem_indentation(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of indentation with friction on coupled bodies by finite
-    elements."""
+    """Create the verification case of indentation with friction by finite elements with exact
+    contact laws.
+
+    Approach, contact radius, pressure and shear of a rigid ball on homogeneous and coated bodies
+    are compared with tabulated solutions of integral equations.
+
+    level  amount of computation: quick, standard or full
+    """
     n, many, why = finest(level), 60, "accuracy target of the finite elements"
     meshes = {
         one: _mesh_level(one, n, increments)
@@ -838,9 +916,11 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
 
 
 def fem_increments(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of indentation by finite elements in more and more increments.
+    """Create the verification case of indentation with friction by finite elements in more
+    increments.
 
-    The case is equal at all levels.
+    Judged is the order at which approach, contact radius and shear change with smaller increments
+    on one mesh. All levels are equal.
     """
     # The stick edge moves from node to node: that shows beyond 12 increments on 256 elements per
     # radius and beyond 24 on 512, and an order read off more is too low.
@@ -891,9 +971,13 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
 
 
 def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of indentation with friction by finite elements with a penalty.
+    """Create the verification case of indentation with friction by finite elements with a penalty
+    method.
 
-    The penalty law of friction is integrated by return mapping.
+    Coulomb's law is integrated by return mapping: a trial shear is scaled back to the friction
+    limit. Approach, contact radius, pressure and shear are compared with tabulated solutions.
+
+    level  amount of computation: quick, standard or full
     """
     rows = (
         Within(APPROACH, 1e-3, PENALTY),
@@ -951,7 +1035,7 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
 
 @dataclass(frozen=True)
 class Goodman:
-    """Exact state after indentation with friction if the shear has no effect on the pressure.
+    """Hold the exact answer of indentation with friction if the shear does not change the pressure.
 
     stick_part  radius of the stick disc over the contact radius
     """
@@ -960,10 +1044,16 @@ class Goodman:
 
 
 def _goodman_problem(title: str, nu: float, ratio: float, increments: int) -> Problem:
-    """Create the problem of a rigid ball pressed with friction on a body of weak coupling.
+    """Create the problem of a rigid ball that is pressed with friction on a nearly incompressible
+    body.
 
-    nu     Poisson ratio of the half-space; its Dundurs constant β is small
-    ratio  coefficient of friction over β
+    Shear and pressure are then weakly coupled, and Goodman's solution holds for the stick radius.
+    The coupling is measured by Dundurs' constant β = (1 - 2ν)/(2(1 - ν)).
+
+    title       title of the scene
+    nu          Poisson ratio ν of the half-space, close to 1/2
+    ratio       coefficient of friction over β
+    increments  number of increments
     """
     beta = (1 - 2 * nu) / (2 * (1 - nu))
     scene = pressed(
@@ -987,10 +1077,14 @@ INNERMOST, BESIDE = 0.05, 0.05  # radii where shear is not compared: at the axis
 
 
 def _mean_shear(result: Any, _: int, problem: Problem) -> float:
-    """Compute the mean error of the radial shear at the radii of the reference table, over µp_H.
+    """Compute the mean error of the final radial shear at the radii of a reference table [µp_H].
 
-    The interpolated quantity is the shear over √(1-x²), which has no root at the edge (x: radius
-    over contact radius).
+    p_H is the Hertz peak pressure. Radii near the axis and near the edge of the stick zone are left
+    out. The computed shear is divided by √(1 - x²) before the interpolation, because the quotient
+    has no root at the edge (x: radius over contact radius).
+
+    result   result of the radial solver
+    problem  problem with the tabulated shear
     """
     end, one = result.steps[-1], problem.ends[-1]
     r = end.radii[end.pressure > 0] / end.contact_radius
@@ -1004,7 +1098,9 @@ def _mean_shear(result: Any, _: int, problem: Problem) -> float:
 def radial_indentation(level: Level = Level.QUICK) -> Case:
     """Create the verification case of indentation with friction by the radial solver.
 
-    The references are integral equations and Goodman's limit. The case is equal at all levels.
+    Approach, contact radius, stick radius and shear are compared with tabulated solutions of
+    integral equations. For a nearly incompressible body the stick radius is compared with Goodman's
+    solution. All levels are equal.
     """
     increments, rings = 64, 512  # twice as many increments where the cells take twice as many
     why = "accuracy target of the radial solver at these increments"

@@ -1,5 +1,8 @@
-"""Cases of Hertz contact: point and ellipse, exact arc, prescribed approach, unloading, unequal
-bodies."""
+"""Verification cases of frictionless Hertz contact on cells and on finite elements.
+
+The cases contain round and elliptical contacts, a ball with its exact arc, prescribed approach,
+unloading, and bodies of different materials.
+"""
 
 from __future__ import annotations
 
@@ -102,12 +105,14 @@ MEAN = (
 
 
 def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
-    """Create the verification case of the Hertz point contact on square grids.
+    """Create the verification case of the Hertz contact of a ball on cells of several sizes.
 
-    Accuracy targets hold for 128 and 256 cells per side.
+    Approach, peak pressure, contact radius and pressure are compared with the closed form, and the
+    orders of convergence are judged. Accuracy targets exist for 128 and 256 cells per side.
 
-    cells  numbers of cells per side, in place of those of the level; without the grids in two other
-           positions
+    level  amount of computation: quick, standard or full
+    cells  numbers of cells per side; default: those of the level, with additional grids that are
+           shifted relative to the contact
     """
     most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
     grids = on_cells(BALL, cells or refinement(32, most))
@@ -144,14 +149,16 @@ ARC = SphereContact.under_load(paper.NORMAL_FORCE, paper.RADIUS, paper.CONTACT_M
 def _beyond_hertz_row(
     what: Observable, words: str, hertz: float, exact: float, more: str = ""
 ) -> Reported:
-    """Create a row that reports the relative difference of an observable from its value by Hertz
-    theory.
+    """Create a row that reports by how much an observable differs from its value by Hertz theory.
+
+    Used for a ball with its exact circular arc, which Hertz theory replaces by a paraboloid. The
+    row is not judged.
 
     what   observable
     words  description of the observable
-    hertz  value by Hertz theory
-    exact  value of the closed form that the contact has
-    more   addition to the remark
+    hertz  value of the observable by Hertz theory
+    exact  exact value for the circular arc
+    more   text that is added to the remark
     """
     over = replace(
         what,
@@ -164,9 +171,12 @@ def _beyond_hertz_row(
 
 
 def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a ball with its exact circular arc.
+    """Create the verification case of a ball with its exact circular arc instead of a paraboloid.
 
-    The difference from the paraboloid is reported.
+    Approach, peak pressure and contact radius on cells are compared with Sneddon's solution. The
+    difference from Hertz theory is reported.
+
+    level  amount of computation: quick, standard or full
     """
     ball, load = Sphere(radius=paper.RADIUS, material=STEEL), paper.pressing()
     problem = Problem(
@@ -212,9 +222,9 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
 
 
 def hertz_approach_control(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the Hertz point contact with prescribed approach.
+    """Create the verification case of the Hertz contact with prescribed approach instead of force.
 
-    The case is equal at all levels.
+    The resulting normal force is judged. All levels are equal.
     """
     rows = (
         Refined(
@@ -240,12 +250,14 @@ SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
 
 
 def on_smaller(figure: float, order: float) -> Callable[[SizedRun], float]:
-    """Scale a tolerance to the number of cells or elements in the smaller contact after unloading.
+    """Create a tolerance that depends on the number of cells or elements in the contact after
+    unloading.
 
-    Returns a function from a refinement level to its tolerance.
+    Grids and meshes are laid out for the larger contact before unloading, so that the smaller
+    contact has fewer cells. Returns a function from a refinement level to its tolerance.
 
-    figure  tolerance at 128 × 128 cells, or 64 elements per radius
-    order   order of convergence
+    figure  tolerance at 128 × 128 cells, or at 64 elements per contact radius
+    order   convergence order by which the tolerance is scaled
     """
 
     def allowed(rung: SizedRun) -> float:
@@ -257,15 +269,24 @@ def on_smaller(figure: float, order: float) -> Callable[[SizedRun], float]:
 
 
 def _pressure_and_approach(one: Any, other: Any) -> float:
-    """Compute the larger of Σ|Δp|/Σp and the relative difference of the approach of two final
-    states."""
+    """Compute the difference of two final states: the larger of Σ|Δp|/Σp and |Δapproach|/approach
+    [1].
+
+    Used to compare an unloaded contact with a contact that is loaded once to the same force.
+    """
     a, b = one.steps[-1], other.steps[-1]
     pressure = abs(a.pressure - b.pressure).sum() / b.pressure.sum()
     return worst(float(pressure), abs(a.approach / b.approach - 1))
 
 
 def hertz_unloading(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of frictionless unloading, where the history has no effect."""
+    """Create the verification case of a frictionless contact that is loaded and partly unloaded.
+
+    Without friction the history has no effect. The end state is compared with Hertz theory, and for
+    coated bodies with a single loading by the smaller force.
+
+    level  amount of computation: quick, standard or full
+    """
     cells, elements = {
         Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 128),
     }[level]  # fmt: skip
@@ -350,9 +371,11 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
 
 
 def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of different bodies with equal E*, without friction.
+    """Create the verification case of frictionless bodies of different materials with equal E*, on
+    cells.
 
-    The case is equal at all levels.
+    1/E* is the sum of (1-ν²)/E of both bodies. Hertz theory depends on E* only. All levels are
+    equal.
     """
     cells = 128
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
@@ -387,7 +410,14 @@ def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
 
 
 def hertz_elliptical(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the Hertz contact with an elliptical contact area."""
+    """Create the verification case of the Hertz contact of a barrel, whose contact area is an
+    ellipse.
+
+    Approach, peak pressure, mean contact radius and pressure on rectangular cells are compared with
+    the closed form.
+
+    level  amount of computation: quick, standard or full
+    """
     mean_radius = replace(
         CONTACT_RADIUS,
         name="mean_contact_radius",
@@ -451,12 +481,17 @@ def fem_hertz(
     elements: Sequence[int] = (),
     studied: Sequence[tuple[int, float]] = (),
 ) -> Case:
-    """Create the verification case of the Hertz point contact by finite elements on many meshes.
+    """Create the verification case of the Hertz contact of a ball by finite elements on many
+    meshes.
 
-    elements  numbers of elements per contact radius, in place of those of the level
-    studied   meshes for the orders, with the position of the contact edge in its element; default:
-              the same meshes, up to 64 elements per radius, where the error is that of the contact
-              zone
+    Approach, peak pressure, contact radius and pressure are compared with the closed form, and the
+    orders of convergence are judged.
+
+    level     amount of computation: quick, standard or full
+    elements  numbers of elements per contact radius; default: those of the level
+    studied   meshes for the orders of convergence: number of elements per radius, and position of
+              the contact edge within its element; default: those of the level, or the meshes of
+              `elements` up to 64 per radius
     """
     studied = studied or (() if elements else order_levels(level))
     elements = elements or levels(level)
@@ -494,9 +529,13 @@ def fem_hertz(
 
 
 def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the Hertz point contact by finite elements with a penalty.
+    """Create the verification case of the Hertz contact of a ball by finite elements with a
+    penalty.
 
-    Higher levels have finer meshes.
+    The penalty allows the surfaces to overlap. Judged are the error that the overlap causes, and
+    the results after one augmentation, which removes the overlap.
+
+    level  amount of computation: quick, standard or full, with finer meshes at higher levels
     """
     elements, factor = finest(level), 10.0
     mesh = with_edge_at(BALL, (elements,))

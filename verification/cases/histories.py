@@ -1,6 +1,8 @@
-"""Cases of load histories without a closed form, and of equivalent descriptions of one contact.
+"""Verification cases of load histories without a closed form.
 
-Rotated, mirrored or exchanged scenes must give equal results.
+A history is judged by comparison with an equivalent one: rotated, mirrored or exchanged scenes, or
+other descriptions of one contact, must give equal results. The laws of contact and friction are
+evaluated as well.
 """
 
 from __future__ import annotations
@@ -76,7 +78,10 @@ FILMED = coated(film(2.0, 1.0))
 
 
 def turned(loading: tuple[LoadStep, ...], degrees: float) -> tuple[LoadStep, ...]:
-    """Rotate the tangential forces of load steps by an angle [degrees] from x towards y."""
+    """Rotate the tangential forces of load steps about z by an angle [degrees], from x towards y.
+
+    Used to test that results do not depend on the direction of the load.
+    """
     c, s = cos(radians(degrees)), sin(radians(degrees))
 
     def one(step: LoadStep) -> LoadStep:
@@ -89,7 +94,9 @@ def turned(loading: tuple[LoadStep, ...], degrees: float) -> tuple[LoadStep, ...
 
 
 def _shift_of(end: Any) -> Field:
-    """Return the tangential shift of an increment (2,); zero if the increment has none."""
+    """Return the tangential shift (2,) of an increment [length], or zeros if the increment has no
+    tangential shift.
+    """
     shift = end.tangential_shift
     return np.zeros(2) if shift is None else np.asarray(shift)
 
@@ -101,14 +108,17 @@ def same_fields(
     one: Any,
     other: Any,
 ) -> float:
-    """Compute the largest difference of two results over all increments, after a change of frame.
+    """Compute the largest difference of two results over all increments, after a change of axes.
 
-    The measures are Σ|Δp|/Σp, Σ|Δq|/Σp, the relative difference of the approach, and the difference
-    of the shift over the approach.
+    The second result is that of a rotated or otherwise equivalent scene. Compared are Σ|Δp|/Σp,
+    Σ|Δq|/Σp, the relative difference of the approach, and the difference of the tangential shift
+    over the approach.
 
-    field   function that maps a scalar field of the second result into the frame of the first
-    vector  function that maps the shear
-    turn    function that maps the shift
+    field       function that maps a scalar field (nx, ny) of the second result to the axes of the
+                first
+    vector      function that maps a shear field (2, nx, ny)
+    turn        function that maps a tangential shift (2,)
+    one, other  first and second result on cells
     """
 
     def apart(a: Any, b: Any) -> float:
@@ -124,7 +134,7 @@ def same_fields(
 
 
 def _rotate_field_quarter(field: Field) -> Field:
-    """Rotate a scalar field on square cells by a right angle from x towards y."""
+    """Rotate a scalar field (n, n) on square cells about z by a right angle, from x towards y."""
     return np.asarray(field.T[::-1])
 
 
@@ -143,12 +153,15 @@ after_quarter = partial(
 
 
 def motion_apart(degrees: float, one: Any, other: Any) -> float:
-    """Compute the largest difference of shift and dissipated energy from a rotated result.
+    """Compute the difference of tangential shift and dissipated energy between a result and a
+    rotated one.
 
-    The differences are taken over all increments, relative to the largest value of the second
-    result.
+    The differences are the largest over all increments, relative to the largest value of the second
+    result [1].
 
-    degrees  rotation from the second to the first result
+    degrees  angle by which the loads of the first result are rotated against those of the second
+    one      result of the rotated history
+    other    result of the original history
     """
     c, s = cos(radians(degrees)), sin(radians(degrees))
     turn = np.array([[c, -s], [s, c]])
@@ -164,11 +177,15 @@ def motion_apart(degrees: float, one: Any, other: Any) -> float:
 def _rotation_comparison(
     one: Run, other: Run, degrees: float, allowed: float, cells: int
 ) -> Comparison:
-    """Create the comparison of a history with its rotation by an angle that is no symmetry of the
-    grid.
+    """Create the comparison of a load history with the same history in a rotated direction.
 
-    allowed  accepted difference on `cells` cells per side: about four times the error of square
-             cells
+    The angle is no symmetry of the grid, so that the results differ by discretisation errors.
+
+    one      run of the rotated history
+    other    run of the original history
+    degrees  angle of the rotation
+    allowed  accepted difference on `cells` cells per side, scaled in proportion to the cell side
+    cells    number of cells per side for which `allowed` holds
     """
     return Comparison(
         f"turned_by_{degrees:g}", "difference of shift and dissipated energy after a rotation of "
@@ -181,11 +198,14 @@ def _rotation_comparison(
 
 
 def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
-    """Create the verification case of load histories without a closed form.
+    """Create the verification case of load histories on cells for which no closed form exists.
 
-    They are judged by the laws of contact and friction, and by the isotropy of the results.
+    The normal force changes at constant tangential force, or the tangential force changes
+    direction. Judged are the laws of contact and friction, and that a rotated history gives rotated
+    results.
 
-    cells  number of cells per side, in place of that of the level
+    level  amount of computation: quick, standard or full
+    cells  number of cells per side; 0: that of the level
     """
     grid = paper.hertz_grid(cells or (64 if level is Level.QUICK else 128))
     half = 0.5 * paper.FRICTION_LIMIT
@@ -244,10 +264,14 @@ PRESSED, PUSHED, BACK = 1, 2, 3  # loading steps
 
 @dataclass(frozen=True)
 class CoupledContact:
-    """Rigid ball on a body whose normal and tangential problems are coupled, under a tangential
-    loop.
+    """Hold a rigid ball on a body with coupled pressure and shear, and its load history.
 
-    A force of 2/3 µW is applied along x, reversed, and turned. Then the normal force is reduced.
+    The ball is pressed. A tangential force of 2/3 µW is applied along x, reversed, and turned. Then
+    the normal force is reduced.
+
+    name      description of the body and the friction
+    body      elastic lower body
+    friction  coefficient of friction µ
     """
 
     name: str
@@ -256,7 +280,9 @@ class CoupledContact:
 
     @property
     def history(self) -> tuple[LoadStep, ...]:
-        """Load steps of the contact; the first three are a loop along x."""
+        """Load steps of the contact: pressing, tangential loop along x, turn of the force,
+        unloading.
+        """
         push = 2 / 3 * self.friction * NORMAL_FORCE
         return (
             pressing(6),
@@ -267,13 +293,20 @@ class CoupledContact:
         )
 
     def scene(self, loading: tuple[LoadStep, ...], way: str) -> Scene:
-        """Create the scene of the contact with the given load steps; `way` is added to its
-        title."""
+        """Create the scene of the rigid ball on the body with the given load steps.
+
+        loading  load steps
+        way      addition to the title of the scene
+        """
         title = f"Rigid ball on a body: {self.name}{way}"
         return pressed(title, rigid_ball(), self.body, *loading, friction=self.friction)
 
     def run(self, cells: int, degrees: float = 0.0) -> Run:
-        """Create the run on cells with the load history rotated by an angle [degrees]."""
+        """Create the run of the contact on cells, with all tangential forces rotated about z.
+
+        cells    number of cells per side of the window
+        degrees  angle of the rotation, from x towards y
+        """
         way = "" if degrees == 0 else f", turned by {degrees:g}°"
         grid = paper.square_grid(cells, 1.2 * HERTZ.contact_radius)
         scene = self.scene(turned(self.history, degrees), way)
@@ -281,7 +314,12 @@ class CoupledContact:
         return Run(f"{self.name}{way}", scene, grid, edge="off")
 
     def section(self, elements: int, harmonics: int) -> SectionRun:
-        """Create the finite element run of the loop along x."""
+        """Create the finite element run of the first load steps, whose tangential force acts along
+        x.
+
+        elements   number of elements per contact radius
+        harmonics  highest angular harmonic
+        """
         mesh = FiniteElementDiscretisation(
             elements_per_radius=elements,
             contact_radius=HERTZ.contact_radius,
@@ -293,19 +331,25 @@ class CoupledContact:
 
 
 class MotionControlled:
-    """Repeated solve of a history with the computed approach and shift of each increment
-    prescribed.
+    """Compare a result under prescribed forces with a repeated solve under prescribed
+    displacements.
 
-    These motions are known only after the first solve, so that the repeated solve is no run of the
-    case. One repeated solve serves all measures. A history that the solver does not complete has an
-    infinite error.
+    The repeated solve prescribes the computed approach and tangential shift of each increment of
+    the first result. Both solves must agree. The first result is needed to state the second
+    problem, so that the repeated solve is no run of the case; it is stored here for all measures.
+    If the repeated solve fails, the measures are infinite.
     """
 
     def __init__(self) -> None:
         self._solved: tuple[semi_analytical.Result, semi_analytical.Result | None] | None = None
 
     def difference(self, result: semi_analytical.Result) -> float:
-        """Compute the larger of Σ|Δp|/Σp and Σ|Δq|/Σp between both solves, over all increments."""
+        """Compute the largest difference of the tractions between first and repeated solve [1].
+
+        The result is the larger of Σ|Δp|/Σp and Σ|Δq|/Σp over all increments.
+
+        result  result of the first solve, under prescribed forces
+        """
         repeated = self._repeated_solve(result)
         if repeated is None:
             return math.inf
@@ -318,8 +362,12 @@ class MotionControlled:
         )
 
     def violation(self, result: semi_analytical.Result) -> float:
-        """Compute the largest violation of a law of contact or friction in the repeated solve
-        [1]."""
+        """Compute the largest violation of a contact or friction law in the repeated solve [1].
+
+        The imbalance of the energies is included.
+
+        result  result of the first solve, under prescribed forces
+        """
         repeated = self._repeated_solve(result)
         if repeated is None:
             return math.inf
@@ -327,7 +375,10 @@ class MotionControlled:
         return worst(violation, imbalance)
 
     def iterations(self, result: semi_analytical.Result) -> float:
-        """Return the number of iterations of the repeated solve, over all increments."""
+        """Return the number of iterations of the repeated solve over all increments.
+
+        result  result of the first solve, under prescribed forces
+        """
         repeated = self._repeated_solve(result)
         return (
             math.inf if repeated is None else float(sum(i.iterations for i in repeated.increments))
@@ -344,8 +395,14 @@ def _as_pair(vector: Field) -> tuple[float, float]:
 
 
 def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result | None:
-    """Solve the history of a result again, with its computed motions prescribed; None if that
-    fails."""
+    """Solve a load history again, with the computed approach and shift of each increment
+    prescribed.
+
+    Returns None if the solver does not converge. While the ball is pressed, only the approach is
+    prescribed.
+
+    result  result on cells under prescribed forces
+    """
     steps = tuple(
         LoadStep(
             approach=i.approach,
@@ -362,13 +419,14 @@ def solved_by_motion(result: semi_analytical.Result) -> semi_analytical.Result |
 
 
 def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | None = None) -> Case:
-    """Create the verification case of loops, turns and unloading of coupled bodies.
+    """Create the verification case of tangential loops, turns and unloading with coupled pressure
+    and shear.
 
-    The histories are solved under force control, with the computed motions prescribed, after a
-    rotation, and by finite elements.
+    No closed form exists. The histories on cells are compared with a rotated history, with a solve
+    under prescribed displacements, and with finite elements.
 
-    sizes  numbers of cells per side, elements per radius, and harmonics, in place of those of the
-           level
+    level  amount of computation: quick, standard or full
+    sizes  numbers of cells per side, elements per radius and harmonics; default: those of the level
     """
     cells, elements, harmonics = sizes or {
         Level.QUICK: (32, 16, 4), Level.STANDARD: (64, 32, 8), Level.FULL: (128, 64, 12),
@@ -471,20 +529,27 @@ PUSH = LoadStep(tangential_force=(PART * MU * NORMAL_FORCE, 0.0), increments=2)
 
 
 def _patchy_friction(grid: SurfaceGrid) -> Field:
-    """Return a friction coefficient field on a grid that varies in x and y and vanishes in
-    patches."""
+    """Return a friction coefficient for each cell that varies along x and y and is zero in patches.
+
+    The field has no symmetry, so that exchanged axes or mirror errors become visible.
+    """
     x, y = (c / HERTZ.contact_radius for c in grid.coordinates())
     waves = np.sin(3 * x + 0.4) + 0.6 * np.sin(5 * y - 1.1 * x)
     return np.asarray(np.maximum(MU * (1.2 + 0.9 * waves), 0.0))
 
 
 def _mirror_shear(q: Field) -> Field:
-    """Mirror a shear field (2, nx, ny) at the plane x = 0."""
+    """Mirror a shear field (2, nx, ny) at the plane x = 0; the x component changes its sign."""
     return np.stack([-q[0][::-1], q[1][::-1]])
 
 
 def in_mirror(one: Any, other: Any) -> float:
-    """Compute the largest difference of pressure and shear from a mirrored result (plane x = 0)."""
+    """Compute the largest difference of pressure and shear between a result and a mirrored result
+    [1].
+
+    The second result is that of a scene that is mirrored at the plane x = 0. The result is the
+    larger of Σ|Δp|/Σp and Σ|Δq|/Σp over all increments.
+    """
 
     def apart(a: Any, b: Any) -> float:
         total = np.sum(b.pressure)
@@ -497,8 +562,10 @@ def in_mirror(one: Any, other: Any) -> float:
 
 
 def scalars_apart(one: Any, other: Any) -> float:
-    """Compute the largest relative difference of approach, shift and dissipated energy of final
-    states."""
+    """Compute the largest relative difference of approach, shift and dissipated energy [1].
+
+    Two results are compared at the end of the last load step; the shift is that along x.
+    """
     (a, b) = (
         (end.approach, float(end.tangential_shift[0]), end.dissipated_energy)
         for end in (one.steps[-1], other.steps[-1])
@@ -507,9 +574,12 @@ def scalars_apart(one: Any, other: Any) -> float:
 
 
 def same_surface(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of equivalent inputs of one contact.
+    """Create the verification case of different inputs that describe one contact, on cells.
 
-    The inputs are height maps, rectangular cells, and layers of the base material.
+    The inputs are height maps, friction maps, rectangular cells, and layers of the base material.
+    All must give equal results.
+
+    level  amount of computation: quick, standard or full
     """
     # An odd count of cells has one in the middle, where the lowest height of the ball is zero.
     cells = {Level.QUICK: 33, Level.STANDARD: 65, Level.FULL: 129}[level]
@@ -520,11 +590,12 @@ def same_surface(level: Level = Level.QUICK) -> Case:
     heights: Any = np.asarray(rigid_ball().initial_gap(*square.coordinates()))
 
     def run(label: str, what: str, grid: SurfaceGrid = square, **other: Any) -> Run:
-        """Create a run of the rigid ball on the coated body, with changes of the input.
+        """Create a run of the rigid ball on the coated body, with one change of the input.
 
-        label  name of the run
-        what   description of the change
-        other  changed indenter, body, friction, or rotation in degrees
+        label  label of the run
+        what   description of the changed input
+        grid   grid of cells
+        other  changed indenter, body, friction, or rotation of the load in degrees
         """
         chosen: dict[str, Any] = {
             "indenter": rigid_ball(), "body": FILMED, "friction": MU, "degrees": 0.0,
@@ -612,10 +683,12 @@ def same_surface(level: Level = Level.QUICK) -> Case:
 
 
 def forced_effects(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of effects that are switched on although a scene does not need
-    them.
+    """Create the verification case of physical effects that are computed although they vanish.
 
-    The results must be equal, at a higher cost.
+    The solver omits effects that a scene does not need, such as the coupling of pressure and shear
+    for equal bodies. Each scene is solved with and without the omission; the results must be equal.
+
+    level  amount of computation: quick, standard or full
     """
     cells = 48 if level is Level.QUICK else 96
     grid = paper.square_grid(cells, 1.3 * HERTZ.contact_radius)
@@ -671,7 +744,12 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
 
 @dataclass(frozen=True)
 class BodyPair:
-    """Materials and layers of two bodies in contact; the upper body is a ball."""
+    """Hold the materials and layers of two bodies in contact, of which the upper body is a ball.
+
+    name   description of the pair
+    lower  material and layers of the lower body
+    upper  material and layers of the ball
+    """
 
     name: str
     lower: Body
@@ -679,11 +757,13 @@ class BodyPair:
 
     @property
     def exchanged(self) -> BodyPair:
-        """Pair in which upper and lower body are exchanged."""
+        """Pair in which the materials and layers of ball and lower body are exchanged."""
         return replace(self, name=f"{self.name}, exchanged", lower=self.upper, upper=self.lower)
 
     def scene(self, *loading: LoadStep) -> Scene:
-        """Create the scene of the ball with the upper materials on the lower body."""
+        """Create the scene of the ball on the lower body, with friction, under the given load
+        steps.
+        """
         ball = Paraboloid(
             radius=paper.RADIUS, material=self.upper.material, layers=self.upper.layers
         )
@@ -698,11 +778,11 @@ after_half = partial(same_fields, lambda p: p[::-1, ::-1], _rotate_shear_half, n
 
 
 def on_rings_apart(one: Any, other: Any) -> float:
-    """Compute the largest difference of pressure, approach and radial shear after an exchange of
-    bodies.
+    """Compute the difference of two axisymmetric results after an exchange of the bodies [1].
 
-    The results are those of the radial solver or of finite elements. The radial shear has opposite
-    signs in the two results.
+    The exchange reverses the sign of the radial shear. The result is the largest difference of
+    pressure, approach and radial shear over all increments, from the radial solver or finite
+    elements.
     """
 
     def outward(increment: Any) -> Any:
@@ -722,7 +802,13 @@ def on_rings_apart(one: Any, other: Any) -> float:
 
 
 def exchanged_bodies(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of exchanged bodies: the lower body becomes the indenter."""
+    """Create the verification case of a ball and a lower body that exchange their materials.
+
+    A reflection maps one contact to the other, so that the results must be equal. Cells, finite
+    elements and the radial solver are judged.
+
+    level  amount of computation: quick, standard or full
+    """
     source = (
         "a reflection in the contact plane exchanges the bodies and reverses the tangential "
         "force, and half a turn about z reverses it back; the gap does not depend on which body "
@@ -793,11 +879,16 @@ def _load_vector(increment: Any, name: str) -> Field:
 
 
 def off_the_way(scene: Scene, result: Any) -> float:
-    """Compute the largest deviation of the prescribed loads or motions of all increments from the
-    ramp.
+    """Compute by how much the prescribed quantity of the increments deviates from the linear ramp
+    [1].
 
-    The first step starts at zero and is uniform in the contact radius: the force on a ball grows
-    with the third power of the fraction of the step.
+    The prescribed quantity of a load step is a force, moment or displacement. Its value at each
+    increment must lie on the line from the start to the end of the step. In the first load step the
+    normal force is that of a contact radius that grows linearly. The deviation is relative to the
+    larger end value.
+
+    scene   scene with the load steps
+    result  result with all increments
     """
     off = 0.0
     for number, step in enumerate(scene.loading, start=1):
@@ -828,7 +919,10 @@ def led_histories(level: Level = Level.QUICK) -> Case:
     """Create the verification case of load steps that alternate between force and displacement
     control.
 
-    The end of every increment and the number of increments are judged.
+    Judged are the prescribed quantity in every increment and the number of increments. While the
+    ball is pressed, force and approach are compared with Hertz theory.
+
+    level  amount of computation: quick, standard or full
     """
     ball, limit = paper.paraboloid(NU_ZERO), FRICTION * NORMAL_FORCE
     punch = FlatPunch(radius=HERTZ.contact_radius, material=NU_ZERO)
@@ -931,9 +1025,13 @@ def led_histories(level: Level = Level.QUICK) -> Case:
 
 
 def fem_far_field(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the far field of finite elements.
+    """Create the verification case of the boundary of the finite element mesh far from the contact.
 
-    The loads are a normal force, a tangential force and a torque.
+    A flat punch under normal force, tangential force and torque is solved on a small and a large
+    mesh. The motions must agree, because the boundary moves as a half-space under the resultant
+    load.
+
+    level  amount of computation: quick, standard or full
     """
     near, far = 5.0, 100.0  # box over radius
     push = LoadStep(tangential_force=(100.0, 0.0), increments=1)  # with µ = 1 nothing slips

@@ -1,5 +1,8 @@
-"""Cases of cone, flat punch and tilted indenters: infinite pressures at apex and rim, and
-moments."""
+"""Verification cases of cones, flat punches, and indenters under a moment.
+
+The pressure is infinite below the apex of the cone and at the rim of the punch. Moments tilt the
+indenter or let it roll.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +60,13 @@ if TYPE_CHECKING:
 
 
 def cone_contact(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a cone on a half-space, with a logarithmic pressure peak."""
+    """Create the verification case of a cone on a half-space, whose pressure is infinite at the
+    apex.
+
+    Approach, contact radius and pressure on cells are compared with the closed form.
+
+    level  amount of computation: quick, standard or full
+    """
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     grids = on_cells(CONE, cells)
     rows = (
@@ -93,8 +102,13 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
 
 
 def flat_punch(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a flat punch on a half-space, with infinite pressure at the
-    rim."""
+    """Create the verification case of a flat punch on a half-space, whose pressure is infinite at
+    the rim.
+
+    Approach and central pressure on cells are compared with the closed form.
+
+    level  amount of computation: quick, standard or full
+    """
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     grids = on_cells(PUNCH, cells, PUNCH_WINDOW)
     rows = (
@@ -129,10 +143,13 @@ TILTED = TiltedPunch(PUNCH_RADIUS, paper.CONTACT_MODULUS, NORMAL_FORCE, ECCENTRI
 
 
 def _vector_component(name: str, axis: int, result: Any, *_: Any) -> float:
-    """Return a component of a vector quantity at the end of the last step; NaN if it is missing.
+    """Return one component of a vector quantity at the end of the last load step.
 
-    name  name of the quantity
-    axis  index of the component
+    The result is NaN if the increment does not have the quantity.
+
+    name    name of the quantity, such as "tilt"
+    axis    index of the component
+    result  result of a solver
     """
     vector = getattr(result.steps[-1], name)
     return float("nan") if vector is None else float(vector[axis])
@@ -143,9 +160,13 @@ def _exact_slope(axis: int, exact: Any) -> float:
 
 
 def _inner_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the largest relative pressure error of a flat punch within half its radius.
+    """Compute the largest relative pressure error of a flat punch within half its radius [1].
 
-    The rim, where the pressure is infinite, is excluded.
+    The pressure is infinite at the rim, where cells have no useful value.
+
+    result   result on cells
+    step     index of the load step
+    problem  problem with the exact pressure
     """
     x, y = result.grid.coordinates()
     inside = np.hypot(x, y) < 0.5 * PUNCH_RADIUS
@@ -154,8 +175,11 @@ def _inner_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def _stiffness_difference(one: Any, other: Any) -> float:
-    """Compute the largest relative difference of normal and tilting stiffnesses of two final
-    states."""
+    """Compute the largest relative difference of the stiffnesses of two flat punches [1].
+
+    The stiffnesses are normal force over approach and moments over tilts, at the end of the last
+    step.
+    """
 
     def of(result: Any) -> np.ndarray:
         end = result.steps[-1]
@@ -165,7 +189,14 @@ def _stiffness_difference(one: Any, other: Any) -> float:
 
 
 def tilted_punch(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a flat punch that is tilted by an eccentric force."""
+    """Create the verification case of a flat punch that is tilted by an eccentric normal force, on
+    cells.
+
+    Tilt, approach and pressure are compared with the closed form. Prescribed moment and prescribed
+    tilt must give equal stiffnesses.
+
+    level  amount of computation: quick, standard or full
+    """
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
     forced, tilted = (
         paper.frictionless(title, punch, STEEL, step)
@@ -243,12 +274,15 @@ ROLLED = "an identity of the discrete equations: the error is the tolerance of t
 
 
 def _shifted_field_difference(beside: Result, centred: Result) -> float:
-    """Compute the largest difference of tractions between an eccentric and a centred ball.
+    """Compute the largest traction difference between an eccentrically and a centrally loaded ball
+    [1].
 
-    The tractions of the centred ball are shifted by whole cells.
+    The ball rolls until the contact lies below the force. Its tractions must be those of the
+    central contact, shifted by whole cells. Differences are over the peak pressure, and µ times it
+    for the shear.
 
-    beside   result of the eccentric ball
-    centred  result of the centred ball
+    beside   result of the ball with the eccentric force
+    centred  result of the ball with the central force
     """
     one, other = beside.steps[-1], centred.steps[-1]
     pressure = np.roll(other.pressure, MOVED, axis=(0, 1))
@@ -261,9 +295,12 @@ def _shifted_field_difference(beside: Result, centred: Result) -> float:
 
 
 def eccentric_ball(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of a ball with an eccentric force.
+    """Create the verification case of a ball under an eccentric normal force, on cells.
 
-    The ball rolls until the contact is below the force.
+    The ball rolls until the contact lies below the force. Motion and tractions must be those of a
+    central contact that is shifted by whole cells.
+
+    level  amount of computation: quick, standard or full
     """
     cells, increments = 64 if level is Level.QUICK else 128, 5
     source = "x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: a tilted paraboloid is a shifted paraboloid"
@@ -347,9 +384,15 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
 
 
 def _mid_pressure_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the largest relative pressure error of finite elements away from apex and edge.
+    """Compute the largest relative pressure error of finite elements between apex and edge of a
+    cone [1].
 
-    The rings lie between 0.2 and 0.8 of the contact radius.
+    The rings lie between 0.2 and 0.8 of the contact radius, because the pressure is infinite at the
+    apex and falls to zero at the edge.
+
+    result   finite element result
+    step     index of the load step
+    problem  problem with the exact pressure
     """
     end = result.steps[step]
     part = end.radii / problem.radius
@@ -359,9 +402,12 @@ def _mid_pressure_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def fem_classical(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of cone and flat punch by finite elements.
+    """Create the verification case of a cone and a flat punch by finite elements.
 
-    Above the quick level the order of the central pressure is judged in addition.
+    Approach, contact radius and pressure are compared with closed forms. The order of convergence
+    of the central pressure of the punch is judged above the quick level.
+
+    level  amount of computation: quick, standard or full
     """
     why = "set by hand at 64 elements per radius, on other meshes scaled by the order"
     rim = "the error of hat functions at the infinite pressure of the rim has an energy of O(h)"

@@ -1,5 +1,8 @@
-"""Cases of tangential loading into partial slip and gross slip: ball and cone, by cells and
-harmonics."""
+"""Verification cases of a growing tangential force: partial slip and gross slip.
+
+Ball and cone are solved on cells, and the ball and a bonded disc by finite elements with angular
+harmonics.
+"""
 
 from __future__ import annotations
 
@@ -91,16 +94,18 @@ ACROSS = "slip across the load"
 
 @dataclass(frozen=True)
 class PointsRun(SectionRun):
-    """Finite element run with Coulomb's law at two sets of points on the rings.
+    """Finite element run that applies Coulomb's law as a vector law at points on the rings.
 
-    One set contains points on the line of the load, the other lies halfway between. The result is
-    that of the first set, with the mean stick area of both sets, because the errors of the stick
-    area by sectors have opposite signs. Coulomb's law is a vector law even if the plan neglects
-    slip across the load.
+    The contact is solved for two sets of points: one with points on the line of the load, one
+    halfway between. The result is that of the first set. Its stick area is the mean of both sets,
+    because the errors of the stick area have opposite signs.
     """
 
     def solve(self) -> Result:
-        """Solve on both sets of points; raises the exceptions of `fem_reference.solve`."""
+        """Solve the scene for both sets of points and return the result with the mean stick area.
+
+        Raises the exceptions of `fem_reference.solve`.
+        """
         scene, discretisation = self.scene, self.discretisation
         decided = _with_vector_law(plan(scene))
         radius = meshed_radius(scene, discretisation.contact_radius)
@@ -130,9 +135,12 @@ def _with_vector_law(decided: Plan) -> Plan:
 def _count_factorizations(
     model: ContactModel, increments: Iterator[Increment]
 ) -> Iterator[Increment]:
-    """Yield the increments with their numbers of sparse factorisations on both sets of points.
+    """Yield the increments of a run, each with its number of sparse matrix factorisations.
 
-    The number is counted as in `fem_reference.solve` and does not depend on the cache of matrices.
+    Both sets of points are counted. The number does not depend on matrices in the cache.
+
+    model       finite element contact model, which counts the factorisations
+    increments  increments, which are solved when they are requested
     """
     counted = 0
     for increment in increments:
@@ -167,11 +175,13 @@ SLIP = error_norm(
 
 
 def _stop_rows(step: int, part: float) -> tuple[Row, ...]:
-    """Return the rows of quantities of the ball that are judged at the end of a tangential load
-    step.
+    """Return the rows of the ball at the end of one tangential load step: quantities and
+    tolerances.
+
+    The quantities are shear, stick radius, shift and slip.
 
     step  index of the load step
-    part  tangential force over µW
+    part  tangential force over the friction limit µW
     """
     return (
         Within(
@@ -192,13 +202,15 @@ def _stop_rows(step: int, part: float) -> tuple[Row, ...]:
 
 
 def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
-    """Create the verification case of a ball under constant normal and growing tangential force, ν
-    = 0.
+    """Create the verification case of a ball under constant normal and growing tangential force, on
+    cells.
 
-    Orders of mean errors are judged above the quick level. At the quick level the order of the
-    shear is determined from coarse grids in several positions.
+    For ν = 0 the solution of Cattaneo and Mindlin is exact. Judged are shear, slip, stick radius,
+    shift and dissipated energy, and the orders of convergence. At the quick level the order of the
+    shear is computed from coarse grids that are shifted relative to the contact.
 
-    cells  numbers of cells per side, in place of those of the level; without shifted grids
+    level  amount of computation: quick, standard or full
+    cells  numbers of cells per side; default: those of the level, with shifted grids
     """
     most = {Level.QUICK: 128, Level.STANDARD: 256, Level.FULL: 512}[level]
     grids = on_cells(CATTANEO, cells or refinement(32, most))
@@ -264,7 +276,7 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
 
 
 def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
-    """Return the curves of computed and exact shear at the ends of several load steps.
+    """Describe the chart curves of the computed and the exact shear q_x at the ends of load steps.
 
     stops  tangential force over µW, by index of the load step
     """
@@ -277,9 +289,11 @@ def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
 
 
 def _under_cone(*parts: float) -> Problem:
-    """Create the problem of a cone with ν = 0 under tangential forces.
+    """Create the problem of a cone under growing tangential forces, with ν = 0.
 
-    parts  tangential forces at the ends of the load steps, over µW
+    The exact shear is µ times the difference of two cone pressures.
+
+    parts  tangential forces at the ends of the load steps, over the friction limit µW
     """
 
     def pressed(load: float) -> ConeContact:
@@ -310,9 +324,13 @@ def _under_cone(*parts: float) -> Problem:
 
 
 def sheared_cone(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of partial slip below a cone.
+    """Create the verification case of a cone under growing tangential force, on cells.
 
-    At the quick level the order is determined from coarse grids in several positions.
+    Shear, stick radius and shift in partial slip are compared with the closed form. At the quick
+    level the order of convergence is computed from coarse grids that are shifted relative to the
+    contact.
+
+    level  amount of computation: quick, standard or full
     """
     cells, stops = refinement(32, 128 if level is Level.QUICK else 256), {1: 0.4, 2: 0.8}
     followed = grids = on_cells(_under_cone(*stops.values()), cells)
@@ -357,12 +375,14 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
 
 
 def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
-    """Create the verification case of a tangential force just below the limit, and of gross slip.
+    """Create the verification case of tangential forces just below the friction limit, and of gross
+    slip.
 
-    Gross slip is caused by a prescribed shift. For ν > 0 the closed form of the shift is not exact
-    and not judged.
+    For ν = 0 the shift is compared with the closed form. In gross slip under a prescribed shift the
+    tangential force must equal the friction limit µW.
 
-    cells  numbers of cells per side, in place of those of the level
+    level  amount of computation: quick, standard or full
+    cells  number of cells per side; 0: that of the level
     """
     cells = cells or (64 if level is Level.QUICK else 128)
     materials = {"ν = 0": NU_ZERO, "ν = 0.3": STEEL}
@@ -417,7 +437,13 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
 
 
 def _sliding_problem(material: IsotropicMaterial) -> Problem:
-    """Create the problem of a ball that is shifted beyond the onset of gross slip."""
+    """Create the problem of a ball with prescribed tangential shifts up to 5 times that of gross
+    slip.
+
+    The exact answer is the tangential force µW.
+
+    material  material of both bodies
+    """
     beyond, at_sliding = 5.0, paper.partial_slip(material, 0.0).sliding_shift
     scene = paper.frictional(
         f"Dragged to {beyond:g} sliding shifts, ν = {material.poisson_ratio:g}",
@@ -444,15 +470,20 @@ PUNCH, PUNCH_FORCE = 5e-3, 10.0
 
 @dataclass(frozen=True)
 class StuckDisc:
-    """Exact final state of a bonded disc under a tangential force: its shift [length]."""
+    """Hold the exact answer of a bonded disc under a tangential force on an incompressible
+    half-space.
+
+    shift  tangential shift of the disc [length]
+    """
 
     shift: float = (2 - 0.5) * PUNCH_FORCE / (8 * RUBBER.shear_modulus * PUNCH)
 
 
 def shear_at_points(end: Any) -> tuple[Any, Any]:
-    """Evaluate the shear components q_x and q_y (rings, angles) of a finite element increment.
+    """Compute the shear components q_x and q_y of a finite element increment at all points on the
+    rings.
 
-    The tangential force acts along x.
+    The tangential force acts along x. Each result has the shape (rings, angles).
     """
     r, theta = np.meshgrid(end.radii, end.angles, indexing="ij")
     q, _ = tractions_at(end, r * np.cos(theta), r * np.sin(theta))
@@ -460,9 +491,14 @@ def shear_at_points(end: Any) -> tuple[Any, Any]:
 
 
 def _shear_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the shear error ∫|q - q_exact| dA / µW of finite elements with mirror symmetry.
+    """Compute the shear error ∫|q - q_exact| dA / µW of a finite element result at the end of a
+    load step.
 
-    The integral is computed by the trapezium rule in r and θ.
+    The shear is symmetric about the x axis and integrated by the trapezium rule in r and θ.
+
+    result   finite element result with angular harmonics
+    step     index of the load step
+    problem  problem with the exact shear
     """
     end = result.steps[step]
     q_x, q_y = shear_at_points(end)
@@ -483,9 +519,14 @@ def _points_level(of: str, problem: Problem, elements: int, over: float) -> Refi
 
 
 def fem_harmonics(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of tangential loading by finite elements with many harmonics.
+    """Create the verification case of tangential loading by finite elements with 8 angular
+    harmonics.
 
-    Coulomb's law holds at points on the rings.
+    Coulomb's law is applied as a vector law at points on the rings. Shift, shear and stick radius
+    of a ball are compared with the solution of Cattaneo and Mindlin, and the shift of a bonded disc
+    with its closed form.
+
+    level  amount of computation: quick, standard or full
     """
     cusp, rim = 1.5, 1.0  # orders with which errors fall
     shear = error_norm("shear", "∫|q - q_exact| dA / µW{when}", _shear_error, "µW")

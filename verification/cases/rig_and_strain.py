@@ -1,5 +1,8 @@
-"""Cases of fretting loops with a test rig of finite stiffness, and of contacts on a strained
-body."""
+"""Verification cases of a test rig of finite stiffness, and of contacts on a strained body.
+
+The rig is a spring in series with the tangential load of a fretting loop. The bulk strain of the
+lower body acts along the surface.
+"""
 
 from __future__ import annotations
 
@@ -56,14 +59,16 @@ from verification.references import load_reference
 
 @dataclass(frozen=True)
 class EccentricContact:
-    """Exact state of a contact whose tangential force T and bulk strain ε have grown in proportion.
+    """Hold the exact state of an elliptical contact under a tangential force T and a bulk strain ε.
 
-    The stick zone is then eccentric. Fields are functions of x and y.
+    T and ε have grown in proportion from zero. The centre of the stick zone is then shifted along
+    x. Both materials have ν = 0. Fields are functions of x and y.
 
-    contact           normal contact, for the modulus E*, which is also the tangential modulus
+    contact           normal contact with the contact modulus E*, which is also the tangential
+                      modulus
     friction          coefficient of friction µ
     tangential_force  T along x [force]
-    strain            ε of the lower body along x
+    strain            strain ε of the lower body along x
     """
 
     contact: EllipticalContact
@@ -77,19 +82,23 @@ class EccentricContact:
 
     @property
     def stick(self) -> EllipticalContact:
-        """Normal contact under the reduced load W - T/µ, whose ellipse is the stick zone."""
+        """Normal contact under the reduced load W - T/µ; the ellipse of this contact is the stick
+        zone.
+        """
         load = self.contact.load - self.tangential_force / self.friction
         modulus = self.contact.contact_modulus
         return EllipticalContact.under_load(load, self.contact.radii, modulus)
 
     @property
     def eccentricity(self) -> float:
-        """Distance of the centre of the stick zone from the contact centre along x [length]."""
+        """Distance of the centre of the stick zone from the centre of the contact, along x
+        [length].
+        """
         return self.strain * self.contact.radii[0] / self.friction
 
     @property
     def shift(self) -> float:
-        """Tangential shift of the indenter [length]."""
+        """Tangential shift of the indenter along x [length]."""
         drawn = 0.5 * self.strain * self.eccentricity
         return self.friction * (self.contact.approach - self.stick.approach) + drawn
 
@@ -107,10 +116,10 @@ class EccentricContact:
 
     @property
     def dissipated_energy(self) -> float:
-        """Energy ∫ µp s dA dissipated by the slip s, which is µ times the gap of the stick contact.
+        """Energy ∫ µp s dA that friction dissipates by the slip s [force*length].
 
-        The integral follows from the reciprocity of the two contacts and ∫ p x² dA = W a²/5 [force
-        length].
+        The slip is µ times the gap of the normal contact that has the stick zone as contact area.
+        The integral follows from the reciprocity of the two contacts and ∫ p x² dA = W a²/5.
         """
         whole, stick, e = self.contact, self.stick, self.eccentricity
         (R_x, R_y), lost = whole.radii, 0.0
@@ -131,7 +140,10 @@ ON_ALL = 1e-3
 
 @dataclass(frozen=True)
 class Sprung:
-    """Exact state of a Hertz contact in series with a spring (Mindlin and Deresiewicz).
+    """Hold the exact state of a Hertz contact whose tangential load acts through a spring.
+
+    The contact follows Mindlin and Deresiewicz, for ν = 0. The spring represents a test rig of
+    finite stiffness between actuator and indenter.
 
     state  state of the contact under its tangential force
     """
@@ -140,12 +152,14 @@ class Sprung:
 
     @property
     def tangential_force(self) -> float:
-        """Tangential force T [force]."""
+        """Tangential force T of contact and spring [force]."""
         return self.state.tangential_force
 
     @property
     def shift(self) -> float:
-        """Tangential shift of the indenter, without the spring [length]."""
+        """Tangential shift of the indenter; the extension of the spring is not included
+        [length].
+        """
         return self.state.shift
 
     @property
@@ -155,16 +169,19 @@ class Sprung:
 
     @property
     def loaded_force(self) -> float:
-        """Magnitude of the current tangential force, the maximum of the loop [force]."""
+        """Magnitude of the current tangential force, which is the maximum of the loop [force]."""
         return abs(self.tangential_force)
 
     @property
     def loaded(self) -> PartialSlip:
-        """State of a first loading to this force."""
+        """State of the contact if the force had grown from zero to the current magnitude."""
         return replace(self.state.virgin, tangential_force=self.loaded_force)
 
     def moved_to(self, actuator: float) -> Sprung:
-        """Compute the state after the actuator has moved to another shift [length]."""
+        """Compute the state of contact and spring after the actuator has moved to another shift.
+
+        actuator  shift of the actuator: shift of the indenter plus extension of the spring [length]
+        """
 
         def missed(force: float) -> float:
             return self.state.loaded_to(force).shift + force / STIFFNESS - actuator
@@ -198,8 +215,14 @@ FORCE = number(
 
 
 def _work_at_contact(result: Any, step: int, _: Problem) -> float:
-    """Compute the stored and dissipated energy since indentation, over µW times the sliding shift
-    [1]."""
+    """Compute the energy stored and dissipated by the tangential loading of a result [1].
+
+    The energy is elastic plus dissipated energy since the end of the normal loading, over µW times
+    the tangential shift at gross slip.
+
+    result  result of any solver
+    step    index of the load step, up to whose end the energy is taken
+    """
     start, end = result.steps[0], result.steps[step]
     spent = [x.elastic_energy + (x.dissipated_energy or 0.0) for x in (start, end)]
     return float((spent[1] - spent[0]) / (FRICTION_LIMIT * SLIDING_SHIFT))
@@ -208,7 +231,8 @@ def _work_at_contact(result: Any, step: int, _: Problem) -> float:
 def _work_observable() -> Observable:
     """Create the observable of the work that the tangential force does on the contact.
 
-    The work on the spring is excluded.
+    The work on the spring of the rig is excluded. The work is divided by µW times the tangential
+    shift at gross slip.
     """
     return Observable(
         "work_at_contact", "work of T on the contact until the end, over µW and its shift", "",
@@ -217,9 +241,12 @@ def _work_observable() -> Observable:
 
 
 def _exact_work(end: Sprung) -> float:
-    """Compute the exact work on the contact, over µW times the sliding shift [1].
+    """Compute the exact work of the tangential force on the contact at the end of the loop [1].
 
-    It is the energy stored in the first loading, plus all dissipation.
+    The work is the elastic energy of the first loading plus the energy that all load steps
+    dissipate. The unit is µW times the tangential shift at gross slip.
+
+    end  exact state at the end of the load step
     """
     loaded = end.loaded
     # ∫ T dδ of first loading: with y = c/a, T = µW (1 - y³), δ = s (1 - y²).
@@ -230,14 +257,20 @@ def _exact_work(end: Sprung) -> float:
 
 
 def once_lost(loaded: PartialSlip) -> float:
-    """Compute the dissipation of a first loading, over µW times the sliding shift [1]."""
+    """Compute the energy that friction dissipates while the tangential force grows from zero [1].
+
+    The energy is divided by µW times the tangential shift at gross slip. A full fretting cycle
+    dissipates four times this energy.
+
+    loaded  state of partial slip at the end of the growth
+    """
     return float(loaded.dissipated_energy / (FRICTION_LIMIT * SLIDING_SHIFT))
 
 
 def _loop_observable(name: str) -> Observable:
-    """Create the observable of a number of the fretting loop that fretting tests report.
+    """Create the observable of one number by which fretting tests describe a hysteresis loop.
 
-    name  name of the number, such as "loop_opening"
+    name  "loop_opening", "energy_ratio", "energy_friction" or "gross_slip_share"
     """
 
     def measure(result: Any, *_: Any) -> float:
@@ -261,7 +294,13 @@ def _loop_observable(name: str) -> Observable:
 
 def series_spring(level: Level = Level.QUICK) -> Case:
     """Create the verification case of a fretting loop with a rig of finite stiffness, by all
-    solvers."""
+    solvers.
+
+    Force, shift, dissipated energy and loop numbers are compared with the closed form of a contact
+    in series with a spring, for ν = 0.
+
+    level  amount of computation: quick, standard or full
+    """
     problem = _spring_loop_problem()
     why = "set by hand: the error of 64 x 64 cells, 16 elements or 24 rings for a loop of 0.87 "
     "µW"
@@ -302,11 +341,12 @@ ECCENTRICITY, SHEARED = 0.14, 0.5
 
 
 def eccentric(name: str) -> Problem:
-    """Create the problem of a bulk strain that grows in proportion to the tangential force.
+    """Create the problem of a bulk strain of the lower body that grows in proportion to a
+    tangential force.
 
-    Both act along x.
+    Both act along x. The exact stick zone is eccentric.
 
-    name  name of the indenter shape
+    name  shape of the indenter: "ball", "barrel across" or "barrel along"
     """
     radii = SHAPES[name]
     contact = EllipticalContact.under_load(paper.NORMAL_FORCE, radii, paper.CONTACT_MODULUS)
@@ -331,8 +371,13 @@ def eccentric(name: str) -> Problem:
 
 
 def _centre_of_stick(result: Any, step: int, problem: Problem) -> float:
-    """Compute the position error of the centre of the stick zone along x, over the semi-axis
-    [1]."""
+    """Compute the position error of the centre of the stick zone along x, over the contact
+    semi-axis [1].
+
+    result   result on cells
+    step     index of the load step
+    problem  problem with the exact eccentricity of the stick zone
+    """
     end, (x, _) = result.steps[step], result.grid.coordinates()
     centre = float(x[end.in_stick].mean())
     return (centre - problem.ends[step].eccentricity) / problem.radius
@@ -344,10 +389,14 @@ CENTRE = error_norm(
 
 
 def eccentric_contact(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the eccentric stick zone under force and strain in
-    proportion.
+    """Create the verification case of a contact under a tangential force and a bulk strain, on
+    cells.
 
-    Orders of convergence are judged.
+    Force and strain grow in proportion, so that the stick zone is eccentric. Shear, shift, energy,
+    size and centre of the stick zone are compared with the closed form. The order of convergence of
+    the shear is judged.
+
+    level  amount of computation: quick, standard or full
     """
     most = {Level.QUICK: 128, Level.STANDARD: 192, Level.FULL: 256}[level]
     edges = f"{SQUARE_ROOTS}: an error of O(√h) on rings one cell wide leaves O(h^3/2) in L1"
@@ -392,10 +441,10 @@ HARD = IsotropicMaterial(young_modulus=2 * paper.STEEL.young_modulus, poisson_ra
 
 @dataclass(frozen=True)
 class Strained:
-    """Exact state of a pressed ball on a body with an equibiaxial bulk strain.
+    """Hold the reference answer of a pressed ball on a body that is strained equally along x and y.
 
-    stick_radius       [length]
-    dissipated_energy  [force length]
+    stick_radius       radius of the stick zone [length]
+    dissipated_energy  energy dissipated by friction [force*length]
     """
 
     stick_radius: float
@@ -403,9 +452,11 @@ class Strained:
 
 
 def _coated_strain_problem() -> Problem:
-    """Create the problem of a frictionless coated contact that is pressed and then strained.
+    """Create the problem of a frictionless coated contact that is pressed and then strained along
+    x.
 
-    The strain does not change the pressure.
+    The strain does not change the pressure. The exact answer is the change of the stress in layer
+    and base.
     """
     layer = Layer(thickness=0.2e-3, material=HARD)
     scene = paper.frictionless(
@@ -427,9 +478,10 @@ def _coated_strain_problem() -> Problem:
 
 
 def _added_stress(layer: int) -> Observable:
-    """Create the observable of the change of σ_xx on the axis that a bulk strain causes.
+    """Create the observable of the change of σ_xx below the contact centre that a bulk strain
+    causes.
 
-    layer  0 for the layer, 1 for the base
+    layer  0 for the stress in the layer, 1 for the stress in the base
     """
 
     def measure(result: Any, step: int, _: Problem) -> float:
@@ -447,9 +499,13 @@ def _added_stress(layer: int) -> Observable:
 
 
 def strained_ball(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of an equibiaxial strain of the body below a pressed ball.
+    """Create the verification case of an equal strain along x and y of the body below a pressed
+    ball.
 
-    All solvers and contact laws are included.
+    Stick radius and dissipated energy of all solvers and contact methods are compared with stored
+    reference numbers. The stress that a strain adds in a coated body is judged as well.
+
+    level  amount of computation: quick, standard or full
     """
     known = load_reference("strained_ball")
     exact = Strained(known["stick_radius"] * HERTZ.contact_radius, known["dissipated_energy"])

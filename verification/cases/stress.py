@@ -1,5 +1,7 @@
-"""Cases of subsurface stress: sliding, twisted and sheared contacts, contact edges and
-interfaces."""
+"""Verification cases of the stress below sliding, twisted and tangentially loaded contacts.
+
+The stress at contact edges and at interfaces of layers is included.
+"""
 
 from __future__ import annotations
 
@@ -74,14 +76,23 @@ FILMED = Body(material=STEEL, layers=(Layer(thickness=0.5 * A, material=STIFFER)
 
 
 def _largest_over_peak(error: Any) -> float:
-    """Compute the largest magnitude of stress errors, over the peak pressure p₀."""
+    """Compute the largest absolute value of stress errors, over the peak pressure p₀ [1].
+
+    error  differences of stress components [force/length²]
+    """
     return float(np.max(np.abs(error)) / P0)
 
 
 @cache
 def _hertz_tractions(cells: int) -> tuple[Field, Field]:
-    """Return the Hertz pressure at the cell centres of a grid, and the shear of gross slip along
-    x."""
+    """Return the exact tractions of a Hertz contact that slides along x, at the cell centres of a
+    grid.
+
+    The tractions are the pressure (n, n) and the shear (2, n, n) [force/length²]. The shear is 0.3
+    times the pressure.
+
+    cells  number n of cells per side
+    """
     x, y = hertz_grid(cells).coordinates()
     p = np.asarray(HERTZ.pressure(np.hypot(x, y)))
     return p, np.stack([SLIDING * p, np.zeros_like(p)])
@@ -97,9 +108,13 @@ def _stress_section(cells: int, sliding: bool) -> SubsurfaceField:
 
 @cache
 def _axis_errors(cells: int) -> Field:
-    """Compute the errors of σ_zz and σ_xx under pressure alone and of σ_xz with shear, on the axis.
+    """Compute the stress errors below the contact centre at five depths, from Hertz tractions on
+    cells.
 
-    The depths are those of AXIS.
+    The columns of the result (5, 3) are the errors of σ_zz and σ_xx under pressure, and of σ_xz
+    under pressure and shear [force/length²].
+
+    cells  number of cells per side
     """
     exact = axis_stress(AXIS * A, A, P0, NU)
     still, sliding = (
@@ -119,8 +134,12 @@ def _off_axis_error() -> float:
 
 
 def _sliding_stress_error() -> float:
-    """Compute the largest error of all stress components at every 16th cell, at two depths, over
-    p₀."""
+    """Compute the largest stress error below a sliding Hertz contact on 256 × 256 cells, over p₀
+    [1].
+
+    All six components are compared with Hamilton's solution below every 16th cell along each side,
+    at depths of 0.5 and 1 contact radii.
+    """
     depths = np.array((0.5, 1.0)) * A
     found = subsurface(
         Body(material=STEEL), hertz_grid(256), *_hertz_tractions(256), depths.tolist()
@@ -140,7 +159,10 @@ def _sliding_stress_error() -> float:
 
 @cache
 def _coated_stress() -> SubsurfaceField:
-    """Compute the stress of a coated body on both sides of its interface and at the surface."""
+    """Compute the stress of a coated body under the tractions of a sliding Hertz contact.
+
+    The depths are the two sides of the interface and the surface.
+    """
     ((above, below),) = interfaces(FILMED)
     return subsurface(FILMED, hertz_grid(64), *_hertz_tractions(64), [above, below, 0.0])
 
@@ -153,10 +175,10 @@ def _interface_jump() -> float:
 
 
 def _in_plane_jump() -> float:
-    """Compute the error of σ_xx above an interface, over p₀.
+    """Compute the error of the jump of σ_xx at the interface of a coated body, over p₀ [1].
 
-    The reference follows from the in-plane strains and σ_zz below the interface, which are
-    continuous.
+    In-plane strains and σ_zz are continuous at the interface. The computed σ_xx above the interface
+    is compared with the value that follows from the stress below.
     """
     above, below = _coated_stress().stress[:2]
     xx, yy, zz = below[XX], below[YY], below[ZZ]
@@ -175,7 +197,11 @@ def _surface_traction_error() -> float:
 
 def subsurface_stress(level: Level = Level.QUICK) -> Case:
     """Create the verification case of the stress below a sliding ball and at the interface of a
-    coating."""
+    coating.
+
+    The stress from exact tractions on cells is compared with the closed forms of Huber and
+    Hamilton, and with continuity at the interface. All levels are equal.
+    """
     closed: tuple[tuple[str, str, str, Callable[[], float]], ...] = (
         ("hertz_axis", "largest error of σ_zz and σ_xx on the axis, over p₀",
          "Huber 1904; Johnson 1985, ch. 3.4", lambda: _largest_over_peak(_axis_errors(256)[:, :2])),
@@ -233,23 +259,40 @@ MOST = FRICTION * P0
 
 
 def _shifted_hertz_grid(cells: int) -> ShiftedGrid:
-    """Create a grid that is shifted by a fraction of a cell, so that the contact edge cuts cells
-    differently."""
+    """Create a grid of cells whose centre is not the contact centre.
+
+    The contact edge then cuts the cells in many ways, as in the general case.
+
+    cells  number of cells per side
+    """
     of = hertz_grid(cells)
     return ShiftedGrid(of.cells, of.window, (0.31, 0.17))
 
 
 def _sliding_edge_stress(body: Body, grid: SurfaceGrid, pressure: Field) -> NearEdge:
-    """Compute the stress near the contact edge of a ball in gross slip along x.
+    """Compute the stress near the contact edge of a ball in gross slip along x, from tractions on
+    cells.
 
-    pressure  pressure on the cells of the grid [force/length²]
+    The result corrects the stress for the square-root edge of the tractions.
+
+    body      lower body
+    grid      grid of cells
+    pressure  pressure on the cells [force/length²]
     """
     shear = np.stack([FRICTION * pressure, np.zeros_like(pressure)])
     return near_edge(stack_of(body), grid, pressure, shear)
 
 
 def _trailing_edge_tension_on_cells(body: Body, indenter: Paraboloid, cells: int) -> float:
-    """Compute the largest tensile stress at the edge of a sliding contact under 1 kN, over p₀."""
+    """Compute the largest tensile stress at the edge of a sliding contact under 1 kN, over p₀ [1].
+
+    The pressure is solved on cells; the shear is µ times the pressure. p₀ is the peak pressure of
+    Hertz theory.
+
+    body      lower body
+    indenter  ball
+    cells     number of cells per side
+    """
     grid = _shifted_hertz_grid(cells)
     result = semi_analytical.solve(pressed("Sliding", indenter, body), grid, 1e-8)
     found = _sliding_edge_stress(body, grid, result.steps[-1].pressure)
@@ -258,9 +301,11 @@ def _trailing_edge_tension_on_cells(body: Body, indenter: Paraboloid, cells: int
 
 @cache
 def _exact_edge() -> NearEdge:
-    """Compute the stress near the contact edge from exact cell means of the Hertz pressure.
+    """Compute the stress near the edge of a sliding contact from exact cell means of the Hertz
+    pressure.
 
-    The means are computed with 16 Gauss points per side of a cell.
+    Errors of the solver are thus excluded, and only the stress evaluation is judged. The means are
+    computed with 16 Gauss points per side of a cell.
     """
     grid = _shifted_hertz_grid(128)
     x, y = grid.coordinates()
@@ -275,10 +320,11 @@ def _exact_edge() -> NearEdge:
 
 
 def _edge_line_error() -> float:
-    """Compute the largest stress error at 32 positions within four cells of either contact edge,
-    over p₀.
+    """Compute the largest error of σ_xx on the x axis within four cells of either contact edge,
+    over p₀ [1].
 
-    The positions lie on the x axis. None is nearer to the edge than 1/8 of a cell.
+    The contact slides along x. There are 32 positions at each edge; none is nearer to the edge than
+    1/8 of a cell.
     """
     found = _exact_edge()
     beside = (np.arange(32) / 32 - 0.5 + 1 / 64) * 8 * found.grid.spacing[0]
@@ -288,8 +334,12 @@ def _edge_line_error() -> float:
 
 
 def _near_edge() -> tuple[NearEdge, Field, Field, NDArray[np.bool_]]:
-    """Return the stress near the contact edge, and positions and mask of the cells within three
-    cells of it."""
+    """Return the stress of a sliding contact near its edge, and the cells within three cells of the
+    edge.
+
+    The cells are given by their x and y coordinates (points,) [length], and by a mask (n, n) of the
+    grid.
+    """
     found = _exact_edge()
     x, y = found.grid.coordinates()
     near = np.abs(np.hypot(x, y) - A) < 3 * found.grid.spacing[0]
@@ -297,8 +347,12 @@ def _near_edge() -> tuple[NearEdge, Field, Field, NDArray[np.bool_]]:
 
 
 def _surface_error() -> float:
-    """Compute the largest stress error at cell centres near the edge under pressure alone, over
-    p₀."""
+    """Compute the largest stress error at the surface under Hertz pressure without shear, over p₀
+    [1].
+
+    All six components are compared with Huber's solution at the centres of the cells within three
+    cells of the contact edge.
+    """
     of, x, y, near = _near_edge()
     found = near_edge(of.stack, of.grid, of.tractions.cells[2], None)
     stress = found.corrected(subsurface(of.stack, of.grid, of.tractions.cells[2], None, (0.0,)))
@@ -314,8 +368,12 @@ def _surface_error() -> float:
 
 
 def _error_a_cell_below() -> float:
-    """Compute the largest stress error near the edge at a depth of one cell in gross slip, over
-    p₀."""
+    """Compute the largest stress error one cell below the surface of a sliding contact, over p₀
+    [1].
+
+    All six components are compared with Hamilton's solution below the cells within three cells of
+    the contact edge.
+    """
     found, x, y, near = _near_edge()
     depth, cells = found.grid.spacing[0], found.tractions.cells
     field = found.corrected(subsurface(found.stack, found.grid, cells[2], cells[:2], (depth,)))
@@ -326,7 +384,12 @@ def _error_a_cell_below() -> float:
 def edge_stress(level: Level = Level.QUICK) -> Case:
     """Create the verification case of the stress at the edge of a sliding contact on cells.
 
-    Tractions on cells are inaccurate there. The quick level omits two coatings and the surface.
+    Tractions that are constant on cells are inaccurate at the edge, so that the stress is corrected
+    there. The tensile stress at the trailing edge and the stress near the edge are compared with
+    closed forms.
+
+    level  amount of computation: quick, standard or full; the quick level omits two coatings and
+           the surface
     """
     required = "required of stress at the edge by the project's accuracy targets"
     own = "a tenth of the tolerance of the tensile stress at the edge: the fitted tractions are "
@@ -402,21 +465,23 @@ def _stress_below(result: Any) -> RadialBody:
 
 
 def _stress_at_points(body: RadialBody, depth: float, x: Field, y: Field) -> StressPoints:
-    """Compute the stress of a result of the radial solver at given points.
+    """Compute the stress that a result of the radial solver causes at points of one depth.
 
-    depth  depth in contact radii
-    x, y   positions in contact radii
+    body   lower body with the tractions of the result
+    depth  depth over the Hertz contact radius
+    x, y   positions (points,) over the Hertz contact radius
     """
     return body.stress_points((Depth(depth * A, 0),), A * x, A * y)
 
 
 def _partial_slip_stress_error(depth: float, result: Any, *_: Any) -> float:
-    """Compute the largest stress error of a contact in partial slip on lines along the load, over
-    p₀.
+    """Compute the largest stress error below a contact in partial slip on three lines, over p₀ [1].
 
-    The lines are 0, 0.4 and 0.8 contact radii from the axis.
+    All six components of the radial solver are compared with the difference of two Hamilton
+    solutions. The lines are parallel to the load, 0, 0.4 and 0.8 contact radii from the axis.
 
-    depth  depth in contact radii
+    depth   depth over the contact radius
+    result  result of the radial solver under 0.6 of the friction limit
     """
     x, y = (part.ravel() for part in np.meshgrid(np.linspace(-1.5, 1.5, 31), (0.0, 0.4, 0.8)))
     exact = hamilton_stress(x, y, depth, 1.0, P0, MOST, NU)
@@ -437,9 +502,13 @@ def _error_of_tension(result: Any, *_: Any) -> float:
 
 
 def _error_of_torque(result: Any, *_: Any) -> float:
-    """Compute the relative error of the torque ∫ σ_θz 2πr² dr that the stress carries in a plane.
+    """Compute the relative error of the torque that the stress below a contact in torsion transmits
+    [1].
 
-    The integration variable is r/(1 + r) between 0 and 1, with r in contact radii.
+    The torque ∫ σ_θz 2πr² dr over a horizontal plane must equal the applied torque. The integration
+    variable is r/(1 + r) between 0 and 1, with r in contact radii.
+
+    result  result of the radial solver
     """
     nodes, weights = np.polynomial.legendre.leggauss(120)
     t = (1 + nodes) / 2
@@ -449,8 +518,14 @@ def _error_of_torque(result: Any, *_: Any) -> float:
 
 
 def _tension_by_rays(result: Any, _: int, problem: Problem) -> float:
-    """Compute the tensile stress at the trailing edge of a ball in gross slip, over p₀, by ray
-    integrals."""
+    """Compute the tensile stress at the trailing edge of a ball in gross slip, over p₀ [1].
+
+    The pressure is that of the radial solver, the shear is µ times the pressure. The stress is an
+    integral along rays from the edge point.
+
+    result   result of the radial solver under normal load
+    problem  problem with the layered lower body
+    """
     end = result.steps[-1]
     nothing = np.zeros_like(end.radii)
     still = axisymmetric_circle(end.radii, end.contact_radius, nothing, nothing, end.pressure)
@@ -464,7 +539,10 @@ def _tension_by_rays(result: Any, _: int, problem: Problem) -> float:
 def radial_stress(level: Level = Level.QUICK) -> Case:
     """Create the verification case of the subsurface stress by the radial solver.
 
-    The loads are a tangential force, a torque, and gross slip on coatings.
+    The loads are a tangential force, a torque, and gross slip on coatings. The references are
+    Hamilton's solution, equilibrium of the torque, and stored tensile stresses.
+
+    level  amount of computation: quick, standard or full
     """
     pushed = replace(
         sheared("Ball pushed", (0.6,), STEEL, 6),

@@ -1,5 +1,8 @@
-"""Cases of torsion by all solvers: ball in partial slip and reversal, punch, coated balls, turning
-loads."""
+"""Verification cases of torsion by all solvers, and of tangential forces that turn.
+
+The contacts are a ball in partial slip with load reversal, a flat punch in full stick, and coated
+balls.
+"""
 
 from __future__ import annotations
 
@@ -97,7 +100,12 @@ TORQUE = number("torque", "torque at the twist of 0.9 of the limit", exact="mome
 
 
 def _shear_on_cells(result: Any, step: int, problem: Problem) -> float:
-    """Compute the shear error Σ|q - q_exact| / Σµp of a ball in torsion on cells [1]."""
+    """Compute the shear error Σ|q - q_exact| / Σµp of a ball in torsion on cells [1].
+
+    result   result on cells
+    step     index of the load step
+    problem  problem with the exact circumferential shear
+    """
     end, a = result.steps[step], problem.radius
     x, y = result.grid.coordinates()
     r = np.hypot(x, y)
@@ -107,9 +115,15 @@ def _shear_on_cells(result: Any, step: int, problem: Problem) -> float:
 
 
 def _largest_shear_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the largest relative error of the circumferential shear of the radial solver [1].
+    """Compute the largest error of the circumferential shear by the radial solver inside the
+    contact [1].
 
-    The scale is the friction limit, or for the punch the exact shear at half its radius.
+    The error is relative to the friction limit µp_H (p_H: Hertz peak pressure), or for the punch to
+    the exact shear at half its radius.
+
+    result   result of the radial solver
+    step     index of the load step
+    problem  problem with the exact shear
     """
     end, known = result.steps[step], problem.ends[step]
     scale = problem.scales.get(OVER_LIMIT) or float(known.shear(problem.radius / 2))
@@ -127,8 +141,14 @@ def _mean_shear_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def torsion(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of torsion on cells: a ball in partial slip and back, a stuck
-    punch."""
+    """Create the verification case of torsion on cells: a ball in partial slip, and a punch in full
+    stick.
+
+    Twist, stick radius, shear and, for a closed torque loop, the dissipated energy are compared
+    with closed forms.
+
+    level  amount of computation: quick, standard or full
+    """
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     balls, finest = on_cells(TWISTED, cells), cells[-1:]
     punches = on_cells(STUCK, cells[::-2][::-1], 2.2, of="stuck punch")
@@ -217,20 +237,27 @@ BALL = Paraboloid(radius=paper.RADIUS, material=BASE, layers=LAYERS)
 
 
 def _torsional_compliance(k: Field) -> Field:
-    """Compute the torsional compliance of two coated balls at wavenumbers k."""
+    """Compute the circumferential displacement per unit shear of two coated balls [length³/force].
+
+    k  wavenumbers of the shear [1/length]
+    """
     return 2 * one_layer(k, LAYERS[0].thickness, COATING.shear_modulus, BASE.shear_modulus)
 
 
 def _friction_limit(r: Field) -> Field:
-    """Compute the friction limit µp of two coated balls at distance r from the axis
-    [force/length²]."""
+    """Compute the friction limit µp of two coated balls at radii r from the exact pressure
+    [force/length²].
+    """
     return FRICTION * exact_contact(BODY, BALL).pressure(r)
 
 
 @cache
 def twisted_coated() -> Problem:
-    """Create the problem of two coated balls under a normal force and a torque that grows in
-    steps."""
+    """Create the problem of two coated balls under a normal force and a torque that grows in two
+    steps.
+
+    The answer is the solution of a Fredholm integral equation for each torque.
+    """
     normal = exact_contact(BODY, BALL)
     surface = TorsionalSurface(
         _torsional_compliance, COATING.shear_modulus / 2, LAYERS[0].thickness
@@ -257,9 +284,12 @@ def twisted_coated() -> Problem:
 
 
 def torsion_coated(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of two coated balls in torsion with partial slip.
+    """Create the verification case of two coated balls in torsion with partial slip, on cells.
 
-    Torsion is not coupled with the pressure.
+    Twist and stick radius are compared with the solution of an integral equation. Equal bodies do
+    not couple torsion and pressure.
+
+    level  amount of computation: quick, standard or full
     """
     rows = tuple(
         row
@@ -290,17 +320,22 @@ def torsion_coated(level: Level = Level.QUICK) -> Case:
 
 
 def shear_around(step: int) -> Drawn:
-    """Return the curves of computed and exact circumferential shear at the end of a load step.
+    """Describe the chart curve of the computed and the exact circumferential shear of a torsion
+    problem.
 
-    step  index of the load step
+    step  index of the load step, at whose end the shear is drawn
     """
     return Drawn(lambda end: end.shear_circumferential, lambda exact: exact.shear, step=step)
 
 
 def fem_torsion(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of torsion by finite elements.
+    """Create the verification case of torsion by finite elements: a ball in partial slip, a stuck
+    punch.
 
-    The contact edge has several positions in its element.
+    Twist, stick radius and shear are compared with closed forms, on meshes with several positions
+    of the contact edge in its element.
+
+    level  amount of computation: quick, standard or full
     """
     cusp = (
         "set by hand: at 64 elements per radius 2e-3 of the twist and 5e-3 of µp_H, on other "
@@ -360,7 +395,8 @@ def _observables_at_parts(
 def radial_torsion(level: Level = Level.QUICK) -> Case:
     """Create the verification case of torsion by the radial solver.
 
-    The references are closed forms, Masing's rule, and a Fredholm equation.
+    Twist, stick radius and shear are compared with closed forms, reversals with Masing's rule, and
+    coated balls with a Fredholm integral equation. All levels are equal.
     """
     shear = error_norm(
         "shear", f"largest error of the shear up to {WITHIN:g} a{{when}}", _largest_shear_error,
@@ -413,11 +449,12 @@ def _force_step(x: float, y: float, increments: int) -> LoadStep:
 
 
 def _coated_ball_scene(title: str, *steps: LoadStep) -> Scene:
-    """Create the scene of a rigid ball that is pressed on a coating with friction, then loaded
-    further.
+    """Create the scene of a rigid ball that is pressed on a coating with friction, then loaded by
+    torques and tangential forces.
 
     The coating is twice as stiff as its base and as thick as the Hertz contact radius.
 
+    title  title of the scene
     steps  load steps after the normal loading
     """
     body = coated(film(2.0, 1.0))
@@ -426,16 +463,22 @@ def _coated_ball_scene(title: str, *steps: LoadStep) -> Scene:
 
 @cache
 def _solve_on_cells(scene: Scene, cells: int) -> Any:
-    """Solve a scene on cells × cells cells by the semi-analytical solver with its default edge
-    correction."""
+    """Solve a scene by the semi-analytical solver on cells × cells cells, as reference for the
+    radial solver.
+
+    The result is stored in memory, because several quantities use it.
+    """
     return solve_discretised(scene, SurfaceDiscretisation(cells=(cells, cells)))
 
 
 def _motion_apart(ours: Any, _: int, problem: Problem) -> float:
-    """Compute the largest difference of shift and twist between the radial solver and cells,
-    relative.
+    """Compute the largest difference of tangential shift and twist between radial solver and cells
+    [1].
 
-    Each difference is relative to the largest value in the history.
+    The differences at the ends of all load steps are divided by the largest value of the history.
+
+    ours     result of the radial solver
+    problem  problem whose answer is the solve on cells
     """
     theirs, errors = problem.ends[-1](), []
     for of in MOTIONS:
@@ -451,9 +494,14 @@ def _motion_apart(ours: Any, _: int, problem: Problem) -> float:
 
 
 def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
-    """Compute the largest difference between the radial solver and cells, over their stated errors.
+    """Compute the largest ratio of the difference of two solvers to the sum of their stated errors
+    [1].
 
-    The scale is the sum of the stated errors of both solvers.
+    A ratio up to 1 means that the stated errors of radial solver and cells explain the difference.
+    Motions, radii and energies at the ends of all load steps are compared.
+
+    ours     result of the radial solver
+    problem  problem whose answer is the solve on cells
     """
 
     def size(value: Any) -> float:
@@ -478,16 +526,17 @@ def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
 
 
 def _rotate_quarter(vector: Any) -> tuple[float, float]:
-    """Rotate a plane vector by a right angle from x towards y."""
+    """Rotate a vector (x, y) by a right angle from x towards y."""
     x, y = vector
     return -y, x
 
 
 def _rotated_shift_error() -> float:
-    """Compute the relative difference of the shift after a rotation of the scene by a right angle.
+    """Compute the relative change of the tangential shift if all loads are rotated by a right angle
+    [1].
 
-    The solves take half the rings and eight angles, so that the rotation shifts the points by two
-    angles.
+    Both scenes are solved by the radial solver. Half the number of rings and eight angles are used,
+    so that the rotation maps each point to another point.
     """
     here = _coated_ball_scene(
         "pushed along x, then y", *(_force_step(*push, 2) for push in TURNING)
@@ -504,10 +553,13 @@ def _rotated_shift_error() -> float:
 
 
 def radial_turning(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of torsion on coupled bodies by the radial solver.
+    """Create the verification case of torsion of coupled bodies and of turning forces by the radial
+    solver.
 
-    A tangential force that acts with the torque, and a force of changing direction, are included.
-    The radial solver is compared with cells, which are finer at higher levels.
+    Histories of torque and tangential force on a coated body are compared with a solve on cells. A
+    ball of uncoupled bodies in torsion is compared with closed forms.
+
+    level  amount of computation: quick, standard or full, with finer cells at higher levels
     """
     cells = {Level.QUICK: 64, Level.STANDARD: 96, Level.FULL: 192}[level]
     scenes = {

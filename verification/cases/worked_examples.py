@@ -1,8 +1,9 @@
-"""Examples that test the verification itself: uncertainties and printed numbers computed by hand.
+"""Verification case of the verification itself: statistics and printed numbers against hand
+computation.
 
-All examples have levels h = 1, 2, 4 and an error a + c h, plus a deviation (1, -6, 8) ε. The
-deviation is orthogonal to the line that is fitted with weights 1/h, as 1 - 6/4 + 8/16 = 1 - 6/2 +
-8/4 = 0. Its weighted sum of squares is (1 + 9 + 4) ε².
+All examples have refinement levels h = 1, 2, 4 and an error a + c h, plus a deviation (1, -6, 8) ε.
+The deviation is orthogonal to the line that is fitted with weights 1/h, as 1 - 6/4 + 8/16 = 1 - 6/2
++ 8/4 = 0. Its weighted sum of squares is (1 + 9 + 4) ε².
 """
 
 from __future__ import annotations
@@ -38,7 +39,12 @@ PRINTED = Required(0.05, "two digits are printed")
 
 @dataclass(frozen=True)
 class _Rung:
-    """Refinement level of an example, with its size and value."""
+    """Hold one refinement level of an example, in place of a solver run and its result.
+
+    label    label of the level
+    spacing  discretisation parameter h
+    value    value of the judged quantity
+    """
 
     label: str
     spacing: float
@@ -46,7 +52,11 @@ class _Rung:
 
 
 def worked_examples(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of examples that are computed by hand; equal at all levels."""
+    """Create the verification case of statistical results that are computed by hand.
+
+    Judged are tolerances, extrapolated limits, confidence intervals, and the numbers that reports
+    print. All levels are equal.
+    """
     return Case(
         name="worked_examples",
         title="Worked examples of the harness",
@@ -71,8 +81,11 @@ def worked_examples(level: Level = Level.QUICK) -> Case:
 
 
 def _judge_example() -> Verdict:
-    """Judge the value of an example, whose error is 2 U on a scale of 2 (U: expanded
-    uncertainty)."""
+    """Judge a quantity of an example with a tolerance that is derived from three refinement levels.
+
+    The reference differs from the finest value by twice the expanded uncertainty U. The error scale
+    is 2.
+    """
     rungs = [
         _Rung(f"h = {h:g}", h, LIMIT + SLOPE * h + EPSILON * r)
         for h, r in zip(LEVELS, BESIDE, strict=True)
@@ -94,9 +107,11 @@ def _printed_number(text: str) -> float:
 
 
 def _extrapolate_example(part: int) -> float:
-    """Return the extrapolated value (part 0) or its uncertainty (part 1) with a fourth level h = 8.
+    """Return the Richardson-extrapolated limit of four example levels, or its standard uncertainty.
 
-    The fourth value lies on the line a + c h.
+    The fourth level has h = 8, and its value lies on the line a + c h.
+
+    part  0 for the limit, 1 for its uncertainty
     """
     h = np.array([*LEVELS, 8.0])
     f = LIMIT + SLOPE * h + EPSILON * np.array([*BESIDE, 0.0])
@@ -104,8 +119,11 @@ def _extrapolate_example(part: int) -> float:
 
 
 def _example_errors() -> list[float]:
-    """Return the errors h² e^(x ε) of an example, with x = (1, -2, 1) orthogonal to any line over
-    log h."""
+    """Return the errors of three example levels, whose fitted order of convergence is exactly 2.
+
+    The errors are h² e^(x ε), where the deviation x = (1, -2, 1) is orthogonal to any line over log
+    h.
+    """
     return [h**2 * np.exp(EPSILON * x) for h, x in zip(LEVELS, (1, -2, 1), strict=True)]
 
 

@@ -1,4 +1,8 @@
-"""Case for the result files of an eccentric contact under tangential forces and a torque."""
+"""Verification case of the content of result files: tables and arrays must agree with each other.
+
+The scene is a ball under an eccentric force, tangential forces in two directions and a torque, so
+that all loads and motions have different components.
+"""
 
 from __future__ import annotations
 
@@ -71,9 +75,12 @@ COATED = pressed("Ball on a stiff coating", paper.paraboloid(STEEL), coated(film
 
 @dataclass(frozen=True, eq=False)
 class _Written:
-    """Content of the result files: rows of the tables by column, and arrays.
+    """Hold the content of the result files of one solve, read without the file reader of the
+    program.
 
-    The files are read without the reader and writer of the program.
+    increments  rows of the table of increments: text by column name
+    cycle       last row of the table of fretting cycles: text by column name
+    arrays      arrays of the fields file by their path
     """
 
     increments: list[dict[str, str]]
@@ -91,7 +98,11 @@ class _Written:
 
 
 def written_files(level: Level = Level.QUICK) -> Case:
-    """Create the verification case of the content of result files; equal at all levels."""
+    """Create the verification case of the content of result files.
+
+    Loads must be the sums of the tractions, tables must agree with arrays, and the position of a
+    maximum must be correct. All levels are equal.
+    """
     return Case(
         name="written_files",
         title="Contents of result files",
@@ -175,8 +186,11 @@ def _table_rows(path: Path) -> list[dict[str, str]]:
 
 
 def loads() -> float:
-    """Compute the largest relative difference of the written loads from the sums of the
-    tractions."""
+    """Compute the largest relative difference between written loads and sums of the written
+    tractions [1].
+
+    The loads are forces, torque and moments of all increments in the table.
+    """
     found = _written_result()
     x, y = found.arrays["x"], found.arrays["y"]
     area = (x[1] - x[0]) * (y[1] - y[0])
@@ -197,9 +211,11 @@ def loads() -> float:
 
 
 def columns() -> float:
-    """Compute the largest relative difference of a table column from the corresponding array.
+    """Compute the largest relative difference between a table column and the array of the same
+    quantity [1].
 
-    All scalars are compared that are stored in both the table and the arrays.
+    All scalars that both table and fields file contain are compared. The result is NaN if missing
+    values differ.
     """
     found = _written_result()
     there = [name for name in SCALARS if f"increments/{name}" in found.arrays]
@@ -218,7 +234,11 @@ def _relative_difference(tabulated: Field, stored: Field) -> float:
 
 
 def place_of_f1() -> float:
-    """Compute the relative difference of Ruiz's F1 at the tabulated position from its maximum."""
+    """Compute by how much the field of Ruiz's parameter F1 at its tabulated position is below its
+    maximum.
+
+    F1 is shear times slip amplitude. The difference is relative to the maximum [1].
+    """
     found = _written_result()
     field = found.arrays["last_cycle/ruiz_f1"]
     cell = tuple(
@@ -238,10 +258,11 @@ def _stress_extremes() -> dict[tuple[str, str], Extreme]:
 
 
 def sides_of_an_interface() -> float:
-    """Compute the largest excess of a stress maximum at an interface over that of its layer or
-    base.
+    """Compute the largest excess of a stress maximum at an interface over that of the adjacent
+    material [1].
 
-    The depth of the interface is compared with the thickness of the layer, too.
+    The maximum over the whole layer or base cannot be smaller than that at the interface. The depth
+    of the interface is also compared with the thickness of the layer.
     """
     found, excess = _stress_extremes(), [0.0]
     depth = COATED.body.layers[0].thickness
