@@ -1,4 +1,4 @@
-"""Data of a verification case: runs, quantities measured on them, references and orders."""
+"""Data of a verification case: runs, measured quantities, references, tolerances and orders."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 
 class Followed(StrEnum):
-    """Quantities whose error is followed under refinement, to determine an order of convergence."""
+    """Quantities of a contact for which an order of convergence can be determined from refinement
+    levels.
+    """
 
     PRESSURE = "pressure"
     PEAK_PRESSURE = "peak pressure"
@@ -29,8 +31,9 @@ class Followed(StrEnum):
 
 
 class Refinement(StrEnum):
-    """Discretisation parameters that are refined from level to level: the mesh or the
-    increments."""
+    """Discretisation parameter that a sequence of runs refines: the mesh or the number of
+    increments.
+    """
 
     MESH = "mesh"
     INCREMENTS = "increments"
@@ -38,13 +41,13 @@ class Refinement(StrEnum):
 
 @dataclass(frozen=True)
 class NotYetAsymptotic:
-    """Allowance for an observed order of convergence on levels that are too coarse for the theory.
+    """Allowance for an order of convergence that is observed on levels too coarse for the theory.
 
     allowance  accepted difference from the expected order
     because    cause of the difference
 
-    The tolerance of the order is the larger of the allowance and the interval of the order, not
-    their sum. Raises ValueError for an allowance that any order would meet.
+    The tolerance of the order is the larger of the allowance and the interval of the observed
+    order, not their sum. Raises ValueError for an allowance that any order would meet.
     """
 
     allowance: float
@@ -57,10 +60,11 @@ class NotYetAsymptotic:
 
 @dataclass(frozen=True)
 class Order:
-    """Order at which the error of a quantity falls under refinement, and its expectation.
+    """Declaration of an order of convergence: the expected exponent p with which errors fall as
+    h^p.
 
-    The changes between refinement levels replace the errors where the exact answer is not known, or
-    contains the error of another kind of refinement. They fall with the order of the error.
+    Where the exact answer is not known, the changes between refinement levels replace the errors;
+    changes fall with the same exponent.
 
     of        quantity whose order is determined
     meaning   description of the error or change
@@ -68,7 +72,7 @@ class Order:
               mean square of their errors
     error     function from the result of a run to its error, of either sign; for changes, function
               from the results of two levels to their difference > 0
-    expected  exponent p of h^p according to theory
+    expected  exponent p according to theory
     because   reason for the expected order
     not_yet   allowance for levels that are not asymptotic; None if there is no known reason
     refined   discretisation parameter that is refined
@@ -90,8 +94,11 @@ class Order:
 
 
 class Level(IntEnum):
-    """Amount of computation of a verification: quick at every push, standard before a merge, full
-    at night."""
+    """Amount of computation of the verification: number of runs and fineness of their
+    discretisation.
+
+    Quick runs at every push, standard before a merge, full at night.
+    """
 
     QUICK = 0
     STANDARD = 1
@@ -100,7 +107,7 @@ class Level(IntEnum):
 
 @dataclass(frozen=True)
 class Required:
-    """Tolerance of a judged quantity that is prescribed, not derived from refinement.
+    """Prescribed tolerance of a judged quantity; it does not depend on results.
 
     allowed  largest accepted error, relative to the error scale of the quantity
     because  reason for this tolerance
@@ -112,14 +119,14 @@ class Required:
 
 @dataclass(frozen=True)
 class Derived:
-    """Tolerance of a judged quantity that is derived from its convergence under refinement.
+    """Tolerance of a judged quantity that is computed from its values on several refinement levels.
 
     The tolerance is 2 √(u_num² + u_ref²), relative to the error scale of the quantity. u_num is the
     numerical uncertainty from the refinement levels, u_ref the uncertainty of the reference.
 
     levels   labels of the runs, coarse to fine
     order    expected order of convergence of the value
-    cap      upper bound of the tolerance, which a poor solver cannot exceed
+    cap      upper bound of the tolerance; without it a poor solver would get a wide tolerance
     because  reason for order and cap
     """
 
@@ -133,9 +140,13 @@ class Derived:
 class Quantity:
     """Number that is measured on one run of a case and judged against a reference.
 
+    name        name of the verdict
+    meaning     description of the number
+    unit        SI unit; empty for a ratio
     run         label of the run
     measure     function from the result of the run to the number
     reference   reference value with its uncertainty
+    tolerance   largest accepted error
     scale       error scale, in the unit of the number; None: absolute value of the reference
     scale_name  description of the error scale
     scalar      name, component and load step of a registered scalar, whose stated error is judged
@@ -156,7 +167,9 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Check:
-    """Number that is measured without solving a scene, and judged against a reference.
+    """Number that is judged against a reference and needs no run of the case.
+
+    The number is computed from a function of the program, such as a frequency response.
 
     subject     object on which the number is measured, in words
     measure     function that computes the number
@@ -177,7 +190,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Comparison of two runs that must agree, because they state one problem in two forms.
+    """Comparison of the results of two runs that must agree, because both describe one problem.
 
     runs         labels of the two runs; the difference is relative to the second run
     difference   function from both results to a dimensionless difference, 0 if they agree; it may
@@ -200,7 +213,7 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Finding:
-    """Number that a report of a case shows with a remark, but does not judge.
+    """Number that the report of a case shows for information, with a remark and without a verdict.
 
     run      label of the run on which the number is measured
     measure  function from the result of the run to the number

@@ -1,7 +1,7 @@
-"""Declaration of a verification case: problems on refinement levels, and rows of judged quantities.
+"""Short declaration of verification cases by rows of judged quantities.
 
-A row names an observable and the way in which it is judged. `judged` expands the rows into the
-runs, quantities and orders of a case.
+A row names an observable (a number read from results) and the way in which it is judged. `judged`
+expands the rows into the runs, quantities and orders of a case.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ Measure = Callable[[Any, int, Problem], float]
 
 @dataclass(frozen=True)
 class Observable:
-    """Number that is read from a result at the end of a load step: a value, or the norm of an
-    error.
+    """Number that a case reads from any result at the end of a load step: a value, or an error
+    norm.
 
     name     name of the number; its order of convergence is named `order_of_` + name
     meaning  description, with placeholders in braces for words of the discretisation
@@ -86,11 +86,12 @@ class Observable:
     scalar: tuple[str, int] | None = None
 
     def at(self, step: int, part: float, of: str) -> Observable:
-        """Return the observable at the end of another load step, with a label for this step.
+        """Return the observable at the end of another load step, with the load of that step as
+        label.
 
         step  index of the load step
         part  load at the end of the step, as a fraction of `of`
-        of    reference load in words, such as "µW"
+        of    reference load in words, such as "µW" (friction limit)
         """
         when = f"{part:g} {of}"
         return replace(
@@ -103,7 +104,7 @@ class Observable:
 
     @property
     def verdict(self) -> str:
-        """Name of the verdict on the observable; it contains the load fraction if one is set."""
+        """Name of the verdict on the observable: its name, with the load fraction if one is set."""
         return self.name if self.part is None else f"{self.name}_at_{self.part:g}"
 
     def over_stops(self, stops: str) -> Observable:
@@ -111,7 +112,7 @@ class Observable:
 
         Errors of single steps change sign from grid to grid, because the edges of the contact and
         of the stick zone lie at arbitrary positions within cells. Their root mean square varies
-        less.
+        less, so that an order of convergence can be determined.
 
         stops  description of the load steps, in words
         """
@@ -125,18 +126,20 @@ class Observable:
         return replace(changed, scalar=None)
 
     def said(self, words: Mapping[str, str]) -> str:
-        """Return the description of the observable, with its placeholders replaced by the given
-        words."""
+        """Return the description of the observable with its placeholders replaced by words.
+
+        words  words by placeholder, such as "cell" or "ring" for {point}
+        """
         return self.meaning.format_map({"when": "", **words})
 
     def read(self, problem: Problem) -> Callable[[Any], float]:
-        """Return a function that measures the observable on a result of the problem."""
+        """Return a function from a result of the problem to the value of the observable."""
         return lambda result: self.measure(result, self.step, problem)
 
     def reference(self, problem: Problem) -> Reference:
-        """Return the exact value of the observable in the problem, with its uncertainty and source.
+        """Return the exact value of the observable in a problem, with its uncertainty and source.
 
-        For the norm of an error the value is zero.
+        For the norm of an error the exact value is zero.
         """
         scale = problem.scale(self.over) if self.over else None
         if self.value is None:
@@ -146,20 +149,26 @@ class Observable:
         return replace(known, source=self.source or known.source)
 
     def scale(self, problem: Problem) -> float | None:
-        """Return the error scale of the observable; None if errors are relative to the reference
-        value."""
+        """Return the number by which errors of the observable are divided, in the unit of the
+        observable.
+
+        The result is None if errors are relative to the exact value.
+        """
         if self.over:
             return problem.scale(self.over)
         return 1.0 if self.value is None else None
 
     @property
     def scale_name(self) -> str:
-        """Description of the error scale of the observable."""
+        """Description of the number by which errors of the observable are divided."""
         return self.over or self.over_is or "the reference"
 
     def error(self, problem: Problem) -> Callable[[Any], float]:
-        """Return a function from a result to the relative error of the observable, of either
-        sign."""
+        """Return a function from a result to the relative error of the observable, of either sign
+        [1].
+
+        problem  problem with the exact value
+        """
         read, value, scale = self.read(problem), self.reference(problem).value, self.scale(problem)
         if scale is None:
             return lambda result: read(result) / value - 1
@@ -176,7 +185,8 @@ def number(
     of: Followed | None = None,
     source: str = "",
 ) -> Observable:
-    """Create an observable for a registered scalar at the end of a load step.
+    """Create an observable for a scalar that all solvers return, such as the approach, at a step's
+    end.
 
     The observable is NaN if the step does not have the scalar.
 
@@ -222,14 +232,20 @@ def error_norm(
     norm: str = "",
     source: str = "",
 ) -> Observable:
-    """Create an observable for the norm of the error of a field, whose exact value is zero.
+    """Create an observable for the norm of the error of a field, such as the L1 error of the
+    pressure.
+
+    The exact value of the norm is zero.
 
     name     name of the observable
     meaning  description of the norm
     measure  function from a result, the index of a load step and the problem to the norm
     over_is  description of the error scale, if `over` is empty
+    unit     SI unit of the norm; empty for a ratio
     over     name of the error scale in the problem
+    of       quantity whose order of convergence the norm has
     norm     name of the norm in charts
+    source   source of the exact field, if it differs from the source of the problem
     """
     label = "" if of is None else f"{of.value} ({norm})" if norm else of.value
     return Observable(
@@ -329,14 +345,14 @@ Drawing = Callable[[Results], Chart]
 
 @dataclass(frozen=True)
 class Within:
-    """Row that judges an observable by a prescribed tolerance.
+    """Row of a case that judges an observable by a prescribed tolerance.
 
     what     observable
     allowed  tolerance relative to the error scale: a number, a number for each number of cells
-             (then exactly these levels are judged), or a function of the level
+             (then exactly these levels are judged), or a function of the refinement level
     because  reason for the tolerance
     name     name of the verdict, if it differs from that of the observable
-    each     True if every level is judged; else only the finest level is judged
+    each     True if every refinement level is judged; else only the finest is judged
     """
 
     what: Observable
@@ -348,7 +364,7 @@ class Within:
 
 @dataclass(frozen=True)
 class Refined:
-    """Row that judges an observable by a tolerance that is derived from refinement.
+    """Row of a case that judges an observable by a tolerance derived from refinement levels.
 
     The tolerance is the expanded numerical uncertainty (2 standard uncertainties).
 
@@ -366,7 +382,7 @@ class Refined:
 
 @dataclass(frozen=True)
 class Falls:
-    """Row that judges the observed order of convergence of an observable.
+    """Row of a case that judges the order of convergence at which the error of an observable falls.
 
     what      observable
     expected  expected order
@@ -384,7 +400,11 @@ class Falls:
 
 @dataclass(frozen=True)
 class Reported:
-    """Row that reports an observable with a remark and does not judge it."""
+    """Row of a case that reports an observable without a verdict.
+
+    what    observable
+    remark  interpretation of the number
+    """
 
     what: Observable
     remark: str
@@ -395,7 +415,7 @@ Row = Within | Refined | Falls | Reported
 
 @dataclass(frozen=True)
 class Judged:
-    """Runs of refinement levels and all quantities that are judged or reported on them.
+    """Runs on the refinement levels of one problem, and all numbers that are judged on them.
 
     runs        runs to solve
     quantities  numbers that are judged against references
@@ -412,11 +432,12 @@ class Judged:
 
 
 def judged(ladder: RefinementLevels, rows: Sequence[Row]) -> Judged:
-    """Expand rows of judged observables into runs, quantities, orders of convergence and findings.
+    """Expand the rows of one problem into runs, judged quantities, orders and reported numbers.
 
-    Levels that no row requires are not solved.
+    A case consists of one or more of these expanded parts. Separate runs without edge correction
+    are kept only if a row needs them.
 
-    ladder  refinement levels of one problem
+    ladder  refinement levels of the problem
     rows    observables with the way in which each is judged
     """
     quantities = tuple(quantity for row in rows for quantity in _quantities(row, ladder))
@@ -455,13 +476,17 @@ def case(
 ) -> Case:
     """Create a verification case from expanded rows and from additional quantities.
 
-    name        identifier for commands and files
-    problem     description of the problem and of the source of its answer
-    parts       expanded rows on refinement levels; several parts may share runs
-    runs        additional runs; the same holds for quantities, findings, orders and checks
-    charts      functions from the results to one chart each
-    limits      limits of the conclusions from this case
-    no_order    reason for which no order of convergence is judged
+    name         identifier for commands and files
+    title        title in reports
+    problem      description of the problem and of the source of its answer
+    parts        expanded rows on refinement levels; several parts may share runs
+    runs         further runs; likewise further quantities, findings and orders
+    comparisons  pairs of runs that must agree
+    checks       numbers that are judged without a run
+    charts       functions from the results to one chart each
+    limits       limits of the conclusions from this case
+    equations    further governing equations, in LaTeX
+    no_order     reason for which no order of convergence is judged
     """
     return Case(
         name=name,

@@ -1,4 +1,6 @@
-"""Charts of a verification case: profiles of computed and exact fields, and convergence plots."""
+"""Charts of a verification case: computed and exact tractions over the radius, and errors
+over h.
+"""
 
 from __future__ import annotations
 
@@ -32,9 +34,9 @@ def radial_chart(
     traction: Field,
     exact: tuple[Field, Field],
 ) -> Chart:
-    """Create a chart of a finite element traction over the radius, together with its reference.
+    """Create a chart of a finite element traction over the radius, with its reference.
 
-    The upper panel shows the traction and, in grey, the reference; the lower panel their
+    The upper panel shows the traction and, in grey, the reference. The lower panel shows their
     difference.
 
     labels     texts of the chart
@@ -73,7 +75,8 @@ POINTS = 120
 
 @dataclass(frozen=True)
 class Drawn:
-    """Description of one curve in a profile chart: a field at the end of a load step.
+    """Description of one pair of curves in a profile chart: a computed and an exact field of a load
+    step.
 
     found  function from the increment at the end of the step to the computed field
     exact  function from the exact answer to the exact field, a function of the radius r
@@ -102,10 +105,11 @@ def profile(
     """Return a function that draws computed fields of the judged run together with the exact
     fields.
 
-    On cells the chart shows the row of cells next to y = 0. On rings it shows one field over the
-    radius.
+    The function receives the results of a case by run label. On cells the chart shows the row of
+    cells next to y = 0. On rings it shows one field over the radius.
 
     ladder   refinement levels, of which the judged run is drawn
+    name     file name of the chart
     y_label  label of the ordinate
     unit     unit of the ordinate, in SI
     drawn    fields to draw; default: the pressure at the end of the last step
@@ -153,13 +157,16 @@ def convergence(
     also: Sequence[Observable] = (),
     beside: Mapping[str, RefinementLevels] | None = None,
 ) -> Drawing:
-    """Return a function that draws relative errors over the cell or element size, with expected
-    slopes.
+    """Return a function that draws relative errors of observables over the cell or element side h.
+
+    Lines of the expected slope show the order of convergence. The function receives the results of
+    a case by run label.
 
     ladder  refinement levels from which orders of convergence are computed
     rows    rows of the case; those of type Falls have an expected slope
+    name    file name of the chart
     also    observables whose errors are drawn without an expected slope
-    beside  further refinement levels with equal sizes, by the name that their curves have
+    beside  further refinement levels with equal sizes, by the name of their curves
     """
     cells = isinstance(ladder.judged.run, Run)
     unit = ladder.problem.radius if cells else 1.0

@@ -29,8 +29,8 @@ AT_EDGE = 0.1
 
 
 def _exact_on_cells(result: Any, end: Any, exact: Callable[..., Field], problem: Problem) -> Field:
-    """Evaluate an exact field (nx, ny) on the cells of a result, for comparison with the computed
-    field.
+    """Evaluate an exact field (nx, ny) on the cells of a result, to compare a computed field with
+    it.
 
     The values are those at the cell centres. If the edge correction is applied, they are means over
     the cells, because corrected tractions are means.
@@ -48,8 +48,12 @@ def _exact_on_cells(result: Any, end: Any, exact: Callable[..., Field], problem:
 
 
 def pressure_l1(result: Any, step: int, problem: Problem) -> float:
-    """Compute the relative L1 error Σ|p - p_exact| / Σ p_exact of the pressure over all cells
-    [1]."""
+    """Compute the L1 error Σ|p - p_exact| / Σ p_exact of the pressure over all cells [1].
+
+    result   result on cells
+    step     index of the load step, at whose end the pressure is taken
+    problem  problem with the exact pressure
+    """
     end = result.steps[step]
     return norms.relative_l1(
         end.pressure, _exact_on_cells(result, end, problem.ends[step].pressure, problem)
@@ -57,10 +61,14 @@ def pressure_l1(result: Any, step: int, problem: Problem) -> float:
 
 
 def pressure_l2(result: Any, step: int, problem: Problem) -> float:
-    """Compute the relative L2 error of the pressure [1].
+    """Compute the relative L2 error of the pressure, √Σ(p - p_exact)² / √Σ p_exact² [1].
 
-    On cells the sums extend over all cells. On finite elements the computed pressure is
-    interpolated linearly between the rings, and the integrals extend over the radius.
+    On cells the sums extend over all cells. On finite elements the sums are integrals over the
+    radius, and the computed pressure is linear between the rings.
+
+    result   result on cells or on finite elements
+    step     index of the load step, at whose end the pressure is taken
+    problem  problem with the exact pressure
     """
     end, exact = result.steps[step], problem.ends[step].pressure
     if hasattr(result, "grid"):
@@ -73,7 +81,11 @@ def largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
     [1].
 
     The points are the rings, or the radii of the reference if it is tabulated, up to 0.9 of the
-    contact radius (less on coarse meshes). p_H is the peak pressure of Hertz theory.
+    contact radius (less on coarse meshes). p_H is the Hertz peak pressure.
+
+    result   finite element result
+    step     index of the load step, at whose end the pressure is taken
+    problem  problem with the exact pressure
     """
     end, exact = result.steps[step], problem.ends[step]
     within = judged_within(result.discretisation.elements_per_radius) * problem.radius
@@ -82,9 +94,14 @@ def largest_pressure_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def shear_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the relative L1 error of the shear q over all cells, Σ|q - q_exact| / Σµp [1].
+    """Compute the L1 error of the shear over the friction limit, Σ|q - q_exact| / Σµp [1].
 
-    On finite elements the sums are integrals over the contact, and q is the shear along the load.
+    On cells the sums extend over all cells, and q is a vector. On finite elements the sums are
+    integrals over the contact, and q is the component along the load.
+
+    result   result on cells or on finite elements
+    step     index of the load step, at whose end the shear is taken
+    problem  problem with the exact shear
     """
     end, exact = result.steps[step], problem.ends[step].shear
     if hasattr(result, "grid"):
@@ -95,9 +112,10 @@ def shear_error(result: Any, step: int, problem: Problem) -> float:
 
 
 def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: float) -> NDArray[Any]:
-    """Select the radii that are inside the contact and not close to the edge of a stick zone.
+    """Select radii that lie inside the contact and not close to an edge of a stick zone.
 
-    The exact shear has a cusp at the edge of a stick zone.
+    The exact shear has a cusp at the edge of a stick zone, where computed errors are large. Returns
+    a mask of the shape of r.
 
     r       distances from the axis [length]
     judged  fraction of the contact radius up to which radii are selected
@@ -111,11 +129,14 @@ def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: flo
 
 
 def shear_around_error(result: Any, step: int, problem: Problem) -> float:
-    """Compute the largest error of the circumferential shear of a contact in torsion, over µp_H
-    [1].
+    """Compute the largest error of the circumferential shear of a ball in torsion, over µp_H [1].
 
-    The points are the rings inside the contact, without those close to the contact edge and to the
-    edge of the stick zone. p_H is the peak pressure of Hertz theory.
+    The points are the rings inside the contact that are not close to the contact edge or to the
+    edge of the stick zone. p_H is the Hertz peak pressure.
+
+    result   finite element result
+    step     index of the load step, at whose end the shear is taken
+    problem  problem with the exact shear
     """
     end, exact = result.steps[step], problem.ends[step]
     within = judged_within(result.discretisation.elements_per_radius)
@@ -134,7 +155,8 @@ ROUNDING = 1e-9
 
 
 def pressure_at(result: Any, r: Field) -> Field:
-    """Interpolate the computed pressure of the last load step to given radii [force/length²].
+    """Interpolate the computed pressure at the end of the last load step to given radii
+    [force/length²].
 
     The result has the shape (radii, directions): 16 directions on cells, one on finite elements.
 
@@ -147,7 +169,8 @@ def pressure_at(result: Any, r: Field) -> Field:
 
 
 def shear_at(result: Any, r: Field) -> Field:
-    """Interpolate the computed radial shear of the last load step to given radii [force/length²].
+    """Interpolate the computed radial shear at the end of the last load step to radii
+    [force/length²].
 
     Positive shear points outwards. The result has the shape (radii, directions): 16 directions on
     cells, one on finite elements.
@@ -161,7 +184,7 @@ def shear_at(result: Any, r: Field) -> Field:
 
 
 def judged_radii(result: Any, problem: Problem) -> Field:
-    """Select the radii of the reference table at which tractions are judged [length].
+    """Select the radii of a reference table at which computed tractions are judged [length].
 
     Radii within 0.1 of the contact radius from the axis and close to the contact edge are excluded.
     On cells the limit is 0.95 of the contact radius; on finite elements it depends on the mesh.
@@ -175,19 +198,23 @@ def judged_radii(result: Any, problem: Problem) -> Field:
 
 
 def tabulated_pressure_error(result: Any, _: int, problem: Problem) -> float:
-    """Compute the largest error of the pressure at the judged radii, over p_H of Hertz theory
-    [1]."""
+    """Compute the largest error of the final pressure at the radii of a reference table, over p_H
+    [1].
+
+    Radii next to the axis and to the contact edge are excluded. p_H is the Hertz peak pressure.
+    """
     r = judged_radii(result, problem)
     error = np.abs(pressure_at(result, r) - problem.ends[-1].pressure(r)[:, None])
     return float(np.max(error) / problem.scale(OVER_PEAK))
 
 
 def radial_shear_errors(result: Any, problem: Problem) -> tuple[Field, NDArray[np.bool_]]:
-    """Compute the errors of the radial shear at the judged radii, over µp_H [1].
+    """Compute the errors of the final radial shear at the radii of a reference table, over µp_H
+    [1].
 
-    Returns the largest error of all directions at each radius, and a mask of the radii that lie
-    less than two cells from the edge of the stick zone. On finite elements the mask is false
-    everywhere.
+    p_H is the Hertz peak pressure. Returns the largest error of all directions at each radius, and
+    a mask of the radii that lie less than two cells from the edge of the stick zone. On finite
+    elements the mask is false everywhere.
     """
     r, exact = judged_radii(result, problem), problem.ends[-1]
     error = np.max(np.abs(shear_at(result, r) - exact.shear(r)[:, None]), axis=1)
@@ -197,16 +224,21 @@ def radial_shear_errors(result: Any, problem: Problem) -> tuple[Field, NDArray[n
 
 
 def radial_shear_error(result: Any, _: int, problem: Problem) -> float:
-    """Compute the largest error of the radial shear away from the stick edge, over µp_H [1]."""
+    """Compute the largest error of the final radial shear, without the edge of the stick zone
+    [µp_H].
+
+    The points are the radii of a reference table that are more than two cells from the edge of the
+    stick zone. On finite elements all radii are taken.
+    """
     error, at_edge = radial_shear_errors(result, problem)
     return float(np.max(error[~at_edge]))
 
 
 def stick_edge_error(result: Any, _: int, problem: Problem) -> float:
-    """Compute the largest error of the radial shear within two cells of the stick edge, over µp_H
-    [1].
+    """Compute the largest error of the final radial shear within two cells of the stick edge
+    [µp_H].
 
-    The error is zero if the reference table has no radius there.
+    The points are radii of a reference table. The error is zero if the table has no radius there.
     """
     error, at_edge = radial_shear_errors(result, problem)
     return float(np.max(error, where=at_edge, initial=0.0))

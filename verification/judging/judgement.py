@@ -1,4 +1,4 @@
-"""Solution of a verification case and collection of its verdicts, findings and charts."""
+"""Solution of the runs of a verification case, and collection of its verdicts and charts."""
 
 from __future__ import annotations
 
@@ -58,9 +58,10 @@ WITHIN = (
 def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
     """Judge the laws of contact and friction, and the energy balance, in the results of all runs.
 
-    Returns one verdict on the largest violation of a law, and one on the largest energy
-    imbalance. Each number is compared with the tolerance of its run.
+    Returns one verdict on the largest violation of a law, and one on the largest energy imbalance.
+    Each number is compared with the tolerance of its run.
 
+    case     verification case
     results  results of the solved runs, by label of the run
     """
     found = {run.label: observed(results[run.label]) for run in case.runs if run.label in results}
@@ -88,8 +89,9 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
 
 
 def _exclusion_text(what: str, found: Mapping[str, Observed], results: Mapping[str, Any]) -> str:
-    """Describe the number of increments in which slip or energy is not fully compared, with the
-    reasons.
+    """Describe in how many increments slip or energy could not be fully compared, and why.
+
+    The text is added to the verdict on the laws.
 
     what     "slip" or "energy"
     found    evaluated laws, by label of the run
@@ -113,7 +115,7 @@ DISCRETISATION = ("title", "cells", "window", "tolerance", "path accuracy")
 def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
     """Solve all runs of a verification case and judge its quantities, orders and checks.
 
-    A run that the solver gives up becomes a failed verdict. Quantities of that run are left out.
+    A run for which the solver fails becomes a failed verdict. Quantities of that run are left out.
 
     case   verification case
     solve  function that solves one run
@@ -141,14 +143,14 @@ def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
 
 
 def stated_errors(case: Case, results: Mapping[str, Any]) -> dict[str, StatedErrors]:
-    """Compute the error estimates that the solvers state for the runs of a case.
+    """Compute the error estimates that the solvers state for the runs of a case, by label of the
+    run.
+
+    Only runs on which the case judges a registered scalar are included. Runs on cells with another
+    than the default edge correction are left out, because users do not run them.
 
     case     verification case
     results  results of the solved runs, by label of the run
-
-    Only runs on which the case judges a registered scalar are included. Runs on cells with another
-    than the default edge correction are left out, because users do not run them. The keys of the
-    returned mapping are the labels of the runs.
     """
     judged = {q.run for q in case.quantities if q.scalar is not None} & results.keys()
     return {
@@ -173,7 +175,7 @@ def _solver_errors(run: AnyRun, result: Any) -> StatedErrors:
 
 
 def error_of(quantity: Quantity, errors: StatedErrors | None) -> float | None:
-    """Return the stated error of a judged number, in the unit of the number.
+    """Return the error that the solver states for a judged number, in the unit of the number.
 
     The result is None if the number is no registered scalar, if the run has no stated errors, or if
     the status of the error is not ESTIMATED.
@@ -204,7 +206,10 @@ def _judge_case(case: Case, results: Results) -> tuple[Verdict, ...]:
 
 
 def _required_runs(quantity: Quantity) -> set[str]:
-    """Return the labels of all runs that the verdict on a quantity requires."""
+    """Return the labels of all runs that must be solved for the verdict on a quantity.
+
+    A tolerance that is derived from refinement also needs the runs of all levels.
+    """
     levels = quantity.tolerance.levels if isinstance(quantity.tolerance, Derived) else ()
     return {quantity.run, *levels}
 
@@ -243,10 +248,11 @@ def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:
 
 
 def _planned_run(run: AnyRun, case: Case) -> str | None:
-    """Return the label of the run that differs from this run only in following the plan of its
-    scene.
+    """Return the label of the run that solves the same scene with the effects that the solver
+    chooses.
 
-    The result is None if the given run follows its plan, or if the case has no counterpart.
+    A run may switch physical effects on that the scene does not need. The result is None if the
+    given run does not, or if the case has no counterpart.
     """
     if not isinstance(run, Run) or run.effects is None:
         return None
@@ -255,8 +261,11 @@ def _planned_run(run: AnyRun, case: Case) -> str | None:
 
 
 def _describe_scenes(case: Case, results: Results) -> tuple[SceneRecord, ...]:
-    """Describe each scene of a case once, with the effects that the plan of the solver switches
-    on."""
+    """Describe each scene of a case in words, with the physical effects that the solver computes.
+
+    case     verification case
+    results  results of the solved runs, by label of the run; other scenes are left out
+    """
     records: dict[Scene, SceneRecord] = {}
     for run in case.runs:
         if run.label in results and run.scene not in records:

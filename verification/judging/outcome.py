@@ -1,4 +1,4 @@
-"""Outcome of a verification case as stored in `report.json`, and its texts for reports and logs."""
+"""Records of the outcome of a verification case as stored in `report.json`, and their texts."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SHORT_COMMIT = 7
 
 
 class ChangeKind(StrEnum):
-    """Result of the comparison of a number with its recorded baseline value."""
+    """Result of the comparison of a number with the value in its recorded baseline."""
 
     UNCHANGED = "unchanged"
     """Also what other processors and versions leave: a millionth of what errors are divided by, or
@@ -53,19 +53,23 @@ class ChangeKind(StrEnum):
 
     @property
     def matters(self) -> bool:
-        """True if the recorded baseline no longer describes the number."""
+        """True if the number differs from the recorded baseline, so that a new recording
+        is needed.
+        """
         return self is not ChangeKind.UNCHANGED
 
     @property
     def regresses(self) -> bool:
-        """True if a person must accept the change with a reason before the commit passes."""
+        """True for a change for the worse, which a person must accept with a reason before a commit
+        passes.
+        """
         return self in (
             ChangeKind.OUTSIDE, ChangeKind.WORSE, ChangeKind.DEARER, ChangeKind.GONE
         )  # fmt: skip
 
 
 class Change(Description):
-    """Difference of a quantity or finding from its recorded baseline value."""
+    """Record of the difference between a number and its value in the recorded baseline."""
 
     kind: ChangeKind
     recorded: bool = True
@@ -84,8 +88,9 @@ class Change(Description):
 
 
 class CounterChange(Description):
-    """Difference of a count over all solves of a case (such as iterations) from the recorded
-    count."""
+    """Record of the difference of a cost count, such as iterations, from the recorded count of a
+    case.
+    """
 
     name: str
     kind: ChangeKind
@@ -95,7 +100,7 @@ class CounterChange(Description):
 
 
 class Gone(Description):
-    """Quantity that the baseline contains and that the case does not measure any more."""
+    """Record of a quantity that is in the baseline and that the case does not measure any more."""
 
     name: str
     run: str
@@ -104,7 +109,7 @@ class Gone(Description):
 
 
 class GoneCase(Description):
-    """Case that the baseline contains and that a report of all cases does not contain any more."""
+    """Record of a case that is in the baselines and missing in a report of all cases."""
 
     name: str
     since: str
@@ -112,7 +117,7 @@ class GoneCase(Description):
 
 
 class Origin(Description):
-    """Commit, date and reason of the recorded baseline numbers of a case."""
+    """Record of the origin of the baseline of a case: commit, date, and reason for accepting it."""
 
     commit: str | None
     changed: bool
@@ -127,13 +132,17 @@ class Origin(Description):
 
     @property
     def name(self) -> str:
-        """Git commit of the recorded numbers, as text for a reader."""
+        """Git commit of the baseline, as text for a reader."""
         return commit_text(self.commit, changed=self.changed)
 
 
 def commit_text(commit: str | None, *, changed: bool) -> str:
-    """Return a git commit as text for a sentence: its short hash, and a remark if the source
-    differed."""
+    """Return the short hash of a git commit as text, with a remark if the source code differed from
+    it.
+
+    commit   hash; None for an unknown commit
+    changed  True if the source code contained changes that were not committed
+    """
     text = "an unknown commit" if commit is None else commit[:SHORT_COMMIT]
     return f"{text} with changes" if changed else text
 
@@ -152,7 +161,7 @@ Count: TypeAlias = Annotated[int, Field(ge=0, le=10**15)]
 
 
 class Status(StrEnum):
-    """Result of the judgement of a quantity or case."""
+    """Result of a judgement: pass, fail, or inconclusive (the data do not permit a judgement)."""
 
     PASS = "pass"
     FAIL = "fail"
@@ -160,8 +169,9 @@ class Status(StrEnum):
 
 
 class OrderRecord(Description):
-    """Data from which an observed order of convergence was computed: sizes and errors of the
-    levels."""
+    """Record of the data from which an order of convergence was computed: sizes and errors of the
+    levels.
+    """
 
     of: Followed
     meaning: str = ""
@@ -177,9 +187,10 @@ class OrderRecord(Description):
 
 
 class Verdict(Description):
-    """Verdict on one judged quantity: value, reference, error, tolerance and status.
+    """Record of one judged number: value, reference, error, tolerance and status.
 
-    Errors are relative to `scale_name`. Numbers that are not finite are null and fail.
+    Errors are relative to the scale that `scale_name` describes. Numbers that are not finite are
+    null, and the verdict fails.
     """
 
     name: str
@@ -235,10 +246,10 @@ class Verdict(Description):
 
     @model_validator(mode="after")
     def _states_what_it_measured(self) -> Verdict:
-        """Check that the numbers of a verdict agree with each other; raise ValueError if they do
-        not.
+        """Check that error, tolerance and status of the verdict agree with each other.
 
-        A record that was edited by hand or damaged contradicts itself.
+        A record that was edited by hand or damaged contradicts itself. Raises ValueError for a
+        contradiction.
         """
         problem = _contradiction(self)
         if problem:
@@ -247,12 +258,12 @@ class Verdict(Description):
 
     @property
     def most_allowed(self) -> float:
-        """Largest accepted error of the case, in the unit of the value."""
+        """Largest error that the case accepts, in the unit of the value."""
         return (self.allowed if self.bound is None else self.bound) * self.scale
 
     @property
     def clearance(self) -> float | None:
-        """Error over the accepted error; a value above 1 is a failure.
+        """Error over the accepted error [1]; a value above 1 is a failure.
 
         The ratio is None if there is no finite error, or if the accepted error is zero and the
         error is not.
@@ -265,8 +276,10 @@ class Verdict(Description):
 
 
 def _contradiction(verdict: Verdict) -> str:
-    """Describe the first contradiction between the numbers of a verdict; return "" if there is
-    none."""
+    """Describe the first contradiction between the numbers of a verdict, or return "" without one.
+
+    Used to detect records that were edited or damaged.
+    """
     if verdict.tolerance_kind not in TOLERANCE_KINDS:
         return f"its tolerance is {verdict.tolerance_kind!r}, not {', '.join(TOLERANCE_KINDS)}"
     # A derived uncertainty is zero if refinement does not change the value.
@@ -316,10 +329,10 @@ def _status_by_numbers(verdict: Verdict) -> Status:
 
 
 def order_status(kept: bool | None) -> Status:
-    """Convert the judgement of a convergence order to a status.
+    """Convert the judgement of an order of convergence to pass, fail or inconclusive.
 
-    kept  True if the order agrees with the expected order, False if not, None if the observed order
-          is too uncertain (inconclusive)
+    kept  True if the observed order agrees with the expected order, False if not, None if the
+          observed order is too uncertain
     """
     if kept is None:
         return Status.INCONCLUSIVE
@@ -327,7 +340,10 @@ def order_status(kept: bool | None) -> Status:
 
 
 class FindingRecord(Description):
-    """Number that a report shows with a remark and does not judge; null where it is not finite."""
+    """Record of a number that a report shows with a remark and does not judge.
+
+    The number is null if it is not finite.
+    """
 
     name: str
     run: str
@@ -340,7 +356,7 @@ class FindingRecord(Description):
 
 
 class RunRecord(Description):
-    """Record of one solve: its discretisation and its deterministic cost."""
+    """Record of one solve of a case: solver, discretisation, residual, and counts of work."""
 
     label: str
     cells: tuple[int, int] | None
@@ -383,15 +399,18 @@ class RunRecord(Description):
 
     @property
     def fineness(self) -> int:
-        """Number of cells per side, of elements per contact radius, or of rings."""
+        """Number of cells per side, of elements per contact radius, or of rings, as the solver has
+        it.
+        """
         if self.cells is not None:
             return self.cells[0]
         return self.elements_per_radius or self.rings or 0
 
 
 class SceneRecord(Description):
-    """Description of a scene in words, with the effects that the plan of the solver switches on or
-    off."""
+    """Record of a scene in words, with the physical effects that the solver includes or
+    leaves out.
+    """
 
     title: str
     lines: tuple[tuple[str, str], ...]
@@ -399,7 +418,7 @@ class SceneRecord(Description):
 
 
 class CaseOutcome(Description):
-    """Outcome of a verification case: scenes, runs, verdicts, findings and charts."""
+    """Record of a judged verification case: scenes, runs, verdicts, reported numbers and charts."""
 
     name: str
     title: str
@@ -455,16 +474,20 @@ LEAST_SHARE = 0.95
 
 
 def judged_errors(cases: tuple[CaseOutcome, ...]) -> Iterator[tuple[CaseOutcome, Verdict]]:
-    """Yield all verdicts on numbers with a stated error, each together with the outcome of its
-    case."""
+    """Yield all verdicts on numbers for which the solver states an error, with the outcome of the
+    case.
+
+    Used to count how often stated errors cover the actual errors.
+    """
     for case in cases:
         yield from ((case, verdict) for verdict in case.verdicts if verdict.covered is not None)
 
 
 def share_covered(cases: tuple[CaseOutcome, ...]) -> float:
-    """Return the fraction of the stated errors that cover the actual error, over all given cases.
+    """Compute the fraction of stated errors that are at least as large as the actual errors.
 
-    Numbers without a stated error do not count. The fraction is 1 if there are no stated errors.
+    The uncertainty of the reference is added to the stated error. Numbers without a stated error do
+    not count. The fraction is 1 if there are no stated errors.
     """
     found = [verdict.covered for _, verdict in judged_errors(cases)]
     return sum(map(bool, found)) / len(found) if found else 1.0
@@ -483,8 +506,9 @@ PERCENT_SHOWN_TO = 9.995
 
 
 def clearance_text(verdict: Verdict) -> str:
-    """Return the error of a verdict as a percentage of the accepted error, or as a multiple if
-    large."""
+    """Return the error of a verdict over the accepted error as text: a percentage, or a multiple if
+    large.
+    """
     part = verdict.clearance
     if part is None:
         return "–"
@@ -494,8 +518,7 @@ def clearance_text(verdict: Verdict) -> str:
 
 
 def uncertainty_text(verdict: Verdict) -> str:
-    """Return the uncertainty of the reference relative to the error scale, as text such as "± 1e-4,
-    ".
+    """Return the uncertainty of a reference over the error scale as text, such as "± 1e-4, ".
 
     The text is empty if the uncertainty is not above rounding.
     """
@@ -504,8 +527,10 @@ def uncertainty_text(verdict: Verdict) -> str:
 
 
 def order_text(verdict: Verdict) -> str:
-    """Return an observed order of convergence with its interval; words if the interval is too
-    wide."""
+    """Return an observed order of convergence with its 95 % interval as text.
+
+    If the interval is too wide, the text states that no order can be read.
+    """
     if verdict.value is None or verdict.interval is None:
         return NOT_FINITE
     half = verdict.interval
@@ -515,8 +540,9 @@ def order_text(verdict: Verdict) -> str:
 
 
 def moved_text(change: Change) -> str:
-    """Return the change of a number since its recording as text, in units U of the accepted
-    error."""
+    """Return the change of a number since its recording as text, in units U of the
+    accepted error.
+    """
     return "–" if change.moved is None else f"{plain(change.moved, 2)} U"
 
 
@@ -524,8 +550,9 @@ def failure_line(case: str, verdict: Verdict, level: str) -> str:
     """Return one line for a log about a failed or changed verdict, with the command that repeats
     it.
 
-    case   name of the case
-    level  amount of computation, as in the command line
+    case     name of the case
+    verdict  failed or changed verdict
+    level    amount of computation, as in the command line
     """
     word = "FAIL" if verdict.status is Status.FAIL else "MOVED"
     return (
@@ -535,8 +562,9 @@ def failure_line(case: str, verdict: Verdict, level: str) -> str:
 
 
 def failure_text(verdict: Verdict) -> str:
-    """Return the value of a failed verdict, the expected and accepted values, and the recorded
-    value."""
+    """Describe a failed verdict: measured value, expected value with tolerance, and
+    recorded value.
+    """
     if verdict.name == SOLVED:
         return verdict.meaning + _was_text(verdict)
     measured, reference = (
@@ -549,7 +577,7 @@ def failure_text(verdict: Verdict) -> str:
 
 
 def _allowed_text(verdict: Verdict) -> str:
-    """Return the accepted error of a verdict as text, in the unit in which its value is shown."""
+    """Return the accepted error of a verdict as text, in the unit in which the value is shown."""
     allowed, unit = verdict.allowed * verdict.scale, verdict.unit
     if unit in ("", "°"):
         return plain(allowed, 2) + unit
@@ -559,7 +587,7 @@ def _allowed_text(verdict: Verdict) -> str:
 
 
 def _was_text(verdict: Verdict) -> str:
-    """Return the recorded value and its commit as text; "" if no value is recorded."""
+    """Return the recorded value of a number and its commit as text; "" if no value is recorded."""
     change = verdict.regression
     if change is None or not change.recorded:
         return ""

@@ -1,5 +1,8 @@
-"""Refinement levels of a problem: runs on finer and finer cells, elements or rings, or with a
-penalty."""
+"""Refinement levels of a problem: runs on finer and finer cells, finite elements or rings.
+
+Levels with a penalty method in place of exact contact are included, as well as tolerances that
+depend on the level.
+"""
 
 from __future__ import annotations
 
@@ -26,11 +29,12 @@ PER_OCTAVE = 5
 
 
 def refinement(coarsest: int, finest: int) -> tuple[int, ...]:
-    """Return even numbers of cells per side from coarse to fine, about five per doubling.
+    """Return numbers of cells per side for a convergence study, coarse to fine, five per doubling.
 
-    The last number is `finest`; no number is smaller than `coarsest`. The numbers are not multiples
-    of each other, because the error depends on the positions of the cells relative to the round
-    contact edge. Many different grids separate this scatter from the order of convergence.
+    The last number is `finest`; no number is smaller than `coarsest`, and all are even. The numbers
+    are not multiples of each other, because the error depends on the positions of the cells
+    relative to the round contact edge. Many different grids separate this scatter from the order of
+    convergence.
     """
     counts = []
     number = 0
@@ -78,7 +82,7 @@ TOLERANCE_ELEMENTS = 64
 
 @dataclass(frozen=True)
 class SizedRun:
-    """One refinement level: a run, and the size of its discretisation.
+    """Hold one refinement level: a run, and the number of cells, elements or rings.
 
     run    run of a solver
     count  number of cells per side, of elements per contact radius, or of rings of the output
@@ -93,7 +97,7 @@ class SizedRun:
     def words(self) -> dict[str, str]:
         """Words for measured quantities in the discretisation of this level, by placeholder.
 
-        The meaning of an observable contains the placeholders, such as {point} for "cell" or
+        The description of an observable contains placeholders, such as {point} for "cell" or
         "ring".
         """
         if isinstance(self.run, Run):
@@ -107,7 +111,7 @@ class SizedRun:
 
 @dataclass(frozen=True)
 class RefinementLevels:
-    """Runs of one problem on several refinement levels.
+    """Hold the runs of one problem on several refinement levels.
 
     problem   problem with its known answer
     rungs     levels, coarse to fine
@@ -123,19 +127,25 @@ class RefinementLevels:
 
     @property
     def uncorrected(self) -> bool:
-        """True if orders of convergence are computed from separate runs without edge correction."""
+        """True if orders of convergence are computed from separate runs on cells without edge
+        correction.
+        """
         return isinstance(self.judged.run, Run) and self.followed != self.rungs
 
     @property
     def runs(self) -> tuple[AnyRun, ...]:
-        """Runs from which orders of convergence are computed: separate uncorrected runs, or all
-        levels."""
+        """Runs from which orders of convergence are computed.
+
+        These are the separate uncorrected runs if there are any, else the runs of all levels.
+        """
         return tuple(rung.run for rung in (self.followed if self.uncorrected else self.rungs))
 
     @property
     def refined(self) -> SizedRun:
-        """Level whose numerical error can be estimated from refinement: on cells the finest
-        uncorrected one."""
+        """Level whose numerical error is estimated from the coarser levels.
+
+        On cells with edge correction this is the finest level without the correction.
+        """
         return self.followed[-1] if self.uncorrected else self.judged
 
     @property
@@ -154,8 +164,9 @@ class RefinementLevels:
 def ladder(
     problem: Problem, rungs: Sequence[SizedRun], followed: Sequence[SizedRun] = ()
 ) -> RefinementLevels:
-    """Combine refinement levels of a problem; values are judged on the last level.
+    """Combine runs of a problem to refinement levels; values are judged on the last run.
 
+    problem   problem with its known answer
     rungs     levels, coarse to fine
     followed  levels from which orders of convergence are computed; default: all
     """
@@ -169,11 +180,11 @@ def on_cells(
     of: str = "",
     offsets: Sequence[tuple[float, float]] = (),
 ) -> RefinementLevels:
-    """Create refinement levels on grids of cells around the contact, for the semi-analytical
-    solver.
+    """Create refinement levels of a problem on grids of cells, for the semi-analytical solver.
 
+    problem  problem with its known answer
     cells    numbers of cells per side, coarse to fine
-    window   side of the grid over the contact size, along x and y
+    window   side of the grid over the contact radius (or semi-axis), along x and y
     of       name of the problem within its case, with which the labels begin
     offsets  positions of the grid centre relative to the contact axis, in cells; each number of
              cells gets one grid for each offset
@@ -204,11 +215,12 @@ def with_edge_at(
     studied: Sequence[tuple[int, float]] = (),
     of: str = "",
 ) -> RefinementLevels:
-    """Create refinement levels of finite elements, with a prescribed position of the contact edge.
+    """Create refinement levels of finite elements with a prescribed position of the contact edge.
 
     The position of the edge within an element changes the error more than a few elements do. Values
     are judged with the edge in the middle of an element.
 
+    problem   problem with its known answer
     elements  numbers of elements per contact radius, with the edge in the middle of an element
     studied   numbers of elements with the position of the edge (fraction of an element), for the
               orders of convergence; default: the meshes of `elements`
@@ -228,8 +240,11 @@ def _mesh_with_edge(problem: Problem, n: int, place: float, of: str) -> SizedRun
 
 
 def meshed(radius: float, elements: int, place: float = MIDDLE) -> float:
-    """Compute the radius [length] over which a mesh counts its elements, for a wanted edge
-    position.
+    """Compute the radius that a mesh must divide so that the contact edge has a given position
+    [length].
+
+    The mesh divides this radius, slightly smaller than the contact radius, into the number of
+    elements.
 
     radius    contact radius [length]
     elements  number of complete elements inside the contact
@@ -244,8 +259,9 @@ def on_elements(
     over: float | None = None,
     of: str = "",
 ) -> RefinementLevels:
-    """Create refinement levels of finite elements with given numbers of elements.
+    """Create refinement levels of a problem on finite elements with given numbers of elements.
 
+    problem   problem with its known answer
     elements  numbers of elements per contact radius, coarse to fine
     over      radius over which the elements are counted, in contact radii; None: the solver
               estimates the contact radius
@@ -273,10 +289,12 @@ def on_radii(
     laws: float = OVER_RINGS,
     at_points: bool = False,
 ) -> RefinementLevels:
-    """Create refinement levels of the radial solver; values are judged on the level of fineness 1.
+    """Create refinement levels of a problem for the radial solver; values are judged at fineness 1.
 
+    problem    problem with its known answer
     name       label of the run of fineness 1
-    fineness   factors on the numbers of orders and rings that the solver chooses; must include 1
+    fineness   factors on the numbers of polynomials and rings that the solver chooses; must include
+               1
     rings      number of rings at which the solver returns its fields
     laws       largest accepted violation of a law of contact or friction [1]
     at_points  True if torsion is solved at points on rings although a closed form would suffice
@@ -292,10 +310,9 @@ def on_radii(
 
 
 def on_springs(of: RefinementLevels, name: str, **penalty: float) -> RefinementLevels:
-    """Return the judged finite element mesh as a level with penalty contact in place of exact
-    contact.
+    """Create the finite element level with a penalty method in place of exact contact.
 
-    of       refinement levels, of which the judged level is used
+    of       refinement levels of exact contact, of which the judged level is used
     name     label of the new run
     penalty  fields of the discretisation that concern the penalty method
     """
@@ -307,16 +324,19 @@ def on_springs(of: RefinementLevels, name: str, **penalty: float) -> RefinementL
 
 
 def cells_label(cells: int, of: str = "") -> str:
-    """Return the label of a run on a grid of cells × cells, beginning with the name of its
-    problem."""
+    """Return the label of a run on cells × cells cells, such as "ball, 128x128".
+
+    of  name of the problem, with which the label begins; may be empty
+    """
     return f"{of}, {cells}x{cells}" if of else f"{cells}x{cells}"
 
 
 def mesh_label(elements: int, place: float = MIDDLE, of: str = "") -> str:
-    """Return the label of a run on finite elements, beginning with the name of its problem.
+    """Return the label of a run on finite elements, such as "ball, 32 elements per radius".
 
     elements  number of elements per contact radius
     place     position of the contact edge within an element, as a fraction
+    of        name of the problem, with which the label begins; may be empty
     """
     name = f"{of}, " if of else ""
     aside = "" if place == MIDDLE else f", edge at {place:g}"
@@ -324,7 +344,7 @@ def mesh_label(elements: int, place: float = MIDDLE, of: str = "") -> str:
 
 
 def scaled_tolerance(figure: float, order: float) -> Callable[[SizedRun], float]:
-    """Scale a tolerance for 64 elements per radius to other meshes by the convergence order.
+    """Create a tolerance that scales with the mesh by the order of convergence.
 
     Returns a function from a refinement level to its tolerance.
 
@@ -335,15 +355,21 @@ def scaled_tolerance(figure: float, order: float) -> Callable[[SizedRun], float]
 
 
 def part_of_side(part: float) -> Callable[[SizedRun], float]:
-    """Return a tolerance as a fraction of a cell or element side, over the contact radius.
+    """Create a tolerance that is a fraction of the cell or element side, over the contact radius.
 
-    Returns a function from a refinement level to the tolerance.
+    Returns a function from a refinement level to its tolerance.
+
+    part  fraction of the side
     """
     return lambda rung: part * rung.reach / rung.count
 
 
 def named(name: str, of: RefinementLevels) -> RefinementLevels:
-    """Return refinement levels with another label of the judged run."""
+    """Return refinement levels in which the judged run has another label.
+
+    name  new label
+    of    refinement levels
+    """
     judged = replace(of.judged, run=replace(of.judged.run, label=name))
 
     def renamed(rungs: tuple[SizedRun, ...]) -> tuple[SizedRun, ...]:
@@ -380,18 +406,21 @@ PLACES = (0.1, 0.3, MIDDLE, 0.7, 0.9)
 
 
 def levels(level: Level) -> tuple[int, ...]:
-    """Return the numbers of elements per contact radius for an amount of computation, coarse to
-    fine."""
+    """Return the numbers of finite elements per contact radius for an amount of computation.
+
+    The numbers are ordered from coarse to fine.
+    """
     return _LEVELS[level]
 
 
 def order_levels(level: Level, per_octave: int = PER_OCTAVE) -> tuple[tuple[int, float], ...]:
-    """Return the meshes from which orders of convergence are computed.
+    """Return the finite element meshes from which orders of convergence are computed.
 
-    Each mesh has a number of elements per contact radius, and a position of the contact edge in its
-    element.
+    Each mesh is a number of elements per contact radius, and a position of the contact edge within
+    its element (0 to 1). Each number of elements has five positions.
 
-    per_octave  number of meshes per doubling of the number of elements
+    level       amount of computation: quick, standard or full
+    per_octave  number of meshes per doubling of the number of elements, above the quick level
     """
     steps = range(round(OCTAVES * per_octave), -1, -1)
     many = tuple(dict.fromkeys(round(TOLERANCE_ELEMENTS / 2 ** (n / per_octave)) for n in steps))
@@ -400,13 +429,15 @@ def order_levels(level: Level, per_octave: int = PER_OCTAVE) -> tuple[tuple[int,
 
 
 def finest(level: Level) -> int:
-    """Return the number of elements per contact radius of the finest mesh for an amount of
-    computation."""
+    """Return the number of finite elements per contact radius of the finest mesh at an amount of
+    computation.
+    """
     return _LEVELS[level][-1]
 
 
 def because(order: float) -> str:
-    """Return the reason for a tolerance that is scaled from 64 elements per radius to other meshes.
+    """Return the reason for a tolerance that holds at 64 elements per radius and is scaled to other
+    meshes.
 
     order  order of convergence by which the tolerance is scaled
     """

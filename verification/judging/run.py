@@ -1,5 +1,7 @@
-"""Runs of a verification case: one scene, its discretisation and the solver, for each of 3
-solvers."""
+"""Runs of a verification case: one scene, its discretisation and the solver.
+
+There is one class for each of the three solvers.
+"""
 
 from __future__ import annotations
 
@@ -32,11 +34,15 @@ OVER_RINGS, OVER_ANGLES, ENERGY_OVER_RINGS = 2e-3, 5e-3, 2e-4
 class Run:
     """Run of the semi-analytical solver: one scene on a grid of cells, solved to a tolerance.
 
-    label     name of the run within its case tolerance bound of every residual
-    effects   function that changes the plan of the scene before the solve; None: no change
-    problem   name of the problem, if a case has several problems; else empty
-    edge      setting of the edge correction; the default of users, unless orders of convergence of
-              the uncorrected method are judged
+    label      name of the run within its case
+    scene      bodies and loads
+    grid       grid of cells
+    tolerance  bound of every residual [1]
+    effects    function that changes the set of computed physical effects before the solve; None: no
+               change
+    problem    name of the problem, if a case has several problems; else empty
+    edge       setting of the edge correction; the default of users, unless orders of convergence of
+               the uncorrected method are judged
     """
 
     label: str
@@ -51,14 +57,14 @@ class Run:
 
     @property
     def laws(self) -> float:
-        """Largest accepted violation of a law of contact or friction in the fields of this run
-        [1]."""
+        """Largest accepted violation of a law of contact or friction in the fields of this
+        run [1].
+        """
         return OTHER_NORMS * self.tolerance
 
     @property
     def energy(self) -> float:
-        """Largest accepted energy imbalance of an increment, relative to the largest energy so far
-        [1]."""
+        """Largest accepted energy imbalance of an increment, over the largest energy so far [1]."""
         return self.laws
 
     @property
@@ -81,11 +87,13 @@ class Run:
 class SectionRun:
     """Run of the finite element solver: one scene on an axisymmetric mesh.
 
-    label    name of the run within its case
-    method   contact algorithm
-    beyond   number of elements between the radius over which the mesh counts its elements and the
-             contact edge, if known; the mean for meshes that differ in this number alone
-    problem  name of the problem, if a case has several problems; else empty
+    label           name of the run within its case
+    scene           bodies and loads
+    discretisation  mesh and tolerance
+    method          contact algorithm
+    beyond          distance of the contact edge beyond the radius that the mesh divides, in
+                    elements, if known; for meshes that differ in this distance alone, the mean
+    problem         name of the problem, if a case has several problems; else empty
     """
 
     label: str
@@ -104,14 +112,14 @@ class SectionRun:
 
     @property
     def laws(self) -> float:
-        """Largest accepted violation of a law of contact or friction in the fields of this run
-        [1]."""
+        """Largest accepted violation of a law of contact or friction in the fields of this
+        run [1].
+        """
         return OTHER_NORMS * self.tolerance
 
     @property
     def energy(self) -> float:
-        """Largest accepted energy imbalance of an increment, relative to the largest energy so far
-        [1]."""
+        """Largest accepted energy imbalance of an increment, over the largest energy so far [1]."""
         return self.laws
 
     @property
@@ -129,11 +137,13 @@ class SectionRun:
 
 @dataclass(frozen=True)
 class RadiiRun:
-    """Run of the radial solver: one axisymmetric geometry on rings.
+    """Run of the radial solver: one scene whose tractions are represented over the radius.
 
     label      name of the run within its case
-    fineness   factor on the numbers of orders and rings that the solver chooses
+    scene      bodies and loads
+    fineness   factor on the numbers of polynomials and rings that the solver chooses
     rings      number of rings at which the solver returns its fields
+    tolerance  bound of every residual [1]
     laws       largest accepted violation of a law of contact or friction in these fields [1]
     at_points  True if torsion is solved at points on rings although a closed form would suffice
     problem    name of the problem, if a case has several problems; else empty
@@ -153,8 +163,9 @@ class RadiiRun:
 
     @property
     def spacing(self) -> float:
-        """Relative size of the discretisation: number of rings that the solver chooses over the
-        number used."""
+        """Relative discretisation size: number of rings that the solver would choose over the
+        number used.
+        """
         return 1 / self.fineness
 
     def solve(self) -> radial.Result:
@@ -174,8 +185,7 @@ AnyRun = Run | SectionRun | RadiiRun
 
 
 def per_radius(elements: int, contact_radius: float | None = None) -> FiniteElementDiscretisation:
-    """Return the finite element discretisation with a given number of elements over the contact
-    radius.
+    """Create a finite element discretisation with a given number of elements per contact radius.
 
     elements        number of elements over the radius
     contact_radius  radius over which the elements are counted [length]; None: the estimated radius

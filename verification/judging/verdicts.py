@@ -1,5 +1,4 @@
-"""Verdicts of a verification case: comparison of measured numbers with references and
-tolerances."""
+"""Verdicts of a verification case: measured numbers are compared with references and tolerances."""
 
 from __future__ import annotations
 
@@ -45,12 +44,15 @@ COVERAGE = 2.0
 def judge_quantity(
     quantity: Quantity, case: Case, results: Results, stated: float | None = None
 ) -> Verdict:
-    """Judge the value of a quantity, measured on a run, against its reference.
+    """Judge a number that is measured on a run against its reference.
 
     A value that is not finite fails. A tolerance that is derived from refinement is computed first.
 
-    stated  error estimate of the solver for the value, in the unit of the value; None if there is
-            none
+    quantity  measured number, reference and tolerance
+    case      case of the quantity
+    results   results of the solved runs, by label of the run
+    stated    error estimate of the solver for the value, in the unit of the value; None if there is
+              none
     """
     tolerance = quantity.tolerance
     if isinstance(tolerance, Derived):
@@ -71,12 +73,19 @@ def judge_quantity(
 
 
 def judge_check(check: Check) -> Verdict:
-    """Judge a number that needs no run against its reference; a value that is not finite fails."""
+    """Judge a number that is computed without a run against its reference.
+
+    A value that is not finite fails.
+    """
     return _make_verdict(check, check.subject, check.measure(), "required", check.tolerance.allowed)
 
 
 def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
-    """Judge the difference between the results of two runs, whose expected value is zero."""
+    """Judge the difference between the results of two runs, whose expected value is zero.
+
+    comparison  labels of the runs, measure of the difference, and tolerance
+    results     results of the solved runs, by label of the run
+    """
     one, other = comparison.runs
     value = comparison.difference(results[one], results[other])
     same = Check(
@@ -88,8 +97,10 @@ def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
 
 
 def _error_scale(quantity: Quantity | Check) -> float:
-    """Return the scale to which an error is relative: the stated scale, else the size of the
-    reference."""
+    """Return the number by which the error of a quantity is divided, in the unit of the quantity.
+
+    The number is the scale that the case defines, else the magnitude of the reference.
+    """
     return abs(quantity.reference.value) if quantity.scale is None else quantity.scale
 
 
@@ -121,12 +132,15 @@ def _make_verdict(
 def expanded_uncertainty(
     quantity: Quantity, tolerance: Derived, case: Case, results: Results
 ) -> float:
-    """Compute the expanded uncertainty 2 √(u_num² + u_ref²) of a quantity, in the unit of the
-    quantity.
+    """Compute the expanded uncertainty 2 √(u_num² + u_ref²) of a measured number, in its unit.
 
-    u_num is the numerical uncertainty, estimated from the values on the refinement levels of the
-    tolerance. u_ref is the uncertainty of the reference. The result is infinite if a value is not
-    finite.
+    u_num is the numerical uncertainty, estimated from the values on several refinement levels.
+    u_ref is the uncertainty of the reference. The result is infinite if a value is not finite.
+
+    quantity   measured number with its reference
+    tolerance  refinement levels and expected order of convergence
+    case       case of the quantity
+    results    results of the solved runs, by label of the run
     """
     values = [quantity.measure(results[label]) for label in tolerance.levels]
     if not all(map(math.isfinite, values)):
@@ -138,8 +152,12 @@ def expanded_uncertainty(
 def judge_order(study: Order, case: Case, results: Results) -> Verdict:
     """Judge an observed order of convergence against the expected order.
 
-    The verdict is INCONCLUSIVE if the 95 % interval of the observed order is too wide. It is a
-    failure if an error is zero or not finite.
+    The verdict is INCONCLUSIVE if the 95 % interval of the observed order is too wide. The verdict
+    is a failure if an error is zero or not finite.
+
+    study    expected order, and the error whose decrease is observed
+    case     case of the order
+    results  results of the solved runs, by label of the run
     """
     sizes, errors = _sizes_and_errors(study, case, results)
     known = all(math.isfinite(error) and error > 0 for error in errors)
@@ -191,9 +209,9 @@ def _asymptotic_text(study: Order) -> str:
 def _sizes_and_errors(
     study: Order, case: Case, results: Results
 ) -> tuple[list[float], list[float]]:
-    """Return the discretisation sizes, coarse to fine, and the errors (or changes) at these sizes.
+    """Return the discretisation sizes h, coarse to fine, and the errors or changes at these sizes.
 
-    The sizes are cell or element sizes, or the sizes that an order of changes defines. Runs of one
+    The sizes are cell or element sides, or the sizes that an order of changes defines. Runs of one
     size are combined by the root mean square of their errors.
     """
     levels = [results[label] for label in study.levels]
@@ -204,8 +222,11 @@ def _sizes_and_errors(
 
 
 def judge_residuals(case: Case, results: Results) -> Verdict:
-    """Judge the largest residual of all increments of all solved runs, against the tolerance of its
-    run."""
+    """Judge the largest residual of all increments of all solved runs of a case.
+
+    The residual is that of the contact and friction equations. It is compared with the tolerance of
+    its run.
+    """
     found = {r.label: largest_residual(results[r.label]) for r in case.runs if r.label in results}
     return judge_worst(
         case, found, RESIDUAL, "largest residual of any increment of the {runs} run(s); it is in "
@@ -224,7 +245,7 @@ def judge_worst(
     allowed: Callable[[AnyRun], float],
     where: Mapping[str, str] = MappingProxyType({}),
 ) -> Verdict:
-    """Judge the worst of several numbers that should vanish, one number for each run.
+    """Judge the worst of several numbers that should be zero, one number for each run.
 
     The worst number has the largest ratio to the accepted value of its run. NaN counts as the
     worst.
@@ -245,17 +266,19 @@ def judge_worst(
 
 
 def unsolved(run: AnyRun, message: str) -> Verdict:
-    """Return the failed verdict on a run that the solver gave up, with the message of the
-    solver."""
+    """Create the failed verdict on a run that the solver did not solve, with the message of the
+    solver.
+    """
     return lost(run.label, f"the solver gave up: {message}", "run", run.tolerance)
 
 
 def lost(where: str, meaning: str, what: str, tolerance: float = 1.0) -> Verdict:
-    """Return the failed verdict on a run or case that has no result.
+    """Create the failed verdict on a run or case that has no result.
 
-    where    label of the run, or name of the case
-    meaning  description of the failure
-    what     "run" or "case"
+    where      label of the run, or name of the case
+    meaning    description of the failure
+    what       "run" or "case"
+    tolerance  tolerance that the verdict shows
     """
     return _judge_zero(
         SOLVED, meaning, where, math.nan, "every run of a case has a solution", tolerance,
@@ -266,11 +289,12 @@ def lost(where: str, meaning: str, what: str, tolerance: float = 1.0) -> Verdict
 def _judge_zero(
     name: str, meaning: str, run: str, value: float, source: str, allowed: float, because: str
 ) -> Verdict:
-    """Judge a dimensionless number that must vanish according to the equations.
+    """Judge a dimensionless number that the equations require to be zero.
 
     name     name of the verdict
     meaning  description of the number
     run      label of the run on which the number was measured
+    value    measured number
     source   law or equation that predicts zero
     allowed  largest accepted value
     because  reason for the accepted value
@@ -284,7 +308,7 @@ def _judge_zero(
 
 
 def finite(value: float) -> float | None:
-    """Return a value as stored in records: None in place of NaN and infinity."""
+    """Convert a number to the form stored in records: None in place of NaN and infinity."""
     return float(value) if math.isfinite(value) else None
 
 
