@@ -1,1 +1,1 @@
-"""Convergence orders under refinement, and estimates of the remaining error."""
+"""Orders of convergence under refinement, and estimates of the remaining discretisation error."""

@@ -34,11 +34,12 @@ Triplets = tuple[float | None, float | None]
 
 @dataclass(frozen=True)
 class ObservedOrder:
-    """Observed convergence order: slope of log(error) over log(h), with its uncertainty.
+    """Hold an observed convergence order: slope of log(error) over log(h), with its uncertainty.
 
+    order       observed order p of error = C h^p (h: discretisation size)
     half_width  half-width of the two-sided 95 % interval of the order
-    margin      half-width for one-sided bounds: with 95 % confidence the order is at least
-                `order - margin`, or, as a separate statement, at most `order + margin`
+    margin      half-width for one-sided bounds: with 95 % confidence the order is at least `order -
+                margin`, or, as a separate statement, at most `order + margin`
     """
 
     order: float
@@ -47,12 +48,14 @@ class ObservedOrder:
 
     @property
     def is_legible(self) -> bool:
-        """Determine if the 95 % interval of the order is narrow enough (± 0.5) to
-        report the order."""
+        """Determine if the 95 % interval of the order is narrow enough (below ± 0.5) to report the
+        order.
+        """
         return self.half_width < ILLEGIBLE
 
     def may_be_off_by(self, promised: float, allowance: float = 0.0) -> float:
-        """Return the largest allowed difference between observed and theoretical convergence order.
+        """Return the largest accepted difference between the observed and the theoretical
+        convergence order.
 
         For an observed order above the theoretical one, the margin of the observed order is added.
 
@@ -63,8 +66,9 @@ class ObservedOrder:
         return off if self.order < promised else off + self.margin
 
     def keeps(self, promised: float, allowance: float = 0.0) -> bool | None:
-        """Determine if the observed order agrees with the theoretical one; None if it is too
-        uncertain.
+        """Determine if the observed convergence order agrees with the theoretical order.
+
+        The result is None if the observed order is too uncertain for a verdict.
 
         promised   theoretical convergence order
         allowance  additional tolerance for levels that are not asymptotic
@@ -75,7 +79,9 @@ class ObservedOrder:
 
 @dataclass(frozen=True)
 class RefinedValue:
-    """Convergence order, limit and uncertainty of a value that is known on several levels.
+    """Hold the convergence order, the limit for h → 0 and the uncertainty of a refined value.
+
+    The value f is known at several discretisation sizes h.
 
     observed     order p of f(h) = f0 + C h^p by least squares; None if no p explains the values
     triplets     orders p through two triplets of levels, the finer triplet first; with enough
@@ -112,28 +118,33 @@ def order_is_kept(above: float, allowed: float, half_width: float, margin: float
 
 
 def triplets_agree(orders: Triplets) -> bool:
-    """Determine if the convergence orders of two triplets of refinement levels exist and agree to
-    0.2.
+    """Determine if the convergence orders through two triplets of levels exist and differ by 0.2 at
+    most.
 
     If they do, the levels are in the asymptotic range.
+
+    orders  orders through the finer and the coarser triplet; None if a triplet has no order
     """
     last, before = orders
     return last is not None and before is not None and abs(last - before) <= TRIPLETS_AGREE
 
 
 def observed_order(sizes: Sequence[float], errors: Sequence[float]) -> ObservedOrder:
-    """Fit the convergence order p of error = C h^p to at least three refinement levels.
+    """Fit the convergence order p of error = C h^p to the errors on at least three refinement
+    levels.
 
-    sizes   sizes h of the levels, all different
+    sizes   discretisation sizes h of the levels, all different
     errors  errors > 0 on these levels
     """
     return error_line(sizes, errors).observed
 
 
 def refined_value(sizes: Sequence[float], values: Sequence[float], expected: float) -> RefinedValue:
-    """Estimate convergence order and limit of a value from at least four refinement levels.
+    """Estimate convergence order and limit for h → 0 of a value on at least four refinement levels.
 
-    sizes     sizes h of the levels, all different, in any order
+    Used where no exact value is known.
+
+    sizes     discretisation sizes h of the levels, all different, in any order
     values    values f(h)
     expected  theoretical order, with which the limit is extrapolated
     """
@@ -155,12 +166,13 @@ def refined_value(sizes: Sequence[float], values: Sequence[float], expected: flo
 
 
 def _triplet_stride(h: Vector, reach: int) -> int:
-    """Return the number of levels between members of a triplet, so that sizes differ by a factor
-    near 2.
+    """Return the distance, in levels, between the members of a triplet whose sizes differ by about
+    2.
 
-    The number is reduced so that two triplets fit into the levels.
+    A convergence order follows from three values; sizes that are too close have much scatter. The
+    distance is reduced so that two triplets fit into the levels.
 
-    h      sizes of the levels, finest first
+    h      discretisation sizes of the levels, finest first
     reach  number of strides that a triplet spans
     """
     wanted = max(1, round(float(np.log(2) / np.log(h[1] / h[0]))))
@@ -197,10 +209,11 @@ def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order
 
 @dataclass(frozen=True)
 class _FittedLine:
-    """Result of the least-squares fit of f(h) = limit + coefficient h^p to values on several
-    levels.
+    """Hold the least-squares fit of f(h) = limit + coefficient h^p to values on several levels.
 
-    squares  weighted sum of the squared residuals of the fit
+    limit        value for h → 0
+    coefficient  factor of h^p
+    squares      weighted sum of the squared residuals of the fit
     """
 
     limit: float
@@ -211,9 +224,10 @@ class _FittedLine:
 def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _FittedLine:
     """Fit f(h) = limit + coefficient h^p by least squares with weights h^-w.
 
-    The scatter is assumed to fall with h like the error. Without weights the coarsest level would
-    determine the value on the finest.
+    The scatter of the values is assumed to fall with h like the error. Without weights the coarsest
+    level would determine the value on the finest.
 
+    h, f          discretisation sizes and values of the levels
     order         exponent p
     weight_order  exponent w of the weights
     """
@@ -227,10 +241,10 @@ def _line(h: Vector, f: Vector, order: float, weight_order: float) -> _FittedLin
 def richardson(h: Vector, f: Vector, order: float) -> tuple[float, float]:
     """Extrapolate values f(h) to h = 0 (Richardson); return the limit and its standard uncertainty.
 
-    The uncertainty combines the uncertainty of the fit and the difference from the limit by the two
+    The uncertainty combines the scatter of the fit and the difference from the limit by the two
     finest levels alone.
 
-    h, f   sizes and values of at least three levels, finest first
+    h, f   discretisation sizes and values of at least three levels, finest first
     order  convergence order of the values
     """
     fit = _line(h, f, order, order)
@@ -242,12 +256,12 @@ def richardson(h: Vector, f: Vector, order: float) -> tuple[float, float]:
 
 
 def _fit_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None:
-    """Fit the order p of f(h) = f0 + C h^p by least squares; return it with its 95 % interval.
+    """Fit the order p of f(h) = f0 + C h^p by least squares; return p with its 95 % interval.
 
     The interval follows from the linearised model. The result is None if all values are equal, or
     if the best p lies at an end of the range 0.05 to 6.
 
-    h, f      sizes and values of the levels, finest first
+    h, f      discretisation sizes and values of the levels, finest first
     expected  theoretical order, which determines the weights
     """
     spread = float(np.ptp(f))
@@ -278,9 +292,11 @@ def _fit_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None:
 
 
 def _triplet_order(h: Vector, f: Vector) -> float | None:
-    """Compute the convergence order p through the values of three levels, finest first.
+    """Compute the convergence order p of f(h) = f0 + C h^p through the values of three levels.
 
     The result is None if the differences change sign, or if no p from 0.05 to 6 fits.
+
+    h, f  discretisation sizes and values of the levels, finest first
     """
     fine, coarse = f[1] - f[0], f[2] - f[1]
     if fine == 0 or coarse / fine <= 0:
@@ -303,7 +319,8 @@ def _known_to(order: float, deviation: float, freedom: int) -> ObservedOrder:
 
 @dataclass(frozen=True)
 class ErrorLine:
-    """Line error = C h^p, fitted by least squares of the logarithms.
+    """Hold the line error = C h^p, fitted to errors on several levels by least squares of
+    logarithms.
 
     observed   order p with its interval
     log_size   mean of ln h, where the uncertainty of the line is smallest
@@ -317,11 +334,13 @@ class ErrorLine:
     reach: float
 
     def at(self, sizes: Vector) -> Vector:
-        """Return the errors C h^p of the fitted line at sizes h."""
+        """Return the errors C h^p of the fitted line at discretisation sizes h."""
         return np.asarray(np.exp(self.log_error + self.observed.order * self._beside(sizes)))
 
     def band(self, sizes: Vector) -> tuple[Vector, Vector]:
-        """Return the lower and upper limits of the 95 % confidence band of the line at sizes h."""
+        """Return the lower and upper limits of the 95 % confidence band of the fitted line at sizes
+        h.
+        """
         by = np.exp(np.hypot(self.reach, self.observed.half_width * self._beside(sizes)))
         line = self.at(sizes)
         return line / by, line * by
@@ -331,10 +350,10 @@ class ErrorLine:
 
 
 def error_line(sizes: Sequence[float], errors: Sequence[float]) -> ErrorLine:
-    """Fit a line error = C h^p (straight in logarithms) to errors on at least three refinement
+    """Fit the line error = C h^p (straight in logarithms) to errors on at least three refinement
     levels.
 
-    sizes   sizes h of the levels
+    sizes   discretisation sizes h of the levels
     errors  errors > 0 on these levels
     """
     if len(sizes) < 3:
@@ -350,11 +369,11 @@ def error_line(sizes: Sequence[float], errors: Sequence[float]) -> ErrorLine:
 
 
 def by_size(sizes: Sequence[float], errors: Sequence[float]) -> tuple[list[float], list[float]]:
-    """Combine the errors of equal sizes by their root mean square; return the sizes and these
-    errors.
+    """Combine the errors of runs of equal discretisation size by their root mean square.
 
     Errors of one size differ by the position of the grid or mesh relative to the contact, and a
-    single one may vanish by chance. The sizes are in the order of their first occurrence.
+    single one may vanish by chance. Returns the sizes in the order of their first occurrence, and
+    their combined errors.
     """
     of: dict[float, list[float]] = {}
     for size, error in zip(sizes, errors, strict=True):

@@ -1,4 +1,8 @@
-"""States of the contact surface from semi-analytical results, for the evaluation of the laws."""
+"""States of the contact surface from results on cells, for the evaluation of the laws of contact.
+
+A state contains tractions, gap, slip and loads of one increment, in a form that is common to all
+solvers.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +36,7 @@ INNER = 0.1
 
 
 def states_on_cells(result: Result) -> list[ContactState]:
-    """Compute the states of the contact surface in all increments of a result on cells.
+    """Collect the state of the contact surface at the end of each increment of a result on cells.
 
     With the edge correction, complementarity and the balance of the tangential force hold only to
     the last change of the correction. Slip and energies are those before the correction.
@@ -106,12 +110,16 @@ def _state_on_cells(
 
 
 def _stated_differences(before: Increment | None, now: Increment, area: float) -> list[float]:
-    """Compare sums over the fields of dissipation and slip with the stated numbers of an increment
+    """Compare the dissipated energy and the slip distance of an increment with sums over its fields
     [1].
 
-    Returns the relative deviation of the dissipated energy, and the largest deviation of the growth
-    of the accumulated slip distance from the change of the slip. The list is empty if a field is
-    missing.
+    Returns the relative difference of the dissipated energy, and the largest difference between the
+    growth of the accumulated slip distance and the change of the slip. The list is empty if a field
+    is missing.
+
+    before  preceding increment; None for the first
+    now     increment
+    area    area of a cell [length²]
     """
     lost, way, slip = now.dissipated_energy, now.slip_distance, now.slip
     if lost is None or way is None or slip is None or now.dissipation is None:
@@ -125,12 +133,17 @@ def _stated_differences(before: Increment | None, now: Increment, area: float) -
 
 
 def _motion_before_touch(first: Increment, undeformed: Field) -> Field:
-    """Compute the relative motion of particles in the first increment before first contact
-    [length].
+    """Compute the relative motion of particles in the first increment before they come into
+    contact.
 
-    The result has the shape (2, nx, ny). At cells with an initial gap, slip is (p/p₀)² of the whole
-    relative motion, because p² grows with the motion of the contact edge. p₀ is the largest
-    pressure.
+    Slip counts from first contact, while the stored energy needs the whole relative motion of the
+    surfaces. At cells with an initial gap, slip is (p/p₀)² of the whole motion, because p² grows
+    with the motion of the contact edge (p₀: largest pressure).
+
+    first       first increment
+    undeformed  gap before any load (nx, ny) [length]
+
+    Returns an array of the shape (2, nx, ny) [length].
     """
     if first.slip is None:
         return np.zeros((2, *undeformed.shape))

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
-    """Yield the relative deviations from the prescribed loads and motions at the ends of all load
+    """Yield the relative deviations from the prescribed loads and displacements at the ends of load
     steps.
 
     Forces are relative to the normal force, and displacements to the approach. Moments and
@@ -51,14 +51,14 @@ def missed(scene: Scene, steps: Sequence[Any]) -> Iterator[float]:
 def _control_deviation(
     control: ScalarControl | VectorControl, force: Any, motion: Any, *scales: float
 ) -> float:
-    """Compute the relative deviation of one load or motion from its prescribed end value.
+    """Compute the deviation of a computed load or displacement from its prescribed end value [1].
 
     A value that a solver omits counts as zero.
 
-    control  prescribed force or motion of the load step
+    control  prescribed force or displacement of the load step
     force    computed force or moment
     motion   computed displacement or rotation
-    scales   scale of the force, and scale of the motion
+    scales   scale of the force, and scale of the displacement
     """
     by_force = control.kind is ControlKind.FORCE
     found_end, scale = (force, scales[0]) if by_force else (motion, scales[1])
@@ -69,8 +69,8 @@ def _control_deviation(
 
 
 class Imbalance(float):
-    """Difference of energies that should balance in an increment, relative to the largest energy so
-    far.
+    """Difference of energies that should balance in an increment, over the largest energy so far
+    [1].
 
     terms  text with the number of the increment, from 1, and the compared energies
     """
@@ -78,7 +78,7 @@ class Imbalance(float):
     terms: str
 
     def __new__(cls, number: int, largest: float, difference: float, **terms: float) -> Imbalance:
-        """Create the imbalance of one increment from a difference of energies [force length].
+        """Create the imbalance of one increment from a difference of energies [force*length].
 
         number      number of the increment, from 1
         largest     largest energy so far, the scale of the imbalance
@@ -92,8 +92,10 @@ class Imbalance(float):
 
 
 def largest_of(found: Iterable[float]) -> float:
-    """Return the largest of dimensionless numbers; infinite if one is not finite, 0 for no
-    numbers."""
+    """Return the largest of dimensionless violations of laws.
+
+    The result is infinite if a number is not finite, and 0 for no numbers.
+    """
     numbers = list(found)
     return max(numbers, default=0.0) if np.all(np.isfinite(numbers)) else float("inf")
 
@@ -116,12 +118,13 @@ FEW_RINGS = "the contact has too few rings for integrals"
 
 @dataclass(frozen=True)
 class Balance:
-    """Balance of a force or moment: the value of the computed tractions against the expected value.
+    """Compare a force or moment that the computed tractions carry with its expected value.
 
     carried  force or moment of the tractions
     due      expected value
     most     largest possible value, the scale of the difference
-    eased    tolerance of the solver over the tolerance of this balance
+    eased    tolerance of the solver over the tolerance of this balance; below 1 with edge
+             correction
     """
 
     carried: Any
@@ -131,9 +134,10 @@ class Balance:
 
     @property
     def missing(self) -> float:
-        """Difference of the carried from the expected force, over the largest possible force [1].
+        """Difference between carried and expected force over the largest possible force [1].
 
-        The difference is multiplied by `eased`.
+        The difference is multiplied by `eased`, so that it can be compared with the tolerance of
+        the solver.
         """
         off = np.linalg.norm(np.subtract(self.carried, self.due))
         return float(off / self.most) * self.eased
@@ -141,18 +145,24 @@ class Balance:
 
 @dataclass(frozen=True)
 class ContactState:
-    """State of the contact surface at the end of an increment; vector fields have the shape (2,
-    ...).
+    """Hold the state of the contact surface at the end of an increment, in one form for all
+    solvers.
+
+    Scalar fields have one value for each point of the surface, vector fields the shape (2, ...).
+    The laws of contact and friction are evaluated from these fields.
 
     increment   increment with the numbers that the solver states
     weights     area of the points [length^2]
     undeformed  gap before any load [length]
+    pressure    contact pressure [force/length^2]
     gap         gap of the deformed surfaces, negative where contact springs are compressed [length]
+    shear       shear traction [force/length^2]
     limit       friction limit µp [force/length^2]
     slip        slip as stated by the solver [length]
     passed      motion of the lower surface relative to the indenter since the start [length]; None
                 if it is undefined
     forces      forces and moments; `motions` are conjugate to them
+    motions     displacements and rotations of the indenter, and strains of the lower body
     depth       scale of gaps [length]
     balances    balances of forces and moments
     stated      relative differences between stated numbers and those of the fields
@@ -160,7 +170,7 @@ class ContactState:
     loose       largest slip of contact springs without motion of the points, or 0 [length]
     eased       tolerance of the solver over the tolerance of p g = 0
     coarse      factor on the scale of energies, for the edge correction
-    least_work  smallest scale of the dissipated energy [force length]
+    least_work  smallest scale of the dissipated energy [force*length]
     unseen      reason for which slip is not compared with the shear; empty if it is compared
     open        reason for which energies are not compared with those of the preceding state
     told        True if stored energy and unresolved work cannot be computed from the fields
@@ -191,17 +201,22 @@ class ContactState:
 
     @property
     def not_compared(self) -> str:
-        """Reason for which some energies are not compared; empty if all are compared."""
+        """Reason for which some energies of the increment are not compared; empty if all are
+        compared.
+        """
         return self.open or (GROWN if self.told else CORRECTED if self.coarse > 1 else "")
 
     def over(self, field: Field) -> float:
-        """Integrate a field over the contact surface."""
+        """Integrate a scalar field over the contact surface, with the areas of the points as
+        weights.
+        """
         return float(np.sum(self.weights * field))
 
     @property
     def stored(self) -> float:
-        """Energy ½ ∫ (p u_z + q·u) dA stored in bodies and contact springs, from the fields [force
-        length]."""
+        """Elastic energy ½ ∫ (p u_z + q·u) dA of bodies and contact springs, from the fields
+        [force*length].
+        """
         assert self.passed is not None
         closed = np.zeros_like(self.pressure)
         np.subtract(self.gap, self.undeformed, out=closed, where=self.pressure > 0)
@@ -211,19 +226,21 @@ class ContactState:
 
     @property
     def springs(self) -> bool:
-        """True for a penalty method, for which the stated elastic energy contains the bodies
-        alone."""
+        """True for a penalty method; its stated elastic energy does not contain the contact
+        springs.
+        """
         return self.increment.overlap is not None
 
     @property
     def energy(self) -> float:
-        """Stored energy as stated by the solver, else computed from the fields [force length]."""
+        """Elastic energy of the state as stated by the solver, else computed from the fields
+        [force*length].
+        """
         alone = self.increment.elastic_energy
         return self.stored if alone is None or self.springs else float(alone)
 
     def at_rest(self) -> ContactState:
-        """Return the state of the surface before first contact, without tractions, at the same
-        points."""
+        """Return the state of the same points before first contact: no tractions, no motions."""
         nothing, still = np.zeros_like(self.pressure), np.zeros_like(self.shear)
         return ContactState(
             None, self.weights, self.undeformed, nothing, self.undeformed, still, nothing, still,
@@ -236,6 +253,8 @@ def violations(states: Sequence[ContactState]) -> Iterator[float]:
 
     The laws are: no tension, no penetration, complementarity of pressure and gap, balance of
     forces, the friction limit, and slip opposite to the shear.
+
+    states  states of the contact surface, one for each increment
     """
     for before, now in pairwise([None, *states]):
         assert now is not None
@@ -260,10 +279,10 @@ def _pressure_violations(now: ContactState) -> Iterator[float]:
 
 
 def _slip_violations(before: ContactState | None, now: ContactState) -> Iterator[float]:
-    """Yield relative violations of the friction law in one increment [1].
+    """Yield the relative violations of the friction law in one increment [1].
 
-    Slip must be the relative motion of the surfaces, must oppose the shear at its limit, and must
-    dissipate the stated energy.
+    Slip must be the relative motion of the surfaces, must oppose the shear at the friction limit,
+    and must dissipate the stated energy.
 
     before  state of the preceding increment; None for the first
     now     state of the increment
@@ -288,9 +307,11 @@ def _slip_violations(before: ContactState | None, now: ContactState) -> Iterator
 
 
 def _other_than_motion(slip: Field, passed: Field, touched: Mask) -> Field:
-    """Compute the difference of slip and relative motion of the surfaces in an increment [length].
+    """Compute the difference between slip and relative motion of the surfaces in an increment
+    [length].
 
-    For points that came into contact in the increment, slip may be a fraction of the motion.
+    The difference should vanish. For points that came into contact in the increment, slip may be a
+    fraction of the motion.
 
     slip     change of the slip (2, ...) [length]
     passed   relative motion of the surfaces (2, ...) [length]
@@ -302,10 +323,12 @@ def _other_than_motion(slip: Field, passed: Field, touched: Mask) -> Field:
 
 
 def imbalances(states: Sequence[ContactState]) -> Iterator[Imbalance]:
-    """Yield the energy imbalances of all increments, relative to the largest energy so far.
+    """Yield the energy imbalances of all increments, relative to the largest energy so far [1].
 
     Two kinds of differences are included: those of the energy balance, and those of energies
     computed from the fields against stated energies.
+
+    states  states of the contact surface, one for each increment
     """
     largest = 0.0
     for number, (before, now) in enumerate(pairwise([None, *states]), start=1):
@@ -332,9 +355,11 @@ def imbalances(states: Sequence[ContactState]) -> Iterator[Imbalance]:
 def _energy_differences(
     start: ContactState, now: ContactState
 ) -> Iterator[tuple[float, dict[str, float]]]:
-    """Yield the energy differences of one increment, each with the compared energies by name.
+    """Yield the energy differences of one increment that should vanish, with the compared energies
+    by name.
 
-    The first difference is that of the energy balance; the others are those from stated energies.
+    The first difference is work minus stored, dissipated and unresolved energy. The others compare
+    energies from the fields with stated energies. The unit is [force*length].
 
     start  state at the beginning of the increment
     now    state at the end of the increment
@@ -359,10 +384,15 @@ def _energy_differences(
 
 
 def _dissipated_energy_of(start: ContactState, now: ContactState) -> float:
-    """Compute the energy dissipated by friction in an increment, from slip and mean friction limit.
+    """Compute the energy that friction dissipates in an increment, ∫ friction · |slip| dA
+    [force*length].
 
-    Points that lose contact may have stuck until then. For these the friction is half their shear
-    at the start of the increment.
+    The friction is the mean of the friction limits before and after the increment. Points that lose
+    contact may have stuck until then. For these the friction is half their shear at the start of
+    the increment.
+
+    start  state at the beginning of the increment
+    now    state at the end of the increment
     """
     limit = 0.5 * (start.limit + now.limit)
     parted = (start.pressure > 0) & (now.pressure == 0)
@@ -371,10 +401,15 @@ def _dissipated_energy_of(start: ContactState, now: ContactState) -> float:
 
 
 def _unresolved_work_of(start: ContactState, now: ContactState) -> float:
-    """Compute the unresolved work of a finite increment plus its dissipation [force length].
+    """Compute the work that a finite increment leaves unresolved, plus its dissipation
+    [force*length].
 
-    The loads are taken as linear in time where gaps close or open, and the shear as well (see
+    Within an increment the contact area changes, which the tractions at both ends do not show. The
+    loads are taken as linear in time where gaps close or open, and the shear as well (see
     `semi_analytical.increments.energy`).
+
+    start  state at the beginning of the increment
+    now    state at the end of the increment
     """
     assert start.passed is not None
     assert now.passed is not None

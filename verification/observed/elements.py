@@ -33,6 +33,9 @@ PLACES, PARTS = np.polynomial.legendre.leggauss(2)
 def model_of(result: Result, length: float) -> ContactModel:
     """Create the finite element contact model of the bodies of a result, without the test rig.
 
+    Used to compute surface displacements again from the tractions.
+
+    result  finite element result
     length  unit of length of the sections [length]
     """
     scales = Scales(length, outermost_modulus(result.scene))
@@ -43,19 +46,22 @@ def model_of(result: Result, length: float) -> ContactModel:
 
 
 def section_radii(result: Result) -> Field:
-    """Return the radii of the surface nodes of a section, corner and midside nodes alternating [1].
+    """Return the radii of the surface nodes of a finite element section, in the section's unit of
+    length.
 
-    The unit of length is that of the section.
+    Corner and midside nodes of the elements alternate.
     """
     return next(np.asarray(s.radii) for s in result.sections if s is not None)
 
 
 @dataclass(frozen=True)
 class Rings:
-    """Points of a contact surface on rings and angles, with the compliance of the bodies.
+    """Represent the points of a contact surface on rings and angles, with the compliance of the
+    bodies.
 
-    Scalar fields have the shape (rings, angles), vector fields (2, rings, angles) with components
-    along r and θ.
+    Used to compute displacements, gaps and loads again from the tractions of a finite element
+    result. Scalar fields have the shape (rings, angles), vector fields (2, rings, angles) with
+    components along r and θ.
 
     model   finite element contact model
     path    kind of load history of the result
@@ -70,7 +76,7 @@ class Rings:
 
     @classmethod
     def of(cls, result: Result, *, on_points: bool) -> Rings:
-        """Create the rings and angles that carry the tractions of a result.
+        """Create the rings and angles that carry the tractions of a finite element result.
 
         on_points  True if the tractions are those of a penalty at Gauss points
         """
@@ -86,10 +92,11 @@ class Rings:
 
     @cached_property
     def driven(self) -> Field:
-        """Motion of the points (2, rings, angles) per unit motion of the indenter.
+        """Displacement of the points (2, rings, angles) per unit displacement of the indenter.
 
-        The motion is a shift along the load [1], or a twist, for which the mean over each ring is
-        taken [length]. It is zero without a tangential load.
+        For a tangential load the indenter is shifted along the load [1]. For torsion it is rotated,
+        and the mean over each ring is taken [length]. The displacement is zero without a tangential
+        load.
         """
         if self.path is Path.TWISTING:
             return np.stack([self.on_grid(None), self.on_grid(self.arms)])
@@ -99,30 +106,31 @@ class Rings:
 
     @property
     def arms(self) -> Field:
-        """Mean distance of each ring from the axis, weighted with its hat function [length]."""
+        """Mean distance of each ring from the axis, weighted with the hat function of the ring
+        [length].
+        """
         return np.asarray(self.basis.arms / self.basis.weights)
 
     @cached_property
     def weights(self) -> Field:
-        """Area of the points (rings, angles) [length^2]."""
+        """Area of the contact surface that each point (rings, angles) represents [length^2]."""
         return np.outer(self.basis.weights, self._angle_weights)
 
     @cached_property
     def undeformed(self) -> Field:
-        """Gap before any load at the points (rings, angles) [length]."""
+        """Gap of the undeformed surfaces at the points (rings, angles) [length]."""
         return self.on_grid(self.basis.integrate(self.model.gap) / self.basis.weights)
 
     def on_grid(self, values: Field | None) -> Field:
-        """Extend values of the rings to all angles; None becomes zero."""
+        """Extend values of the rings to all angles (rings, angles); None becomes zero."""
         if values is None:
             return np.zeros(self._shape)
         return np.broadcast_to(values if values.ndim == 2 else values[:, None], self._shape)
 
     def stretched(self, increment: Increment) -> Field:
-        """Compute the displacement caused by bulk strain of the lower body, averaged over rings
-        [length].
+        """Compute the displacement (2, rings, angles) by bulk strain of the lower body [length].
 
-        The result has the shape (2, rings, angles).
+        The displacement is averaged over each ring.
         """
         strain = 0.0 if increment.bulk_strain is None else increment.bulk_strain[0]
         return np.stack([self.on_grid(strain * self.arms), self.on_grid(None)])
@@ -139,8 +147,10 @@ class Rings:
         return np.stack([self.on_grid(component) for component in around])
 
     def integral(self, values: Field) -> float:
-        """Integrate a scalar field (rings, angles) over the surface; the field is linear between
-        rings."""
+        """Integrate a scalar field (rings, angles) over the contact surface.
+
+        Between rings the field is linear in the radius; at Gauss points the values are weighted.
+        """
         if self.basis is not self.model.hats:
             return float(np.sum(self.weights * values))
         radii, on_ring = self.basis.radii, values @ self._angle_weights
@@ -150,9 +160,10 @@ class Rings:
         return float(np.sum(0.5 * width * PARTS * r * at_points))
 
     def displacement(self, p: Field, q: Field) -> tuple[Field, Field]:
-        """Compute the surface displacements of the lower body relative to the indenter [length].
+        """Compute the surface displacements of the lower body relative to the indenter from
+        tractions.
 
-        Returns u (2, rings, angles) along the surface and u_z (rings, angles).
+        Returns u (2, rings, angles) along the surface and u_z (rings, angles) [length].
 
         p  pressure (rings, angles) [force/length²]
         q  shear (2, rings, angles) [force/length²]
@@ -186,8 +197,7 @@ class Rings:
 
     @cached_property
     def _angle_weights(self) -> Field:
-        """Integration weights of the angles by the trapezium rule, over the full circle
-        [radian]."""
+        """Integration weights (angles,) of the trapezium rule over the full circle [radian]."""
         if len(self.angles) == 1:
             return np.array([2 * np.pi])
         share = np.full(len(self.angles), 2 * self.angles[1])
@@ -195,8 +205,9 @@ class Rings:
         return share
 
     def _angular_functions(self, n: int) -> Field:
-        """Return the angular functions of the r, θ and z components of harmonic n, shape (3,
-        angles)."""
+        """Return the cosines and sines (3, angles) by which the r, θ and z components of harmonic n
+        vary.
+        """
         inner = (self.angles > 0) & (np.arange(len(self.angles)) < len(self.angles) - 1)
         cos, sin = np.cos(n * self.angles), np.where(inner, np.sin(n * self.angles), 0.0)
         # With as many angles as harmonics, the sine of the last harmonic is zero at all angles.
@@ -219,6 +230,8 @@ class Rings:
     def _join_on_axis(self, u: Field) -> None:
         """Replace the displacements of the points on the axis by their common mean, in place.
 
+        All angles of the ring of radius zero are one point of the surface.
+
         u  displacements (3, rings, angles) along r, θ and z [length]
         """
         share, direction = self._angle_weights / (2 * np.pi), self.driven[:, 0]
@@ -227,9 +240,10 @@ class Rings:
 
 
 def states_on_elements(result: Result) -> list[ContactState]:
-    """Compute the states of the contact surface in all increments of a finite element result.
+    """Collect the state of the contact surface at the end of each increment of a finite element
+    result.
 
-    Raises ValueError for an augmented penalty with harmonics: the result does not contain the
+    Raises ValueError for an augmented penalty with harmonics, whose result does not contain the
     deformation of the contact springs.
     """
     last = result.increments[-1]
@@ -243,7 +257,10 @@ def states_on_elements(result: Result) -> list[ContactState]:
 
 
 def _spring_stiffness(result: Result, element: float) -> float:
-    """Compute the penalty stiffness ε = c E*/h with E* of the outermost materials [force/length^3].
+    """Compute the penalty stiffness ε = c E*/h of a finite element result [force/length^3].
+
+    c is the penalty factor of the discretisation, E* the contact modulus of the outermost
+    materials.
 
     element  length h of a contact edge of an element [length]
     """
@@ -295,10 +312,11 @@ def _state_on_elements(
 
 
 def _load_and_motion(increment: Increment, result: Result) -> tuple[float, float | None]:
-    """Return the force and the shift along the tangential load, or in torsion the torque and the
+    """Return the tangential force and the shift of an increment, or in torsion the torque and the
     twist.
 
-    The shift or twist is None if it is undefined.
+    Force and shift are components along the tangential load. The shift or twist is None if it is
+    undefined.
     """
     if result.plan.path is Path.TWISTING:
         return increment.torque or 0.0, increment.twist

@@ -1,4 +1,7 @@
-"""Numbers at the end of the last or of a given load step, as read by verification cases."""
+"""Numbers at the end of the last or of a given load step, read from the result of any solver.
+
+Verification cases judge these numbers.
+"""
 
 from __future__ import annotations
 
@@ -19,24 +22,26 @@ def normal_force(result: Result) -> float:
 
 
 def approach(result: Result) -> float:
-    """Return the approach of the bodies since first touch, at the end of the last load step
-    [length]."""
+    """Return the approach of the bodies since first touch at the end of the last load step
+    [length].
+    """
     return float(result.steps[-1].approach)
 
 
 def peak_pressure(result: Result) -> float:
-    """Return the largest pressure of all cells or rings at the end of the last step
-    [force/length²]."""
+    """Return the largest pressure of all cells or rings at the end of the last load step
+    [force/length²].
+    """
     return float(result.steps[-1].peak_pressure)
 
 
 def central_pressure(result: Any, step: int = -1) -> float:
-    """Return the pressure on the axis at the end of a load step [force/length²].
+    """Return the pressure on the contact axis at the end of a load step [force/length²].
 
-    Below a stiff thin coating this pressure is not the largest. On finite elements it is the value
-    at the first ring. On cells it is the mean of the cells nearest to the axis. With the edge
-    correction it is the value p₀ of the parabola p₀ - c r² through the means of these cells and the
-    next ones.
+    Below a stiff thin coating this pressure is not the largest. On finite elements the result is
+    the value at the first ring. On cells the result is the mean of the cells nearest to the axis.
+    With the edge correction the result is the value p₀ of the parabola p₀ - c r² through the means
+    of these cells and the next ones.
 
     step  index of the load step
     """
@@ -62,13 +67,16 @@ def contact_radius(result: Result) -> float:
 def stick_radius(result: Result, step: int = -1) -> float:
     """Return the radius √(stick area / π) at the end of a load step [length]; NaN without friction.
 
-    step  index of the load step
+    step  index of the load step; default: the last
     """
     radius = result.steps[step].stick_radius
     return float("nan") if radius is None else float(radius)
 
 
 def is_corrected(increment: Any) -> bool:
-    """Return True if the edge correction was applied to the increment."""
+    """Determine if the edge correction was applied to the tractions of an increment on cells.
+
+    The result is False for increments of other solvers.
+    """
     report = getattr(increment, "edge_report", None)
     return report is not None and report.cause is None

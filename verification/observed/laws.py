@@ -1,5 +1,4 @@
-"""Evaluation of the laws of contact and friction, and of the energy balance, in any solver's
-result."""
+"""Evaluation of the laws of contact and friction and of the energy balance in a solver's result."""
 
 from __future__ import annotations
 
@@ -16,9 +15,10 @@ from verification.observed.contact_state import (
 
 
 class Observed(NamedTuple):
-    """Violations of the laws of contact and friction in a result, and its energy imbalance.
+    """Hold the largest violations of laws that were evaluated from the fields of a result.
 
-    violation  largest violation of any law in any increment; infinite if a number is not finite [1]
+    violation  largest violation of any law of contact or friction in any increment; infinite if a
+               number is not finite [1]
     imbalance  largest energy imbalance of any increment, over the largest energy so far [1]
     of_slip    number of increments in which a law of slip is not evaluated, by reason
     of_energy  number of increments in which energies are not fully compared, by reason
@@ -32,7 +32,10 @@ class Observed(NamedTuple):
 
 def observed(result: Any) -> Observed:
     """Evaluate the laws of contact and friction and the energy balance in all increments of a
-    result."""
+    result.
+
+    result  result of any of the three solvers
+    """
     states = _contact_states(result)
     return Observed(
         largest_of([*violations(states), *missed(result.scene, result.steps)]),

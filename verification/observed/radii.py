@@ -34,8 +34,9 @@ GAUSS = np.polynomial.legendre.leggauss(4)
 
 
 def states_on_radii(result: Result) -> list[ContactState]:
-    """Compute the states of the contact surface in all increments of a result of the radial
-    solver."""
+    """Collect the state of the contact surface at the end of each increment of a radial solver's
+    result.
+    """
     states, before = list[ContactState](), None
     on_disc, coupled = result.plan.circle is None, result.plan.coupled
     for now in result.increments:
@@ -59,10 +60,12 @@ def states_on_radii(result: Result) -> list[ContactState]:
 
 
 def _state_on_radii(now: Increment, result: Result, *, few: bool) -> ContactState:
-    """Compute the state of one increment.
+    """Create the state of the contact surface at the end of one increment of the radial solver.
 
-    few  True if the contact has too few rings for integrals; the points then have equal weights,
-         and the state has no balances
+    now     increment
+    result  result of the increment
+    few     True if the contact has too few rings for integrals; the points then have equal weights,
+            and the state has no balances
     """
     r, gap = now.radii, result.scene.indenter.initial_gap
     p = now.pressure.reshape(len(r), -1)
@@ -108,9 +111,10 @@ def _state_on_radii(now: Increment, result: Result, *, few: bool) -> ContactStat
 def _carried_loads(
     now: Increment, w: Field, arm: Field, q: Field, along: tuple[float, float]
 ) -> Field:
-    """Compute the forces along x and y and the moment about z of a shear traction, as an array
+    """Compute the forces along x and y and the torque about z of a shear traction, as an array
     (3,).
 
+    now    increment with the angles of the points
     w      area of the points (rings, angles) [length²]
     arm    distance of the rings from the axis (rings, 1) [length]
     q      radial and circumferential shear (2, rings, angles) [force/length²]
@@ -129,13 +133,15 @@ def _carried_loads(
 
 
 def _has_few_rings(now: Increment, result: Result) -> bool:
-    """Return True if the contact has too few rings for an accurate integral over the contact."""
+    """Determine if the contact contains too few rings for accurate integrals of the tractions."""
     fewest = FEWEST if result.plan.circle is None else FEWEST_HATS
     return bool(np.count_nonzero(now.radii < now.contact_radius) < fewest)
 
 
 def _weights_on_disc(r: Field, radius: float, *, ends: bool) -> Field:
-    """Compute the areas of rings that integrate a traction over a disc by a spline [length²].
+    """Compute areas of rings for the integration of a traction over a disc by a spline [length²].
+
+    The integral is the sum of the values at the rings times these areas.
 
     r       radii of the rings [length]
     radius  radius of the disc [length]
@@ -153,10 +159,12 @@ def _weights_on_disc(r: Field, radius: float, *, ends: bool) -> Field:
 
 
 def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
-    """Compute 2π ∫ ψ g r dr for the hat functions ψ of all rings.
+    """Compute 2π ∫ ψ g r dr for the hat function ψ of each ring, shape (rings,).
+
+    A hat function is 1 at its ring, 0 at all other rings, and linear in between.
 
     r         radii of the rings [length]
-    function  g(r)
+    function  function g of the radius
     """
     nodes, shares = GAUSS
     v, length = (1 + nodes) / 2, np.diff(r)[:, None]
@@ -166,8 +174,12 @@ def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
 
 
 def _angle_shares(angles: Field | None) -> Field:
-    """Return the weights of the angles, with sum 1, on a full circle or a half circle with both
-    ends."""
+    """Return the integration weights (angles,) of the points on a ring, with sum 1.
+
+    The angles cover the full circle, or a half circle with both ends.
+
+    angles  angles of the points [radian]; None for axisymmetric fields
+    """
     if angles is None:
         return np.ones(1)
     shares = np.ones(len(angles))

@@ -1,5 +1,6 @@
-"""Interpolation of tractions between the rings of finite elements and between cells; error
-norms."""
+"""Interpolation of tractions between finite element rings and between cells, and their
+error norms.
+"""
 
 from __future__ import annotations
 
@@ -22,10 +23,14 @@ IN_ELEMENT = 40  # integration points per element
 
 
 def at_radii(increment: Increment, traction: Field, r: Field) -> Field:
-    """Interpolate a traction of finite elements from the rings to radii r.
+    """Interpolate a traction of a finite element increment from the rings to radii r.
 
     The square of the traction is interpolated linearly in r², which is nearly exact for a square
     root at the contact edge. The sign is kept.
+
+    increment  increment with the radii of the rings
+    traction   values at the rings (rings,) [force/length²]
+    r          radii, of any shape [length]
     """
     squared = np.interp(np.square(r), increment.radii**2, np.sign(traction) * traction**2)
     return np.asarray(np.sign(squared) * np.sqrt(np.abs(squared)))
@@ -35,15 +40,16 @@ def largest_error(
     increment: Increment, traction: Field, answer: Any, exact: Callable[[Field], Field],
     start: float, end: float,
 ) -> float:  # fmt: skip
-    """Compute the largest error of a traction between two radii, in the dimension of the traction.
+    """Compute the largest error of a finite element traction between two radii [force/length²].
 
     The points are the rings, or the radii of the exact answer if it is tabulated.
 
-    traction  values at the rings
-    answer    exact answer; a tabulated one has the attribute `radii`
-    exact     exact traction as a function of the radius
-    start     smallest radius [length]
-    end       largest radius [length]
+    increment  increment with the radii of the rings
+    traction   values at the rings (rings,) [force/length²]
+    answer     exact answer; a tabulated one has the attribute `radii`
+    exact      exact traction as a function of the radius
+    start      smallest radius [length]
+    end        largest radius [length]
     """
     tabulated = getattr(answer, "radii", None)
     r = increment.radii if tabulated is None else tabulated
@@ -53,8 +59,11 @@ def largest_error(
 
 
 def between_rings(increment: Increment, radius: float) -> Field:
-    """Return integration points between the rings up to 1.1 times a radius, 40 per element
-    [length]."""
+    """Return integration points between the rings of finite elements, 40 per element [length].
+
+    increment  increment with the radii of the rings
+    radius     contact radius; the points extend to 1.1 times this radius [length]
+    """
     judged = increment.radii[:-1] < SHOWN * radius
     starts, sides = increment.radii[:-1][judged], np.diff(increment.radii)[judged]
     parts = (np.arange(IN_ELEMENT) + 0.5) / IN_ELEMENT
@@ -64,12 +73,14 @@ def between_rings(increment: Increment, radius: float) -> Field:
 def relative_l2(
     increment: Increment, traction: Field, exact: Callable[[Field], Field], radius: float
 ) -> float:
-    """Compute the L2 error √∫(traction - exact)² r dr / √∫ exact² r dr of a traction over the
-    radius [1].
+    """Compute the relative L2 error √∫(traction - exact)² r dr / √∫ exact² r dr of a traction [1].
 
-    The traction is linear between the rings.
+    The computed traction is linear between the rings of the finite elements.
 
-    radius  contact radius; the integrals extend to 1.1 times this radius [length]
+    increment  increment with the radii of the rings
+    traction   values at the rings (rings,) [force/length²]
+    exact      exact traction as a function of the radius
+    radius     contact radius; the integrals extend to 1.1 times this radius [length]
     """
     r = between_rings(increment, radius)
     known = exact(r)
@@ -80,11 +91,15 @@ def relative_l2(
 def relative_l1(
     increment: Increment, traction: Field, exact: Callable[[Field], Field], radius: float
 ) -> float:
-    """Compute the L1 error ∫|traction - exact| r dr / ∫p r dr of a traction over the radius [1].
+    """Compute the L1 error ∫|traction - exact| r dr / ∫p r dr of a traction over the pressure p
+    [1].
 
     For a shear error relative to µp the caller divides the result by the friction coefficient.
 
-    radius  contact radius; the integrals extend to 1.1 times this radius [length]
+    increment  increment with the radii of the rings and the pressure
+    traction   values at the rings (rings,) [force/length²]
+    exact      exact traction as a function of the radius
+    radius     contact radius; the integrals extend to 1.1 times this radius [length]
     """
     r = between_rings(increment, radius)
     error = np.interp(r, increment.radii, traction) - exact(r)
@@ -106,15 +121,14 @@ def judged_within(elements: int) -> float:
 def tractions_at(
     increment: Increment, x: Field, y: Field, direction: tuple[float, float] = (1.0, 0.0)
 ) -> tuple[Field, Field]:
-    """Evaluate the tractions of a finite element increment at points of the surface.
+    """Evaluate shear and pressure of a finite element increment at arbitrary points of the surface.
 
-    Returns the shear (2, …) along x and y, and the pressure (…) [force/length²].
+    The interpolation is that of the solution: linear between rings, the trigonometric polynomial
+    through the points of a ring, and zero beyond the last ring. Returns the shear (2, …) along x
+    and y, and the pressure (…) [force/length²].
 
     x, y       positions, of any shape [length]
     direction  unit vector of the tangential load
-
-    The interpolation is that of the solution: linear between rings, the trigonometric polynomial
-    through the points of a ring, and zero beyond the last ring.
     """
     r, theta = np.hypot(x, y), np.arctan2(y, x)
     load = np.arctan2(direction[1], direction[0])
@@ -149,9 +163,13 @@ def _grid_of(increment: Increment) -> AngularGrid:
 
 
 def _between_rings(amplitudes: Field, radii: Field, r: Field) -> Field:
-    """Interpolate angular amplitudes (rings, harmonics) linearly to radii r (points,).
+    """Interpolate the angular amplitudes of a traction linearly from the rings to radii r.
 
-    The result has the shape (points, harmonics); it is zero beyond the last ring.
+    Returns an array of the shape (points, harmonics), which is zero beyond the last ring.
+
+    amplitudes  amplitudes of the harmonics at the rings (rings, harmonics)
+    radii       radii of the rings (rings,) [length]
+    r           radii of the result (points,) [length]
     """
     return np.stack([np.interp(r, radii, f, right=0.0) for f in amplitudes.T], axis=1)
 
@@ -160,14 +178,16 @@ DIRECTIONS = 16
 
 
 def outward(shear: Field, grid: SurfaceGrid) -> Field:
-    """Compute the radial component (nx, ny) of a shear (2, nx, ny) on a grid, positive outwards."""
+    """Compute the radial component (nx, ny) of a shear field (2, nx, ny) on cells, positive
+    outwards.
+    """
     x, y = grid.coordinates()
     r = np.hypot(x, y)
     return np.asarray((shear[0] * x + shear[1] * y) / np.where(r > 0, r, 1.0))
 
 
 def along_radii(field: Field, grid: SurfaceGrid, r: Field) -> Field:
-    """Interpolate a field on cells to given distances from the axis, in 16 directions.
+    """Interpolate a field on cells to given distances from the contact axis, in 16 directions.
 
     The result has the shape (distances, directions). The square of the field is interpolated,
     because it is nearly linear at the contact edge.
