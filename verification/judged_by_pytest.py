@@ -15,8 +15,12 @@ import pytest
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the options --slipstick and --slipstick-strict; each enables the collection of solver
-    files.
+    """Add the options --slipstick and --slipstick-strict of this plugin to the command line of
+    pytest.
+
+    Each option enables the collection of files `challenge_*.py`, which contain a solver.
+
+    parser  command line parser of pytest
     """
     group = parser.getgroup("slipstick")
     for name, words in (
@@ -27,18 +31,24 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Collect a file `challenge_*.py` with a solver, if an option of this plugin is set."""
+    """Collect a file `challenge_*.py` with a solver, if pytest runs with an option of this plugin.
+
+    Returns None for all other files.
+    """
     asked = parent.config.getoption("slipstick") or parent.config.getoption("slipstick_strict")
     named = file_path.suffix == ".py" and file_path.name.startswith("challenge_")
     return SolverFile.from_parent(parent, path=file_path) if named and asked else None
 
 
 class SolverFile(pytest.File):
-    """File `challenge_*.py` with a solver that pytest judges on challenges."""
+    """File `challenge_*.py` with a contact solver that pytest judges on problems with known
+    solutions.
+    """
 
     def collect(self) -> Iterator[pytest.Item]:
-        """Yield one test for every challenge of the file; raises Refused for a file without a
-        solver.
+        """Yield one test for every challenge (problem with a known solution) that the file names.
+
+        Raises Refused for a file without a solver, or for an unknown challenge.
         """
         from contact_results.directory.atomic_file import Refused
         from verification.challenge.cases import challenges
@@ -62,10 +72,11 @@ class ChallengeItem(pytest.Item):
         self.module = module
 
     def runtest(self) -> None:
-        """Judge the solver; fail with the failed verdicts, or skip if the solver cannot solve the
-        problem.
+        """Judge the solver of the file on one problem with a known solution.
 
-        With --slipstick-strict, inconclusive verdicts and unsolvable problems fail as well.
+        The test fails with the failed verdicts as message, and is skipped if the solver cannot
+        solve the problem. With --slipstick-strict, inconclusive verdicts and unsolvable problems
+        fail as well.
         """
         from verification.challenge.python_api import (
             LEVELS,

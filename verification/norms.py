@@ -17,21 +17,21 @@ Field = NDArray[np.float64]
 
 
 def relative_l1(field: Field, exact: Field) -> float:
-    """Compute the relative L1 error Σ|field - exact| / Σ|exact| over all cells of
-    the window [1]."""
+    """Compute the relative L1 error Σ|field - exact| / Σ|exact| of a field over all cells [1]."""
     return float(np.sum(np.abs(field - exact)) / np.sum(np.abs(exact)))
 
 
 def relative_l2(field: Field, exact: Field) -> float:
-    """Compute the relative L2 error √Σ(field - exact)² / √Σ exact² over all cells of the window
-    [1].
+    """Compute the relative L2 error √Σ(field - exact)² / √Σ exact² of a field over all
+    cells [1].
     """
     return float(np.sqrt(np.sum((field - exact) ** 2) / np.sum(exact**2)))
 
 
 def shear_error(shear: Field, exact: Field, limit: Field) -> float:
-    """Compute the error of the shear tractions Σ|q - q_exact| / Σµp, with |.| the length of a
-    vector [1].
+    """Compute the error of the shear tractions over the friction limit, Σ|q - q_exact| / Σµp [1].
+
+    The sums extend over all cells, and |.| is the length of a vector.
 
     shear  computed shear (2, nx, ny) [stress]
     exact  exact shear along x (nx, ny), or as vectors (2, nx, ny) [stress]
@@ -52,10 +52,11 @@ DIFFERING = 1e-7  # relative to the largest mean; a larger difference of two rul
 
 
 def cell_means(exact: AtPlaces, x: Field, y: Field, sides: tuple[Field, Field]) -> Field:
-    """Compute the means of a function of the position over cells.
+    """Compute the means over cells of a function of x and y, such as an exact pressure.
 
-    The error is below 2e-4 of the largest value in a cell with a square-root edge along its
-    diagonal, 5e-5 along other lines, and 1e-7 in other cells.
+    Computed tractions with edge correction are means, and are compared with these. The error is
+    below 2e-4 of the largest value in a cell with a square-root edge along its diagonal, 5e-5 along
+    other lines, and 1e-7 in other cells.
 
     exact  function of x and y
     x, y   centres of the cells [length]
@@ -75,7 +76,8 @@ def round_means(
 ) -> Field:
     """Compute the means over equal cells of a function of the distance from the axis.
 
-    The method and the accuracy are those of `cell_means`.
+    The accuracy is 2e-4 of the largest value in a cell with a square-root edge along its diagonal,
+    and better in other cells.
 
     exact  function of the distance from the axis
     x, y   centres of the cells [length]

@@ -1,5 +1,6 @@
-"""Quantities that cases and studies derive from a result: residuals, forces,
-energies and angles."""
+"""Quantities that cases and studies derive from a result: residuals, forces, energies and
+angles.
+"""
 
 from __future__ import annotations
 
@@ -27,16 +28,19 @@ LEAST_SHEAR = 1e-6
 
 
 def largest_residual(result: Result) -> float:
-    """Return the largest residual of any kind at the end of any increment [1]; NaN
-    if any is NaN."""
+    """Return the largest residual of the contact and friction equations in any increment [1].
+
+    The result is NaN if any residual is NaN.
+    """
     return float(np.max([increment.residuals.worst for increment in result.increments]))
 
 
 def named_values(increment: State) -> dict[str, float]:
-    """Return the key results of an increment by name in SI units: scalars, then components of
-    vectors.
+    """Return the key results of an increment (force, approach, radius and others) by name in SI
+    units.
 
-    The names of components end in _x or _y. Results that the increment lacks are left out.
+    Scalars come first, then components of vectors, whose names end in _x or _y. Results that the
+    increment lacks are left out.
     """
     values = numbers(increment)
     keys = [name for name, mark in SCALARS.items() if mark.key]
@@ -49,28 +53,33 @@ def named_values(increment: State) -> dict[str, float]:
 
 
 def unit_of(name: str) -> str:
-    """Return the unit of a result of an increment.
+    """Return the SI unit of a named result of an increment.
 
-    name  name of the result as in `named_values`, with _x or _y for a component
+    name  name of the result, such as approach or tangential_force_x
     """
     return next(mark.unit for known, mark in SCALARS.items() if name in components(known))
 
 
 def force_along_x(increment: State) -> float:
-    """Return the tangential force along x at the end of an increment [force]; 0
-    without friction."""
+    """Return the tangential force along x at the end of an increment [force]; 0 without
+    friction.
+    """
     return 0.0 if increment.tangential_force is None else float(increment.tangential_force[0])
 
 
 def shift_along_x(increment: State) -> float:
-    """Return the tangential shift along x at the end of an increment [length]; 0
-    without friction."""
+    """Return the tangential shift along x at the end of an increment [length]; 0 without
+    friction.
+    """
     return 0.0 if increment.tangential_shift is None else float(increment.tangential_shift[0])
 
 
 def shear_of(increment: Increment) -> Field:
-    """Return the shear tractions of the cells (2, nx, ny) [force/length²]; zeros
-    without friction."""
+    """Return the shear tractions of the cells (2, nx, ny) at the end of an increment
+    [force/length²].
+
+    The result is zero without friction.
+    """
     if increment.shear is None:
         return np.zeros((2, *increment.pressure.shape))
     return increment.shear
@@ -88,10 +97,13 @@ def energy_between(result: Result, first: int, last: int) -> float:
 
 
 def transverse_shear(increment: Increment, friction_coefficient: float) -> float:
-    """Compute the largest shear traction |q_y| across the load, over the largest friction limit µp
+    """Compute the largest shear |q_y| across a load along x, over the largest friction limit µp
     [1].
 
     The ratio is 0 if all shear tractions are along x.
+
+    increment             increment on cells
+    friction_coefficient  µ
     """
     limit = friction_coefficient * np.max(increment.pressure)
     return float(np.max(np.abs(shear_of(increment)[1])) / limit)
@@ -101,7 +113,11 @@ def slip_traction_angle(increment: Increment, friction_coefficient: float) -> fl
     """Compute the largest angle between the shear traction and the x axis in slipping cells
     [degree].
 
-    The sign of the traction does not count, because it changes after a load reversal.
+    The tangential load acts along x. The sign of the traction does not count, because it changes
+    after a load reversal.
+
+    increment             increment on cells
+    friction_coefficient  µ
     """
     shear = shear_of(increment)
     size = np.hypot(shear[0], shear[1])

@@ -41,10 +41,10 @@ NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 
 
 def showcase() -> tuple[Picture, ...]:
-    """Solve the contact and draw pressure, shear, stick and slip zones, and the stress below the
-    surface.
+    """Solve one coated contact and draw its fields for the first page of a verification report.
 
-    Equal versions of the libraries give equal bytes.
+    The pictures show pressure, shear, stick and slip zones, and the stress below the surface. Equal
+    versions of the libraries give equal bytes.
     """
     result = solve(_coated_scene(), square_grid(CELLS, REACH * HERTZ.contact_radius), TOLERANCE)
     cells = surface_of(result)
@@ -101,8 +101,14 @@ def _coated_scene() -> Scene:
 
 
 def _picture_of_figure(name: str, title: str, figure: Figure, caption: str) -> Picture:
-    """Convert a figure to an SVG drawing whose fields are embedded as raster images to limit its
-    size.
+    """Convert a Matplotlib figure to an SVG drawing with a title and a caption.
+
+    Fields are embedded as raster images, which limits the size of the file.
+
+    name     name of the picture
+    title    title in the report
+    figure   figure to convert
+    caption  caption in the report
     """
     matplotlib.rcParams["svg.hashsalt"] = name
     for fields in figure.findobj(Collection):

@@ -4,7 +4,7 @@ from enum import StrEnum
 
 
 class Solver(StrEnum):
-    """Name of one of the three solvers of this program."""
+    """Name of one of the three contact solvers: cells, finite elements or radial."""
 
     CELLS = "semi-analytical"
     ELEMENTS = "finite elements"
@@ -12,8 +12,10 @@ class Solver(StrEnum):
 
 
 class Method(StrEnum):
-    """Method by which finite elements enforce contact and friction, as in
-    `fem_reference.Method`."""
+    """Name of the method by which finite elements enforce contact and friction laws.
+
+    The values are those of `fem_reference.Method`.
+    """
 
     COMPLEMENTARITY = "complementarity"
     PENALTY = "penalty"

@@ -41,13 +41,15 @@ ROUNDING = 1e-14
 
 @dataclass(frozen=True)
 class PartialSlip:
-    """State of a Hertz contact under a tangential force that has grown monotonically from zero.
+    """Hold the state of a Hertz contact under a tangential force that has grown monotonically from
+    zero.
 
-    The formulas are those of Cattaneo (1938) and Mindlin (1949).
+    A central disc sticks, the annulus around it slips. The formulas are those of Cattaneo (1938)
+    and Mindlin (1949).
 
     load                  normal load W > 0 [force]
-    contact_radius        Hertz radius a > 0 [length]
-    friction_coefficient  µ > 0
+    contact_radius        Hertz contact radius a > 0 [length]
+    friction_coefficient  coefficient of friction µ > 0
     tangential_modulus    G* with 1/G* = sum of (2-ν)/4G [force/length²]
     tangential_force      T, |T| <= µW [force]; every result is an odd or an even function of T
 
@@ -65,35 +67,44 @@ class PartialSlip:
 
     @property
     def friction_limit(self) -> float:
-        """Largest tangential force µW that friction can carry [force]."""
+        """Largest tangential force µW that friction can carry (W: normal load) [force]."""
         return self.friction_coefficient * self.load
 
     @property
     def sliding_shift(self) -> float:
-        """Tangential shift 3µW/4aG* at the onset of gross slip [length]."""
+        """Tangential shift 3µW/4aG* of the indenter at the onset of gross slip [length].
+
+        W is the normal load, a the contact radius and G* the tangential modulus.
+        """
         return 3 * self.friction_limit / (4 * self.contact_radius * self.tangential_modulus)
 
     @property
     def stick_radius(self) -> float:
-        """Radius c = a (1 - |T|/µW)^(1/3) of the stick zone [length]."""
+        """Radius c = a (1 - |T|/µW)^(1/3) of the stick zone [length].
+
+        a is the contact radius, T the tangential force and W the normal load.
+        """
         return self.contact_radius * float(np.cbrt(1 - self._force_ratio))
 
     @property
     def shift(self) -> float:
-        """Tangential shift of the indenter, sliding_shift [1 - (1-|T|/µW)^(2/3)], with the sign of
-        T [length]."""
+        """Tangential shift of the indenter under the tangential force T, with the sign of T
+        [length].
+
+        The shift is sliding_shift [1 - (1-|T|/µW)^(2/3)].
+        """
         ratio = self._force_ratio
         fraction = 1.0 if ratio == 1 else -expm1(log1p(-ratio) * 2 / 3)
         return copysign(self.sliding_shift * fraction, self.tangential_force)
 
     @property
     def dissipated_energy(self) -> float:
-        """Energy dissipated by friction since T = 0 [force*length], a quarter of the energy of a
-        full cycle.
+        """Energy dissipated by friction since the tangential force was zero [force*length].
 
-        The formula is (6/5) sliding_shift µW f with f = (1-y)³(1+3y+y²)/6, y = c/a. It is the
+        A full cycle dissipates four times this energy. The formula is (6/5) sliding_shift µW f with
+        f = (1-y)³(1+3y+y²)/6, where y = c/a is the stick radius over the contact radius. f is the
         bracket of Mindlin and Deresiewicz (1953) for the cycle, factored to avoid cancellation for
-        small T.
+        small forces.
         """
         ratio = self._force_ratio
         slipped = 1.0 if ratio == 1 else -expm1(log1p(-ratio) / 3)
@@ -101,8 +112,10 @@ class PartialSlip:
         return self.sliding_shift * self.friction_limit * slipped**3 * (1 + 3 * y + y**2) / 5
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the shear on the lower body at distance r, parallel to the force
-        [force/length²]."""
+        """Compute the shear on the lower body at distance r from the axis [force/length²].
+
+        The shear is parallel to the tangential force, and zero outside the contact.
+        """
         a, c = self.contact_radius, self.stick_radius
         rho = np.abs(np.asarray(r, dtype=float))
         full = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
@@ -111,12 +124,12 @@ class PartialSlip:
         return np.asarray(copysign(slope, self.tangential_force) * (full - taken_off))
 
     def slip(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the slip of the lower surface relative to the indenter at distance r <= a
-        [length].
+        """Compute the slip of the lower surface relative to the indenter at distance r from the
+        axis [length].
 
-        The formula holds for ν = 0. The slip is the gap at r of the Hertz contact of radius c,
-        scaled from normal to tangential displacement by µE*/G*. It opposes the shear (cf. Jäger
-        1998).
+        r must not exceed the contact radius. The formula holds for ν = 0. The slip is the gap of
+        the Hertz contact that has the stick zone as contact area, scaled from normal to tangential
+        displacement by µE*/G*. The slip opposes the shear (cf. Jäger 1998).
         """
         a, c = self.contact_radius, self.stick_radius
         rho = np.clip(np.abs(np.asarray(r, dtype=float)), c, a)
@@ -130,8 +143,11 @@ class PartialSlip:
 
 
 class NormalContact(Protocol):
-    """Interface of a normal contact that the superposition requires; positions are (r) or (x,
-    y)."""
+    """Interface of the solution of a normal contact, as required for the superposition of partial
+    slip.
+
+    Positions are distances r from the axis, or coordinates (x, y).
+    """
 
     @property
     def load(self) -> float:
@@ -139,7 +155,7 @@ class NormalContact(Protocol):
 
     @property
     def approach(self) -> float:
-        """Approach of distant points of the two bodies [length]."""
+        """Approach of distant points of the two bodies since first touch [length]."""
 
     @property
     def pressure(self) -> Callable[..., NDArray[np.float64]]:
@@ -152,12 +168,14 @@ class NormalContact(Protocol):
 
 @dataclass(frozen=True)
 class Superposition:
-    """Partial slip as µ times the difference of two normal contacts; created by `superpose`.
+    """Hold the partial slip of a contact as µ times the difference of two normal contacts.
 
-    full                  contact under the load W
-    stick                 contact under W - |T|/µ; its area is the stick zone
-    friction_coefficient  µ
-    modulus_ratio         E*/G*
+    `superpose` creates this state.
+
+    full                  normal contact under the load W
+    stick                 normal contact under W - |T|/µ; its area is the stick zone
+    friction_coefficient  coefficient of friction µ
+    modulus_ratio         contact modulus over tangential modulus, E*/G*
     tangential_force      T [force]
     """
 
@@ -169,7 +187,11 @@ class Superposition:
 
     @property
     def shift(self) -> float:
-        """Tangential shift of the indenter, µ (E*/G*) times the difference in approach [length]."""
+        """Tangential shift of the indenter [length].
+
+        The shift is µ E*/G* times the difference in approach of the two normal contacts (E*/G*:
+        contact modulus over tangential modulus).
+        """
         return self._signed_state * self.modulus_ratio * (self.full.approach - self.stick.approach)
 
     def shear(self, *position: ArrayLike) -> NDArray[np.float64]:
@@ -185,8 +207,9 @@ class Superposition:
         """Compute the slip of the lower surface relative to the indenter at a position in contact
         [length].
 
-        The formula holds for ν = 0. The slip opposes the shear and is the gap of the stick contact,
-        scaled by µ E*/G*.
+        The position is a distance r from the axis or (x, y). The formula holds for ν = 0. The slip
+        opposes the shear. Its magnitude is the gap of the normal contact that has the stick zone as
+        contact area, times µ E*/G*.
         """
         opened = self.stick.gap(*position) - self.full.gap(*position)
         return np.asarray(-self._signed_state * self.modulus_ratio * opened)
@@ -203,13 +226,15 @@ def superpose(
     friction_coefficient: float,
     modulus_ratio: float,
 ) -> Superposition:
-    """Compute the partial slip of a contact from its normal solution (Jäger, Ciavarella).
+    """Compute the partial slip of a contact under a tangential force from its normal solution.
 
-    contact_under_load    contact as a function of the normal load [force] >= 0
-    load                  W > 0 [force]
+    The shear is µ times the difference of two pressures (Jäger, Ciavarella).
+
+    contact_under_load    normal contact as a function of the normal load [force] >= 0
+    load                  normal load W > 0 [force]
     tangential_force      T, |T| <= µW [force]
     friction_coefficient  µ > 0
-    modulus_ratio         E*/G* > 0
+    modulus_ratio         contact modulus over tangential modulus, E*/G* > 0
 
     Raises ValueError when |T| > µW.
     """
@@ -234,11 +259,12 @@ def _refuse_gross_slip(force: float, limit: float) -> None:
 
 @dataclass(frozen=True)
 class TangentialHistory:
-    """State of a Hertz contact after a history of tangential forces at constant normal load.
+    """Hold the state of a Hertz contact after a history of tangential forces at constant normal
+    load.
 
-    virgin             the contact without tangential force
+    virgin             contact without tangential force
     turning_points     forces at the reversals of open loops, with decreasing differences [force]
-    tangential_force   current T [force]
+    tangential_force   current tangential force T [force]
     dissipated_energy  energy dissipated by friction since the start [force*length]
     """
 
@@ -252,9 +278,10 @@ class TangentialHistory:
             raise ValueError("a history starts from a contact without tangential force")
 
     def loaded_to(self, force: float) -> "TangentialHistory":
-        """Compute the state after a monotonic change of the tangential force to `force` [force].
+        """Compute the state after the tangential force has changed monotonically to another value
+        [force].
 
-        Raises ValueError if |force| exceeds the friction limit µW.
+        force  new tangential force; ValueError if |force| exceeds the friction limit µW
         """
         replace(self.virgin, tangential_force=force)
         if force == self.tangential_force:
@@ -275,7 +302,7 @@ class TangentialHistory:
 
     @property
     def shift(self) -> float:
-        """Tangential shift of the indenter relative to the body [length]."""
+        """Tangential shift of the indenter relative to the body after the load history [length]."""
         return sum(scale * state.shift for scale, state in self.branches())
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
@@ -286,10 +313,10 @@ class TangentialHistory:
         return total
 
     def slip(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the slip of the lower surface relative to the indenter at distance r <= a
-        [length].
+        """Compute the slip of the lower surface relative to the indenter at distance r from the
+        axis [length].
 
-        The formula holds for ν = 0.
+        r must not exceed the contact radius. The formula holds for ν = 0.
         """
         total = np.zeros_like(np.asarray(r, dtype=float))
         for scale, state in self.branches():
@@ -298,14 +325,15 @@ class TangentialHistory:
 
     @property
     def stick_radius(self) -> float:
-        """Radius of the zone that has not slipped since the last reversal [length]."""
+        """Radius of the zone that has not slipped since the last reversal of the force [length]."""
         return self.branches()[-1][1].stick_radius
 
     def branches(self) -> list[tuple[float, PartialSlip]]:
         """Return the first-loading states whose weighted sum is the current state, with their
         weights.
 
-        The first has weight 1; each later branch has weight 2.
+        Each reversal of the force that has not been closed adds a state (Masing's rule). The first
+        state has weight 1; each later state has weight 2.
         """
         forces = (*self.turning_points, self.tangential_force)
         branches = [(1.0, replace(self.virgin, tangential_force=forces[0]))]
@@ -314,10 +342,11 @@ class TangentialHistory:
         return branches
 
     def _lost_energy(self, points: tuple[float, ...], force: float) -> float:
-        """Compute the energy dissipated on the branch from the last reversal to a force
+        """Compute the energy dissipated between the last reversal of the force and a force
         [force*length].
 
         points  forces at the reversals; empty for the first loading [force]
+        force   force up to which the energy is counted [force]
         """
         if not points:
             return replace(self.virgin, tangential_force=force).dissipated_energy
@@ -333,23 +362,23 @@ PLACES = 20_001
 
 @dataclass(frozen=True)
 class CycledContact:
-    """Steady cycles of a Hertz contact between tangential forces T* and -T* at constant normal
-    load.
+    """Hold steady cycles of a Hertz contact between the tangential forces T* and -T*.
 
-    Both materials have ν = 0.
+    The normal load is constant, and both materials have ν = 0. Used for the fretting parameters of
+    Ruiz.
 
     end            state at the end of the first loading, at T* > 0
-    peak_pressure  p0 of the Hertz contact [force/length²]
+    peak_pressure  peak pressure p0 of the Hertz contact [force/length²]
     """
 
     end: PartialSlip
     peak_pressure: float
 
     def slip_amplitude(self, r: ArrayLike) -> Values:
-        """Compute the slip amplitude δ of a steady cycle at distance r <= a from the axis [length].
+        """Compute the slip amplitude δ of a steady cycle at distance r from the axis [length].
 
         δ is half the range of slip. By Masing's rule the slip of a reversal, which is the whole
-        range, is twice that of the first loading.
+        range, is twice that of the first loading. r must not exceed the contact radius.
         """
         return np.abs(self.end.slip(r))
 
@@ -357,7 +386,7 @@ class CycledContact:
         """Compute the largest shear τ of a steady cycle at distance r from the axis
         [force/length²].
 
-        τ is the shear at ±T*, which is µp in the slip annulus.
+        τ is the shear at the largest tangential force, which is µp in the slip annulus.
         """
         return np.abs(self.end.shear(r))
 
@@ -365,7 +394,8 @@ class CycledContact:
         """Compute the largest tensile stress σ_T of a steady cycle at the surface point (x, 0)
         [force/length²].
 
-        σ_T is the larger value of σ_xx at the two ends of the cycle.
+        σ_T is the larger value of σ_xx at the two ends of the cycle. The tangential force acts
+        along x.
         """
         a, c = self.end.contact_radius, self.end.stick_radius
         q0 = self.end.friction_coefficient * self.peak_pressure
@@ -376,14 +406,18 @@ class CycledContact:
 
     @property
     def largest_f1(self) -> float:
-        """Largest first Ruiz parameter τ δ on the surface [force/length]."""
+        """Largest value of the first fretting parameter of Ruiz on the surface [force/length].
+
+        The parameter is τ δ: largest shear times slip amplitude.
+        """
         return float(np.max(self._f1(self._stick_radii())))
 
     @property
     def largest_f2(self) -> float:
-        """Largest second Ruiz parameter σ_T τ δ on the surface [force²/length³].
+        """Largest value of the second fretting parameter of Ruiz on the surface [force²/length³].
 
-        At a given r the tensile stress is largest on the line through the centre along the force.
+        The parameter is σ_T τ δ: tensile stress times largest shear times slip amplitude. At a
+        given r the tensile stress is largest on the line through the centre along the force.
         """
         r = self._stick_radii()
         return float(np.max(np.maximum(self.surface_tension(r), 0.0) * self._f1(r)))
@@ -392,7 +426,10 @@ class CycledContact:
         return self.largest_shear(r) * self.slip_amplitude(r)
 
     def _stick_radii(self) -> Values:
-        """Return radii between the stick zone and the contact edge, dense near the edge
-        [length]."""
+        """Return radii between the stick zone and the contact edge, dense near the contact edge
+        [length].
+
+        The maxima of the fretting parameters are searched at these radii.
+        """
         a, c = self.end.contact_radius, self.end.stick_radius
         return np.asarray(a - (a - c) * np.linspace(1.0, 0.0, PLACES) ** 2)

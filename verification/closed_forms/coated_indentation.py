@@ -39,9 +39,10 @@ PRESSURE_ORDER = 20
 
 @dataclass(frozen=True)
 class LayeredSurface:
-    """Normal compliance of the surfaces of two layered bodies, in wavenumber space.
+    """Represent the normal compliance of the surfaces of two layered bodies, in wavenumber space.
 
-    compliance       F(k) of both bodies together [length³/force], a vectorised function
+    compliance       F(k) of both bodies together [length³/force]: normal displacement per unit
+                     pressure of wavenumber k; a vectorised function
     contact_modulus  E* of the outermost materials [force/length²]
     thickness        thickness of the thinner outermost layer: the scale on which F approaches 2/(k
                      E*) [length]
@@ -52,25 +53,26 @@ class LayeredSurface:
     thickness: float
 
     def excess(self, k: Array) -> Array:
-        """Compute X(k) - 1, the relative change of the compliance by the layers, at wavenumbers k
-        [1].
+        """Compute the relative change of the normal compliance by the layers at wavenumbers k [1].
 
-        The change is relative to a half-space of the outermost material.
+        The change X(k) - 1 = k E* F(k)/2 - 1 is relative to a half-space of the outermost material.
         """
         return np.asarray(k * self.contact_modulus * self.compliance(k) / 2 - 1)
 
 
 @dataclass(frozen=True)
 class LayeredIndentation:
-    """State of a frictionless contact of a paraboloid or flat punch with layered bodies.
+    """Hold the frictionless contact of a paraboloid or flat punch with layered bodies.
 
     surface         normal compliance of the bodies
-    contact_radius  a [length]
+    contact_radius  contact radius a [length]
     radius          radius of curvature R of the paraboloid [length]; infinite for a flat punch
     approach        approach since first touch [length]
     load            normal load [force]
-    transform       (X - 1) p~ at the wavenumbers, times their quadrature weights [force/length]
-    wavenumbers     nodes of the Gauss rule in k [1/length]
+    transform       (X - 1) p~ at the wavenumbers, times their quadrature weights [force/length]; X
+                    - 1 is the relative change of the compliance by the layers, p~ the transform of
+                    the pressure
+    wavenumbers     nodes of the Gauss rule in the wavenumber k [1/length]
     """
 
     surface: LayeredSurface
@@ -82,8 +84,10 @@ class LayeredIndentation:
     wavenumbers: Array
 
     def pressure(self, r: ArrayLike) -> Array:
-        """Compute the contact pressure at distance r from the axis [force/length²], zero
-        outside."""
+        """Compute the contact pressure at distance r from the axis [force/length²].
+
+        The pressure is zero outside the contact.
+        """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         chord = np.sqrt(np.maximum((a - rho) * (a + rho), 0))
         smooth = chebyshev.chebval(2 * np.minimum(rho / a, 1) ** 2 - 1, self._smooth_response)
@@ -93,10 +97,10 @@ class LayeredIndentation:
 
     @cached_property
     def _smooth_response(self) -> Array:
-        """Chebyshev coefficients of the pressure without its root at the edge, in the variable
-        2r²/a² - 1.
+        """Chebyshev coefficients of the pressure without its square root at the contact edge.
 
-        The expanded function is p/√(a²-r²) for a paraboloid, and p √(a²-r²) for a flat punch.
+        The variable is 2r²/a² - 1 (a: contact radius). The expanded function is p/√(a²-r²) for a
+        paraboloid, and p √(a²-r²) for a flat punch.
         """
         count = _quadrature_order(self.contact_radius, self.surface.thickness)
         x = chebyshev.chebpts1(count)
@@ -109,7 +113,11 @@ class LayeredIndentation:
         )
 
     def _pressure_at(self, r: Array, chord: Array) -> Array:
-        """Compute the pressure g(a)/√(a²-r²) - ∫ᵣᵃ g'(s)/√(s²-r²) ds at radii r [force/length²].
+        """Compute the pressure at radii r from the solution g of the integral equation
+        [force/length²].
+
+        The pressure is g(a)/√(a²-r²) - ∫ᵣᵃ g'(s)/√(s²-r²) ds, where g is the cosine transform of
+        the pressure over the contact radius a.
 
         chord  √(a²-r²) [length]
         """
@@ -138,24 +146,33 @@ class LayeredIndentation:
 
 
 def flat_punch(surface: LayeredSurface, contact_radius: float) -> LayeredIndentation:
-    """Solve the contact of a flat punch at unit approach; its load is then the contact
-    stiffness."""
+    """Solve the contact of a flat punch with layered bodies at the approach 1.
+
+    The load of the result is then the contact stiffness.
+
+    surface         normal compliance of the bodies
+    contact_radius  radius of the punch [length]
+    """
     return _solve_fredholm(surface, contact_radius, np.inf)
 
 
 def paraboloid(surface: LayeredSurface, radius: float, contact_radius: float) -> LayeredIndentation:
-    """Solve the contact of a paraboloid with layered bodies for a given contact radius.
+    """Solve the frictionless contact of a paraboloid with layered bodies for a given contact
+    radius.
 
+    surface         normal compliance of the bodies
     radius          radius of curvature of the paraboloid [length]
-    contact_radius  a [length]
+    contact_radius  contact radius a [length]
     """
     return _solve_fredholm(surface, contact_radius, radius)
 
 
 def paraboloid_under(load: float, surface: LayeredSurface, radius: float) -> LayeredIndentation:
-    """Solve the contact of a paraboloid with layered bodies under a given normal load [force].
+    """Solve the frictionless contact of a paraboloid with layered bodies under a given normal load.
 
-    radius  radius of curvature of the paraboloid [length]
+    load     normal load [force]
+    surface  normal compliance of the bodies
+    radius   radius of curvature of the paraboloid [length]
     """
     hertz = float(np.cbrt(3 * load * radius / (4 * surface.contact_modulus)))
 
@@ -197,17 +214,23 @@ def _solve_fredholm(surface: LayeredSurface, a: float, radius: float) -> Layered
 
 
 def _quadrature_order(a: float, thickness: float) -> int:
-    """Return the number of Gauss nodes in 0 < r < a that resolves the scale of the layer
-    thickness."""
+    """Return the number of Gauss nodes over the contact radius that resolves the layer thickness.
+
+    a          contact radius [length]
+    thickness  thickness of the thinnest outermost layer [length]
+    """
     return 50 + int(4 * a / thickness)
 
 
 def _wavenumbers(a: float, thickness: float) -> tuple[Array, Array]:
-    """Return nodes and weights of a composite Gauss rule in the wavenumber, 0 < k <
-    REACH/thickness.
+    """Return nodes and weights of a composite Gauss rule in the wavenumber k [1/length].
 
+    The rule extends to 24 over the layer thickness, where the effect of the layers has vanished.
     The panels double in width from the smallest wavenumber, up to the width that resolves the
     oscillation of cos ka.
+
+    a          contact radius [length]
+    thickness  thickness of the thinnest outermost layer [length]
     """
     limit, step = REACH / thickness, PANEL_PHASE / (a + thickness)
     first = LONGEST_WAVE / (a + thickness)

@@ -41,9 +41,10 @@ ORDER = 80
 
 @dataclass(frozen=True)
 class TorsionalSurface:
-    """Torsional compliance of the surfaces of two coated bodies, in wavenumber space.
+    """Represent the torsional compliance of the surfaces of two coated bodies, in wavenumber space.
 
-    compliance         F(k) of both bodies together [length³/force], a vectorised function
+    compliance         F(k) of both bodies together [length³/force]: circumferential displacement
+                       per unit shear of wavenumber k; a vectorised function
     torsional_modulus  reciprocal of the sum of 1/G of the outermost materials [force/length²]
     thickness          thickness of the thinner outermost layer [length]
     """
@@ -53,23 +54,25 @@ class TorsionalSurface:
     thickness: float
 
     def excess(self, k: Array) -> Array:
-        """Compute X(k) - 1, the relative change of the torsional compliance by the layers, at
-        wavenumbers k.
+        """Compute the relative change of the torsional compliance by the layers at wavenumbers k
+        [1].
 
-        The change is relative to a half-space of the outermost material [1].
+        The change X(k) - 1 = k G F(k) - 1 is relative to a half-space of the outermost material.
         """
         return np.asarray(k * self.torsional_modulus * self.compliance(k) - 1)
 
 
 def one_layer(k: Array, thickness: float, shear_modulus: float, base_modulus: float) -> Array:
-    """Compute the torsional compliance F(k) of one layer bonded to a half-space [length³/force].
+    """Compute the torsional compliance F(k) of one layer that is bonded to a half-space
+    [length³/force].
 
-    F = 1/(Gk) (1 + χ e^(-2kh))/(1 - χ e^(-2kh)) with χ = (G - G_base)/(G + G_base).
+    F is the circumferential displacement per unit shear: F = 1/(Gk) (1 + χ e^(-2kh))/(1 - χ
+    e^(-2kh)) with χ = (G - G_base)/(G + G_base).
 
     k              wavenumbers [1/length]
-    thickness      h [length]
-    shear_modulus  G of the layer [force/length²]
-    base_modulus   G_base of the half-space [force/length²]
+    thickness      thickness h of the layer [length]
+    shear_modulus  shear modulus G of the layer [force/length²]
+    base_modulus   shear modulus G_base of the half-space [force/length²]
     """
     chi = (shear_modulus - base_modulus) / (shear_modulus + base_modulus)
     reflected = chi * np.exp(-2 * k * thickness)
@@ -78,13 +81,17 @@ def one_layer(k: Array, thickness: float, shear_modulus: float, base_modulus: fl
 
 @dataclass(frozen=True)
 class CoatedTorsion:
-    """State of a contact of coated bodies in partial slip, under a torque that has grown from zero.
+    """Hold the state of a contact of coated bodies in partial slip, under a torque that grew from
+    zero.
+
+    A central disc sticks and rotates as a rigid body. In the annulus around it the shear is the
+    friction limit.
 
     surface         torsional compliance of the two bodies
-    contact_radius  a > 0 [length]
-    limit           µp as a function of the distance from the axis [force/length²], falling like a
-                    square root towards r = a
-    stick_radius    c, 0.1 a <= c < a [length]
+    contact_radius  contact radius a > 0 [length]
+    limit           friction limit µp as a function of the distance from the axis [force/length²],
+                    falling like a square root towards r = a
+    stick_radius    stick radius c, 0.1 a <= c < a [length]
     """
 
     surface: TorsionalSurface
@@ -107,7 +114,13 @@ class CoatedTorsion:
         contact_radius: float,
         limit: Callable[[Array], Array],
     ) -> "CoatedTorsion":
-        """Compute the state under a torque [force*length].
+        """Compute the state of the contact under a given torque.
+
+        torque          torque [force*length]
+        surface         torsional compliance of the two bodies
+        contact_radius  contact radius [length]
+        limit           friction limit µp as a function of the distance from the axis
+                        [force/length²]
 
         Raises ValueError if the stick radius would be outside its range.
         """
@@ -121,7 +134,7 @@ class CoatedTorsion:
 
     @property
     def sliding_torque(self) -> float:
-        """Torque 2π ∫ µp r² dr at gross slip [force*length]."""
+        """Torque 2π ∫ µp r² dr at gross slip, from the friction limit µp [force*length]."""
         a = self.contact_radius
         v, weights = unit_gauss(ORDER)
         r, chord = a * np.sin(pi / 2 * v), a * np.cos(pi / 2 * v)
@@ -141,16 +154,21 @@ class CoatedTorsion:
 
     @property
     def transform(self) -> Array:
-        """Abel transform h of the shear at the nodes, in the stick disc and then in the annulus
-        [force/length]."""
+        """Abel transform h of the circumferential shear, which is the unknown of the integral
+        equation.
+
+        The values belong to the nodes in the stick disc, then to those in the slip annulus
+        [force/length].
+        """
         return self._solve_fredholm[1]
 
     def displacement(self, r: Array) -> Array:
-        """Compute the circumferential surface displacement at radii 0 < r <= c of the stick disc
-        [length].
+        """Compute the circumferential surface displacement at radii r of the stick disc [length].
 
-        The displacement must be φr, which checks the solution. The formula uses ∫₀^∞ sin ks J₁(kr)
-        dk = s/(r√(r²-s²)) for s < r, and 0 beyond.
+        The displacement must be twist times r, which checks the solution. The formula uses ∫₀^∞ sin
+        ks J₁(kr) dk = s/(r√(r²-s²)) for s < r, and 0 beyond.
+
+        r  radii between 0 and the stick radius (points,) [length]
         """
         k, weight = self._wavenumbers
         v, weights = unit_gauss(self._quadrature_order)
@@ -165,7 +183,10 @@ class CoatedTorsion:
 
     def _solve_abel_transform(self, s: Array) -> Array:
         """Evaluate the Abel transform h of the shear at positions s in the stick disc
-        [force/length]."""
+        [force/length].
+
+        Between the nodes h follows from the integral equation.
+        """
         k, weight = self._wavenumbers
         G = self.surface.torsional_modulus
         by_layers = np.sin(np.multiply.outer(s, k)) @ (weight * self._spectrum)
@@ -173,8 +194,12 @@ class CoatedTorsion:
 
     @cached_property
     def _spectrum(self) -> Array:
-        """Effect (X - 1) q~ of the layers on the Hankel transform of the shear, at the
-        wavenumbers."""
+        """Effect (X - 1) q~ of the layers on the surface displacement, at the nodes in the
+        wavenumber [force].
+
+        X - 1 is the relative change of the torsional compliance by the layers, and q~ the Hankel
+        transform of the circumferential shear.
+        """
         k, _ = self._wavenumbers
         s, weights = self._quadrature_nodes
         transform = np.sin(np.outer(k, s)) @ (weights * self.transform)
@@ -182,10 +207,10 @@ class CoatedTorsion:
 
     @cached_property
     def _solve_fredholm(self) -> tuple[float, Array]:
-        """Twist φ and Abel transform h of the shear at the nodes.
+        """Twist φ of the contact, and Abel transform h of the shear at the nodes.
 
-        The integral equation is solved once for unit twist and once for the shear of the annulus
-        alone. Continuity of h at the edge of the stick disc determines φ.
+        The integral equation is solved once for unit twist and once for the shear of the slip
+        annulus alone. Continuity of h at the edge of the stick disc determines φ.
         """
         G, c = self.surface.torsional_modulus, self.stick_radius
         s, weights = self._quadrature_nodes
@@ -201,15 +226,20 @@ class CoatedTorsion:
         return twist, np.append(twist * h[:, 0] + h[:, 1], annulus)
 
     def _fredholm_kernel(self, s: Array, t: Array) -> Array:
-        """Compute the kernel K(s, t) of the integral equation, caused by the layers."""
+        """Compute the kernel K(s, t) of the integral equation for the shear; layers are its only
+        cause.
+
+        s, t  positions between 0 and the contact radius [length]
+        """
         k, weight = self._wavenumbers
         weighted = weight * self.surface.excess(k)
         return np.asarray(2 / pi * (np.sin(np.outer(s, k)) * weighted) @ np.sin(np.outer(k, t)))
 
     def _sliding_transform(self, s: Array) -> Array:
-        """Compute the Abel transform h of the friction limit at positions s [force/length].
+        """Compute the Abel transform of the friction limit at positions s [force/length].
 
-        The substitution r² = s² + (a²-s²) sin² θ removes the root.
+        The transform is that of the shear in the slip annulus. The substitution r² = s² + (a²-s²)
+        sin² θ removes the square root of the integrand (a: contact radius).
         """
         v, weights = unit_gauss(ORDER)
         chord = np.sqrt(self.contact_radius**2 - s**2)[:, None]
@@ -219,21 +249,27 @@ class CoatedTorsion:
 
     @property
     def _quadrature_order(self) -> int:
-        """Number of nodes in the stick disc and in the annulus that resolves the layer
-        thickness."""
+        """Number of Gauss nodes, for stick disc and slip annulus each, that resolves the layer
+        thickness.
+        """
         return ORDER + int(4 * self.contact_radius / self.surface.thickness)
 
     @cached_property
     def _quadrature_nodes(self) -> tuple[Array, Array]:
-        """Gauss nodes and weights in the stick disc and then in the slip annulus [length]."""
+        """Gauss nodes and weights over the stick disc, followed by those over the slip annulus
+        [length].
+        """
         a, c = self.contact_radius, self.stick_radius
         v, weights = unit_gauss(self._quadrature_order)
         return np.append(c * v, c + (a - c) * v), np.append(c * weights, (a - c) * weights)
 
     @cached_property
     def _wavenumbers(self) -> tuple[Array, Array]:
-        """Nodes and weights of a composite Gauss rule in the wavenumber, 0 < k < REACH/thickness
-        [1/length]."""
+        """Nodes and weights of a composite Gauss rule in the wavenumber k [1/length].
+
+        The rule extends to 24 over the layer thickness, where the effect of the layers has
+        vanished.
+        """
         limit = REACH / self.surface.thickness
         step = PANEL_PHASE / (2 * self.contact_radius + self.surface.thickness)
         fine = step * 2.0 ** -np.arange(HALVINGS, 0, -1)

@@ -17,8 +17,9 @@ from scipy.special import elliprd, elliprf
 def axis_ratio(radius_x: float, radius_y: float) -> float:
     """Compute the ratio k = b/a of the semi-axes along y and x of an elliptical Hertz contact.
 
-    The equation is Rx/Ry = R_D(1, 0, k²)/R_D(k², 0, 1), which is the classical B/A = [(a/b)²E -
-    K]/[K - E] (Hertz 1882) after cancelling the common factor 1 - k².
+    k follows from Rx/Ry = R_D(1, 0, k²)/R_D(k², 0, 1) with Carlson's integral R_D. The equation is
+    the classical B/A = [(a/b)²E - K]/[K - E] (Hertz 1882) after cancelling the common factor 1 -
+    k².
 
     radius_x  radius of curvature Rx of the gap along x [length]
     radius_y  radius of curvature Ry of the gap along y [length]
@@ -37,12 +38,13 @@ def axis_ratio(radius_x: float, radius_y: float) -> float:
 
 @dataclass(frozen=True)
 class EllipticalContact:
-    """State of an elliptical Hertz contact (Hertz 1882; Johnson 1985, ch. 4.2).
+    """Hold an elliptical Hertz contact (Hertz 1882; Johnson 1985, ch. 4.2); created by
+    `under_load`.
 
     radii            principal radii of curvature (Rx, Ry) of the gap [length]
-    contact_modulus  E* [force/length²]
-    semi_axes        (a, b) along x and y [length]; build with `under_load`
-    axis_ratio       b/a, kept because semi_axes vanish at first touch
+    contact_modulus  contact modulus E* [force/length²]
+    semi_axes        semi-axes (a, b) of the contact along x and y [length]
+    axis_ratio       b/a, which is also defined at first touch, where the semi-axes vanish
     """
 
     radii: tuple[float, float]
@@ -54,7 +56,11 @@ class EllipticalContact:
     def under_load(
         cls, load: float, radii: tuple[float, float], contact_modulus: float
     ) -> "EllipticalContact":
-        """Compute the elliptical contact under a normal load W >= 0 [force]."""
+        """Compute the elliptical Hertz contact under a normal load W >= 0 [force].
+
+        radii            principal radii of curvature (Rx, Ry) of the gap [length]
+        contact_modulus  contact modulus E* [force/length²]
+        """
         k = axis_ratio(*radii)
         a = np.cbrt(load * radii[0] * elliprd(k**2, 0, 1) / (pi * contact_modulus))
         return cls(radii, contact_modulus, (float(a), float(k * a)), k)
@@ -67,19 +73,27 @@ class EllipticalContact:
 
     @property
     def peak_pressure(self) -> float:
-        """Pressure 3W/2πab at the centre of the contact [force/length²]."""
+        """Pressure p0 = 3W/2πab at the centre of the contact [force/length²].
+
+        W is the normal load; a and b are the semi-axes.
+        """
         return self._pressure_slope * self.semi_axes[0]
 
     @property
     def load(self) -> float:
-        """Normal load W = 2πab p0/3 of the elliptical contact [force]."""
+        """Normal load W = 2πab p0/3 [force], with the semi-axes a and b and the peak
+        pressure p0.
+        """
         a, b = self.semi_axes
         return 2 * pi / 3 * a * b * self.peak_pressure
 
     @property
     def approach(self) -> float:
-        """Approach of distant points of the two bodies, 3WK/2πE*a with K the complete integral
-        [length]."""
+        """Approach of distant points of the two bodies since first touch [length].
+
+        The approach is 3WK/2πE*a with the complete elliptic integral K, normal load W and semi-axis
+        a.
+        """
         b = self.semi_axes[1]
         return float(self.peak_pressure * b * elliprf(1, self.axis_ratio**2, 0)) / (
             self.contact_modulus
@@ -95,7 +109,8 @@ class EllipticalContact:
         return np.asarray(self._pressure_slope * np.sqrt(np.maximum(room, 0)))
 
     def surface_displacement(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute the normal surface displacement at (x, y), sum of both bodies [length].
+        """Compute the normal surface displacement of both bodies together at points (x, y)
+        [length].
 
         The points may lie inside or outside the contact. The displacement is the potential of an
         ellipsoidal density: the integrals start at the parameter of the confocal ellipse through
@@ -118,8 +133,10 @@ class EllipticalContact:
         return np.asarray(scale * potential)
 
     def gap(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute the gap of the deformed surfaces at (x, y) [length]; zero to rounding in the
-        contact."""
+        """Compute the gap of the deformed surfaces at points (x, y) [length].
+
+        The gap is zero to rounding inside the contact.
+        """
         xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         undeformed = xs**2 / (2 * self.radii[0]) + ys**2 / (2 * self.radii[1])
         if self.semi_axes[0] == 0:

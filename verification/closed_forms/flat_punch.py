@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 
 @dataclass(frozen=True)
 class FlatPunchContact:
-    """State of the contact between a flat punch and a half-space (Boussinesq 1885; Johnson 1985,
-    ch. 3.4).
+    """Hold the contact between a rigid flat punch and a half-space (Boussinesq; Johnson 1985, ch.
+    3.4).
 
     contact_radius   punch radius a [length]
-    contact_modulus  E* [force/length²]
+    contact_modulus  contact modulus E* [force/length²]
     load             normal load W >= 0 [force]
     """
 
@@ -29,26 +29,31 @@ class FlatPunchContact:
     def under_load(
         cls, load: float, contact_radius: float, contact_modulus: float
     ) -> "FlatPunchContact":
-        """Create the flat punch contact under a normal load [force].
+        """Create the contact of a flat punch under a normal load [force].
 
-        The arguments are in the order of the other closed forms.
+        The order of the arguments is that of the other closed forms.
         """
         return cls(contact_radius, contact_modulus, load)
 
     @property
     def approach(self) -> float:
-        """Approach W/2E*a of distant points of the two bodies [length]."""
+        """Approach W/2E*a of distant points of the two bodies [length].
+
+        W is the normal load and a the punch radius.
+        """
         return self.load / (2 * self.contact_modulus * self.contact_radius)
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the pressure W/(2πa√(a²-r²)) at distance r from the axis [force/length²].
+        """Compute the pressure W/(2πa√(a²-r²)) of the punch at distance r from the axis
+        [force/length²].
 
-        The pressure is infinite at the rim and zero outside.
+        W is the normal load and a the punch radius. The pressure is infinite at the rim and zero
+        outside.
         """
         return _rim_singular(self.load, self.contact_radius, r)
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Return the gap at distance r from the axis [length].
+        """Return the gap between punch and half-space at distance r from the axis [length].
 
         The gap is zero under the punch and infinite outside, where the punch has no surface.
         """
@@ -65,13 +70,13 @@ def _rim_singular(force: float, a: float, r: ArrayLike) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class TiltedPunch:
-    """State of the contact of a flat punch under an eccentric load (Sneddon 1951, § 52).
+    """Hold the contact of a rigid flat punch under an eccentric normal load (Sneddon 1951, § 52).
 
     A pressure ∝ x/√(a²-r²) displaces the disc below as a plane, and a pressure ∝ 1/√(a²-r²) by a
     constant (Galin's theorem for a polynomial of first degree).
 
     contact_radius   punch radius a [length]
-    contact_modulus  E* [force/length²]
+    contact_modulus  contact modulus E* [force/length²]
     load             normal load W > 0 [force]
     eccentricity     (e_x, e_y) of the load [length]; ValueError above a/3, where one side lifts off
     """
@@ -90,22 +95,28 @@ class TiltedPunch:
 
     @property
     def approach(self) -> float:
-        """Approach W/2E*a of the punch axis [length], which does not depend on the tilt."""
+        """Approach W/2E*a of the punch axis, which does not depend on the tilt [length].
+
+        W is the normal load and a the punch radius.
+        """
         return self.load / (2 * self.contact_modulus * self.contact_radius)
 
     @property
     def tilt(self) -> tuple[float, float]:
-        """Slopes of the punch along x and y, We_x/k and We_y/k with the tilting stiffness k = (4/3)
-        E* a³."""
+        """Slopes of the punch face along x and y under the eccentric load [1].
+
+        The slopes are We_x/k and We_y/k with the tilting stiffness k = (4/3) E* a³ (W: load, e:
+        eccentricity, a: punch radius).
+        """
         stiffness = 4 / 3 * self.contact_modulus * self.contact_radius**3
         e_x, e_y = self.eccentricity
         return self.load * e_x / stiffness, self.load * e_y / stiffness
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute the pressure W/(2πa√(a²-r²)) (1 + 3 (e_x x + e_y y)/a²) at (x, y)
-        [force/length²].
+        """Compute the pressure of the tilted punch at points (x, y) [force/length²].
 
-        The pressure is infinite at the rim and zero outside.
+        The pressure is W/(2πa√(a²-r²)) (1 + 3 (e_x x + e_y y)/a²), infinite at the rim and zero
+        outside.
         """
         a, (e_x, e_y) = self.contact_radius, self.eccentricity
         X, Y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)

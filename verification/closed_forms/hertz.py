@@ -18,9 +18,10 @@ ElasticConstants = tuple[float, float]
 
 
 def contact_modulus(*bodies: ElasticConstants) -> float:
-    """Compute the modulus E* of normal contact: 1/E* = sum of (1 - ν²)/E [force/length²].
+    """Compute the contact modulus E* of two bodies: 1/E* = sum of (1 - ν²)/E [force/length²].
 
-    The contact stiffness dW/d(approach) of a circular contact is 2 E* a (Johnson 1985, ch. 4).
+    The contact stiffness dW/d(approach) of a circular contact of radius a is 2 E* a (Johnson 1985,
+    ch. 4).
 
     bodies  Young's modulus E and Poisson's ratio ν of each elastic body
     """
@@ -28,9 +29,10 @@ def contact_modulus(*bodies: ElasticConstants) -> float:
 
 
 def tangential_modulus(*bodies: ElasticConstants) -> float:
-    """Compute the modulus G* of tangential contact: 1/G* = sum of (2 - ν)/(4 G) [force/length²].
+    """Compute the tangential modulus G* of two bodies: 1/G* = sum of (2 - ν)/(4 G) [force/length²].
 
-    The tangential stiffness of a circular contact in full stick is 2 G* a (Mindlin 1949).
+    The tangential stiffness of a circular contact of radius a in full stick is 2 G* a (Mindlin
+    1949).
 
     bodies  Young's modulus E and Poisson's ratio ν of each elastic body
     """
@@ -50,11 +52,11 @@ def _checked(bodies: tuple[ElasticConstants, ...]) -> tuple[ElasticConstants, ..
 
 @dataclass(frozen=True)
 class PointContact:
-    """State of a Hertz point contact (Hertz 1882; Johnson 1985, Eqs. 4.22–4.24).
+    """Hold a Hertz contact of a paraboloid (Hertz 1882; Johnson 1985, Eqs. 4.22–4.24).
 
     radius           relative radius of curvature R [length]
-    contact_modulus  E* [force/length²]
-    contact_radius   a [length], zero at first touch
+    contact_modulus  contact modulus E* [force/length²]
+    contact_radius   contact radius a [length], zero at first touch
     """
 
     radius: float
@@ -63,42 +65,52 @@ class PointContact:
 
     @classmethod
     def under_load(cls, load: float, radius: float, contact_modulus: float) -> "PointContact":
-        """Compute the Hertz contact under a normal load W >= 0 [force]: a³ = 3WR/4E*."""
+        """Compute the Hertz contact of a paraboloid under a normal load W >= 0 [force].
+
+        The contact radius a follows from a³ = 3WR/4E*.
+        """
         return cls(radius, contact_modulus, float(np.cbrt(3 * load * radius / contact_modulus / 4)))
 
     @classmethod
     def at_approach(cls, approach: float, radius: float, contact_modulus: float) -> "PointContact":
-        """Compute the Hertz contact at an approach >= 0 of distant points [length]: a² = R *
-        approach."""
+        """Compute the Hertz contact of a paraboloid at a given approach >= 0 of distant points
+        [length].
+
+        The contact radius a follows from a² = R * approach.
+        """
         return cls(radius, contact_modulus, sqrt(radius * approach))
 
     @property
     def load(self) -> float:
-        """Normal load W = 4E*a³/3R [force]."""
+        """Normal load W = 4E*a³/3R of the Hertz contact (a: contact radius, R: radius of curvature)
+        [force].
+        """
         return 4 * self.contact_modulus * self.contact_radius**3 / (3 * self.radius)
 
     @property
     def approach(self) -> float:
-        """Approach of distant points since first touch, a²/R [length]."""
+        """Approach a²/R of distant points since first touch (a: contact radius) [length]."""
         return self.contact_radius**2 / self.radius
 
     @property
     def peak_pressure(self) -> float:
-        """Pressure at the centre, 3W/2πa² = 2E*a/πR [force/length²]."""
+        """Pressure at the centre of the Hertz contact, 3W/2πa² = 2E*a/πR [force/length²]."""
         return 2 * self.contact_modulus * self.contact_radius / (pi * self.radius)
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the Hertz pressure at distance r from the axis [force/length²], zero outside the
-        contact."""
+        """Compute the Hertz pressure at distance r from the axis [force/length²].
+
+        The pressure is zero outside the contact.
+        """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         # p0/a = 2E*/πR does not involve a, so first touch needs no special case.
         slope = 2 * self.contact_modulus / (pi * self.radius)
         return np.asarray(slope * np.sqrt(np.maximum((a - rho) * (a + rho), 0)))
 
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the gap r²/2R - approach + displacement of the deformed surfaces [length].
+        """Compute the gap of the deformed surfaces at distance r from the axis [length].
 
-        The gap is exactly zero inside the contact.
+        The gap is r²/2R - approach + displacement, and exactly zero inside the contact.
         """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         outside = np.maximum(rho, a)
@@ -114,12 +126,13 @@ ORDER = 60
 
 @dataclass(frozen=True)
 class SphereContact:
-    """State of the contact of a ball with its exact circular arc (Sneddon 1965; Galin-Sneddon
-    integrals).
+    """Hold the frictionless contact of a ball with its exact circular arc (Sneddon 1965).
+
+    Hertz theory replaces the arc by a paraboloid. The fields are Galin-Sneddon integrals.
 
     radius           ball radius R [length]
-    contact_modulus  E* [force/length²]
-    contact_radius   0 <= a < R [length]
+    contact_modulus  contact modulus E* [force/length²]
+    contact_radius   contact radius a, 0 <= a < R [length]
     """
 
     radius: float
@@ -134,7 +147,7 @@ class SphereContact:
 
     @classmethod
     def under_load(cls, load: float, radius: float, contact_modulus: float) -> "SphereContact":
-        """Compute the ball contact under a normal load W >= 0 [force].
+        """Compute the contact of a ball with its exact arc under a normal load W >= 0 [force].
 
         Raises ValueError if the contact radius would reach the ball radius R.
         """
@@ -151,24 +164,32 @@ class SphereContact:
 
     @property
     def load(self) -> float:
-        """Normal load W = E* [(a²+R²)/2 ln((R+a)/(R-a)) - aR] [force]."""
+        """Normal load of the ball with its exact arc [force].
+
+        The load is E* [(a²+R²)/2 ln((R+a)/(R-a)) - aR] (a: contact radius, R: ball radius).
+        """
         reduced = _reduced_load(self.contact_radius / self.radius)
         return self.contact_modulus * self.radius**2 * reduced
 
     @property
     def approach(self) -> float:
-        """Approach (a/2) ln((R+a)/(R-a)) of distant points of the two bodies [length]."""
+        """Approach (a/2) ln((R+a)/(R-a)) of distant points of the two bodies [length].
+
+        a is the contact radius and R the ball radius.
+        """
         return self.contact_radius * atanh(self.contact_radius / self.radius)
 
     @property
     def peak_pressure(self) -> float:
-        """Pressure at the centre of the contact [force/length²]."""
+        """Pressure at the centre of the contact of ball and half-space [force/length²]."""
         return float(self.pressure(0.0))
 
     def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the pressure (E*/π) ∫ᵣᵃ S'(s)/√(s²-r²) ds with S = s artanh(s/R) [force/length²].
+        """Compute the pressure below a ball with its exact arc at distance r from the axis
+        [force/length²].
 
-        The second term of S' is integrated in closed form, the first by a Gauss rule.
+        The pressure is (E*/π) ∫ᵣᵃ S'(s)/√(s²-r²) ds with S = s artanh(s/R) (a: contact radius). The
+        second term of S' is integrated in closed form, the first by a Gauss rule.
         """
         R, a = self.radius, self.contact_radius
         rho = np.minimum(np.abs(np.asarray(r, dtype=float)), a)
@@ -184,7 +205,8 @@ class SphereContact:
     def gap(self, r: ArrayLike) -> NDArray[np.float64]:
         """Compute the gap of the deformed surfaces at distance r from the axis [length].
 
-        The gap is zero inside the contact, and infinite for r > R, where the ball has no surface.
+        The gap is zero inside the contact, and infinite beyond the ball radius, where the ball has
+        no surface.
         """
         R, a = self.radius, self.contact_radius
         rho = np.abs(np.asarray(r, dtype=float))
@@ -198,9 +220,11 @@ class SphereContact:
 
 
 def _reduced_load(x: float) -> float:
-    """Compute the dimensionless load W/(E*R²) = (1+x²) artanh x - x of a ball contact with x = a/R.
+    """Compute the dimensionless load W/(E*R²) of a ball with its exact arc.
 
-    For small x the power series avoids cancellation.
+    The load is (1+x²) artanh x - x. For small x the power series avoids cancellation.
+
+    x  contact radius over ball radius
     """
     if x >= SERIES_BELOW:
         return (1 + x**2) * atanh(x) - x

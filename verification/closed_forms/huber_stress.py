@@ -19,9 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 
 @dataclass(frozen=True)
 class AxisymmetricStress:
-    """Stress components in cylindrical coordinates [force/length²], as arrays of one shape.
+    """Hold stress components in cylindrical coordinates [force/length²], as arrays of one shape.
 
-    radial, hoop, axial  normal stresses σ_rr, σ_θθ, σ_zz
+    radial, hoop, axial  normal stresses σ_rr, σ_θθ, σ_zz, tension positive
     shear                shear stress σ_rz
     """
 
@@ -36,9 +36,10 @@ def huber_stress(
 ) -> AxisymmetricStress:
     """Compute the stress in a half-space under the Hertz pressure p0 √(1-r²/a²) (Huber 1904).
 
-    r, z            radius and depth >= 0 [length], broadcast together
-    contact_radius  a > 0 [length]
-    peak_pressure   p0 > 0 [force/length²]
+    r, z            radius and depth >= 0 of the points [length], broadcast together
+    contact_radius  contact radius a > 0 [length]
+    peak_pressure   peak pressure p0 > 0 [force/length²]
+    poisson_ratio   ν of the half-space
 
     u is the positive root of r²/(a²+u) + z²/u = 1 and t = z/√u. With t² = 1 - r²/(a²+u) the
     classical terms in a²/r² have no singularity on the axis. Raises ValueError for z < 0.
@@ -71,13 +72,14 @@ def huber_stress(
 def axis_stress(
     z: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
 ) -> AxisymmetricStress:
-    """Compute the stress on the axis of symmetry under the Hertz pressure.
+    """Compute the stress on the axis of symmetry below a Hertz contact without shear.
 
     Closed form by Huber 1904 and Johnson 1985, ch. 3.4.
 
-    z               depth >= 0 [length]
-    contact_radius  a > 0 [length]
-    peak_pressure   p0 > 0 [force/length²]
+    z               depths >= 0 [length]
+    contact_radius  contact radius a > 0 [length]
+    peak_pressure   peak pressure p0 > 0 [force/length²]
+    poisson_ratio   ν of the half-space
     """
     _require_half_space(contact_radius, peak_pressure, poisson_ratio)
     depth, arc = _depth(z, contact_radius)
@@ -89,20 +91,25 @@ def axis_stress(
 def sliding_axis_shear(
     z: ArrayLike, contact_radius: float, peak_shear: float
 ) -> NDArray[np.float64]:
-    """Compute the shear stress τ_xz on the axis of symmetry of a Hertz contact in gross slip along
-    x.
+    """Compute the shear stress τ_xz on the axis below a Hertz contact in gross slip along x
+    [force/length²].
 
-    The shear on the body is q0 √(1-r²/a²) along +x (Hamilton 1983). Poisson's ratio has no effect.
+    The shear traction on the body is q0 √(1-r²/a²) along +x (Hamilton 1983). Poisson's ratio has no
+    effect.
 
-    z           depth >= 0 [length]
-    peak_shear  q0 = µ p0 at gross slip [force/length²]
+    z               depths >= 0 [length]
+    contact_radius  contact radius a [length]
+    peak_shear      q0 = µ p0 at gross slip [force/length²]
     """
     depth, arc = _depth(z, contact_radius)
     return np.asarray(-peak_shear * (1 - 1.5 * arc + depth**2 / (2 * (1 + depth**2))))
 
 
 def _depth(z: ArrayLike, a: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return d = z/a and d arctan(1/d) for depths z >= 0; raise ValueError for negative depths."""
+    """Return the depth over the contact radius, d = z/a, and d arctan(1/d); ValueError for z < 0.
+
+    The second term occurs in the closed forms of the stress on the axis.
+    """
     depth = np.asarray(z, dtype=float) / a
     if not np.all(depth >= 0):
         raise ValueError(f"depth down to {np.min(depth) * a!r}: the body occupies z >= 0")
@@ -117,13 +124,15 @@ def _require_half_space(a: float, p0: float, nu: float) -> None:
 def stress_by_hertz_shear(
     x: ArrayLike, contact_radius: float, peak_shear: float, poisson_ratio: float
 ) -> NDArray[np.float64]:
-    """Compute the surface stress σ_xx at (x, 0, 0) under the shear of a Hertz contact in gross
-    slip.
+    """Compute the surface stress σ_xx at (x, 0) by the shear of a Hertz contact in gross slip
+    [force/length²].
 
-    The shear on the body is q0 √(1-r²/a²) along +x. The result is in [force/length²].
+    The shear traction on the body is q0 √(1-r²/a²) along +x.
 
-    contact_radius  a > 0 [length]
+    x               coordinates inside or outside the contact [length]
+    contact_radius  contact radius a > 0 [length]
     peak_shear      q0, of any sign [force/length²]
+    poisson_ratio   ν of the half-space
 
     Within the circle the result is -(π/8)(4+ν) q0 x/a (Hamilton and Goodman 1966). Outside, the
     stress -(Q/π)[3ν X³/R⁵ + (1-2ν) X/R³] by a force Q on the surface (Cerruti) is integrated over
@@ -146,9 +155,10 @@ def stress_by_hertz_shear(
 def stress_by_hertz_pressure(
     x: ArrayLike, contact_radius: float, peak_pressure: float, poisson_ratio: float
 ) -> NDArray[np.float64]:
-    """Compute the surface stress σ_xx at (x, 0, 0) under the Hertz pressure p0 √(1-r²/a²).
+    """Compute the surface stress σ_xx at (x, 0) by the Hertz pressure p0 √(1-r²/a²)
+    [force/length²].
 
-    On the x axis it is the radial stress of Huber (1904), in [force/length²].
+    On the x axis σ_xx is the radial stress of Huber (1904).
     """
     return huber_stress(np.abs(x), 0.0, contact_radius, peak_pressure, poisson_ratio).radial
 
@@ -158,8 +168,8 @@ def trailing_edge_tension(
 ) -> float:
     """Compute the largest tensile stress of a Hertz contact in gross slip [force/length²].
 
-    The maximum p0 [(1-2ν)/3 + (π/8)(4+ν) µ] is at the trailing edge (Hamilton and Goodman 1966;
-    Johnson 1985, section 7.1).
+    The maximum p0 [(1-2ν)/3 + (π/8)(4+ν) µ] is at the trailing edge of the contact (Hamilton and
+    Goodman 1966; Johnson 1985, section 7.1).
     """
     nu, mu = poisson_ratio, friction_coefficient
     return peak_pressure * ((1 - 2 * nu) / 3 + pi / 8 * (4 + nu) * mu)
@@ -177,17 +187,19 @@ def hamilton_stress(
     peak_shear: float,
     poisson_ratio: float,
 ) -> NDArray[np.float64]:
-    """Compute the stress below a Hertz contact in gross slip along x [force/length²].
+    """Compute all stress components below a Hertz contact in gross slip along x [force/length²].
 
     Returns an array (6, …) in the order xx, yy, zz, yz, xz, xy, tension positive.
 
-    x, y, z        position, z > 0 into the body, broadcast together [length] contact_radius a
-                   [length]
-    peak_pressure  p0 of the pressure p0 √(1-r²/a²) [force/length²]
-    peak_shear     q0 of the shear q0 √(1-r²/a²) along +x on the body [force/length²]
+    x, y, z         positions, z > 0 into the body, broadcast together [length]
+    contact_radius  contact radius a [length]
+    peak_pressure   p0 of the pressure p0 √(1-r²/a²) [force/length²]
+    peak_shear      q0 of the shear q0 √(1-r²/a²) along +x on the body [force/length²]
+    poisson_ratio   ν of the half-space
 
-    The integrand varies within a distance z of s = r; with s = r + z sinh u this distance is of
-    order one. Raises ValueError for z <= 0, where the integral does not exist.
+    The stress is an integral over s from -a to a. The integrand varies within a distance z of s =
+    r; with s = r + z sinh u this distance is of order one. Raises ValueError for z <= 0, where the
+    integral does not exist.
     """
     nu, a = poisson_ratio, 1.0
     x, y, z = np.broadcast_arrays(*(np.asarray(v, dtype=float) / contact_radius for v in (x, y, z)))
@@ -214,14 +226,14 @@ def _point_stress(
     deep: NDArray[np.complex128],
     nu: float,
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """Compute 2π times the stress by a unit point force along z and by one along x, at a complex
-    depth.
+    """Compute 2π times the stress by unit point forces along z and along x, at a complex depth.
 
-    The potentials are 1/ρ, -ln(ρ+z) and z ln(ρ+z)-ρ (Boussinesq; Cerruti; Johnson 1985, sections
-    3.2 and 3.6).
+    The integral of the stress over s, with the source at the complex depth -is, gives the stress of
+    a Hertz contact. The potentials are 1/ρ, -ln(ρ+z) and z ln(ρ+z)-ρ (Boussinesq; Cerruti; Johnson
+    1985, sections 3.2 and 3.6).
 
     x, y, z  position relative to the force, in contact radii
-    deep     complex depth z + is of the source
+    deep     complex depth z + is
     nu       Poisson's ratio
     """
     rho = np.sqrt(x * x + y * y + deep * deep)

@@ -19,9 +19,9 @@ ORDER = 120
 
 @dataclass(frozen=True)
 class StuckTorsion:
-    """State of a circular contact in full stick under a torque (Reissner and Sagoci 1944).
+    """Hold a circular contact in full stick under a torque (Reissner and Sagoci 1944).
 
-    contact_radius     a > 0 [length]
+    contact_radius     contact radius a > 0 [length]
     torsional_modulus  reciprocal of the sum of 1/G of both bodies [force/length²]
     moment             torque M, of either sign [force*length]
     """
@@ -32,14 +32,16 @@ class StuckTorsion:
 
     @property
     def twist(self) -> float:
-        """Relative rotation 3M/(16 a³ torsional_modulus) of the two bodies [radian]."""
+        """Relative rotation 3M/(16 a³ torsional_modulus) of the two bodies by the torque M
+        [radian].
+        """
         return 3 * self.moment / (16 * self.contact_radius**3 * self.torsional_modulus)
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
         """Compute the circumferential shear 3Mr/(4πa³√(a²-r²)) at distance r from the axis
         [force/length²].
 
-        The shear is infinite at r = a and zero outside.
+        M is the torque and a the contact radius. The shear is infinite at r = a and zero outside.
         """
         a, rho = self.contact_radius, np.abs(np.asarray(r, dtype=float))
         room = np.where(rho <= a, (a - rho) * (a + rho), np.inf)
@@ -49,15 +51,17 @@ class StuckTorsion:
 
 @dataclass(frozen=True)
 class TorsionalPartialSlip:
-    """State of a Hertz contact whose torque has grown monotonically from zero, with partial slip.
+    """Hold a Hertz contact in partial slip under a torque that has grown monotonically from zero.
 
-    The formulas are those of Lubkin (1951) in Jäger's Abel-integral form.
+    A central disc sticks and rotates as a rigid body. The formulas are those of Lubkin (1951) in
+    Jäger's Abel-integral form.
 
-    contact_radius        a > 0 [length]
-    peak_pressure         p0 > 0 [force/length²]
-    friction_coefficient  µ > 0
+    contact_radius        contact radius a > 0 [length]
+    peak_pressure         peak pressure p0 > 0 [force/length²]
+    friction_coefficient  coefficient of friction µ > 0
     torsional_modulus     reciprocal of the sum of 1/G of both bodies [force/length²]
-    stick_radius          c, 0 < c <= a [length]; the twist grows without bound as c → 0
+    stick_radius          stick radius c, 0 < c <= a [length]; the twist grows without bound as c →
+                          0
     """
 
     contact_radius: float
@@ -82,9 +86,15 @@ class TorsionalPartialSlip:
         friction_coefficient: float,
         torsional_modulus: float,
     ) -> "TorsionalPartialSlip":
-        """Compute the state under a torque 0 <= M < (3π/16) µWa [force*length].
+        """Compute the partial slip of a Hertz contact under a torque M [force*length].
 
-        Raises ValueError for a torque outside this range. W is the normal load.
+        moment                torque, 0 <= M < (3π/16) µWa (W: normal load, a: contact radius)
+        contact_radius        contact radius a [length]
+        peak_pressure         peak pressure p0 [force/length²]
+        friction_coefficient  coefficient of friction µ
+        torsional_modulus     reciprocal of the sum of 1/G of both bodies [force/length²]
+
+        Raises ValueError for a torque outside this range.
         """
         stuck = cls(
             contact_radius,
@@ -112,13 +122,19 @@ class TorsionalPartialSlip:
 
     @property
     def sliding_moment(self) -> float:
-        """Torque (3π/16) µWa = (π²/8) µ p0 a³ at gross slip [force*length]."""
+        """Torque at gross slip, (3π/16) µWa = (π²/8) µ p0 a³ [force*length].
+
+        W is the normal load, a the contact radius and p0 the peak pressure.
+        """
         return pi**2 / 8 * self.friction_coefficient * self.peak_pressure * self.contact_radius**3
 
     @property
     def moment(self) -> float:
-        """Torque (8/3) µ p0 ∫ s² E(√(1-s²/a²)) ds, from s = c to a, of the contact
-        [force*length]."""
+        """Torque of the contact [force*length].
+
+        The torque is (8/3) µ p0 ∫ s² E(√(1-s²/a²)) ds from the stick radius to the contact radius
+        a, with the complete elliptic integral E and the peak pressure p0.
+        """
         scale = self.friction_coefficient * self.peak_pressure * self.contact_radius**3
         return scale * _reduced_moment(self.stick_radius / self.contact_radius)
 
@@ -126,7 +142,8 @@ class TorsionalPartialSlip:
     def twist(self) -> float:
         """Relative rotation µ p0 [K(k') - E(k')]/(2 torsional_modulus) of the two bodies [radian].
 
-        K and E are complete elliptic integrals, and k'² = 1-c²/a².
+        K and E are complete elliptic integrals, and k'² = 1-c²/a² with stick radius c and contact
+        radius a. p0 is the peak pressure.
         """
         square = (self.stick_radius / self.contact_radius) ** 2
         # Carlson's R_D gives K - E without cancellation for a narrow slip annulus
@@ -156,8 +173,12 @@ class TorsionalPartialSlip:
 
 
 def _reduced_moment(ratio: float) -> float:
-    """Compute the dimensionless torque M/(µ p0 a³) of a contact in partial slip, as a function of
-    c/a."""
+    """Compute the dimensionless torque M/(µ p0 a³) of a Hertz contact in partial slip.
+
+    p0 is the peak pressure and a the contact radius.
+
+    ratio  stick radius over contact radius
+    """
     v, weights = unit_gauss(ORDER)
     s = ratio + (1 - ratio) * v
     return 8 / 3 * (1 - ratio) * float((s**2 * ellipe((1 - s) * (1 + s)) * weights).sum())

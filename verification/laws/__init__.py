@@ -1,1 +1,1 @@
-"""Laws of frequency responses and influence coefficients."""
+"""Laws of mechanics that the surface response of elastic layered bodies obeys, as tests."""

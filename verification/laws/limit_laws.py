@@ -32,12 +32,14 @@ ROUNDING = 1e-14
 
 @dataclass(frozen=True)
 class Law:
-    """Law of the surface FRF and the function that measures its violation.
+    """Hold a law of the surface FRF and the function that measures its violation.
+
+    FRF (frequency response function): surface displacement per unit traction of a wavenumber.
 
     name       name of the verdict on the law
     number     number in the list of properties, P1 to P20
     statement  law in words
-    violation  function from a random generator to the relative violation of one random body
+    violation  function from a random generator to the relative violation for one random body
     allowed    accepted violation, due to rounding or to the next order of the law
     draws      number of random bodies
     """
@@ -51,38 +53,50 @@ class Law:
 
 
 def worst_violation(law: Law) -> float:
-    """Compute the largest violation of a law of the FRF over its random bodies; NaN if any is NaN.
+    """Compute the largest violation of a law over its random layered bodies [1].
 
-    The random bodies are equal in every call.
+    The result is NaN if any violation is NaN. The random bodies are equal in every call.
+
+    law  law of the surface frequency response
     """
     rng = np.random.default_rng([SEED, *law.name.encode()])
     return float(np.max([law.violation(rng) for _ in range(law.draws)]))
 
 
 def apart(F: NDArray[np.complex128], expected: NDArray[np.complex128]) -> float:
-    """Compute the largest difference of two FRF matrices, over the largest entry of the second
-    [1]."""
+    """Compute the largest difference of two FRF matrices, over the largest entry of the second [1].
+
+    FRF (frequency response function): surface displacement per unit traction of a wavenumber.
+
+    F         matrix that is tested (..., 3, 3) [length^3/force]
+    expected  matrix that the law requires, of the same shape
+    """
     return float(np.abs(F - expected).max() / np.abs(expected).max())
 
 
 def deficit(larger: NDArray[np.complex128], smaller: NDArray[np.complex128]) -> float:
-    """Compute the relative violation of the matrix inequality larger - smaller >= 0 (Loewner
-    order).
+    """Compute the violation of the matrix inequality larger - smaller >= 0 (Loewner order) [1].
 
-    The result is the magnitude of the most negative eigenvalue of the difference, over the largest
-    entry; 0 if the inequality holds.
+    A stiffer body must have the smaller compliance for all tractions. The result is the magnitude
+    of the most negative eigenvalue of the difference, over the largest entry of `larger`; 0 if the
+    inequality holds.
+
+    larger   compliance matrix of the softer body (3, 3)
+    smaller  compliance matrix of the stiffer body (3, 3)
     """
     least = float(np.linalg.eigvalsh(larger - smaller).min())
     return max(0.0, -least / float(np.abs(larger).max()))
 
 
 def frf_matrix(stack: Stack, m: ArrayLike, n: ArrayLike) -> NDArray[np.complex128]:
-    """Compute the FRF matrix of the surface of one body, for fields exp(+i(m x + n y)).
+    """Compute the FRF matrix of the surface of one layered body, for fields exp(+i(m x + n y)).
 
-    The z axis points into the body. The result has the shape (..., 3, 3): row = displacement (x, y,
-    z), column = traction (q_x, q_y, p) [length^3/force]. It is Hermitian and positive definite.
+    FRF (frequency response function): displacement per unit traction. The z axis points into the
+    body. The result has the shape (..., 3, 3): row = displacement (x, y, z), column = traction
+    (q_x, q_y, p) [length^3/force]. It is Hermitian and positive definite.
 
-    m, n  wavenumbers along x and y [1/length], broadcast together, not both zero
+    stack  layers and base of the body
+    m, n   wavenumbers along x and y [1/length], broadcast together, not both zero
     """
     m, n = _wave_vector(m, n)
     return rotated(scalars(stack, np.hypot(m, n)), m, n)
@@ -91,10 +105,14 @@ def frf_matrix(stack: Stack, m: ArrayLike, n: ArrayLike) -> NDArray[np.complex12
 def composite_frf_matrix(
     lower: Stack, upper: Stack, m: ArrayLike, n: ArrayLike
 ) -> NDArray[np.complex128]:
-    """Compute the FRF matrix of the relative displacement of two bodies, F1 + J F2 J, J = diag(1,
-    1, -1).
+    """Compute the FRF matrix of the displacement of two bodies relative to each other.
 
-    Tractions act on the lower body. Arguments and result are those of `frf_matrix`.
+    The matrix (..., 3, 3) is F1 + J F2 J with J = diag(1, 1, -1), from the displacements per unit
+    traction F1 of the lower body and F2 of the upper body [length^3/force]. Tractions act on the
+    lower body.
+
+    lower, upper  layers and base of both bodies
+    m, n          wavenumbers along x and y [1/length], broadcast together, not both zero
     """
     m, n = _wave_vector(m, n)
     alpha = np.hypot(m, n)
@@ -102,8 +120,10 @@ def composite_frf_matrix(
 
 
 def combined(lower: SurfaceScalars, upper: SurfaceScalars) -> SurfaceScalars:
-    """Combine the FRF scalars of two bodies: the coupling scalar is subtracted, the others are
-    added."""
+    """Combine the FRF scalars of two bodies to those of their relative displacement.
+
+    The coupling scalar of normal and tangential response is subtracted, the others are added.
+    """
     signs = (1, -1, 1, 1)
     return SurfaceScalars(*(a + sign * b for a, sign, b in zip(lower, signs, upper, strict=True)))
 
@@ -111,10 +131,12 @@ def combined(lower: SurfaceScalars, upper: SurfaceScalars) -> SurfaceScalars:
 def rotated(
     response: SurfaceScalars, m: NDArray[np.float64], n: NDArray[np.float64]
 ) -> NDArray[np.complex128]:
-    """Convert FRF scalars to the matrix (..., 3, 3) for displacements and tractions along x, y and
-    z.
+    """Convert FRF scalars, which belong to the direction of the wave, to the matrix for the axes x,
+    y, z.
 
-    response  scalars in the frame of the wave vector
+    The result has the shape (..., 3, 3): row = displacement, column = traction.
+
+    response  responses along, across and normal to the wave, and their coupling [length^3/force]
     m, n      wavenumbers along x and y [1/length]
     """
     alpha = np.hypot(m, n)
@@ -133,7 +155,7 @@ def rotated(
 
 
 def _wave_vector(m: ArrayLike, n: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Broadcast the wavenumbers along x and y to arrays of one shape."""
+    """Convert the wavenumbers along x and y to arrays of one shape."""
     m, n = np.broadcast_arrays(np.asarray(m, np.float64), np.asarray(n, np.float64))
     return m, n
 
@@ -142,31 +164,43 @@ SPECIAL_RATIOS = (0.0, 0.3, 0.5)
 
 
 def decades(rng: Generator, low: float, high: float) -> float:
-    """Draw a random number between 10^low and 10^high, whose logarithm is uniformly distributed."""
+    """Draw a random number between 10^low and 10^high, whose logarithm is uniformly distributed.
+
+    rng  random generator
+    """
     return float(10 ** rng.uniform(low, high))
 
 
 def half_space(rng: Generator) -> HalfSpace:
-    """Draw a random material: shear modulus between 1e-3 and 1e3, ν between -0.95 and exactly
-    1/2."""
+    """Draw a random elastic material for a half-space.
+
+    The shear modulus lies between 1e-3 and 1e3, ν between -0.95 and exactly 1/2.
+    """
     ratio = rng.choice(SPECIAL_RATIOS) if rng.random() < 0.3 else rng.uniform(-0.95, 0.5)
     return HalfSpace(decades(rng, -3, 3), float(ratio))
 
 
 def film(rng: Generator) -> Film:
-    """Draw a random layer with a thickness between 1e-2 and 1e2."""
+    """Draw a random elastic layer with a thickness between 1e-2 and 1e2.
+
+    The shear modulus lies between 1e-3 and 1e3.
+    """
     return Film(*half_space(rng), decades(rng, -2, 2))
 
 
 def stack(rng: Generator, most_layers: int = 5) -> Stack:
-    """Draw a random layered body: one to five layers on a half-space or, in 1/4 of the draws, a
-    rigid base."""
+    """Draw a random layered body: one to five layers on a half-space.
+
+    In 1/4 of the draws the base is rigid.
+
+    most_layers  largest number of layers
+    """
     films = [film(rng) for _ in range(rng.integers(1, most_layers, endpoint=True))]
     return Stack(films, None if rng.random() < 0.25 else half_space(rng))
 
 
 def wave_vector(rng: Generator) -> tuple[float, float]:
-    """Draw a random wave vector of any direction, with a wavenumber between 1e-4 and 1e4."""
+    """Draw a random wave vector (m, n) of any direction, with a wavenumber between 1e-4 and 1e4."""
     alpha, angle = decades(rng, -4, 4), rng.uniform(-np.pi, np.pi)
     return float(alpha * np.cos(angle)), float(alpha * np.sin(angle))
 
@@ -177,9 +211,10 @@ ECHO = 50.0
 
 
 def _thin_layer_order_error(rng: Generator) -> float:
-    """Compute the deviation from 1 of the order at which the effect of a thin layer vanishes.
+    """Compute the deviation from 1 of the order in h at which the effect of a thin layer vanishes.
 
-    The body is a half-space with a layer of thickness h → 0 and a modulus ratio up to 100.
+    h is the thickness of a layer on a half-space. The random modulus ratio is up to 100 or down to
+    1/100. The effect is the change of the surface response (FRF).
     """
     base = half_space(rng)
     coating = base.shear_modulus * decades(rng, -2, 2), half_space(rng).poisson_ratio
@@ -193,8 +228,12 @@ def _thin_layer_order_error(rng: Generator) -> float:
 
 
 def _thick_layer_error(rng: Generator) -> float:
-    """Compute the difference of the FRF from that of a half-space of the outer layer, over its
-    bound."""
+    """Compute the effect of all that lies below the outer layer on the surface response, over its
+    bound.
+
+    For short waves the response (FRF) must be that of a half-space of the outer layer. The bound is
+    50 (1 + x²) e^(-2x) with x = wavenumber times layer thickness. The random body is layered.
+    """
     body, x = stack(rng), rng.uniform(1, 300)
     alpha = x / body.layers[0].thickness
     outer = half_space_scalars(body.outer, alpha)
@@ -242,7 +281,12 @@ def _half_space_bounds_deficit(rng: Generator) -> float:
 
 
 def _rigid_base_order_error(rng: Generator) -> float:
-    """Compute the deviation from 1 of the order at which a stiff base approaches a rigid base."""
+    """Compute the deviation from 1 of the order in 1/G at which a stiff base approaches a rigid
+    base.
+
+    G is the shear modulus of the base below random layers. The compared quantity is the surface
+    response (FRF).
+    """
     films = [film(rng) for _ in range(rng.integers(1, 4))]
     x = decades(rng, -2, 1)
     alpha = x / films[-1].thickness
@@ -280,7 +324,12 @@ def _incompressible_limit_error(rng: Generator) -> float:
 
 
 def _layer_echo_excess(rng: Generator) -> float:
-    """Compute the difference of the FRF with one layer from its half-space part, over its bound."""
+    """Compute the reflection from the interface of a layer in the surface response, over its bound
+    [1].
+
+    The response (FRF) of a random body with one layer is that of a half-space plus the reflection.
+    The bound is proportional to (1 + x²) e^(-2x) with x = wavenumber times layer thickness.
+    """
     body, x = stack(rng, most_layers=1), rng.uniform(1, 300)
     G, _, h = body.layers[0]
     echo = np.array(remainder_scalars(body, x / h)) * (x / h) * G
@@ -295,10 +344,11 @@ def _count_non_finite_entries(rng: Generator) -> float:
 
 
 def _interface_jump(rng: Generator) -> float:
-    """Compute the error of tractions and displacements at the surface and their jump at interfaces.
+    """Compute the errors of the boundary and interface conditions inside a random layered body [1].
 
-    At z = 0 the fields must be the applied tractions and the surface FRF. At an interface the
-    values on both sides must agree.
+    At the surface the fields must be the applied tractions and the surface response (FRF). At an
+    interface tractions and displacements on both sides must agree. The result is the largest
+    relative error.
     """
     body = stack(rng, most_layers=3)
     alpha = np.array([rng.uniform(0.1, 3) / sum(f.thickness for f in body.layers)])
@@ -422,12 +472,12 @@ def _vanishing_layer_error(rng: Generator) -> float:
 
 
 def _operator_asymmetry(rng: Generator) -> float:
-    """Compute the asymmetry or the most negative eigenvalue of the matrix of influence
-    coefficients.
+    """Compute the asymmetry or the most negative eigenvalue of the influence matrix of a layered
+    body [1].
 
-    The matrix must be symmetric and positive. The displacement is that of the cell centre. It has
-    the wrong sign for one to two waves per cell, and on wide cells a stiff film on a soft one
-    responds most to these waves.
+    The matrix maps the tractions of 4 × 3 cells to the displacements of their centres. It must be
+    symmetric and positive. The displacement of the cell centre has the wrong sign for one to two
+    waves per cell. On wide cells a stiff film on a soft one responds most to these waves.
     """
     body = stack(rng, 3)
     side = decades(rng, -2, 0) * sum(film.thickness for film in body.layers)
@@ -441,8 +491,10 @@ def _operator_asymmetry(rng: Generator) -> float:
 def dense_operator(K: LayeredCoefficients, shape: tuple[int, int]) -> np.ndarray:
     """Assemble the dense matrix from the tractions of all cells to the displacements of all cells.
 
-    K      influence coefficients
-    shape  number of cells along x and y
+    The matrix has the shape (3 nx ny, 3 nx ny), with the x, y and z components one after another.
+
+    K      influence coefficients: displacement at a cell per unit traction on another cell
+    shape  numbers of cells (nx, ny) along x and y
     """
     i, j = (index.ravel() for index in np.indices(shape))
     di, dj = i[:, None] - i, j[:, None] - j

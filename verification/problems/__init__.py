@@ -1,1 +1,4 @@
-"""Contact problems with known answers: scenes, exact or tabulated solutions, and their sources."""
+"""Contact problems with known answers: scenes, exact or tabulated solutions, and their sources.
+
+Verification cases compare the results of the solvers with these answers.
+"""

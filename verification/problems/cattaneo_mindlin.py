@@ -1,6 +1,7 @@
-"""Ball under a constant normal force and a tangential force: closed forms of Cattaneo and Mindlin.
+"""Problems of a ball under a constant normal force and a tangential force that changes.
 
-In a fretting loop the tangential force goes from 0 to T*, to -T* and to T* again, with T* = 0.9 µW.
+The answers are the closed forms of Cattaneo and Mindlin. In a fretting loop the tangential force
+goes from 0 to T*, to -T* and to T* again, with T* = 0.9 µW.
 """
 
 from __future__ import annotations
@@ -42,6 +43,7 @@ def sheared(
     """Create the problem of a pressed ball under a tangential force that changes in several load
     steps.
 
+    title       title of the scene
     parts       tangential force at the end of each step, as a fraction of the friction limit µW
     material    material of both bodies
     increments  number of increments of each tangential step
@@ -91,7 +93,9 @@ def loop_steps(quarter: int) -> tuple[LoadStep, ...]:
 
 @dataclass(frozen=True)
 class ExactLoop:
-    """Exact fretting loop of two identical bodies (Mindlin and Deresiewicz 1953).
+    """Hold the exact fretting loop of two identical bodies (Mindlin and Deresiewicz 1953).
+
+    The tangential force goes from 0 to T*, to -T* and to T* again, with T* = 0.9 µW.
 
     material  material of both bodies; the closed form is exact for ν = 0
     """
@@ -100,30 +104,38 @@ class ExactLoop:
 
     @cached_property
     def virgin(self) -> TangentialHistory:
-        """State of the contact before any tangential force."""
+        """State of the pressed contact before any tangential force, from which the history
+        starts.
+        """
         return TangentialHistory(paper.partial_slip(self.material, 0.0))
 
     @property
     def sliding_shift(self) -> float:
-        """Tangential shift at the onset of gross slip [length]."""
+        """Tangential shift of the ball at the onset of gross slip [length]."""
         return self.virgin.virgin.sliding_shift
 
     @property
     def end(self) -> TangentialHistory:
-        """State of the contact at the end of the first loading to T*."""
+        """State of the contact at the end of the first loading, where the tangential force is 0.9
+        µW.
+        """
         return self.virgin.loaded_to(AMPLITUDE * paper.FRICTION_LIMIT)
 
     @property
     def energy_per_cycle(self) -> float:
-        """Energy that friction dissipates in one closed cycle [force*length].
+        """Energy that friction dissipates in one closed cycle between T* and -T* [force*length].
 
         The energy is four times the energy dissipated in the first loading.
         """
         return 4 * self.end.dissipated_energy
 
     def along(self, result: Result) -> Iterator[tuple[Increment, TangentialHistory]]:
-        """Yield every increment after the normal loading, with the closed form at the same
-        tangential force."""
+        """Yield every increment after the normal loading together with the exact state.
+
+        The exact state is that at the tangential force of the increment, after the same history.
+
+        result  result on cells of the fretting loop
+        """
         state = self.virgin
         for increment in result.increments:
             if increment.step > PRESSED:
@@ -131,8 +143,11 @@ class ExactLoop:
                 yield increment, state
 
     def largest_shear_error(self, result: Result) -> float:
-        """Compute the largest shear error Σ|q - q_exact| / Σµp of all tangential increments of a
-        result [1]."""
+        """Compute the largest shear error Σ|q - q_exact| / Σµp of any increment of a fretting loop
+        [1].
+
+        result  result on cells; increments of the normal loading are left out
+        """
         r = np.hypot(*result.grid.coordinates())
         return float(np.max([
             shear_error(shear_of(i), exact.shear(r), FRICTION * i.pressure)
@@ -140,19 +155,29 @@ class ExactLoop:
         ]))  # fmt: skip
 
     def largest_shift_error(self, result: Result) -> float:
-        """Compute the largest error of the tangential shift in all tangential increments of a
-        result [length]."""
+        """Compute the largest error of the tangential shift in any increment of a fretting loop
+        [length].
+
+        result  result on cells; increments of the normal loading are left out
+        """
         return float(np.max([abs(shift_along_x(i) - e.shift) for i, e in self.along(result)]))
 
     @property
     def cycled(self) -> CycledContact:
-        """Steady fretting cycle between T* and -T*, exact for ν = 0."""
+        """Steady fretting cycle between the tangential forces 0.9 µW and -0.9 µW, exact
+        for ν = 0.
+        """
         force = AMPLITUDE * paper.FRICTION_LIMIT
         return CycledContact(paper.partial_slip(self.material, force), paper.HERTZ.peak_pressure)
 
     def largest_slip_amplitude_error(self, result: Result) -> float:
-        """Compute the largest error of the slip amplitude of a result inside the contact
-        [length]."""
+        """Compute the largest error of the slip amplitude in the contact area of a fretting loop
+        [length].
+
+        The slip amplitude is half the range of slip in a cycle.
+
+        result  result on cells of the fretting loop
+        """
         a = paper.HERTZ.contact_radius
         r = np.hypot(*result.grid.coordinates())
         expected = self.cycled.slip_amplitude(np.minimum(r, a))
@@ -160,11 +185,13 @@ class ExactLoop:
         return float(np.max(error[r < a]))
 
     def largest_slip_distance_error(self, result: Result) -> float:
-        """Compute the largest error of the accumulated slip distance at the end of a result
+        """Compute the largest error of the accumulated slip distance at the end of a fretting loop
         [length].
 
         The exact distance is 5 times the slip amplitude, because slip reverses only where the force
         does.
+
+        result  result on cells of the fretting loop
         """
         a, way = paper.HERTZ.contact_radius, result.steps[-1].slip_distance
         assert way is not None
@@ -173,8 +200,11 @@ class ExactLoop:
         return float(np.max(np.abs(way - expected)[r < a]))
 
     def largest_stick_radius_error(self, result: Result) -> float:
-        """Compute the largest error of the stick radius in all tangential increments of a result
-        [length]."""
+        """Compute the largest error of the stick radius in any increment of a fretting loop
+        [length].
+
+        result  result on cells; increments of the normal loading are left out
+        """
         return float(np.max([
             abs((i.stick_radius or 0.0) - e.stick_radius) for i, e in self.along(result)
         ]))  # fmt: skip
@@ -183,10 +213,12 @@ class ExactLoop:
 def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Problem:
     """Create the problem of the fretting loop of the standard ball (radius 18 mm, 1 kN).
 
-    The answer describes the whole loop and is exact for ν = 0.
+    The tangential force goes from 0 to T*, to -T* and to T* again, with T* = 0.9 µW. The answer
+    describes the whole loop and is exact for ν = 0.
 
+    title     title of the scene
     material  material of both bodies
-    quarter   number of increments per change of the tangential force by T* = 0.9 µW
+    quarter   number of increments per change of the tangential force by T*
     """
     exact = ExactLoop(material)
     slip = float(exact.cycled.slip_amplitude(HERTZ.contact_radius))
@@ -210,12 +242,20 @@ def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Prob
 
 
 def loop_energy(result: Result) -> float:
-    """Compute the energy that a result dissipates from T* to -T* and back to T* [force*length]."""
+    """Compute the energy that a result of the fretting loop dissipates in its closed cycle
+    [force*length].
+
+    The cycle goes from the largest tangential force T* to -T* and back to T*.
+    """
     return energy_between(result, LOADED, RELOADED)
 
 
 def loop_cycle(result: Result) -> FrettingCycle:
-    """Return the only fretting cycle of a result of the fretting loop."""
+    """Return the fretting cycle of a result of the fretting loop: slip amplitude and Ruiz's
+    parameters.
+
+    The loop has only one closed cycle.
+    """
     from contact_results.cycles import fretting_cycles
 
     (cycle,) = fretting_cycles(result)
@@ -223,12 +263,15 @@ def loop_cycle(result: Result) -> FrettingCycle:
 
 
 def largest_f2(result: Result) -> float:
-    """Return the largest value of Ruiz's second fretting parameter in the loop [force²/length³]."""
+    """Return the largest value of Ruiz's second parameter in a fretting loop [force²/length³].
+
+    The parameter is shear times slip amplitude times tensile stress of the surface.
+    """
     f2 = loop_cycle(result).ruiz_f2
     assert f2 is not None
     return float(np.max(f2))
 
 
 def largest_imbalance(result: Result) -> float:
-    """Return the largest relative energy imbalance that any increment of a result states [1]."""
+    """Return the largest relative energy imbalance that the solver states for any increment [1]."""
     return max(i.energy_imbalance for i in result.increments if i.energy_imbalance is not None)

@@ -37,10 +37,12 @@ SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
 
 
 def hertzian(scene: Scene) -> Problem:
-    """Create the problem of a scene whose only load step ends in the Hertz contact of the standard
-    ball.
+    """Create the problem of a scene whose contact is the Hertz contact of the standard ball.
 
-    The standard ball has a radius of 18 mm and a normal force of 1 kN.
+    The only load step must end at a normal force of 1 kN or the corresponding approach, for a
+    radius of 18 mm and the standard contact modulus.
+
+    scene  scene with any bodies of this contact modulus
     """
     return Problem(
         scene,
@@ -96,8 +98,10 @@ PUNCH = Problem(
 
 
 def mean_pressure(of: Problem) -> float:
-    """Compute the mean pressure of the round contact of a problem under a force of 1 kN
-    [force/length²]."""
+    """Compute the mean pressure of a round contact under a force of 1 kN [force/length²].
+
+    of  problem with the contact radius
+    """
     return NORMAL_FORCE / (pi * of.radius**2)
 
 
@@ -130,10 +134,11 @@ BARE = hertzian(pressed("Rigid ball on the uncoated half-space", rigid_ball(), c
 
 
 def coated_ball(row: Mapping[str, Any]) -> Problem:
-    """Create the problem of a rigid ball on a coated body from one row of the tabulated reference.
+    """Create the problem of a rigid ball on a coated body, with a tabulated solution.
 
-    row  numbers relative to the Hertz contact of the substrate, modulus ratio E1/E2 of coating and
-         substrate, and coating thickness over the Hertz radius
+    row  row of the reference table: modulus ratio E1/E2 of coating over substrate, coating
+         thickness over Hertz contact radius, and results relative to the Hertz contact of the
+         substrate
     """
     contact = TabulatedContact(row)
     ratio, thickness = row["E1_over_E2"], row["h_over_aH"]
@@ -153,7 +158,9 @@ def coated_ball(row: Mapping[str, Any]) -> Problem:
 def solved_here(problem: Problem) -> Problem:
     """Replace the tabulated answer of a coated problem by the semi-closed solution of its contact.
 
-    The semi-closed solution gives the pressure at every radius.
+    The semi-closed solution is computed when needed, and contains the pressure at every radius.
+
+    problem  problem of a coated body below the standard ball
     """
     exact = exact_contact(problem.scene.body)
     return replace(

@@ -1,5 +1,4 @@
-"""Rigid ball that is pressed onto a body with friction: problems with tabulated reference
-solutions."""
+"""Problems of a rigid ball that is pressed on a body with friction, with tabulated solutions."""
 
 from __future__ import annotations
 
@@ -28,9 +27,10 @@ REFERENCE_ERROR = 1e-7  # relative, of radii and approach
 
 @dataclass(frozen=True, eq=False)
 class Indentation(TabulatedContact):
-    """Tabulated contact of a rigid ball that is pressed onto a body with friction.
+    """Hold the tabulated contact of a rigid ball that is pressed on a body with friction.
 
-    name        description; file_name is the corresponding text in file names
+    name        description of the contact
+    file_name   description for use in file names
     body        body below the ball
     source      source of the table
     increments  number of increments that the accuracy target of the shear requires
@@ -44,12 +44,14 @@ class Indentation(TabulatedContact):
 
     @property
     def stick_part(self) -> float:
-        """Radius of the stick zone over the contact radius, from the reference table."""
+        """Radius of the stick zone over the contact radius, from the reference table [1]."""
         return float(self.row["c_over_a"])
 
     def problem(self, increments: int) -> Problem:
-        """Create the problem of the rigid ball that is pressed onto the body in a number of
-        increments."""
+        """Create the verification problem of the rigid ball on the body with this tabulated answer.
+
+        increments  number of increments of the normal loading
+        """
         title = f"Rigid ball pressed with friction: {self.name}"
         return Problem(
             pressed(title, rigid_ball(), self.body, pressing(increments), friction=self.friction),

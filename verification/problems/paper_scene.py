@@ -1,5 +1,4 @@
-"""Data of the standard ball of the verification, from the reference paper, and scenes with this
-ball.
+"""Data of the standard ball of the verification, from the reference paper, and its scenes.
 
 A ball of radius 18 mm is pressed on a half-space with 1 kN. The paper prints a contact radius of
 0.388 mm and a peak pressure of 3.1684 GPa. These values belong to the compliance of one body with E
@@ -69,21 +68,29 @@ def paraboloid(material: IsotropicMaterial) -> Paraboloid:
 
 
 def frictionless(title: str, indenter: Indenter, body: IsotropicMaterial, load: LoadStep) -> Scene:
-    """Create the scene of an indenter on a half-space without friction under one load step."""
+    """Create the scene of an indenter on a homogeneous half-space without friction, in one load
+    step.
+
+    title     title of the scene
+    indenter  shape and material of the indenter
+    body      material of the half-space
+    load      load step
+    """
     return Scene(title=title, indenter=indenter, body=Body(material=body), loading=(load,))
 
 
 def frictional(
     title: str, indenter: Indenter, body: IsotropicMaterial, *loading: LoadStep
 ) -> Scene:
-    """Create the scene of an indenter that is pressed with 1 kN and friction 0.1, then loaded
-    further.
+    """Create the scene of an indenter that is pressed with 1 kN and µ = 0.1, then loaded further.
 
     The bodies must be uncoupled. The pressure then does not depend on the load history, so that one
     increment is sufficient for the normal force.
 
-    body     material of the half-space
-    loading  load steps after the normal loading
+    title     title of the scene
+    indenter  shape and material of the indenter
+    body      material of the half-space
+    loading   load steps after the normal loading
     """
     return Scene(
         title=title,
@@ -95,14 +102,17 @@ def frictional(
 
 
 def pressing(increments: int | None = None) -> LoadStep:
-    """Create the load step to a normal force of 1 kN, with the given number of increments."""
+    """Create the load step to a normal force of 1 kN.
+
+    increments  number of increments; None: the solver chooses
+    """
     return LoadStep(normal_force=NORMAL_FORCE, increments=increments)
 
 
 def tangential_step(part_of_limit: float, increments: int) -> LoadStep:
     """Create a load step to a tangential force along x.
 
-    part_of_limit  force at the end of the step over the friction limit µW
+    part_of_limit  force at the end of the step over the friction limit µW = 100 N
     increments     number of increments
     """
     force = part_of_limit * FRICTION_LIMIT
@@ -110,9 +120,11 @@ def tangential_step(part_of_limit: float, increments: int) -> LoadStep:
 
 
 def partial_slip(material: IsotropicMaterial, tangential_force: float) -> PartialSlip:
-    """Create the Cattaneo-Mindlin state of the standard ball under a tangential force [force].
+    """Create the partial slip state of Cattaneo and Mindlin of the standard ball (18 mm, 1 kN, µ =
+    0.1).
 
-    Both bodies are of the given material. Forces above the friction limit are reduced to the limit.
+    material          material of both bodies
+    tangential_force  T [force]; magnitudes above the friction limit are reduced to the limit
     """
     constants = (material.young_modulus, material.poisson_ratio)
     modulus = tangential_modulus(constants, constants)
@@ -131,7 +143,7 @@ SEMI_CLOSED_ERROR = 1e-12
 
 
 def film(modulus_ratio: float, thickness_over_radius: float) -> Layer:
-    """Create a coating layer for the standard substrate (E = 210 GPa, ν = 0.3).
+    """Create a coating layer (ν = 0.3) for the standard substrate (E = 210 GPa, ν = 0.3).
 
     modulus_ratio          Young's modulus of the coating over that of the substrate
     thickness_over_radius  thickness of the coating over the Hertz contact radius
@@ -143,8 +155,10 @@ def film(modulus_ratio: float, thickness_over_radius: float) -> Layer:
 
 
 def coated(*layers: Layer) -> Body:
-    """Create the standard substrate (E = 210 GPa, ν = 0.3) with coating layers, outermost layer
-    first."""
+    """Create the standard substrate (E = 210 GPa, ν = 0.3) with coating layers.
+
+    layers  coating layers, outermost first; none: an uncoated half-space
+    """
     return Body(material=SUBSTRATE, layers=layers)
 
 
@@ -156,7 +170,10 @@ def rigid_ball() -> Paraboloid:
 def half_space(poisson_ratio: float) -> Body:
     """Create a half-space that has the standard contact modulus E* below a rigid indenter.
 
-    The modulus E* is that of two bodies with E = 420 GPa, ν = 0.3.
+    The modulus E* is that of two bodies with E = 420 GPa, ν = 0.3. The contact radius without
+    friction is then the same for all Poisson ratios.
+
+    poisson_ratio  ν of the half-space
     """
     modulus = CONTACT_MODULUS * (1 - poisson_ratio**2)
     return Body(material=IsotropicMaterial(young_modulus=modulus, poisson_ratio=poisson_ratio))
@@ -167,6 +184,9 @@ def pressed(
 ) -> Scene:
     """Create the scene of an indenter on a body under given load steps.
 
+    title     title of the scene
+    indenter  shape and material of the indenter
+    body      lower body, homogeneous or coated
     loading   load steps; default: one step to a normal force of 1 kN
     friction  coefficient of friction µ; None or zero: no friction
     """
@@ -180,12 +200,13 @@ def pressed(
 
 
 def pressed_and_pushed(title: str, body: Body) -> Scene:
-    """Create the scene of a rigid ball that is pressed on a body with friction and then sheared.
+    """Create the scene of a rigid ball that is pressed on a body and then loaded tangentially.
 
-    The normal force grows in 15 increments, then the tangential force grows to 0.95 µW in 20
-    (figures 3 and 4 of the reference paper).
+    With µ = 0.1, the normal force grows in 15 increments, then the tangential force grows to 0.95
+    µW in 20 (figures 3 and 4 of the reference paper).
 
-    body  body below the ball
+    title  title of the scene
+    body   body below the ball
     """
     push = LoadStep(tangential_force=(0.95 * FRICTION_LIMIT, 0.0), increments=20)
     return pressed(title, rigid_ball(), body, pressing(15), push, friction=FRICTION)
@@ -193,9 +214,10 @@ def pressed_and_pushed(title: str, body: Body) -> Scene:
 
 @cache
 def surface_of(*bodies: Body) -> LayeredSurface:
-    """Create the normal compliance of the surfaces of two layered bodies, in wavenumber space.
+    """Create the normal compliance of the surfaces of one or two bodies, in wavenumber space.
 
-    A rigid body contributes nothing.
+    Used for semi-closed solutions of layered contacts. A rigid body contributes nothing; at least
+    one body must be layered.
     """
     stacks = [stack_of(body) for body in bodies if body.deforms]
 
@@ -212,6 +234,8 @@ def exact_contact(*bodies: Body) -> LayeredIndentation:
     """Solve the frictionless contact of the standard ball with layered bodies, in semi-closed form.
 
     The ball has a radius of 18 mm and a normal force of 1 kN.
+
+    bodies  lower body, and material and layers of the ball unless it is rigid
     """
     return paraboloid_under(NORMAL_FORCE, surface_of(*bodies), RADIUS)
 
@@ -225,7 +249,9 @@ UNLIKE = ((0.5, 0.0), (0.25, 0.25))
 
 @dataclass(frozen=True)
 class ShiftedGrid(SurfaceGrid):
-    """Grid of cells whose centre is shifted from the axis of the contact.
+    """Grid of cells whose centre is not the axis of the contact.
+
+    Used to average errors over the position of the contact edge within the cells.
 
     offset  position of the grid centre relative to the contact axis, in cell sides along x and y
     """
@@ -234,10 +260,10 @@ class ShiftedGrid(SurfaceGrid):
 
     @property
     def x(self) -> NDArray[np.float64]:
-        """Coordinates x of the cell centres, relative to the contact axis [length]."""
+        """Coordinates x of the cell centres relative to the contact axis (nx,) [length]."""
         return np.asarray(super().x + self.offset[0] * self.spacing[0])
 
     @property
     def y(self) -> NDArray[np.float64]:
-        """Coordinates y of the cell centres, relative to the contact axis [length]."""
+        """Coordinates y of the cell centres relative to the contact axis (ny,) [length]."""
         return np.asarray(super().y + self.offset[1] * self.spacing[1])

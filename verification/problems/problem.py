@@ -17,7 +17,7 @@ ROUNDING = 1e-12  # relative uncertainty of a closed form in double precision
 
 
 class ReferenceKind(StrEnum):
-    """Kinds of sources that a reference value may have."""
+    """Kind of the source of a reference value, from closed forms to results of other programs."""
 
     CLOSED_FORM = "closed form"
     SEMI_CLOSED = "semi-closed"
@@ -30,7 +30,7 @@ class ReferenceKind(StrEnum):
 
 @dataclass(frozen=True)
 class Reference:
-    """Reference value of a number, from another source than the run that is judged.
+    """Hold the reference value with which a measured number is compared.
 
     value        reference value, in the unit of the number
     kind         kind of the source
@@ -47,14 +47,20 @@ class Reference:
 def closed_form(value: float, source: str, scale: float | None = None) -> Reference:
     """Create a reference value from a closed form, whose uncertainty is rounding.
 
-    scale  magnitude to which the rounding error is relative; None: the value
+    value   value of the closed form
+    source  description of the source
+    scale   magnitude to which the rounding error is relative; None: the value
     """
     uncertainty = ROUNDING * abs(value if scale is None else scale)
     return Reference(value, ReferenceKind.CLOSED_FORM, source, uncertainty)
 
 
 def identity(value: float, source: str) -> Reference:
-    """Create a reference value that follows exactly from the equations, without uncertainty."""
+    """Create a reference value that follows exactly from the equations, without uncertainty.
+
+    value   expected value
+    source  law from which the value follows
+    """
     return Reference(value, ReferenceKind.IDENTITY, source)
 
 
@@ -66,6 +72,7 @@ OVER_RADIUS, OVER_PEAK = "the contact radius", "p_H"
 class Problem:
     """Verification problem: a scene with its known answer.
 
+    scene        bodies and loads
     ends         exact answer at the end of every load step: records with the attribute names of the
                  quantities of a result; fields are functions of the distance from the axis, or of x
                  and y if the contact is not round
@@ -89,11 +96,14 @@ class Problem:
     equations: tuple[str, ...] = ()
 
     def scale(self, name: str) -> float:
-        """Return the error scale with the given name; raise KeyError for an unknown name."""
+        """Return the number by which errors with the given name of their scale are divided.
+
+        Raises KeyError for an unknown name.
+        """
         return self.radius if name == OVER_RADIUS else self.scales[name]
 
     def on_surface(self, exact: Callable[..., Field], x: Field, y: Field | float) -> Field:
-        """Evaluate an exact field of the answer at points of the surface.
+        """Evaluate an exact field, such as the pressure, at points of the surface.
 
         exact  function of the distance from the axis, or of x and y if the contact is not round
         x, y   coordinates of the points [length]
@@ -101,15 +111,18 @@ class Problem:
         return exact(np.hypot(x, y)) if self.across is None else exact(x, y)
 
     def reference(self, value: float, scale: float | None = None) -> Reference:
-        """Create the reference for a number of the answer, with the uncertainty of the problem.
+        """Create the reference for a number of the exact answer, with the uncertainty of the
+        problem.
 
+        value  exact number
         scale  magnitude to which the uncertainty is relative; None: the value
         """
         uncertainty = self.uncertainty * abs(value if scale is None else scale)
         return Reference(value, self.kind, self.source, uncertainty)
 
     def no_error(self, scale: float) -> Reference:
-        """Create the reference for the norm of an error: zero, with the uncertainty of the answer.
+        """Create the reference for the norm of a field error: zero, with the uncertainty of the
+        exact answer.
 
         scale  magnitude to which the uncertainty is relative
         """
@@ -118,7 +131,7 @@ class Problem:
 
 @dataclass(frozen=True, eq=False)
 class TabulatedContact:
-    """Reference contact from a table: numbers, and profiles of tractions at a few radii.
+    """Hold a reference contact from a table: numbers, and tractions at a few radii.
 
     row  row of the table; its numbers are relative to the Hertz contact of the substrate
     """
@@ -127,17 +140,17 @@ class TabulatedContact:
 
     @property
     def contact_radius(self) -> float:
-        """Contact radius [length]."""
+        """Contact radius from the reference table [length]."""
         return float(self.row["a_over_aH"]) * HERTZ.contact_radius
 
     @property
     def approach(self) -> float:
-        """Approach of the bodies since first touch [length]."""
+        """Approach of the bodies since first touch, from the reference table [length]."""
         return float(self.row["delta_over_deltaH"]) * HERTZ.approach
 
     @property
     def friction(self) -> float:
-        """Coefficient of friction µ."""
+        """Coefficient of friction µ of the tabulated contact."""
         return float(self.row["mu"])
 
     @property
@@ -146,17 +159,19 @@ class TabulatedContact:
         return np.array(self.row["r_over_a"]) * self.contact_radius
 
     def pressure(self, r: Field) -> Field:
-        """Interpolate the tabulated pressure linearly to distances r from the axis
-        [force/length²]."""
+        """Interpolate the pressure of the reference table linearly to radii r [force/length²]."""
         return np.interp(r, self.radii, np.array(self.row["p_over_pH"]) * HERTZ.peak_pressure)
 
     def shear(self, r: Field) -> Field:
-        """Interpolate the tabulated shear, positive outwards, linearly to distances r
-        [force/length²]."""
+        """Interpolate the radial shear of the reference table linearly to radii r [force/length²].
+
+        Positive shear points outwards.
+        """
         limit = self.friction * HERTZ.peak_pressure
         return np.interp(r, self.radii, np.array(self.row["q_over_mu_pH"]) * limit)
 
     def size_of_shear(self, r: Field) -> Field:
-        """Interpolate the magnitude of the tabulated shear to distances r from the axis
-        [force/length²]."""
+        """Interpolate the magnitude of the radial shear of the reference table to radii r
+        [force/length²].
+        """
         return np.abs(self.shear(r))

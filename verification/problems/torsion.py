@@ -1,5 +1,6 @@
-"""Torsion problems with known answers: the standard ball in partial slip, and a flat punch in
-stick."""
+"""Torsion problems with known answers: the standard ball in partial slip, and a stuck flat
+punch.
+"""
 
 from __future__ import annotations
 
@@ -21,8 +22,12 @@ AMPLITUDE = 0.9  # largest torque of the loop over the torque at gross slip
 
 
 def virgin(torque: float) -> TorsionalPartialSlip:
-    """Compute the partial slip of the standard ball in its first torsion by a torque >= 0
-    [force*length]."""
+    """Compute the partial slip of the standard ball under a torque that has grown from zero.
+
+    The ball has a radius of 18 mm, a normal force of 1 kN and µ = 0.1.
+
+    torque  torque >= 0 [force*length]
+    """
     return TorsionalPartialSlip.under_moment(
         torque, HERTZ.contact_radius, HERTZ.peak_pressure, FRICTION, MODULUS
     )
@@ -33,16 +38,18 @@ LARGEST = virgin(AMPLITUDE * SLIDING_TORQUE)
 
 
 def torque_step(part: float) -> LoadStep:
-    """Create a load step to a fraction of the torque at gross slip.
+    """Create a load step to a fraction of the torque at gross slip of the standard ball.
 
     One increment is exact, because the load path is linear.
+
+    part  torque at the end of the step over the torque at gross slip
     """
     return LoadStep(torque=part * SLIDING_TORQUE, increments=1)
 
 
 @dataclass(frozen=True)
 class Twisted:
-    """Exact state at the end of a load step of a torsion loop.
+    """Hold the exact answer at the end of a load step of a torsion loop.
 
     twist             rotation of the ball about z [radian]
     energy_per_cycle  energy dissipated between the first and the second maximum of the torque
@@ -80,10 +87,11 @@ LED = _torsion_problem(
 
 
 def _torsion_loop() -> tuple[Twisted, ...]:
-    """Compute the states of a torsion loop from the first loading by Masing's rule.
+    """Compute the exact states at the ends of the four load steps of a torsion loop.
 
-    After a reversal, the change of the twist is twice the first-loading twist at half the change of
-    the torque.
+    The torque goes from 0 to its largest value, to 0, to the opposite value and back. The states
+    follow from the first loading by Masing's rule: after a reversal, the change of the twist is
+    twice the first-loading twist at half the change of the torque.
     """
     reached = LARGEST.twist
     back = reached - 2 * virgin(0.5 * AMPLITUDE * SLIDING_TORQUE).twist
