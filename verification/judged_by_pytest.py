@@ -72,7 +72,7 @@ class ChallengeItem(pytest.Item):
         self.module = module
 
     def runtest(self) -> None:
-        """Judge the solver of the file on one problem with a known solution.
+        """Test the solver of the file on one problem with a known solution.
 
         The test fails with the failed verdicts as message, and is skipped if the solver cannot
         solve the problem. With --slipstick-strict, inconclusive verdicts and unsolvable problems

@@ -134,7 +134,9 @@ def same_fields(
 
 
 def _rotate_field_quarter(field: Field) -> Field:
-    """Rotate a scalar field (n, n) on square cells about z by a right angle, from x towards y."""
+    """Return a scalar field (n, n) on square cells rotated about z by a right angle, from x towards
+    y.
+    """
     return np.asarray(field.T[::-1])
 
 
@@ -539,7 +541,10 @@ def _patchy_friction(grid: SurfaceGrid) -> Field:
 
 
 def _mirror_shear(q: Field) -> Field:
-    """Mirror a shear field (2, nx, ny) at the plane x = 0; the x component changes its sign."""
+    """Return a shear field (2, nx, ny) mirrored at the plane x = 0.
+
+    The x component changes its sign.
+    """
     return np.stack([-q[0][::-1], q[1][::-1]])
 
 

@@ -526,7 +526,7 @@ def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
 
 
 def _rotate_quarter(vector: Any) -> tuple[float, float]:
-    """Rotate a vector (x, y) by a right angle from x towards y."""
+    """Return a vector (x, y) rotated by a right angle from x towards y."""
     x, y = vector
     return -y, x
 

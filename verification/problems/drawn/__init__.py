@@ -1,1 +1,4 @@
-"""Drawn scenes whose answer is known from elsewhere: materials, loads, histories, grids."""
+"""Randomly generated contact scenes whose answers are known from another source.
+
+The scenes test if the error estimates of the solvers cover the actual errors.
+"""

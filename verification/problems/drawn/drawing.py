@@ -1,6 +1,7 @@
-"""Random distributions of materials, bodies, indenter shapes, load histories and grids.
+"""Random distributions of materials, bodies, indenter shapes, load histories and discretisations.
 
-The drawn scenes test the error estimates of the solvers.
+The randomly drawn scenes test the error estimates of the solvers. A distribution is a function of a
+random generator `rng`.
 """
 
 from __future__ import annotations
@@ -63,10 +64,10 @@ KIND_OF = {quantity: kind for kind, names in KINDS.items() for quantity in names
 
 @dataclass(frozen=True)
 class Truth:
-    """Known number of a drawn scene; of a vector, its component along x.
+    """Hold one known number of a randomly drawn scene, with which a solver's result is compared.
 
-    step       number of the load step at whose end it holds, from 1
-    quantity   registered name
+    step       number of the load step, from 1, at whose end the number is valid
+    quantity   registered name of the number; of a vector, the component along x
     reference  value in SI, with its uncertainty
     """
 
@@ -76,12 +77,15 @@ class Truth:
 
     @property
     def kind(self) -> str:
-        """Kind of quantity under which the number is counted, such as "tangential_shift" for shifts
-        and forces."""
+        """Group in which the number is counted, such as "tangential_shift" for shifts and
+        tangential forces.
+        """
         return KIND_OF[self.quantity]
 
     def read(self, steps: Sequence[Values]) -> float | None:
-        """Return the corresponding number of a result; None if the result does not have the number.
+        """Return the number of a solver's result that corresponds to this known number.
+
+        The result is None if the result does not have the number.
 
         steps  numbers at the end of every load step of the result
         """
@@ -90,10 +94,10 @@ class Truth:
 
 
 class Fineness(NamedTuple):
-    """Discretisation with which a drawn scene is solved and judged.
+    """Hold the discretisation with which a randomly drawn scene is solved and judged.
 
     solver      name of the solver on the command line
-    asked       cells or elements
+    asked       settings of the cells or of the elements
     per_radius  number of cells or elements per contact radius
     """
 
@@ -104,7 +108,13 @@ class Fineness(NamedTuple):
 
 @dataclass(frozen=True)
 class KnownScene:
-    """Drawn scene with its known numbers and with the discretisation that is judged."""
+    """Hold a randomly drawn scene with its known numbers and with the discretisation that is
+    judged.
+
+    scene     bodies and loads
+    truths    known numbers
+    fineness  discretisation whose stated errors are judged
+    """
 
     scene: Scene
     truths: tuple[Truth, ...]
@@ -114,10 +124,13 @@ class KnownScene:
 def known(
     step: int, source: str, values: Mapping[str, float], uncertainty: float, kind: ReferenceKind
 ) -> Iterator[Truth]:
-    """Yield known numbers at the end of a load step, which share one relative uncertainty.
+    """Yield known numbers at the end of a load step, which have one relative uncertainty in common.
 
+    step         number of the load step, from 1
+    source       source of the numbers
     values       numbers by registered name [SI]
     uncertainty  standard uncertainty relative to each number
+    kind         kind of the source
     """
     for quantity, value in values.items():
         yield Truth(step, quantity, Reference(value, kind, source, uncertainty * abs(value)))
@@ -137,7 +150,10 @@ MAP_POINTS, MAP_WIDTH = 24, 4.0
 
 
 def logarithmic(rng: Rng, low: float, high: float) -> float:
-    """Draw a random number between two bounds, whose logarithm is uniformly distributed."""
+    """Draw a random number between two bounds, whose logarithm is uniformly distributed.
+
+    rng  random generator
+    """
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
@@ -145,8 +161,11 @@ def logarithmic(rng: Rng, low: float, high: float) -> float:
 
 
 def material(rng: Rng, poisson_ratio: float | None = None) -> IsotropicMaterial:
-    """Draw an isotropic material: E between 5 and 400 GPa, ν between 0 and 0.49 unless ν is
-    given."""
+    """Draw a random isotropic material: E between 5 and 400 GPa, ν between 0 and 0.49.
+
+    rng            random generator
+    poisson_ratio  ν, if prescribed
+    """
     nu = float(rng.uniform(0.0, 0.49)) if poisson_ratio is None else poisson_ratio
     return IsotropicMaterial(young_modulus=logarithmic(rng, 5e9, 4e11), poisson_ratio=nu)
 
@@ -154,8 +173,9 @@ def material(rng: Rng, poisson_ratio: float | None = None) -> IsotropicMaterial:
 def layered(
     rng: Rng, a: float, contrast: float, thickness: tuple[float, float], most_layers: int = 1
 ) -> Body:
-    """Draw a body with random layers on a random base material.
+    """Draw a random body: one or more layers on a base of random material.
 
+    rng          random generator
     a            contact radius [length]
     contrast     largest ratio of Young's moduli of the layer and the base, above or below 1, for
                  one layer; for two layers its square root holds for each layer
@@ -178,43 +198,59 @@ def layered(
 
 
 def coated(rng: Rng, a: float) -> Body:
-    """Draw a body with one or two layers on a base.
+    """Draw a random body with one or two layers on a base.
 
     The modulus of one layer is within a factor of 10 of the base modulus, that of each of two
     layers within √10.
+
+    rng  random generator
+    a    contact radius [length]
     """
     return layered(rng, a, 10.0, (0.2, 3.0), 2)
 
 
 def film(rng: Rng, a: float) -> Body:
-    """Draw a body with one film, with a modulus within a factor of 100 of the base modulus."""
+    """Draw a random body with one film, whose modulus is within a factor of 100 of the base
+    modulus.
+
+    rng  random generator
+    a    contact radius, which determines the film thickness [length]
+    """
     return layered(rng, a, 100.0, (0.03, 3.0))
 
 
 def bare(rng: Rng, a: float) -> Body:
-    """Draw a body of one material, without coating."""
+    """Draw a random body of one material, without coating."""
     return Body(material=material(rng))
 
 
 def without_poisson(rng: Rng, a: float) -> Body:
-    """Draw a body without coating, of a material with ν = 0."""
+    """Draw a random body of one material with ν = 0, without coating."""
     return Body(material=material(rng, 0.0))
 
 
 def below_rigid(lower: Lower) -> Pair:
-    """Return a distribution of pairs: a body from the given distribution, below a rigid
-    indenter."""
+    """Return a distribution of pairs of bodies: a random lower body and a rigid indenter.
+
+    lower  distribution of the lower body
+    """
     return lambda rng, a: (lower(rng, a), Body(material=RIGID))
 
 
 def alike(lower: Lower) -> Pair:
-    """Return a distribution of pairs of two equal bodies, which are uncoupled."""
+    """Return a distribution of pairs of two equal random bodies, which have no coupling of pressure
+    and shear.
+
+    lower  distribution of the material and layers of both bodies
+    """
     return lambda rng, a: (lower(rng, a),) * 2
 
 
 def unlike(lower: Lower) -> Pair:
-    """Return a distribution of pairs: a body from the given distribution and another, uncoated
-    indenter."""
+    """Return a distribution of pairs of bodies: a random lower body and another uncoated indenter.
+
+    lower  distribution of the lower body
+    """
     return lambda rng, a: (lower(rng, a), bare(rng, a))
 
 
@@ -222,12 +258,12 @@ def unlike(lower: Lower) -> Pair:
 
 
 class Profile(ShapedBody):
-    """Axisymmetric indenter shape with a power-law gap, optionally around a flat or a ring.
+    """Represent an axisymmetric indenter with a power-law gap, optionally around a flat or a ring.
 
     The gap at radius r is max(|r - ring| - flat, 0)^power / (power scale^(power-1)).
 
     power  exponent
-    scale  length that sets the curvature [length]
+    scale  length that determines the curvature [length]
     flat   radius of the flat, or half-width of a flat ring [length]
     ring   radius of the ring of first touch [length]
     """
@@ -239,7 +275,7 @@ class Profile(ShapedBody):
 
     @property
     def is_of_revolution(self) -> bool:
-        """Always True: the shape is axisymmetric."""
+        """True, because the shape is axisymmetric."""
         return True
 
     @property
@@ -248,68 +284,112 @@ class Profile(ShapedBody):
         return None if self.flat or self.ring else self.power
 
     def initial_gap(self, x: Any, y: Any) -> NDArray[np.float64]:
-        """Compute the gap at points (x, y) before any load [length]."""
+        """Compute the gap between the undeformed surfaces at points (x, y) [length]."""
         r = np.maximum(np.abs(np.hypot(x, y) - self.ring) - self.flat, 0.0)
         return np.asarray(r**self.power / (self.power * self.scale ** (self.power - 1)))
 
 
 def ball(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a paraboloid with radius of curvature r, as the indenter shape of a drawn scene."""
+    """Return a paraboloid with radius of curvature r, as indenter shape of a random scene.
+
+    rng  random generator, which is not used
+    a    nominal contact radius, which is not used [length]
+    """
     return Paraboloid(radius=r, material=RIGID)
 
 
 def sphere(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a sphere of radius r, as the indenter shape of a drawn scene."""
+    """Return a sphere of radius r, as indenter shape of a random scene.
+
+    rng  random generator, which is not used
+    a    nominal contact radius, which is not used [length]
+    """
     return Sphere(radius=r, material=RIGID)
 
 
 def cone(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a cone whose height at the contact radius a is that of the paraboloid of radius r."""
+    """Return a cone that has the height of a paraboloid of radius r at the contact radius a.
+
+    rng  random generator, which is not used
+    """
     return Cone(slope_angle=a / (2 * r), material=RIGID)
 
 
 def punch(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Return a flat punch of radius a, as the indenter shape of a drawn scene."""
+    """Return a flat punch of radius a, as indenter shape of a random scene.
+
+    rng  random generator, which is not used
+    r    radius of curvature, which is not used
+    """
     return FlatPunch(radius=a, material=RIGID)
 
 
 def ellipsoid(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw an indenter with radii of curvature r along x and 0.3 r to 3 r along y."""
+    """Draw a random indenter with radii of curvature r along x and 0.3 r to 3 r along y.
+
+    rng  random generator
+    a    nominal contact radius, which is not used [length]
+    """
     return Ellipsoid(radii=(r, r * logarithmic(rng, 0.3, 3.0)), material=RIGID)
 
 
 def power_law(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw an indenter with a gap ∝ r^k, k between 1.5 and 8.
+    """Draw a random axisymmetric indenter with a gap ∝ r^k, where k lies between 1.5 and 8.
 
-    For k above 2 the pressure has its maximum near the contact edge.
+    For k above 2 the pressure has its maximum near the contact edge. At the nominal contact radius
+    a, the gap is a²/(k r), similar to that of a paraboloid of radius r.
+
+    rng  random generator
     """
     k = logarithmic(rng, 1.5, 8.0)
     return Profile(power=k, scale=a * (r / a) ** (1 / (k - 1)), material=RIGID)
 
 
 def rounded_flat(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw an indenter with a flat of radius 0.2 a to 0.8 a and a rounded edge."""
+    """Draw a random indenter with a central flat of radius 0.2 a to 0.8 a and a rounded edge.
+
+    rng  random generator
+    r    radius of curvature of the edge [length]
+    a    nominal contact radius [length]
+    """
     return Profile(scale=r, flat=a * float(rng.uniform(0.2, 0.8)), material=RIGID)
 
 
 def ring(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw a ring-shaped indenter with first touch at a radius between 0.3 a and 0.7 a."""
+    """Draw a random ring-shaped indenter that first touches at a radius between 0.3 a and 0.7 a.
+
+    rng  random generator
+    r    radius of curvature of the ring [length]
+    a    nominal contact radius [length]
+    """
     return Profile(scale=r, ring=a * float(rng.uniform(0.3, 0.7)), material=RIGID)
 
 
 def smooth_map(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw a height map: a paraboloid with waves of about 2/3 of the contact radius and longer."""
+    """Draw a random height map: a paraboloid with waves of about 2/3 of the contact radius and
+    longer.
+
+    rng  random generator
+    r    radius of curvature of the paraboloid [length]
+    a    nominal contact radius [length]
+    """
     return _height_map(rng, r, a, waves=float(rng.uniform(2.0, 4.0)), rough=0.1)
 
 
 def rough_map(rng: Rng, r: float, a: float) -> ShapedBody:
-    """Draw a height map: a paraboloid with short waves, so that the contact has several patches."""
+    """Draw a random height map: a paraboloid with short waves, which make several contact patches.
+
+    rng  random generator
+    r    radius of curvature of the paraboloid [length]
+    a    nominal contact radius [length]
+    """
     return _height_map(rng, r, a, waves=float(rng.uniform(1.0, 1.5)), rough=0.4)
 
 
 def _height_map(rng: Rng, r: float, a: float, waves: float, rough: float) -> ShapedBody:
-    """Draw a height map: a paraboloid of radius r with smoothed random waves.
+    """Draw a random height map: a paraboloid of radius r with smoothed random waves.
 
+    rng    random generator
     a      contact radius [length]
     waves  smoothing length of the waves, in points of the map
     rough  root mean square height of the waves, over the height of the paraboloid at the radius a
@@ -326,11 +406,13 @@ def _height_map(rng: Rng, r: float, a: float, waves: float, rough: float) -> Sha
 
 
 def pushes(rng: Rng) -> tuple[float, ...]:
-    """Draw tangential forces (or torques) at the ends of load steps, over their limit at gross
-    slip.
+    """Draw a random history of tangential forces (or torques), as fractions of those at gross slip.
 
-    The history is one of: two steps in one direction, a push followed by a smaller force of either
-    sign, or a fretting loop of one of two forms.
+    The fractions belong to the ends of the load steps. The history is one of: two steps in one
+    direction, a push followed by a smaller force of either sign, or a fretting loop of one of two
+    forms.
+
+    rng  random generator
     """
     most = float(rng.uniform(0.3, 0.95))
     between = most * float(rng.uniform(-0.9, 0.9))
@@ -344,22 +426,25 @@ def pushes(rng: Rng) -> tuple[float, ...]:
 
 
 def near_gross_slip(rng: Rng) -> tuple[float, ...]:
-    """Draw one tangential force between 0.99 and 0.9999 of the friction limit."""
+    """Draw one random tangential force between 0.99 and 0.9999 of the friction limit."""
     return (1 - logarithmic(rng, 1e-4, 1e-2),)
 
 
 def closes(forces: Sequence[float]) -> bool:
-    """Return True if the last force of a history is equal to the first, so that a cycle is
-    closed."""
+    """Determine if a history of tangential forces contains a closed cycle.
+
+    This is true if the last force is equal to the first.
+    """
     return len(forces) > 1 and forces[-1] == forces[0]
 
 
 def fineness(
     rng: Rng, reach: tuple[float, float], solver: str, limits: tuple[float, float]
 ) -> Fineness:
-    """Draw the discretisation of a scene: a grid of cells around the contact, or a number of
+    """Draw a random discretisation of a scene: a grid of cells around the contact, or a number of
     elements.
 
+    rng     random generator
     reach   semi-axes of the contact [length]
     solver  name of the solver
     limits  smallest and largest number of cells per contact radius

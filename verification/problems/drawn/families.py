@@ -1,6 +1,6 @@
 """Families of randomly drawn scenes: distributions of bodies, shapes and load histories.
 
-Each family also has the rule that computes the answers of its scenes.
+Each family also has the function that computes the answers of its scenes.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Family:
-    """Distribution from which random scenes of one kind are drawn, with the rule for their answers.
+    """Hold the distributions of one kind of random scenes, and the function for their answers.
 
     shapes    distributions of the indenter shape; each scene draws one
     pairs     distributions of the materials of both bodies; each scene draws one
@@ -78,7 +78,11 @@ class Family:
     solver: str = CELLS
 
     def posed(self, rng: Rng) -> Posed:
-        """Draw a scene of the family and the discretisation to be judged, without the answer."""
+        """Draw a random scene of the family and the discretisation to be judged, without the
+        answer.
+
+        rng  random generator
+        """
         radius = logarithmic(rng, 1e-3, 0.1)
         a = radius * logarithmic(rng, *of.STRAINS)
         lower, upper = _draw_one(rng, self.pairs)(rng, a)
@@ -112,7 +116,12 @@ class Family:
         return Posed(scene, fineness, forces, self.stressed)
 
     def known(self, rng: Rng) -> KnownScene:
-        """Draw a scene with its answer; repeat if its contact reaches the edge of the window."""
+        """Draw a random scene of the family together with its answer.
+
+        If the contact reaches the edge of the window, another scene is drawn.
+
+        rng  random generator
+        """
         while True:
             try:
                 return self.rule(rng, self.posed(rng))
@@ -125,12 +134,13 @@ def _draw_one(rng: Rng, ways: Sequence[T]) -> T:
 
 
 def _contact_semi_axes(scene: Scene, load: float, a: float) -> tuple[float, float]:
-    """Estimate the semi-axes of the frictionless contact of a scene [length].
+    """Estimate the semi-axes of the frictionless contact of a scene, to choose the window [length].
 
-    For shapes without reference solution both are a.
+    For shapes without reference solution both are the nominal contact radius a.
 
-    load  normal force [force]
-    a     nominal contact radius [length]
+    scene  bodies of the contact
+    load   normal force [force]
+    a      nominal contact radius [length]
     """
     shape = scene.indenter
     if isinstance(shape, Ellipsoid):
@@ -209,7 +219,9 @@ FAMILIES = {
 
 
 def drawn(family: str, seed: int, number: int) -> KnownScene:
-    """Return one random scene of a family with its answer; equal arguments give equal scenes.
+    """Create one random scene of a family with its answer.
+
+    Equal arguments give equal scenes.
 
     family  name of the family
     seed    seed of the random numbers

@@ -1,7 +1,8 @@
-"""Rules that compute the known numbers of randomly drawn scenes.
+"""Functions that compute the known numbers of randomly drawn scenes.
 
 The sources are the radial solver, closed forms, and solutions with more cells and increments. A
-rule may replace prescribed forces by motions. No rule uses an error estimate.
+function may replace prescribed forces by displacements. No function uses an error estimate, because
+error estimates are judged by these numbers.
 """
 
 from __future__ import annotations
@@ -76,9 +77,9 @@ WHOLE = "body"  # name of the region of the whole body
 def stress_maxima(
     result: Any, step: int, errors: StatedErrors | None = None
 ) -> dict[str, tuple[float, StatedError]]:
-    """Compute the largest stresses in the whole body at the end of a load step, with stated errors.
+    """Compute the largest stresses in the lower body at the end of a load step, with stated errors.
 
-    Returns value and error by stress measure [force/length²].
+    Returns value and error by stress measure, such as "von_mises" [force/length²].
 
     result  result of any solver
     step    number of the load step, from 1
@@ -121,9 +122,9 @@ LED = (SHIFT, TANGENTIAL, TWIST, TORQUE)
 
 @dataclass(frozen=True)
 class Posed:
-    """Randomly drawn scene without its answer.
+    """Hold a randomly drawn scene for which the answer is still to be computed.
 
-    scene     the scene
+    scene     bodies and loads
     fineness  discretisation that is judged
     forces    tangential forces or torques at the ends of the load steps after the normal loading
     stressed  True if the largest stresses are judged
@@ -135,11 +136,11 @@ class Posed:
     stressed: bool = False
 
     def known(self, truths: Iterable[Truth], scene: Scene | None = None) -> KnownScene:
-        """Select the known numbers that are judged, and combine them with the scene.
+        """Combine the scene with those of its known numbers that are judged.
 
         Infinite, zero and prescribed numbers are left out. So are numbers that repeat an earlier
-        number by symmetry, or agree with a selected number in unit and two digits, because they
-        share its error.
+        number by symmetry, or agree with a selected number in unit and two digits, because their
+        errors are equal.
 
         truths  known numbers
         scene   scene to judge; default: the drawn scene
@@ -163,13 +164,13 @@ class Posed:
 
 
 class Pressed(NamedTuple):
-    """Numbers of a frictionless contact under a normal force.
+    """Hold the numbers of a frictionless contact under a normal force.
 
     load      normal force [force]
     approach  approach of the bodies [length]
     radius    contact radius, or √(ab) of an ellipse with semi-axes a and b [length]
     peak      largest pressure [force/length²]
-    elastic   elastic energy [force length]
+    elastic   elastic energy [force*length]
     """
 
     load: float
@@ -187,9 +188,12 @@ class Pressed(NamedTuple):
 
 
 def pressed(scene: Scene, load: float) -> Pressed:
-    """Solve a frictionless contact: an ellipsoid in closed form, other shapes by the radial solver.
+    """Solve the frictionless contact of a scene under a normal force, as reference.
 
-    load  normal force [force]
+    An ellipsoid is solved in closed form, other shapes by the radial solver.
+
+    scene  bodies of the contact; friction and loads are ignored
+    load   normal force [force]
     """
     if isinstance(tip := scene.indenter, Ellipsoid):
         contact = EllipticalContact.under_load(load, tip.radii, contact_modulus(scene))
@@ -201,9 +205,11 @@ def pressed(scene: Scene, load: float) -> Pressed:
 
 
 def rings(scene: Scene, load: float) -> Any:
-    """Solve a frictionless contact by the radial solver, and return its last increment.
+    """Solve the frictionless contact of a scene by the radial solver, and return its last
+    increment.
 
-    load  normal force [force]
+    scene  bodies of the contact; friction and loads are ignored
+    load   normal force [force]
     """
     alone = {"friction": None, "loading": (LoadStep(normal_force=load),)}
     return radial.solve(scene.model_copy(update=alone)).steps[-1]
@@ -213,12 +219,13 @@ def rings(scene: Scene, load: float) -> Any:
 
 
 def by_rings(rng: Rng, posed: Posed) -> KnownScene:
-    """Compute the known numbers of a drawn scene by the radial solver.
+    """Compute the known numbers of a randomly drawn scene by the radial solver.
 
-    The difference from a solution with half the rings and increments is the uncertainty. Some
-    scenes with one load step are converted from a prescribed force to the prescribed approach.
+    The difference from a solution with half the rings and increments is the uncertainty. In some
+    scenes with one load step the prescribed force is replaced by the resulting approach.
 
-    rng  random numbers, for this choice
+    rng    random generator, for this choice
+    posed  scene without answer
     """
     once = radial.solve(posed.scene)
     counts = tuple(DOUBLED * n if n > 1 else n for n in once.plan.increments)
@@ -260,12 +267,13 @@ def _ring_truth(step: int, name: str, value: float, apart: float) -> Truth:
 
 
 def beside_the_centre(rng: Rng, posed: Posed) -> KnownScene:
-    """Tilt a paraboloid or apply a moment to it, and compute the known numbers.
+    """Apply a tilt or a moment to a paraboloid, and compute the known numbers of the tilted
+    contact.
 
-    By x²/2R - φx = (x - Rφ)²/2R - Rφ²/2, tilt φ only shifts a paraboloid of radius R.
+    By x²/2R - φx = (x - Rφ)²/2R - Rφ²/2, a tilt φ only shifts a paraboloid of radius R.
 
-    rng    random numbers, for the position of the contact
-    posed  drawn scene with one load step
+    rng    random generator, for the position of the contact
+    posed  scene without answer, with one load step
     """
     tip, grid = posed.scene.indenter, posed.fineness.asked
     (step,) = posed.scene.loading
@@ -290,12 +298,12 @@ def beside_the_centre(rng: Rng, posed: Posed) -> KnownScene:
 
 @dataclass(frozen=True)
 class Similar:
-    """Partial slip of uncoated bodies, for which shear and pressure have similar distributions.
+    """Compute partial slip of uncoated bodies as the difference of two frictionless contacts.
 
     The bodies have one material with ν = 0 (Jäger 1998, Ciavarella 1998). The shear is µ times the
-    difference of two frictionless contacts. After a reversal the curve of the first loading is
-    doubled (Masing). With S = ∫ shift dT, a first loading dissipates T shift - 2 S, a quarter of
-    the energy of a closed loop.
+    difference of two pressures. After a reversal the curve of the first loading is doubled
+    (Masing). With S = ∫ shift dT, a first loading dissipates T shift - 2 S, a quarter of the energy
+    of a closed loop.
 
     scene  scene with the two bodies
     load   normal force [force]
@@ -311,10 +319,12 @@ class Similar:
         return pressed(self.scene, self.load)
 
     def first(self, force: float) -> Array:
-        """Compute the state of a first tangential loading to a force [force].
+        """Compute the state after the tangential force has grown from zero.
 
-        Returns shift, stick radius, dissipated energy, and elastic energy stored since its
-        beginning.
+        Returns shift, stick radius, dissipated energy, and elastic energy stored by the shear, as
+        an array (4,) in SI units.
+
+        force  tangential force at the end [force]
         """
         stick = pressed(self.scene, self.load - force / self.mu)
         shift = self.mu * (self.full.approach - stick.approach)
@@ -324,11 +334,12 @@ class Similar:
         return np.array([shift, stick.radius, lost, (force * shift - lost) / 2])
 
     def along(self, forces: Sequence[float]) -> Iterator[Array]:
-        """Yield the states at the ends of tangential load steps to the given forces, beginning from
-        zero.
+        """Yield the states at the ends of several tangential load steps, by Masing's rule.
 
-        Each state has shift, stick radius, dissipated energy, and elastic energy stored by the
-        shear.
+        Each state is an array (4,) of shift, stick radius, dissipated energy, and elastic energy
+        stored by the shear, in SI units.
+
+        forces  tangential forces at the ends of the load steps [force]
         """
         last, direction, turn = 0.0, 1.0, 0.0
         reached, base = np.zeros(4), None
@@ -345,8 +356,10 @@ class Similar:
             yield reached
 
     def truths(self, forces: Sequence[float]) -> Iterator[Truth]:
-        """Yield the known numbers at the ends of all load steps, for the given tangential
-        forces."""
+        """Yield the known numbers at the ends of all load steps, including the normal loading.
+
+        forces  tangential forces at the ends of the load steps after the normal loading [force]
+        """
         states = list(self.along(forces))
         values = [self.full.values]
         for force, (shift, stick, lost, stored) in zip(forces, states, strict=True):
@@ -362,9 +375,12 @@ class Similar:
 
 
 def similar(rng: Rng, posed: Posed) -> KnownScene:
-    """Compute the known numbers of a tangentially loaded pair of uncoated bodies, in closed form.
+    """Compute the known numbers of uncoated bodies under tangential forces, in closed form.
 
     In some scenes the tangential forces are replaced by the corresponding shifts.
+
+    rng    random generator, for this choice
+    posed  scene without answer
     """
     made, scene = _similar_of(posed), posed.scene
     if rng.random() < BY_MOTION:
@@ -377,7 +393,13 @@ def similar(rng: Rng, posed: Posed) -> KnownScene:
 
 
 def slid(rng: Rng, posed: Posed) -> KnownScene:
-    """Shift a pressed ball far beyond the onset of gross slip, and compute its known numbers."""
+    """Shift a pressed ball far beyond the onset of gross slip, and compute its known numbers.
+
+    The numbers are those of the normal contact, the tangential force µW, and the tensile stress.
+
+    rng    random generator, which is not used
+    posed  scene without answer, with a ball
+    """
     made, tip = _similar_of(posed), posed.scene.indenter
     assert isinstance(tip, Paraboloid)
     far = FAR * made.mu * made.full.radius**2 / tip.radius
@@ -399,10 +421,12 @@ def _similar_of(posed: Posed) -> Similar:
 
 
 def _edge_tension(made: Similar, stick_radius: float) -> float:
-    """Compute the tensile stress at the trailing edge of a ball (Hamilton and Goodman 1966).
+    """Compute the tensile stress at the trailing edge of a ball under a tangential force
+    [force/length²].
 
-    The shear is that of gross slip less that of the stick disc.
+    The shear is that of gross slip less that of the stick disc (Hamilton and Goodman 1966).
 
+    made          contact of the ball
     stick_radius  radius of the stick disc; 0 for gross slip [length]
     """
     material = made.scene.body.elastic_materials[0]
@@ -420,6 +444,9 @@ def _ball_truths(made: Similar, posed: Posed) -> Iterator[Truth]:
 
     These are the tensile stress at the end of the first tangential step, and the largest slip
     amplitude and Ruiz parameters of a closed cycle.
+
+    made   contact of the ball
+    posed  scene without answer
     """
     force, a, full = posed.forces[0], made.full.radius, made.full
     values = {TENSION: _edge_tension(made, float(made.first(force)[1]))}
@@ -436,9 +463,12 @@ def _ball_truths(made: Similar, posed: Posed) -> Iterator[Truth]:
 
 
 def refined(rng: Rng, posed: Posed) -> KnownScene:
-    """Compute the known numbers of a drawn scene with the judged solver on finer cells.
+    """Compute the known numbers of a randomly drawn scene with the judged solver on finer cells.
 
-    The effect of more increments is added. It is computed on the cells that are judged.
+    The effect of more increments is added, computed on the cells that are judged.
+
+    rng    random generator, which is not used
+    posed  scene without answer
     """
     matters = has_increment_error(posed.scene)
     counts = semi_analytical.plan(posed.scene).increments
@@ -457,10 +487,10 @@ def refined(rng: Rng, posed: Posed) -> KnownScene:
 
 
 class _SolvedLevel(NamedTuple):
-    """Numbers of a solve at the ends of all load steps.
+    """Hold the numbers of one solve at the ends of all load steps, with one number of cells.
 
     steps  numbers by name for each step; the last step includes the largest stresses if required
-    cell   side of a cell over the contact radius at the end
+    cell   side of a cell over the final contact radius
     """
 
     steps: Sequence[Values]
