@@ -46,7 +46,8 @@ AtPlaces = Callable[[Field, Field], Field]
 Rule = tuple[Field, Field]  # places from -1 to 1, and weights that sum to 2
 
 SMOOTH, ROUGH = leggauss(4), leggauss(64)
-# Lobatto's with a point in every corner, which an edge may cut off between those of Gauss.
+# Lobatto rule with a point in every corner of a cell; the contact edge may cut off a corner between
+# Gauss points.
 WITH_CORNERS = np.array([-1, -np.sqrt(0.2), np.sqrt(0.2), 1]), np.array([1, 5, 5, 1]) / 6
 DIFFERING = 1e-7  # relative to the largest mean; a larger difference of two rules shows an edge
 

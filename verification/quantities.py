@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 Field = NDArray[np.float64]
 
-# Below this part of the peak friction limit the direction of a traction is round-off.
+# Smallest shear over the largest friction limit; the direction of a smaller shear is rounding.
 LEAST_SHEAR = 1e-6
 
 
@@ -88,6 +88,7 @@ def shear_of(increment: Increment) -> Field:
 def energy_between(result: Result, first: int, last: int) -> float:
     """Compute the energy dissipated by friction between the ends of two load steps [force·length].
 
+    result       result of any solver
     first, last  numbers of the load steps, from 1
     """
     start, end = (result.steps[number - 1].dissipated_energy for number in (first, last))

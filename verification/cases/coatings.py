@@ -356,7 +356,7 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
     coating that is divided into three layers. Homogeneous bodies that are described as coated are
     included.
 
-    level  amount of computation: quick, standard or full
+    level  amount of computation; all levels are equal
     cells  number of cells per side of the window
     """
     coating = film(2.0, 1.0)
@@ -397,7 +397,7 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
         )
         for name, (one, body) in pairs.items()
     }
-    # All on one window, so that fields of equal contacts can be compared.
+    # All grids have one window, so that fields of equal contacts can be compared.
     grid = paper.hertz_grid(cells)
     grids = {
         name: ladder(problem, [SizedRun(Run(name, problem.scene, grid, problem=name), cells)])

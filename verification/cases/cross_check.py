@@ -68,10 +68,10 @@ from verification.references import load_reference
 Field = NDArray[np.float64]
 Results = Mapping[str, Any]
 
-MARGIN = 1.15  # half a window in contact radii without friction
-WITHIN = 0.85  # contact radii without friction; nearer the edge everything is steep
+MARGIN = 1.15  # half the window side over the contact radius without friction
+WITHIN = 0.85  # largest judged radius over the frictionless contact radius; edges are steep
 POINTS = 801  # on the line of the load
-# By µ; equal for all solvers, uniform in contact radius.
+# Number of increments by µ; equal for all solvers, uniform in contact radius.
 INCREMENTS = {0.0: 1, 0.1: 20, 0.3: 80}
 PARTS = (0.3, 0.6, 0.9)  # of µW, one load step each
 # The radial solver takes 24 rings under a tangential load. Between them the shear is linear.
@@ -208,7 +208,7 @@ class Contact:
                 "∫|Δq| dA / ∫µp dA on the line of the load", partial(self.apart, "shear"), 1e-2,
                 ASKED,
             )  # fmt: skip
-        if self.harmonics:  # elsewhere the stick radius is known to one element
+        if self.harmonics:  # otherwise the stick radius is known to one element only
             measures["stick_area"] = (
                 "stick area over contact area", _stick_apart, 3e-2, ASKED,
             )  # fmt: skip
@@ -326,7 +326,7 @@ def _stick_apart(step: int, one: Any, other: Any) -> float:
 
 FEW_CONTACTS = ((2.0, 1.0, 0.1), (10.0, 0.25, 0.0), (0.25, 2.0, 0.1))
 MORE_CONTACTS = (*FEW_CONTACTS, (4.0, 1.0, 0.3))
-# A coating like its body is none, whatever its thickness.
+# A coating of the base material has no effect, so that one thickness is sufficient.
 EVERY_CONTACT = tuple(
     (ratio, thickness, friction)
     for ratio, thickness, friction in product(

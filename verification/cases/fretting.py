@@ -487,7 +487,7 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
 
 STOPPED = {1: 0.3, 2: 0.45, 3: 0.6, 4: 0.75, 5: 0.9}  # parts of µW, by step
 LOOP = loop_problem("Fretting loop of two alike bodies, by finite elements", STEEL, quarter=3)
-# At 64 elements per radius: shift, energy, shear; and the order with which they fall.
+# Tolerances of shift, energy and shear at 64 elements per radius; their order of convergence.
 ORDER = 1.5
 OF_SHIFT, OF_ENERGY, OF_SHEAR = (
     scaled_tolerance(5e-4, ORDER),
@@ -587,7 +587,7 @@ def fem_partial_slip(
     """
     orders = bool(studied) or level is not Level.QUICK
     if studied is None:
-        # Where edges of stick lie in their elements depends on the mesh, too.
+        # The positions of the stick edges in their elements depend on the mesh as well.
         studied = order_levels(level, per_octave=10)
     once = sheared(
         "Two alike bodies with ν = 0 sheared once, by finite elements", tuple(STOPPED.values())
@@ -749,13 +749,13 @@ def radial_tangential(level: Level = Level.QUICK) -> Case:
 
     Shift, stick radius and shear under a growing force, and shift and energy of a fretting loop are
     compared with closed forms. A coated contact is pressed with friction and compared with a table.
-
-    level  amount of computation: quick, standard or full
+    All levels of computation are equal.
     """
     stops = {1: 0.3, 2: 0.6, 3: 0.9}  # of µW, by loading step
     parts = tuple(stops.values())
     of_rings = f"accuracy target of {RINGS} rings at equal increments (4e-4, and a margin)"
-    # Slip across the load, which the closed form neglects, takes 7e-4 off: 36 and 48 rings agree.
+    # Slip across the load, which the closed form neglects, changes the shift by 7e-4, as 36 and 48
+    # rings show.
     of_steel = "errors of 7e-4 of the closed form, where slip turns, and 5e-4 of the rings"
 
     def of_stops(shift: float, because: str) -> tuple[Within, ...]:
@@ -784,7 +784,7 @@ def radial_tangential(level: Level = Level.QUICK) -> Case:
         on_radii(sheared("Ball pushed", parts, material, increments=3), name)
         for material, name in ((NU_ZERO, "ν = 0"), (STEEL, "steel"))
     )
-    # Pressed with friction on rings that are laid for a push.
+    # The normal loading is solved on the points for a tangential force.
     pressed = COATED.problem(20)
     push = LoadStep(
         tangential_force=(0.05 * COATED.friction * paper.NORMAL_FORCE, 0.0), increments=1

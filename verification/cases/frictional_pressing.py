@@ -429,9 +429,9 @@ def _increment_size(result: Any) -> float:
     return len(result.steps) / len(result.increments)
 
 
-# Half of the radius sticks: the edges of stick zone and contact are as far apart as can be, and
-# both far from the axis. Stick radius, contact radius and approach by superposing Spence's punches,
-# δ R = 1.04015 a².
+# Contact whose stick radius is half the contact radius. Stick edge and contact edge are then far
+# from each other and from the axis. Stick radius, contact radius and approach follow from the
+# superposition of Spence's punches, with δ R = 1.04015 a² (δ: approach, a: contact radius).
 HALF = Indentation(
     {
         "mu": 0.2986, "c_over_a": 0.49972, "a_over_aH": 0.97037,
@@ -553,7 +553,7 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
             Comparison(
                 "stick_radius", "relative error of the stick radius, extrapolated from 8 and 16 "
                 "increments", (few.label, many.label), _stick_error,
-                # On the quick grid, over the stick radius.
+                # Half a cell of the quick grid, over the stick radius.
                 0.5 * paper.WINDOW_PER_RADIUS / 64 / HALF.stick_part,
                 "half a cell: the stick edge moves by cells from increment to increment",
                 HALF.source, ReferenceKind.SEMI_CLOSED, FIVE_DIGITS,
@@ -606,7 +606,7 @@ def sheared_increments(
     push = (part * HALF.friction * paper.NORMAL_FORCE, 0.0)
     grid = paper.square_grid(cells, paper.WINDOW_PER_RADIUS / 2 * HALF.contact_radius)
     scene = HALF.problem(1).scene
-    # Orders of the increments: changes below 1e-6 are those of the edge correction.
+    # Orders of the increments are judged without edge correction, whose changes are up to 1e-6.
     several = len(counts) >= 5
     edge: EdgeCorrection = "off" if several else "last"
     runs = tuple(
@@ -684,7 +684,7 @@ def sheared_increments(
 NO_SLIP_SOURCE = "Mossakovskii 1963; Spence 1968: (1 - ν) ln(3 - 4ν) / (1 - 2ν)"
 NO_SLIP_BALL_SOURCE = "Spence 1968, superposition of bonded flat punches"
 NO_SLIP_RATIOS = (0.0, 0.3)  # Poisson's
-NO_SLIP_FRICTION = 2.0  # at the edge of full stick |q|/p stays below; µ|beta| = 1 for ν = 0
+NO_SLIP_FRICTION = 2.0  # |q|/p in full stick is smaller everywhere; µ|beta| = 1 for ν = 0
 # Approach over a²/R, and load over Hertz's at equal contact radius.
 NO_SLIP_BALL = {0.0: (1.0887337, 1.1960963), 0.3: (1.0245802, 1.0539106)}
 
@@ -720,7 +720,7 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
         scene = pressed(title, indenter, half_space(nu), pressing(count), friction=friction)
         return Run(label, scene, grid, edge=edge)
 
-    # The radius is fixed and nothing slips: the state does not depend on the way.
+    # The contact radius is fixed and nothing slips, so that the load path has no effect.
     bonded, smooth = (
         {
             nu: run(f"{kind} punch, ν = {nu:g}", title, punch, nu, friction, 1)
@@ -796,7 +796,7 @@ def spence_example(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation; all levels are equal
     """
-    # The program's units are N and mm: gap 0.004116 r², G = 0.5, ν = 0, cells of 0.2.
+    # The units of CONTACT are N and mm: gap 0.004116 r², G = 0.5, ν = 0, cells of 0.2.
     mm, megapascal = 1e-3, 1e6
     cells, side, increments = 45, 0.2 * mm, 35
     contact_cells, stick_cells = 921, 225
@@ -922,8 +922,8 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
     Judged is the order at which approach, contact radius and shear change with smaller increments
     on one mesh. All levels are equal.
     """
-    # The stick edge moves from node to node: that shows beyond 12 increments on 256 elements per
-    # radius and beyond 24 on 512, and an order read off more is too low.
+    # The stick edge moves from node to node. This error is visible above 12 increments on 256
+    # elements per radius and above 24 on 512; an order that includes more increments is too low.
     elements = 256
     slowly = NotYetAsymptotic(
         0.12,
@@ -1102,7 +1102,7 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
     integral equations. For a nearly incompressible body the stick radius is compared with Goodman's
     solution. All levels are equal.
     """
-    increments, rings = 64, 512  # twice as many increments where the cells take twice as many
+    increments, rings = 64, 512  # twice the increments for contacts that also need twice on cells
     why = "accuracy target of the radial solver at these increments"
     of_contacts = (
         Within(APPROACH, 1e-6, why),
@@ -1124,7 +1124,7 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
             1e-4, why,
         ),
     )  # fmt: skip
-    # Nearly without coupling, by which Goodman's answer is off by about β².
+    # Nearly without coupling; the error of Goodman's solution is about β².
     nu = 0.49
     beta = (1 - 2 * nu) / (2 * (1 - nu))
     of_goodman = Within(

@@ -244,7 +244,7 @@ def hertz_approach_control(level: Level = Level.QUICK) -> Case:
     )
 
 
-PART = (27.5 / 32.5) ** 3  # about 0.6; of 32 elements the edge is then in the middle of one
+PART = (27.5 / 32.5) ** 3  # about 0.6; the edge is then in the middle of one of 32 elements
 UNLOADED = PointContact.under_load(PART * paper.NORMAL_FORCE, HERTZ.radius, HERTZ.contact_modulus)
 SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
 
@@ -379,7 +379,7 @@ def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
     """
     cells = 128
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
-    # 1/E* = (1 - 0.25²)/300 GPa + the rest, so that E* is the paper's
+    # 1/E* = (1 - 0.25²)/300 GPa + the rest, so that E* is that of the standard ball
     soft = IsotropicMaterial(
         young_modulus=0.75 / (1 / paper.CONTACT_MODULUS - (1 - 0.25**2) / 300e9), poisson_ratio=0.5
     )

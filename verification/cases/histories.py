@@ -312,7 +312,7 @@ class CoupledContact:
         way = "" if degrees == 0 else f", turned by {degrees:g}°"
         grid = paper.square_grid(cells, 1.2 * HERTZ.contact_radius)
         scene = self.scene(turned(self.history, degrees), way)
-        # The history follows the states before the edge correction: so do the identities.
+        # The load history continues from uncorrected states, so that the identities hold for these.
         return Run(f"{self.name}{way}", scene, grid, edge="off")
 
     def section(self, elements: int, harmonics: int) -> SectionRun:
@@ -526,7 +526,7 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
     )  # fmt: skip
 
 
-MU, PART = 0.2, 0.6  # friction of the ball on a film, and part of µW that pushes it
+MU, PART = 0.2, 0.6  # coefficient of friction, and tangential force over µW
 PUSH = LoadStep(tangential_force=(PART * MU * NORMAL_FORCE, 0.0), increments=2)
 
 
@@ -586,7 +586,7 @@ def same_surface(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation: quick, standard or full
     """
-    # An odd count of cells has one in the middle, where the lowest height of the ball is zero.
+    # An odd number of cells has a central cell, in which the height of the ball is zero.
     cells = {Level.QUICK: 33, Level.STANDARD: 65, Level.FULL: 129}[level]
     width, longer = 2 * 1.2 * HERTZ.contact_radius, 4 / 3
     square = SurfaceGrid((cells, cells), (width, width))
@@ -931,7 +931,7 @@ def led_histories(level: Level = Level.QUICK) -> Case:
     """
     ball, limit = paper.paraboloid(NU_ZERO), FRICTION * NORMAL_FORCE
     punch = FlatPunch(radius=HERTZ.contact_radius, material=NU_ZERO)
-    arm = 0.1 * HERTZ.contact_radius  # the punch touches all over up to a third of its radius
+    arm = 0.1 * HERTZ.contact_radius  # the whole face is in contact for up to a third of the radius
     slope = 0.1 * HERTZ.approach / HERTZ.contact_radius
     held = LoadStep(normal_force=NORMAL_FORCE, increments=1)
 
@@ -968,7 +968,7 @@ def led_histories(level: Level = Level.QUICK) -> Case:
     mesh = per_radius(16 * 2**level, HERTZ.contact_radius)
     upright = ("pressed", "pushed", "twisted")  # finite elements keep the indenter upright
     runs: tuple[Run | SectionRun, ...] = (
-        # A step begins at the state before the edge correction of the step before it.
+        # A load step starts from the state of the preceding step before its edge correction.
         *(Run(name, one, grid, edge="off") for name, one in scenes.items()),
         *(SectionRun(f"{name}, elements", scenes[name], mesh) for name in upright),
     )
@@ -1014,7 +1014,7 @@ def led_histories(level: Level = Level.QUICK) -> Case:
                     "the approach of any increment", "", run.label, _hertz_force_error,
                     closed_form(0.0, "Hertz 1882; Johnson 1985, ch. 4", 1.0),
                     Required(
-                        # Of the smallest contact at the quick level, of 7 cells or elements.
+                        # Error of the smallest contact at the quick level (7 cells or elements).
                         3e-3 / 4**level,
                         "set by hand on the quick grid and mesh, of order 2 on others",
                     ),
@@ -1051,7 +1051,7 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
         for way, scene in (("pushed", pushed), ("twisted", STUCK.scene))
         for box in (near, far)
     }
-    # Power of radius over box of the error, if the edge of the box moves by the exact resultant.
+    # The error is this power of radius over box, if the boundary moves by the exact resultant.
     numbers: dict[str, tuple[str, int, Callable[[Any], float]]] = {
         "approach": ("pushed", 3, lambda end: float(end.approach)),
         "shift": ("pushed", 3, shift_along_x),

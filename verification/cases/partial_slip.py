@@ -463,7 +463,7 @@ def _sliding_problem(material: IsotropicMaterial) -> Problem:
     )
 
 
-# Incompressible, so that pressing leaves no shear; it sticks all over.
+# The body is incompressible, so that pressing causes no shear, and the disc sticks completely.
 RUBBER = IsotropicMaterial(young_modulus=3e6, poisson_ratio=0.5)
 PUNCH, PUNCH_FORCE = 5e-3, 10.0
 

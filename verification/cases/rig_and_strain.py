@@ -134,7 +134,7 @@ OVER_FORCE = "µW"
 # Stiffness of the rig [N/m], and shift of the actuator, in turn positive and negative [m].
 STIFFNESS, ACTUATED = 100e6, 1.5e-6
 AT_ENDS = {1: 1.0, 2: -1.0, 3: 1.0}  # of the largest shift of the actuator, by loading step
-# The exact laws on 24 rings or 16 elements, and cells of 64 x 64, leave less of µW and the shift.
+# Accepted error of force and shift; 24 rings, 16 elements and 64 x 64 cells have smaller errors.
 ON_ALL = 1e-3
 
 
@@ -142,8 +142,8 @@ ON_ALL = 1e-3
 class Sprung:
     """Hold the exact state of a Hertz contact whose tangential load acts through a spring.
 
-    The contact follows Mindlin and Deresiewicz, for ν = 0. The spring represents a test rig of
-    finite stiffness between actuator and indenter.
+    The contact follows Mindlin and Deresiewicz. The spring represents a test rig of finite
+    stiffness between actuator and indenter.
 
     state  state of the contact under its tangential force
     """

@@ -396,7 +396,7 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
     "exact here"
     exact = trailing_edge_tension(1.0, FRICTION, NU)
     hamilton, quick = "Hamilton and Goodman 1966; Johnson 1985, section 7.1", level is Level.QUICK
-    # Zero is as uncertain as the form behind it: rounding, or one integral.
+    # The uncertainty of the expected zero is that of the closed form: rounding, or one integral.
     fitted: tuple[tuple[str, str, Reference, Callable[[], float]], ...] = (
         ("line", "largest error of σ_xx(x, 0) within 4 cells of either edge, over p₀",
          closed_form(0.0, "Hamilton and Goodman 1966; Cerruti", 1.0), _edge_line_error),
@@ -540,9 +540,8 @@ def radial_stress(level: Level = Level.QUICK) -> Case:
     """Create the verification case of the subsurface stress by the radial solver.
 
     The loads are a tangential force, a torque, and gross slip on coatings. The references are
-    Hamilton's solution, equilibrium of the torque, and stored tensile stresses.
-
-    level  amount of computation: quick, standard or full
+    Hamilton's solution, equilibrium of the torque, and stored tensile stresses. All levels of
+    computation are equal.
     """
     pushed = replace(
         sheared("Ball pushed", (0.6,), STEEL, 6),
@@ -586,7 +585,7 @@ def radial_stress(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
     slides = {
         "E1/E2 = {:g}, h = {:g} a_H".format(*of): Problem(
-            # Pressed without friction; the tension is that of sliding under the same pressure.
+            # The ball is pressed without friction. The stress is that of gross slip.
             pressed("Sliding", rigid_ball(), coated(film(*of))), (value,), A, BY_RAYS,
             ReferenceKind.SEMI_CLOSED, 1e-6 / value,
         )

@@ -225,9 +225,10 @@ def torsion(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
 
 
-# Of the semi-closed solution: thick layers and equal layers give the closed form to this.
+# Relative error of the semi-closed solution: its difference from the closed form for thick layers
+# and for layers of the base material.
 SEMI_CLOSED_ERROR = 1e-10
-COATED_PARTS = {1: 0.5, 2: 0.9}  # of the torque at which all slips, by loading step
+COATED_PARTS = {1: 0.5, 2: 0.9}  # of the torque at gross slip, by load step
 # Two equal bodies of twice the moduli have the compliance of one under a rigid ball (E1/E2 = 2).
 BASE = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
 COATING = IsotropicMaterial(young_modulus=840e9, poisson_ratio=0.3)
@@ -406,7 +407,7 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
     of_coated = _exact_rows(
         *_observables_at_parts(COATED_PARTS, TWIST, stick), error=SEMI_CLOSED_ERROR
     )
-    # Of the area under the virgin curve 1e-10 is uncertain, and the energy is half as large.
+    # The area under the virgin curve has a relative uncertainty of 1e-10, the energy twice that.
     of_loop = (*_exact_rows(*LOOP_TWISTS), *_exact_rows(ENERGY_PER_CYCLE, error=2e-10))
     parts = ", ".join(f"{part:g}" for part in PARTS.values())
     return case(

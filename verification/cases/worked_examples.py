@@ -30,7 +30,7 @@ LIMIT = 5.0
 SLOPE, SCATTER, OF_REFERENCE = 0.3, 0.4, 1.2
 EPSILON = SCATTER / sqrt(14)
 U = 2.6
-# Student's t that 97.5 %, or 95 %, of one degree of freedom are below.
+# Student's t with one degree of freedom: quantiles of 97.5 % (two-sided 95 %) and 95 %.
 STUDENT, ONE_SIDED = 1 / np.tan(np.pi / 40), 1 / np.tan(np.pi / 20)
 HAND = "worked by hand"
 TO_ROUNDING = Required(1e-9, "the same numbers to rounding")

@@ -43,7 +43,7 @@ Field = NDArray[np.float64]
 
 CELLS, COARSE = 24, 16
 MARGIN = 1.2  # half the window over Hertz's radius
-ARM, ACROSS = 1e-5, 2e-5  # of the force [m]
+ARM, ACROSS = 1e-5, 2e-5  # moments M_x and M_y over the normal force [m]
 TORQUE = 5e-3
 PUSH, ASIDE = 50.0, 20.0
 
@@ -69,7 +69,7 @@ SCENE = Scene(
         _push_step(PUSH),
     ),
 )
-# A stiff layer bends: on its underside stress is far from that of the base below it.
+# A stiff layer bends, so that the stress at its lower side differs much from that in the base.
 COATED = pressed("Ball on a stiff coating", paper.paraboloid(STEEL), coated(film(4.0, 0.25)))
 
 

@@ -35,7 +35,7 @@ from verification.closed_forms.huber_stress import (
     stress_by_hertz_shear,
 )
 
-# µW computed on two paths differs in the last digits; that much excess counts as T = µW.
+# Relative excess of T over µW that counts as T = µW, because both contain rounding errors.
 ROUNDING = 1e-14
 
 
@@ -151,7 +151,7 @@ class NormalContact(Protocol):
 
     @property
     def load(self) -> float:
-        """Normal load of the contact [force]."""
+        """Normal load under which the contact is in this state [force]."""
 
     @property
     def approach(self) -> float:
@@ -159,11 +159,11 @@ class NormalContact(Protocol):
 
     @property
     def pressure(self) -> Callable[..., NDArray[np.float64]]:
-        """Contact pressure as a function of the position [force/length²]."""
+        """Contact pressure as a function of the position, r or (x, y) [force/length²]."""
 
     @property
     def gap(self) -> Callable[..., NDArray[np.float64]]:
-        """Gap of the deformed surfaces as a function of the position [length]."""
+        """Gap of the deformed surfaces as a function of the position, r or (x, y) [length]."""
 
 
 @dataclass(frozen=True)
@@ -306,7 +306,9 @@ class TangentialHistory:
         return sum(scale * state.shift for scale, state in self.branches())
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the shear on the lower body at distance r from the axis [force/length²]."""
+        """Compute the shear on the lower body at distance r from the axis after the load history
+        [force/length²].
+        """
         total = np.zeros_like(np.asarray(r, dtype=float))
         for scale, state in self.branches():
             total = total + scale * state.shear(r)
@@ -356,7 +358,7 @@ class TangentialHistory:
 
 Values = NDArray[np.float64]
 
-# Places at which the largest value is looked for, dense near the edge where σ_T turns to tension.
+# Number of radii at which the largest value is searched, dense near the edge, where σ_T > 0.
 PLACES = 20_001
 
 

@@ -32,7 +32,7 @@ Compliance = Callable[[Array], Array]
 REACH = 24.0
 PANEL_POINTS = 16
 PANEL_PHASE = 8.0
-# Below this part of 1/(a + h) the layer is not felt, even at a contrast of 1e6.
+# Smallest wavenumber over 1/(a + h). Below it, layers with modulus ratios up to 1e6 have no effect.
 LONGEST_WAVE = 1e-8
 PRESSURE_ORDER = 20
 
@@ -202,7 +202,7 @@ def _solve_fredholm(surface: LayeredSurface, a: float, radius: float) -> Layered
     ).T
     approach = 1.0
     if np.isfinite(radius):
-        # No edge: g(a) = 0, with g there from the equation itself.
+        # The pressure vanishes at the edge: g(a) = 0, with g(a) from the integral equation.
         edge = np.cos(a * k) * weighted @ (cosines.T * weights)
         approach = float(
             (a**2 / radius - 2 / E * (edge @ by_profile)) / (1 - 2 / E * (edge @ by_approach))

@@ -34,7 +34,7 @@ Array = NDArray[np.float64]
 REACH = 24.0
 PANEL_POINTS = 16
 PANEL_PHASE = 6.0
-# Panels halve that often towards k = 0: enough for any contrast up to 1e5.
+# Number of halvings of the panel width towards k = 0, sufficient for modulus ratios up to 1e5.
 HALVINGS = 20
 ORDER = 80
 
@@ -142,13 +142,14 @@ class CoatedTorsion:
 
     @property
     def twist(self) -> float:
-        """Relative rotation φ of the two bodies [radian]."""
+        """Relative rotation φ of the two bodies under the torque [radian]."""
         return self._solve_fredholm[0]
 
     @property
     def torque(self) -> float:
-        """Torque 4π ∫ h s ds of the contact, with h the Abel transform of the shear
-        [force*length]."""
+        """Torque 4π ∫ h s ds of the contact, from the Abel transform h of the shear
+        [force*length].
+        """
         s, weights = self._quadrature_nodes
         return float(4 * pi * np.sum(weights * self.transform * s))
 

@@ -100,9 +100,9 @@ class EllipticalContact:
         )
 
     def pressure(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:
-        """Compute the contact pressure at points (x, y), broadcast together [force/length²].
+        """Compute the pressure of the elliptical Hertz contact at points (x, y) [force/length²].
 
-        The pressure is zero outside the contact ellipse.
+        The coordinates are broadcast together. The pressure is zero outside the contact ellipse.
         """
         xs, ys = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
         room = self.semi_axes[0] ** 2 - xs**2 - (ys / self.axis_ratio) ** 2

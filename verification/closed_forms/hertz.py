@@ -158,7 +158,7 @@ class SphereContact:
         upper = min(float(np.cbrt(0.75 * target)), 1 - 1e-15)
         if _reduced_load(upper) < target:
             raise ValueError(f"load {load!r} presses the ball (radius {radius!r}) to its equator")
-        # relative unknown: brentq's absolute tolerance must not bite for small loads
+        # the unknown is relative, because brentq has an absolute tolerance
         factor = brentq(lambda t: _reduced_load(t * upper) / target - 1, 0.1, 1.0, xtol=1e-15)
         return cls(radius, contact_modulus, radius * upper * float(factor))
 

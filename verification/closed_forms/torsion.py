@@ -152,11 +152,13 @@ class TorsionalPartialSlip:
         return traction * difference / (2 * self.torsional_modulus)
 
     def shear(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Compute the circumferential shear at distance r from the axis [force/length²].
+        """Compute the circumferential shear in partial slip at distance r from the axis
+        [force/length²].
 
         The shear is µp in the slip annulus and smaller in the stick disc. The reduction in the
         stick disc is (2/π) µ p0 ∫ E(√(1 - r²/(a cos φ)²)) dφ from 0 to arccos(r/c), by inversion of
-        the Abel integral with the twist of a rigid disc.
+        the Abel integral with the twist of a rigid disc. E is the complete elliptic integral, p0
+        the peak pressure, a the contact radius and c the stick radius.
         """
         a, c = self.contact_radius, self.stick_radius
         rho = np.abs(np.asarray(r, dtype=float))

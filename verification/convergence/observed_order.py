@@ -180,7 +180,9 @@ def _triplet_stride(h: Vector, reach: int) -> int:
 
 
 def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order: float) -> float:
-    """Compute the standard uncertainty of the value on the finest level, from f(h) = f0 + C h^p.
+    """Compute the standard uncertainty of a value on the finest of several refinement levels.
+
+    The values are assumed to follow f(h) = f0 + C h^p (h: discretisation size).
 
     sizes    sizes h of at least three levels
     values   f(h) on these levels

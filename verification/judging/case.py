@@ -261,5 +261,8 @@ class Case:
     no_order: str = ""
 
     def run(self, label: str) -> AnyRun:
-        """Return the run of the case with the given label; raise KeyError for an unknown label."""
+        """Return the run of the case with the given label.
+
+        Raises KeyError for an unknown label.
+        """
         return {run.label: run for run in self.runs}[label]

@@ -458,7 +458,9 @@ class CaseOutcome(Description):
         return self
 
     def count(self, status: Status) -> int:
-        """Return the number of verdicts of the case with the given status."""
+        """Return the number of verdicts of the case that have the given status (pass, fail,
+        inconclusive).
+        """
         return sum(verdict.status is status for verdict in self.verdicts)
 
     @property

@@ -406,9 +406,10 @@ PLACES = (0.1, 0.3, MIDDLE, 0.7, 0.9)
 
 
 def levels(level: Level) -> tuple[int, ...]:
-    """Return the numbers of finite elements per contact radius for an amount of computation.
+    """Return the numbers of finite elements per contact radius at which a case is solved, coarse to
+    fine.
 
-    The numbers are ordered from coarse to fine.
+    level  amount of computation: quick, standard or full
     """
     return _LEVELS[level]
 
@@ -429,8 +430,9 @@ def order_levels(level: Level, per_octave: int = PER_OCTAVE) -> tuple[tuple[int,
 
 
 def finest(level: Level) -> int:
-    """Return the number of finite elements per contact radius of the finest mesh at an amount of
-    computation.
+    """Return the largest number of finite elements per contact radius at which a case is solved.
+
+    level  amount of computation: quick, standard or full
     """
     return _LEVELS[level][-1]
 

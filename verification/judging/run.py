@@ -69,12 +69,17 @@ class Run:
 
     @property
     def spacing(self) -> float:
-        """Longer side of a cell of the grid [length]."""
+        """Longer side of a cell of the grid, the discretisation size h in orders of convergence
+        [length].
+        """
         return max(self.grid.spacing)
 
     def solve(self) -> semi_analytical.Result:
-        """Solve the scene on the grid of cells; raises the exceptions of
-        `semi_analytical.solve`."""
+        """Solve the scene on the grid of cells, with the physical effects that the solver or the
+        run chooses.
+
+        Raises the exceptions of `semi_analytical.solve`.
+        """
         from semi_analytical import plan, solve
 
         decided = plan(self.scene, edge=self.edge)
@@ -124,11 +129,16 @@ class SectionRun:
 
     @property
     def spacing(self) -> float:
-        """Side of an element at the contact, relative to the contact radius [1]."""
+        """Side of an element at the contact over the contact radius: size h in orders of
+        convergence [1].
+        """
         return 1 / (self.discretisation.elements_per_radius + self.beyond)
 
     def solve(self) -> fem_reference.Result:
-        """Solve the scene with finite elements; raises the exceptions of `fem_reference.solve`."""
+        """Solve the scene by finite elements on the mesh and with the contact method of the run.
+
+        Raises the exceptions of `fem_reference.solve`.
+        """
         import fem_reference
 
         method = fem_reference.Method(self.method.value)
@@ -169,7 +179,10 @@ class RadiiRun:
         return 1 / self.fineness
 
     def solve(self) -> radial.Result:
-        """Solve the scene on rings; raises the exceptions of `radial.solve`."""
+        """Solve the scene by the radial solver with the fineness of the run.
+
+        Raises the exceptions of `radial.solve`.
+        """
         import radial
         from contact_scene import RadialDiscretisation
         from radial.angular_grid import RingAngles

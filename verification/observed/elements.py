@@ -136,7 +136,8 @@ class Rings:
         return np.stack([self.on_grid(strain * self.arms), self.on_grid(None)])
 
     def vector(self, increment: Increment, name: str) -> Field:
-        """Return the shear or the slip of an increment as a vector field (2, rings, angles).
+        """Return the shear or the slip of a finite element increment as a vector field (2, rings,
+        angles).
 
         name  "shear" or "slip"
         """
@@ -243,8 +244,8 @@ def states_on_elements(result: Result) -> list[ContactState]:
     """Collect the state of the contact surface at the end of each increment of a finite element
     result.
 
-    Raises ValueError for an augmented penalty with harmonics, whose result does not contain the
-    deformation of the contact springs.
+    Raises ValueError for a penalty method with augmentation and angular harmonics: the result does
+    not contain the deformation of the contact springs.
     """
     last = result.increments[-1]
     penalty, harmonics = last.overlap is not None, result.plan.path is Path.HARMONICS
@@ -277,7 +278,7 @@ def _state_on_elements(
 ) -> ContactState:
     p, q = rings.on_grid(increment.pressure), rings.vector(increment, "shear")
     along, u_z = rings.displacement(p, q)
-    if result.plan.path is Path.HARMONICS:  # springs that are known exactly are part of the bodies
+    if result.plan.path is Path.HARMONICS:  # contact springs are treated as part of the bodies
         along, u_z, give = along + give * q, u_z + give * p, 0.0
     force, motion = _load_and_motion(increment, result)
     if motion is None and force == 0.0:

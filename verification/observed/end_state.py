@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def normal_force(result: Result) -> float:
-    """Return the normal force at the end of the last load step [force]."""
+    """Return the normal force of a result at the end of the last load step [force]."""
     return float(result.steps[-1].normal_force)
 
 
@@ -60,7 +60,9 @@ def central_pressure(result: Any, step: int = -1) -> float:
 
 
 def contact_radius(result: Result) -> float:
-    """Return the contact radius √(contact area / π) at the end of the last load step [length]."""
+    """Return the contact radius √(contact area / π) of a result at the end of the last load step
+    [length].
+    """
     return float(result.steps[-1].contact_radius)
 
 

@@ -76,7 +76,7 @@ OVER_LARGEST_WAY = "the largest way"
 AMPLITUDE = 0.9  # largest tangential force T* over µW
 LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
 PRESSED = 1
-WINDOW_PER_RADIUS = 2.2  # the contact takes 1/1.1 of the width of the window
+WINDOW_PER_RADIUS = 2.2  # side of the window over the contact radius
 
 
 def loop_steps(quarter: int) -> tuple[LoadStep, ...]:

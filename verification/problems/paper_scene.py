@@ -50,12 +50,21 @@ WINDOW_PER_RADIUS = 3.0
 
 
 def square_grid(cells: int, half_width: float) -> SurfaceGrid:
-    """Create a square grid of cells × cells on the window |x|, |y| <= `half_width` [length]."""
+    """Create a square grid of cells × cells on the window |x|, |y| <= `half_width`.
+
+    cells       number of cells per side
+    half_width  half of the side of the window [length]
+    """
     return SurfaceGrid((cells, cells), (2 * half_width, 2 * half_width))
 
 
 def hertz_grid(cells: int) -> SurfaceGrid:
-    """Create a square grid of cells × cells on a window whose side is 3 Hertz contact radii."""
+    """Create a square grid of cells × cells on a window whose side is 3 Hertz contact radii.
+
+    The radius is that of the standard ball (18 mm, 1 kN).
+
+    cells  number of cells per side
+    """
     return square_grid(cells, WINDOW_PER_RADIUS / 2 * HERTZ.contact_radius)
 
 

@@ -114,7 +114,7 @@ FINER, ORDER_ONE = (3.5, 2.5), 2.5
 # the fraction `OTHER_CELLS` from that on fine cells.
 MANY, OTHER_CELLS = (32, 16, 8), 0.07
 SIMILAR_ERROR = 1e-9
-# Quantities that symmetry does not repeat along a loop.
+# Quantities that do not repeat by symmetry at the reversals of a loop.
 PER_CYCLE = (ENERGY, CYCLE, AMPLITUDE, F1, F2)
 # Quantities that are zero before the first tangential force or torque.
 LED = (SHIFT, TANGENTIAL, TWIST, TORQUE)
