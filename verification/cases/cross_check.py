@@ -337,8 +337,7 @@ EVERY_CONTACT = tuple(
 
 
 def contacts(level: Level) -> tuple[Contact, ...]:
-    """Return the contacts that the comparison of the three solvers takes at an amount of
-    computation.
+    """Return the contacts that are computed to compare the three solvers.
 
     The last contact has a tangential load, the others are pressed only. The full level has every
     combination of modulus ratio, coating thickness and friction.

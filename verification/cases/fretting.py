@@ -279,10 +279,11 @@ def _largest_slip_amplitude(result: Any, *_: Any) -> float:
 
 
 def _cycle_rows() -> tuple[Row, ...]:
-    """Return the rows of the fretting loop: judged and reported quantities with their tolerances.
+    """Return the rows (quantities with tolerances) that are judged for a fretting loop on every
+    grid.
 
     The quantities are shear, shift, stick radius, slip, the fretting parameters F1 and F2 of Ruiz,
-    dissipated energy and energy balance. All grids of the case are judged.
+    dissipated energy and energy balance.
     """
     ruiz = "Ruiz, Boddington and Chen 1984, on Mindlin and Deresiewicz 1953"
     imbalance = error_norm(

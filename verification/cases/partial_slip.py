@@ -175,8 +175,8 @@ SLIP = error_norm(
 
 
 def _stop_rows(step: int, part: float) -> tuple[Row, ...]:
-    """Return the rows of the ball at the end of one tangential load step: quantities and
-    tolerances.
+    """Return the rows (quantities with tolerances) that are judged for the ball after one
+    tangential load step.
 
     The quantities are shear, stick radius, shift and slip.
 

@@ -134,11 +134,10 @@ def _off_axis_error() -> float:
 
 
 def _sliding_stress_error() -> float:
-    """Compute the largest stress error below a sliding Hertz contact on 256 × 256 cells, over p₀
-    [1].
+    """Compute the largest stress error below a sliding Hertz contact, over the peak pressure [1].
 
-    All six components are compared with Hamilton's solution below every 16th cell along each side,
-    at depths of 0.5 and 1 contact radii.
+    The tractions act on 256 × 256 cells. All six components are compared with Hamilton's solution
+    below every 16th cell along each side, at depths of 0.5 and 1 contact radii.
     """
     depths = np.array((0.5, 1.0)) * A
     found = subsurface(
@@ -175,7 +174,8 @@ def _interface_jump() -> float:
 
 
 def _in_plane_jump() -> float:
-    """Compute the error of the jump of σ_xx at the interface of a coated body, over p₀ [1].
+    """Compute the error of the jump of σ_xx at the interface of a coated body, over the peak
+    pressure [1].
 
     In-plane strains and σ_zz are continuous at the interface. The computed σ_xx above the interface
     is compared with the value that follows from the stress below.
@@ -284,10 +284,11 @@ def _sliding_edge_stress(body: Body, grid: SurfaceGrid, pressure: Field) -> Near
 
 
 def _trailing_edge_tension_on_cells(body: Body, indenter: Paraboloid, cells: int) -> float:
-    """Compute the largest tensile stress at the edge of a sliding contact under 1 kN, over p₀ [1].
+    """Compute the largest tensile stress at the edge of a sliding contact, over the peak pressure
+    [1].
 
-    The pressure is solved on cells; the shear is µ times the pressure. p₀ is the peak pressure of
-    Hertz theory.
+    The pressure under 1 kN is solved on cells; the shear is µ times the pressure. The peak pressure
+    is that of Hertz theory.
 
     body      lower body
     indenter  ball
@@ -320,11 +321,11 @@ def _exact_edge() -> NearEdge:
 
 
 def _edge_line_error() -> float:
-    """Compute the largest error of σ_xx on the x axis within four cells of either contact edge,
-    over p₀ [1].
+    """Compute the largest error of σ_xx near the edges of a sliding contact, over the peak pressure
+    [1].
 
-    The contact slides along x. There are 32 positions at each edge; none is nearer to the edge than
-    1/8 of a cell.
+    The contact slides along x. The positions lie on the x axis within four cells of either edge: 32
+    at each edge, none nearer than 1/8 of a cell.
     """
     found = _exact_edge()
     beside = (np.arange(32) / 32 - 0.5 + 1 / 64) * 8 * found.grid.spacing[0]
@@ -347,11 +348,11 @@ def _near_edge() -> tuple[NearEdge, Field, Field, NDArray[np.bool_]]:
 
 
 def _surface_error() -> float:
-    """Compute the largest stress error at the surface under Hertz pressure without shear, over p₀
+    """Compute the largest stress error at the surface near a contact edge, over the peak pressure
     [1].
 
-    All six components are compared with Huber's solution at the centres of the cells within three
-    cells of the contact edge.
+    The Hertz pressure acts without shear. All six components are compared with Huber's solution at
+    the centres of the cells within three cells of the contact edge.
     """
     of, x, y, near = _near_edge()
     found = near_edge(of.stack, of.grid, of.tractions.cells[2], None)
@@ -368,8 +369,8 @@ def _surface_error() -> float:
 
 
 def _error_a_cell_below() -> float:
-    """Compute the largest stress error one cell below the surface of a sliding contact, over p₀
-    [1].
+    """Compute the largest stress error one cell below the edge of a sliding contact [peak
+    pressure].
 
     All six components are compared with Hamilton's solution below the cells within three cells of
     the contact edge.
@@ -475,10 +476,10 @@ def _stress_at_points(body: RadialBody, depth: float, x: Field, y: Field) -> Str
 
 
 def _partial_slip_stress_error(depth: float, result: Any, *_: Any) -> float:
-    """Compute the largest stress error below a contact in partial slip on three lines, over p₀ [1].
+    """Compute the largest stress error below a contact in partial slip, over the peak pressure [1].
 
     All six components of the radial solver are compared with the difference of two Hamilton
-    solutions. The lines are parallel to the load, 0, 0.4 and 0.8 contact radii from the axis.
+    solutions, on three lines parallel to the load, 0, 0.4 and 0.8 contact radii from the axis.
 
     depth   depth over the contact radius
     result  result of the radial solver under 0.6 of the friction limit
@@ -518,10 +519,11 @@ def _error_of_torque(result: Any, *_: Any) -> float:
 
 
 def _tension_by_rays(result: Any, _: int, problem: Problem) -> float:
-    """Compute the tensile stress at the trailing edge of a ball in gross slip, over p₀ [1].
+    """Compute the tensile stress at the trailing edge of a ball in gross slip, over the peak
+    pressure [1].
 
     The pressure is that of the radial solver, the shear is µ times the pressure. The stress is an
-    integral along rays from the edge point.
+    integral along rays from the edge point. The peak pressure is that of Hertz theory.
 
     result   result of the radial solver under normal load
     problem  problem with the layered lower body

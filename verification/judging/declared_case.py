@@ -104,7 +104,9 @@ class Observable:
 
     @property
     def verdict(self) -> str:
-        """Name of the verdict on the observable: its name, with the load fraction if one is set."""
+        """Name of the verdict on the observable: the name of the observable, with the load fraction
+        if set.
+        """
         return self.name if self.part is None else f"{self.name}_at_{self.part:g}"
 
     def over_stops(self, stops: str) -> Observable:

@@ -22,7 +22,7 @@ SHORT_COMMIT = 7
 
 
 class ChangeKind(StrEnum):
-    """Result of the comparison of a number with the value in its recorded baseline."""
+    """Result of the comparison of a number with its baseline (stored value of an accepted run)."""
 
     UNCHANGED = "unchanged"
     """Also what other processors and versions leave: a millionth of what errors are divided by, or
@@ -53,8 +53,8 @@ class ChangeKind(StrEnum):
 
     @property
     def matters(self) -> bool:
-        """True if the number differs from the recorded baseline, so that a new recording
-        is needed.
+        """True if the number differs from the baseline (stored value), so that a new value must be
+        stored.
         """
         return self is not ChangeKind.UNCHANGED
 
@@ -69,7 +69,9 @@ class ChangeKind(StrEnum):
 
 
 class Change(Description):
-    """Record of the difference between a number and its value in the recorded baseline."""
+    """Record of the difference between a number and its baseline (stored value of an
+    accepted run).
+    """
 
     kind: ChangeKind
     recorded: bool = True
@@ -88,8 +90,8 @@ class Change(Description):
 
 
 class CounterChange(Description):
-    """Record of the difference of a cost count, such as iterations, from the recorded count of a
-    case.
+    """Record of the difference of a cost count of a case, such as iterations, from its stored
+    value.
     """
 
     name: str
@@ -100,7 +102,7 @@ class CounterChange(Description):
 
 
 class Gone(Description):
-    """Record of a quantity that is in the baseline and that the case does not measure any more."""
+    """Record of a quantity that has a stored value and that the case does not measure any more."""
 
     name: str
     run: str
@@ -109,7 +111,7 @@ class Gone(Description):
 
 
 class GoneCase(Description):
-    """Record of a case that is in the baselines and missing in a report of all cases."""
+    """Record of a case that has stored values and is missing in a report of all cases."""
 
     name: str
     since: str
@@ -117,7 +119,9 @@ class GoneCase(Description):
 
 
 class Origin(Description):
-    """Record of the origin of the baseline of a case: commit, date, and reason for accepting it."""
+    """Record of the origin of the stored values of a case: commit, date, and reason for accepting
+    them.
+    """
 
     commit: str | None
     changed: bool
@@ -132,7 +136,7 @@ class Origin(Description):
 
     @property
     def name(self) -> str:
-        """Git commit of the baseline, as text for a reader."""
+        """Git commit at which the values of a case were stored, as text for a reader."""
         return commit_text(self.commit, changed=self.changed)
 
 

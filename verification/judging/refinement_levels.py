@@ -438,10 +438,10 @@ def finest(level: Level) -> int:
 
 
 def because(order: float) -> str:
-    """Return the reason for a tolerance that holds at 64 elements per radius and is scaled to other
-    meshes.
+    """Return the text that justifies a tolerance for finite elements, scaled from 64 elements per
+    radius.
 
-    order  order of convergence by which the tolerance is scaled
+    order  order of convergence by which the tolerance is scaled to other meshes
     """
     return (
         f"accuracy target of the finite elements at {TOLERANCE_ELEMENTS} per radius; on other "
