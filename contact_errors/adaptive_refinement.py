@@ -77,7 +77,7 @@ class RefinementLevel:
 
     fineness       discretisation: cells, elements or rings, increments and tolerance
     result         result of the solver
-    values         scalars at the end of each load step, by name
+    values         scalars, such as forces and contact radius, at the end of each load step, by name
     stated         error estimates of these scalars at the end of each load step
     run            the scalars with those of the coarse solves, from which the errors are computed
     seconds        elapsed time of the solve and its coarse solves [s]
@@ -96,28 +96,35 @@ class RefinementLevel:
 
     @property
     def processor_seconds(self) -> float:
-        """CPU time of the solve and its coarse solves [s]."""
+        """CPU time of the solve of this level and of the coarse solves for its error estimate [s]."""
         return self.solve_seconds + self.error_seconds
 
     def largest(self, name: str) -> float:
         """Return the largest absolute value of a scalar or vector at the ends of all load steps.
 
-        The value is 0 if the result does not contain the name. Relative errors refer to this value.
+        Relative errors refer to this value. The value is 0 if the result does not contain the
+        scalar.
+
+        name  name of the scalar, such as "peak_pressure"
         """
         return float(np.max(largest_so_far(self.values)[-1].get(name, 0.0)))
 
     def errors(self, name: str) -> Iterator[StatedError]:
-        """Yield the error estimates of one scalar, one for each load step that has the scalar.
+        """Yield the error estimate of one scalar for each load step whose results contain the
+        scalar.
 
-        name  name of the scalar
+        name  name of the scalar, such as "peak_pressure"
         """
         return (step[name] for step in self.stated.steps if name in step)
 
     def reached_error(self, name: str) -> float | None:
-        """Compute the relative error of one scalar: its largest error over its largest value.
+        """Compute the relative error of one scalar at this refinement level.
 
-        Error and value are the largest at the ends of all load steps. The result is None if any of
-        these errors is unknown or has not converged.
+        The relative error is the largest estimated error over the largest absolute value of the
+        scalar. Both maxima are over the ends of all load steps. The result is None if any of the
+        errors is unknown or has not converged.
+
+        name  name of the scalar, such as "peak_pressure"
         """
         errors = list(self.errors(name))
         if any(e.error is None or e.status is ErrorStatus.NOT_CONVERGED for e in errors):
@@ -125,11 +132,12 @@ class RefinementLevel:
         return float(max(np.max(e.error or 0.0) for e in errors)) / self.largest(name)
 
     def meets(self, shares: Mapping[str, float]) -> bool:
-        """Return true if the relative errors of all requested scalars meet the request.
+        """Return true if the relative errors of this level meet the requested accuracy of all
+        scalars.
 
-        An error times the margin 1.15 must not exceed the requested error. The margin compensates
-        that the refinement stops at the first sufficient estimate, which favours estimates that are
-        too small.
+        An error times the margin 1.15 must not exceed the requested error. The margin is needed
+        because the refinement stops at the first sufficient estimate. This criterion favours
+        estimates that are too small.
 
         shares  requested relative error by name of the scalar
         """
@@ -137,15 +145,16 @@ class RefinementLevel:
         return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
 
     def needed_factors(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
-        """Compute the refinement factor of each discretisation parameter that a request needs.
+        """Compute the factors by which the discretisation must be refined to meet a requested
+        accuracy.
 
-        The parameters are cells, increments, tolerance and others. The factors follow from the
-        parts of the errors of this level and the convergence orders. Parameters that need no
-        refinement are absent.
+        There is one factor for each discretisation parameter, such as cells, increments and
+        tolerance. A factor follows from the part of the error that the parameter causes, and from
+        the convergence order of this part. Parameters that need no refinement are absent.
 
         shares    requested relative error by name of the scalar
         believed  factor of the theoretical convergence orders: 0.6 for a safe estimate, 1 for the
-                  most likely factor
+                  most likely refinement factors
         """
         factors: dict[Part, float] = {}
         for name, share in shares.items():
@@ -165,7 +174,7 @@ class RefinementLevel:
 
     @property
     def part(self) -> Part:
-        """Name of the error part that the spatial discretisation causes.
+        """Name of the part of an error that the spatial discretisation causes.
 
         The name is "cells", "elements" or "quadrature", depending on the solver.
         """
@@ -174,14 +183,18 @@ class RefinementLevel:
 
 @dataclass(frozen=True)
 class Levels:
-    """Sequence of ever finer discretisations of one scene, for a requested accuracy.
+    """Solver and settings of an adaptive refinement, with functions that solve and compare its
+    levels.
+
+    A level is one discretisation of the scene. Each level is finer than the preceding one.
 
     solver     solver with the discretisation parameters that are refined
     stress_at  load step, from 1, at whose end the largest tensile stress of the body is computed;
                None without a requested accuracy of the stress
-    watching   function that returns the context of a solve; the context yields an observer of
-               increments
-    keeping    function that returns the context of a solve; the context yields a checkpoint store
+    watching   function from a discretisation to a context manager of its solve; the context yields
+               a function that is called after each increment
+    keeping    function from a discretisation to a context manager of its solve; the context yields
+               a checkpoint store
     """
 
     solver: DiscretisedSolver
@@ -195,8 +208,8 @@ class Levels:
         The cells are doubled up to `MAX_DOUBLINGS` times while the solver raises
         ContactNotResolved. Other errors of the solver are raised.
 
-        run  discretisation of a run whose CPU time is estimated; the level then has few increments
-             and is not finer than the run
+        run  discretisation of a run whose CPU time is to be estimated; the first level then has few
+             increments and at most the cells of the run. None without a time estimate
         """
         fineness = Fineness(
             self.solver.first_space(),
@@ -215,12 +228,13 @@ class Levels:
         return self.solve_level(fineness)
 
     def solve_level(self, fineness: Fineness) -> RefinementLevel:
-        """Solve the scene with one discretisation, and estimate the errors by coarse solves.
+        """Solve the scene with one discretisation, and estimate the errors of its scalars.
 
-        If `stress_at` is set, the largest tensile stress of the body is added to the scalars of
-        that load step. Raises the SolverError of the solve.
+        The errors follow from coarse solves of the scene. If `stress_at` is set, the largest
+        tensile stress of the body is added to the scalars of that load step. Raises the SolverError
+        of the solve.
 
-        fineness  grid or mesh, increments and tolerance
+        fineness  grid or mesh, increments and tolerance of the level
         """
         began, began_processor = time.perf_counter(), time.process_time()
         with self.keeping(fineness) as store, self.watching(fineness) as progress:
@@ -246,19 +260,23 @@ class Levels:
         )
 
     def estimated_seconds(self, level: RefinementLevel, run: Work) -> float:
-        """Estimate the CPU time of a solve with its coarse solves [s], from that of a solved level.
+        """Estimate the CPU time of a solve and its error estimate [s] from the time of a solved
+        level.
 
         level  solved level, whose measured CPU time is scaled by the work of the solves
-        run    unknowns and repetitions of the solve
+        run    numbers of unknowns and repetitions of the solve
         """
         coarse = self.solver.work(level.fineness)
         return estimated_run_seconds(level.solve_seconds, level.error_seconds, coarse, run)
 
     def settings(self, fineness: Fineness) -> AccuracySettings:
-        """Return the record of a discretisation for summary.json.
+        """Return the record of a discretisation for the file summary.json.
 
-        The record contains the numbers of cells, elements or rings and of increments, and the
-        tolerance.
+        The record contains the number of cells, of elements over the contact radius or the factor
+        of the default number of rings. It also contains the number of increments of each load step,
+        and the tolerance.
+
+        fineness  grid or mesh, increments and tolerance
         """
         return AccuracySettings(
             increments=fineness.increments,
@@ -267,9 +285,13 @@ class Levels:
         )
 
     def last(self, first: RefinementLevel, shares: Mapping[str, float]) -> Fineness:
-        """Extrapolate the discretisation of the last level from the errors of the first level.
+        """Extrapolate the discretisation that meets a requested accuracy from the errors of the
+        first level.
 
-        first   first level
+        Used to estimate time and memory, and to refuse a request that cannot be met. If the first
+        level meets the request, its discretisation is returned.
+
+        first   solved first level of the refinement
         shares  requested relative error by name of the scalar
         """
         if first.meets(shares):
@@ -280,8 +302,10 @@ class Levels:
         )
 
     def beyond_limit(self, fineness: Fineness) -> str | None:
-        """Return a message if a discretisation exceeds the solver's limit of cells, elements or
-        rings; else None.
+        """Return a message if a discretisation is finer than the solver allows; else None.
+
+        The solver limits the number of cells along a side, the elements over the contact radius, or
+        the factor of the default number of rings.
 
         fineness  grid or mesh, increments and tolerance
         """
@@ -291,9 +315,9 @@ class Levels:
         return f"a level with {name} = {size} exceeds the limit {self.solver.most:g}"
 
     def beyond_memory(self, fineness: Fineness) -> str | None:
-        """Return a message if a discretisation needs more than the available memory; else None.
+        """Return a message if a solve needs more than the available memory; else None.
 
-        fineness  grid or mesh, increments and tolerance
+        fineness  grid or mesh, increments and tolerance of the solve
         """
         ((name, size),) = self.solver.record_entry(fineness.space).items()
         needed, available = self.solver.memory(fineness), available_bytes()
@@ -308,10 +332,10 @@ class Levels:
 def limit_factors(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinement:
     """Limit the refinement factors of the discretisation parameters from one level to the next.
 
-    If no other parameter than cells and increments is refined, and by a factor below
-    `LEAST_AT_ONCE`, the cells are refined by this least factor.
+    If only cells and increments are refined, and by factors below `LEAST_AT_ONCE`, the cells are
+    refined by this least factor, so that the next level differs sufficiently.
 
-    by     required refinement factor of each parameter
+    by     required refinement factor of each parameter, by name
     cells  name of the parameter of the cells, elements or rings
     most   limit of the factors of cells and increments; other parameters have the limit most²
     """
@@ -339,10 +363,10 @@ class Refined:
 class Price:
     """Estimated cost of a run with a requested accuracy.
 
-    settings  discretisation of the last level
+    settings  discretisation of the last and finest level of the refinement
     seconds   CPU time of the first and the last level, with their coarse solves [s]
     memory    peak memory of the solve of the last level [byte]
-    fits      true if the last level is within the solver's limit
+    fits      true if the last level is within the solver's limit of cells, elements or rings
     """
 
     settings: AccuracySettings
@@ -357,7 +381,7 @@ def refine(
     most_seconds: float = np.inf,
     estimated: Estimated | None = None,
 ) -> Refined:
-    """Solve finer and finer levels of a scene until the errors meet the requested accuracy.
+    """Solve finer and finer discretisations (levels) of a scene until the errors meet a request.
 
     If a limit is reached, or the solve of the next level fails, the last solved level is returned
     with the reason. Raises AccuracyOutOfReach for a request that cannot be met, and any SolverError
@@ -409,7 +433,8 @@ def refine(
 
 
 def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> Price:
-    """Estimate CPU time and memory of a run with a requested accuracy, without solving it.
+    """Estimate CPU time and memory of a run with a requested accuracy, without a solve on fine
+    levels.
 
     The discretisation that meets the request is extrapolated from the errors of the first and
     coarsest level. Raises AccuracyOutOfReach for a request that cannot be met.
@@ -429,17 +454,17 @@ def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> P
 def targets_of(
     request: AccuracyRequest, level: RefinementLevel, levels: Levels
 ) -> tuple[dict[str, float], dict[str, str], Fineness]:
-    """Determine the requested relative error of each scalar that an accuracy request applies to.
+    """Determine the scalars to which an accuracy request applies, with their requested errors.
 
-    The result of the first level decides. Scalars that it does not contain, that are infinite or
-    that are zero throughout are excluded.
+    The result of the first level determines the scalars. Scalars that it does not contain, that are
+    infinite or that are zero throughout are excluded.
 
     Returns the requested relative errors by name, the reasons of the excluded scalars by name, and
     the discretisation of the last level, extrapolated from the errors of the first level.
 
     request  requested relative errors
     level    first level, with its result and error estimates
-    levels   sequence of discretisations, for the limits on cells and memory
+    levels   scene and solver, with the limits on cells and memory
 
     Raises AccuracyOutOfReach in three cases:
 

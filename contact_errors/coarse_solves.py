@@ -57,12 +57,15 @@ Effect: TypeAlias = tuple[Sequence[Values], Sequence[Values]]
 
 @dataclass(frozen=True)
 class Fineness:
-    """Discretisation parameters of one solve: grid or mesh, increments and tolerance.
+    """Hold the discretisation parameters of one solve: grid or mesh, increments and tolerance.
 
-    space       grid of cells, mesh of finite elements, or multiple of the default number of rings
-    increments  number of increments of every load step
-    tolerance   bound of every relative residual
-    edges       true for cells with the sub-cell edge correction, if the plan contains it
+    Error estimates compare solves whose parameters differ in one of these values.
+
+    space       grid of cells, mesh settings of finite elements, or factor of the default number of
+                rings
+    increments  number of increments of each load step
+    tolerance   limit of every relative residual of the contact equations
+    edges       false to omit the sub-cell edge correction of the semi-analytical solver
     """
 
     space: Any
@@ -75,11 +78,12 @@ class Fineness:
 class CoarseSolve:
     """Specification of a coarse solve that changes one mesh parameter other than the element count.
 
-    Examples are the size of the meshed section and the number of angular harmonics.
+    Examples of such parameters are the size of the meshed section and the number of angular
+    harmonics. The solve measures the error that the parameter causes.
 
-    part        part of the error that the solve measures
-    differs     description for the record
-    key, value  parameter of the discretisation, and its coarser value
+    part        name of the part of the error that the solve measures, such as "harmonics"
+    differs     text that describes the changed parameter in the record of the solve
+    key, value  name of the mesh parameter, and its coarser value
     ratio       coarsening factor of the parameter, above 1
     """
 
@@ -116,13 +120,19 @@ class DiscretisedSolver(ABC):
     @classmethod
     @abstractmethod
     def of(cls, result: Any) -> Self:
-        """Create the solver for the coarse solves of a result, with its settings and plan."""
+        """Create the solver that repeats the solve of a result with coarser discretisations.
+
+        The scene, the discretisation settings and the plan (modelled effects, increments) are those
+        of the result.
+        """
 
     @classmethod
     def stated_errors(cls, result: Any) -> StatedErrors:
-        """Estimate the errors of all scalars of a result at the ends of its load steps.
+        """Estimate the errors of all scalars of a result, such as forces, at the end of each load
+        step.
 
-        The errors are computed from coarse solves of the scene.
+        The scene is solved again with coarser discretisations. The errors follow from the
+        differences between these solves and the result.
         """
         run, coarse = compare_with_coarse_solves(cls.of(result), result)
         return StatedErrors(tuple(run.errors()), coarse)
@@ -130,29 +140,34 @@ class DiscretisedSolver(ABC):
     @property
     @abstractmethod
     def plan(self) -> Any:
-        """Description of a solve: modelled effects, and number of increments of each load step."""
+        """Plan of a solve: its modelled physical effects, and its number of increments per load
+        step.
+        """
 
     @abstractmethod
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Any:
-        """Solve the scene with given discretisation parameters; raises a SolverError.
+        """Solve the contact problem of the scene with given discretisation parameters.
 
-        fineness  grid or mesh, increments and tolerance
+        Raises a SolverError if the solve fails.
+
+        fineness  grid or mesh, number of increments of each load step, and tolerance
         progress  function that is called after every increment, or None
-        store     checkpoint store of the solve, or None
+        store     store of checkpoints from which an interrupted solve resumes, or None
         """
 
     @abstractmethod
     def space_of(self, result: Any) -> Any:
-        """Return the spatial discretisation of a result.
+        """Return the spatial discretisation with which a contact result was computed.
 
-        It is a grid of cells, a mesh of finite elements, or a factor of the default number of
-        rings.
+        The discretisation is a grid of cells, the mesh settings of finite elements, or the factor
+        of the default number of rings, depending on the solver.
         """
 
     def fineness_of(self, result: Any) -> Fineness:
-        """Return the discretisation parameters of a result.
+        """Return the discretisation parameters with which a contact result was computed.
 
-        The parameters are the grid, mesh or ring factor, the increments and the tolerance.
+        The parameters are the grid, mesh or ring factor, the number of increments of each load
+        step, and the tolerance.
         """
         return Fineness(self.space_of(result), result.plan.increments, result.tolerance)
 
@@ -181,8 +196,8 @@ class DiscretisedSolver(ABC):
     def few(self, coarse: Fineness, result: Any) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.
 
-        A solver may use fewer cells, if they suffice to measure the effect of increments. By
-        default, the argument `coarse` is returned.
+        These solves may use fewer cells than other coarse solves, because the effect of the
+        increments hardly depends on the cells. By default, the argument `coarse` is returned.
 
         coarse  discretisation with the cells of a coarse solve
         result  result whose errors are estimated
@@ -191,38 +206,44 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def cell_sides(self, result: Any) -> tuple[float, ...]:
-        """Return the side lengths of a cell, element or ring of a result.
+        """Return the side lengths of a cell, an element or a ring of a result.
 
         There is one length for each direction of refinement. The ratio of the lengths of two solves
-        is the coarsening factor of the cells.
+        is the coarsening factor r in the error formula |fine - coarse| / |r^(0.6 p) - 1|.
         """
 
     @abstractmethod
     def record_entry(self, space: Any) -> Mapping[str, Any]:
-        """Return the entry for records that describes a spatial discretisation.
+        """Return name and value that describe a grid or mesh in records such as summary.json.
 
-        The entry has one name and value, such as cells: (64, 64) or elements_per_radius: 16.
+        The mapping has one entry, for example cells: (64, 64) or elements_per_radius: 16.
+
+        space  grid, mesh settings or ring factor
         """
 
     @abstractmethod
     def features(self, result: Any) -> Sequence[Features]:
-        """Measure contact, stick zone and layers in cells at the end of each load step.
+        """Measure the sizes of contact, stick zone and layers in cells at the end of each load
+        step.
 
-        The sizes decide if the cells resolve the contact, and which convergence order applies.
+        The sizes determine if the cells resolve the contact, and which convergence order the errors
+        have.
         """
 
     def residuals(self, result: Any) -> Sequence[float]:
         """Return the relative residual of the contact equations at the end of each load step.
 
-        Used for the part of the errors that the tolerance causes. The default is the tolerance of
-        the solve.
+        Used to estimate the error that the tolerance of the solve causes. By default the residual
+        is assumed equal to the tolerance.
         """
         return [result.tolerance] * len(result.steps)
 
     def neglected_errors(self, result: Any) -> Mapping[str, float]:
-        """Return the relative errors of scalars, by name, due to effects that the solver neglects.
+        """Return the relative errors of scalars, by name, that physical effects outside the model
+        cause.
 
-        An example is the roughness that the cells do not resolve. By default there are none.
+        An example is the error of the peak pressure by roughness that the cells do not resolve. By
+        default the mapping is empty.
         """
         return {}
 
@@ -230,23 +251,29 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def first_space(self) -> Any:
-        """Return the grid, mesh or ring factor of the first and coarsest refinement level."""
+        """Return the grid, mesh or ring factor of the first level of an adaptive refinement.
+
+        The first level is the coarsest discretisation. Further levels are refined from it until the
+        errors meet the requested accuracy.
+        """
 
     @abstractmethod
     def refine_space(self, space: Any, by: Refinement) -> Any:
-        """Refine a grid, mesh or ring factor for the next refinement level.
+        """Refine the grid, mesh or ring factor of a refinement level, to obtain that of the next
+        level.
 
-        space  grid, mesh or ring factor of the present level
-        by     least refinement factor of each discretisation parameter
+        space  grid, mesh settings or ring factor of the present level
+        by     required refinement factor of each discretisation parameter, by name
         """
 
     def refine_fineness(self, fineness: Fineness, by: Refinement) -> Fineness:
-        """Refine all discretisation parameters for the next refinement level.
+        """Refine grid or mesh, increments and tolerance of one level, to obtain the next level.
 
         Load steps without an increment error keep their number of increments.
 
         fineness  parameters of the present level: grid or mesh, increments and tolerance
-        by        least refinement factor of each parameter; 1 for an absent parameter
+        by        required refinement factor of each parameter, by name; a parameter without entry
+                  is kept
         """
         return replace(
             fineness,
@@ -262,11 +289,15 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def work(self, fineness: Fineness) -> Work:
-        """Return the numbers of unknowns and repetitions of a solve, to estimate its CPU time."""
+        """Return the numbers of unknowns and of increments of a solve, from which its CPU time
+        follows.
+
+        fineness  grid or mesh, increments and tolerance of the solve
+        """
 
     @abstractmethod
     def memory(self, fineness: Fineness) -> int:
-        """Estimate the peak memory of a solve [byte]."""
+        """Estimate the peak memory of a solve with given discretisation parameters [byte]."""
 
 
 def compare_with_coarse_solves(
@@ -300,11 +331,12 @@ def compare_with_coarse_solves(
     made: list[CoarseSolveRecord] = []
 
     def solved(differs: str, coarse: Fineness) -> Solved | None:
-        """Return the result of a coarse solve with its scalars; None if the solver raised an error.
+        """Solve the scene with a coarse discretisation; return the result and its scalars.
 
-        Each discretisation is solved once and recorded. A repeated call returns the stored result.
+        None is returned if the solver raised an error. Each discretisation is solved once and
+        recorded. A repeated call returns the stored result.
 
-        differs  description of the coarse discretisation for the record
+        differs  text that describes the coarse discretisation in its record
         coarse   grid or mesh, increments and tolerance
         """
         if coarse not in known:
@@ -376,11 +408,11 @@ def compare_with_coarse_solves(
 
 
 def coarse_tolerance(features: Sequence[Features]) -> float:
-    """Choose the tolerance of coarse solves, such that it hardly changes the compared differences.
+    """Choose the tolerance of coarse solves so that it hardly changes the estimated errors.
 
-    Two levels with about m cells per contact radius differ by at least about 1/m² of a scalar. The
-    error caused by this tolerance is `NEGLIGIBLE` times the difference for half the cells of the
-    result.
+    An error is estimated from the difference between a coarse and a fine solve. With m cells per
+    contact radius this difference is at least about 1/m² of a scalar. The tolerance causes 1 %
+    (`NEGLIGIBLE`) of the difference for half the cells of the result.
 
     features  sizes of the contact in cells at the end of each load step of the result
     """
@@ -389,23 +421,25 @@ def coarse_tolerance(features: Sequence[Features]) -> float:
 
 
 def change_parameters(space: Any, changes: Mapping[str, Any] | None) -> Any:
-    """Change some mesh parameters of a finite-element solve, for a coarse solve.
+    """Return the mesh settings of a finite-element solve with some values changed, for a coarse
+    solve.
 
-    space    mesh parameters, which are copied
-    changes  new values by name of the parameter; None for no change
+    space    mesh settings, which are copied
+    changes  new values by name of the setting; None for no change
     """
     return space.model_copy(update=changes) if changes else space
 
 
 def add_effects(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[Values]:
-    """Correct the scalars of a coarse solve by measured effects of other discretisation parameters.
+    """Correct the scalars of a coarse solve by the effects of parameters other than the cells.
 
-    An effect is the difference between a finer and a coarser solve. After the correction, the
-    scalars differ from those of the result by the effect of the cells only. Scalars that are absent
-    in one of the solves are omitted.
+    For example, a coarse solve may have fewer increments than the result. The change of each scalar
+    by the number of increments is known from two other solves (a finer and a coarser one) and is
+    added. After the correction, the scalars differ from those of the result by the effect of the
+    cells only. Scalars that are absent in one of the solves are omitted.
 
     found    scalars of the coarse solve at the end of each load step, by name
-    effects  scalars of a finer and a coarser solve, one pair for each parameter
+    effects  scalars of a finer and of a coarser solve, one pair for each corrected parameter
     """
     for effect in effects:
         found = [
@@ -421,15 +455,17 @@ def compare_with_limit(
     others: Sequence[tuple[Sequence[int], Sequence[Values]]],
     matters: Sequence[bool],
 ) -> Comparison:
-    """Compare a solve of few increments with the limit of many increments.
+    """Compare a solve of few increments with the limit of infinitely many increments.
 
-    The error of a step with few increments does not follow a power of their number: two balls
-    pushed to 0.9 µW by 1, 8 and 32 increments have errors of the shift like 4.3 : 2.8 : 1. So the
-    power is only used between the two solves with more increments, which extrapolates them to the
-    limit. Steps whose other solves have fewer increments are not compared here.
+    The limit is extrapolated from two solves with more increments, assuming an error proportional
+    to a power of their number. The solve of few increments is not used for the extrapolation,
+    because its error does not follow this power: two balls pushed to 0.9 µW by 1, 8 and 32
+    increments have errors of the shift like 4.3 : 2.8 : 1. Load steps whose other solves have fewer
+    increments are not compared here.
 
     values, increments  scalars of the solve at the end of each load step, and its increments
-    others              increments and scalars of two solves with more increments, most first
+    others              increments and scalars of the two other solves, the one with most increments
+                        first
     matters             for each load step, true if it has an increment error
     """
     (most, finest), (more, finer) = others
@@ -446,7 +482,7 @@ def compare_with_limit(
 def features_at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Features]:
     """Return the sizes of contact, stick zone and layers in cells at the end of each load step.
 
-    A load step that ends without contact receives the sizes of the previous step.
+    A load step that ends without contact receives the sizes of the previous load step.
 
     result    result of any of the solvers
     resolved  function that measures the sizes for a state in contact
@@ -460,8 +496,8 @@ def features_at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequen
 def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
     """Return stick radius and width of the slip annulus of an axisymmetric contact, in cells.
 
-    Used to decide if the cells, half elements or half rings resolve the slip. Radius and width are
-    None if the state has no stick radius, as without friction. The width is None in full stick.
+    Used to determine if the cells, half elements or half rings resolve the slip. Radius and width
+    are None if the state has no stick radius, as without friction. The width is None in full stick.
 
     end         state at the end of a load step
     per_length  number of cells per unit of length [1/length]
@@ -474,9 +510,10 @@ def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:
 
 
 def _solver_work(found: Any) -> Mapping[str, int]:
-    """Sum the iterations and the convolutions of all increments of a solve, for its record.
+    """Sum the iterations and the convolutions of all increments of a coarse solve, by name.
 
-    Numbers that the solver does not count are absent.
+    The numbers are stored in the record of the solve. Numbers that the solver does not count are
+    absent.
 
     found  result of the solve
     """
@@ -493,8 +530,8 @@ def coarse_increment_counts(
 ) -> list[tuple[int, ...]]:
     """Choose the numbers of increments of the two coarse solves that measure the increment error.
 
-    Load steps without an increment error, whose result does not depend on the increments, keep
-    their number.
+    Each of the two solves has one number of increments per load step. Load steps without an
+    increment error keep their number, because their result does not depend on the increments.
 
     counts   number of increments of each load step of the result
     matters  for each load step, true if it has an increment error
@@ -511,8 +548,10 @@ def ratios(
 ) -> tuple[float, ...]:
     """Compute the coarsening factor of the increments between two solves, for each load step.
 
-    A load step receives the ratio of the numbers of increments that is nearest to 1 among all steps
-    up to it that have an increment error. Without such a step, its factor is 1.
+    The error at the end of a load step includes the errors of earlier load steps. The factor is
+    therefore chosen among all load steps up to this one that have an increment error: it is the
+    ratio of the two numbers of increments nearest to 1, which gives the largest error estimate.
+    Without such a load step, the factor is 1.
 
     counts, others  numbers of increments of each load step in the two solves
     matters         for each load step, true if it has an increment error
@@ -527,10 +566,11 @@ def ratios(
 
 
 def _other_increment_counts(count: int) -> tuple[int, int]:
-    """Choose two other numbers of increments for a load step, to measure its increment error.
+    """Choose two other numbers of increments of a load step, to measure its increment error.
 
-    The numbers are smaller than the given number for a step with many increments, and larger for a
-    step with few, whose halves would be outside the range of regular convergence.
+    The numbers are smaller than the number in the result if the result has many increments (at
+    least 8). They are larger if it has few, because the error of even fewer increments would not
+    converge regularly.
 
     count  number of increments of the load step in the result
     """

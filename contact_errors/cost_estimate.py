@@ -32,8 +32,11 @@ MAX_STEPS, MAX_INCREMENTS = 12, 48
 class Work(NamedTuple):
     """Numbers of unknowns and repetitions of a solve, from which its CPU time is estimated.
 
-    unknowns     traction components in all cells, or square of the elements over the contact radius
-    repetitions  number of increments, or a multiple of this number
+    unknowns     number of traction components in all cells; of a finite-element solve, square of
+                 the number of elements over the contact radius; of a radial solve, fourth power of
+                 the factor of the default numbers of rings and angles
+    repetitions  number of increments; of a finite-element solve, increments and set-up times the
+                 number of angular harmonics
     overhead     number of unknowns whose work equals the overhead of an operation
     """
 
@@ -42,17 +45,19 @@ class Work(NamedTuple):
     overhead: float
 
     def cost(self, share: float = 1.0) -> float:
-        """Return a number proportional to the CPU time of a solve.
+        """Compute a number proportional to the CPU time of a solve.
 
-        Only the ratio of two numbers for one scene and one solver has a meaning.
+        The ratio of the numbers of two solves is the ratio of their CPU times, if scene and solver
+        are equal.
 
-        share  fraction of the cells along a side, for the cost of a coarser solve
+        share  fraction of the cells along a side, for the cost of a coarser solve of an error
+               estimate
         """
         return self.repetitions * (share**2 * self.unknowns + self.overhead) ** EXPONENT
 
 
 def work_on_cells(cells: tuple[int, int], increments: Sequence[int], shear: bool) -> Work:
-    """Determine the numbers of unknowns and repetitions of a semi-analytical solve.
+    """Count the unknowns and repetitions of a semi-analytical solve, to estimate its CPU time.
 
     cells       number of cells along x and y
     increments  number of increments of each load step
@@ -62,7 +67,10 @@ def work_on_cells(cells: tuple[int, int], increments: Sequence[int], shear: bool
 
 
 def work_on_elements(per_radius: int, increments: Sequence[int], harmonics: int) -> Work:
-    """Determine the numbers of unknowns and repetitions of a finite-element solve.
+    """Count the unknowns and repetitions of a finite-element solve, to estimate its CPU time.
+
+    The repetitions are those of one harmonic times the number of harmonics. The factorisations of
+    the stiffness matrices count as 50 increments.
 
     per_radius  number of elements over the contact radius
     increments  number of increments of each load step
@@ -73,7 +81,7 @@ def work_on_elements(per_radius: int, increments: Sequence[int], harmonics: int)
 
 
 def work_on_rings(increments: Sequence[int], fineness: float = 1.0) -> Work:
-    """Determine the numbers of unknowns and repetitions of a solve by the radial solver.
+    """Count the unknowns and repetitions of a solve by the radial solver, to estimate its CPU time.
 
     increments  number of increments of each load step
     fineness    factor of the default numbers of rings and angles
@@ -100,7 +108,7 @@ def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:
     All numbers are reduced by one factor, such that their sum is about 48. Smaller sums are not
     changed.
 
-    increments  number of increments of each load step
+    increments  number of increments of each load step of the run whose time is estimated
     """
     share = min(1.0, MAX_INCREMENTS / sum(increments))
     return tuple(ceil(share * count) for count in increments)

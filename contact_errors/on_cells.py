@@ -53,7 +53,7 @@ ROOM, MAX_ENLARGEMENTS = 1.25, 5
 
 @dataclass(frozen=True)
 class CellSolver(DiscretisedSolver):
-    """Semi-analytical solver of one scene with variable grid, increments and tolerance.
+    """Semi-analytical solver of one scene, with variable grid, increments and tolerance.
 
     Used for error estimates, which coarsen these parameters, and for a requested accuracy, which
     refines them.
@@ -79,10 +79,11 @@ class CellSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Description of a solve: modelled effects, and number of increments of each load step.
+        """Plan of a solve: its modelled physical effects, and its number of increments per load
+        step.
 
-        The description is that of the solved result, if there is one. Otherwise it is made from the
-        scene for the first refinement level.
+        The plan is that of the solved result, if there is one. Otherwise it is made from the scene,
+        with the increments of the first refinement level.
         """
         return self.chosen_plan or semi_analytical.plan(
             self.scene, FIRST_PATH_ACCURACY, self.discretisation.edge
@@ -111,12 +112,14 @@ class CellSolver(DiscretisedSolver):
         return result.grid
 
     def coarser(self, result: Result, share: float, more: int) -> SurfaceGrid:
-        """Return a grid with fewer cells on the window of the result, for its error estimate.
+        """Return a grid with fewer cells on the window of a result, for the error estimate of the
+        result.
 
-        The numbers of cells are rounded up to even numbers.
+        The numbers of cells are increased to even numbers.
 
-        share  fraction of the cells of the result along a side
-        more   number of cells added along each side
+        result  result whose errors are estimated
+        share   fraction of the cells of the result along a side
+        more    number of cells added along each side
         """
         nx, ny = (2 * ceil(share * n / 2) + more for n in result.grid.cells)
         return SurfaceGrid((nx, ny), result.grid.window)
@@ -198,10 +201,10 @@ class CellSolver(DiscretisedSolver):
 
 
 def _remaining_edge_errors(report: EdgeReport) -> Mapping[str, float]:
-    """Return the relative errors of scalars, by name, that the edge correction has not removed.
+    """Return the relative errors of scalars, by name, that remain after the edge correction.
 
-    The edge correction computes the pressure at the contact edge with sub-cell resolution, by an
-    iteration that stops at a finite error.
+    The edge correction computes the pressure at the contact edge with sub-cell resolution. Its
+    iteration stops at a finite error.
 
     report  outcome of the edge correction at the end of a load step
     """
@@ -212,9 +215,9 @@ def _remaining_edge_errors(report: EdgeReport) -> Mapping[str, float]:
 
 
 def _distance_of_peak_to_edge(end: Increment) -> float:
-    """Return the distance in cells between the largest pressure and the edge of the contact.
+    """Compute the distance of the cell with the largest pressure from the contact edge, in cells.
 
-    Used to detect a pressure maximum near the edge, which converges with a lower order.
+    A pressure maximum near the edge converges with a lower order than a maximum in the middle.
 
     end  state at the end of a load step
     """
@@ -223,10 +226,10 @@ def _distance_of_peak_to_edge(end: Increment) -> float:
 
 
 def _may_hide_stick(end: Increment) -> bool:
-    """Return true if a contact whose cells all slip may have a stick zone smaller than a cell.
+    """Return true if a stick zone smaller than a cell is possible although all cells slip.
 
-    Such a stick zone is possible if the smallest slip increment of a cell is at most half of the
-    largest slip increment of the adjacent cells. Errors of slip are then unreliable.
+    It is possible if the smallest slip increment of a cell is at most half of the largest slip
+    increment of the adjacent cells. Error estimates of slip are then unreliable.
 
     end  state at the end of a load step
     """
@@ -237,10 +240,11 @@ def _may_hide_stick(end: Increment) -> bool:
 
 
 def scale_cells(cells: tuple[int, int], factor: float) -> tuple[int, int]:
-    """Multiply the numbers of cells of a grid along x and y, for a finer or a larger grid.
+    """Multiply the numbers of cells of a grid along x and y by a factor, for a finer or larger
+    grid.
 
-    The results are increased to even numbers whose halves have no prime factor above 5, for which
-    Fourier transforms are fast.
+    The products are increased to even numbers whose halves have no prime factor above 5. Fourier
+    transforms of such numbers of cells are fast.
 
     cells   numbers of cells along x and y
     factor  factor of both numbers

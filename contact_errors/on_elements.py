@@ -45,12 +45,12 @@ ACROSS = ("tangential_shift", "tangential_force", "stick_radius", "stick_area",
 
 @dataclass(frozen=True)
 class ElementSolver(DiscretisedSolver):
-    """Finite-element solver of one scene with variable mesh, increments and tolerance.
+    """Finite-element solver of one scene, with variable mesh, increments and tolerance.
 
     Used for error estimates, which coarsen these parameters, and for a requested accuracy, which
     refines them.
 
-    discretisation  settings of the scene file or of a result
+    discretisation  mesh settings of the scene file or of a result
     chosen_plan     plan of a solved result (modelled effects, increments); None for the plan made
                     of the scene
     method          contact method: complementarity or penalty
@@ -75,12 +75,12 @@ class ElementSolver(DiscretisedSolver):
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve the scene on a mesh of finite elements.
 
-        If the penalty method cannot reduce the overlap of the surfaces to its limit on coarse
-        elements, the scene is solved with the largest allowed overlap.
+        The penalty method reduces the overlap of the surfaces to a limit. If this fails on coarse
+        elements, the scene is solved again with the largest allowed overlap.
 
-        fineness  mesh, increments and tolerance
+        fineness  mesh settings, increments and tolerance
         progress  function that is called after every increment, or None
-        store     checkpoint store of the solve, or None
+        store     store of checkpoints from which an interrupted solve resumes, or None
         """
         scene = self.scene.with_increments(fineness.increments)
         mesh = _replace_settings(fineness.space, tolerance=fineness.tolerance)
@@ -94,10 +94,11 @@ class ElementSolver(DiscretisedSolver):
         return result.discretisation
 
     def coarser(self, result: Result, share: float, more: int) -> FiniteElementDiscretisation:
-        """Return a mesh with fewer elements over the contact radius, for an error estimate.
+        """Return mesh settings with fewer elements over the contact radius, for an error estimate.
 
-        In the second of the two coarse solves, the elements are sized such that the contact edge
-        lies in the middle of an element.
+        The error depends on the position of the contact edge within an element, so the two coarse
+        solves of an error estimate differ in this position. In the second one the elements are
+        sized such that the edge lies in the middle of an element.
 
         result  result whose errors are estimated
         share   fraction of the elements of the result
@@ -116,10 +117,11 @@ class ElementSolver(DiscretisedSolver):
     ) -> Iterator[CoarseSolve]:
         """Yield the coarse solves that change overlap, harmonics or size of the meshed section.
 
-        Each of them measures the error that one of these parameters causes. The overlap applies to
-        the penalty method only, and the angular harmonics to the solution path with harmonics only.
+        Each of these solves measures the error that one mesh parameter causes. The overlap of the
+        surfaces applies to the penalty method only. The angular harmonics apply to contacts solved
+        with Fourier harmonics in the angle only.
 
-        base    mesh of a coarse solve, in which the parameters are changed
+        base    mesh settings of a coarse solve, in which the parameters are changed
         result  result whose errors are estimated
         """
         if self.method is Method.PENALTY:
@@ -146,8 +148,8 @@ class ElementSolver(DiscretisedSolver):
     def _measure_features(self, result: Result, end: Increment) -> Features:
         """Measure contact, stick zone and layers in half elements at the end of a load step.
 
-        The sizes decide if the mesh resolves the contact. Half elements are counted, because linear
-        elements resolve a feature as well as twice their number of cells.
+        The sizes determine if the mesh resolves the contact. The limits are given in cells. A
+        linear element resolves a feature as well as two cells, so half elements are counted.
 
         result  result of the finite-element solver
         end     state at the end of the load step
@@ -169,13 +171,13 @@ class ElementSolver(DiscretisedSolver):
         )
 
     def neglected_errors(self, result: Result) -> Mapping[str, float]:
-        """Return relative errors of tangential scalars due to neglected slip across the load.
+        """Return relative errors of tangential scalars due to the neglected slip across the load.
 
-        The solution path with shear along the load only (Path.SHEARING) neglects this slip. In
-        Mindlin's solution the slip is inclined to the load by at most α = ν/(4 - 2ν) (Johnson 1985,
-        section 7.2). Shear of this inclination carries 1 - α²/2 of the load. Layers respond
-        differently along and across a wave for any ν, so the largest α, that of ν = ½, applies to
-        them.
+        The errors are not zero for contacts solved with shear along the load only (Path.SHEARING).
+        In Mindlin's solution the slip is inclined to the load by at most α = ν/(4 - 2ν) with
+        Poisson's ratio ν (Johnson 1985, section 7.2). Shear of this inclination carries 1 - α²/2 of
+        the load, so the relative error is α²/2. Layers respond differently along and across a wave
+        for any ν, so the largest α, that of ν = ½, applies to them.
         """
         if result.plan.path is not Path.SHEARING:
             return {}
@@ -218,5 +220,5 @@ class ElementSolver(DiscretisedSolver):
 def _replace_settings(
     mesh: FiniteElementDiscretisation, **update: object
 ) -> FiniteElementDiscretisation:
-    """Return a copy of the settings of a finite-element solve with some values replaced."""
+    """Return a copy of the mesh settings of a finite-element solve with some values replaced."""
     return mesh.model_copy(update=update)

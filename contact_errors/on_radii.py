@@ -37,11 +37,11 @@ FIRST_FINENESS, MAX_FINENESS = 0.5, 4.0
 
 @dataclass(frozen=True)
 class RingSolver(DiscretisedSolver):
-    """Radial solver of one scene with variable numbers of rings, angles and increments.
+    """Radial solver of one scene, with variable numbers of rings, angles and increments.
 
     Used for error estimates, which coarsen the discretisation, and for a requested accuracy, which
-    refines it. A single factor multiplies the default numbers of rings and angles; without
-    friction, those of Legendre orders and quadrature points.
+    refines it. A single factor multiplies the default numbers of rings and angles. Without
+    friction, it multiplies the numbers of Legendre orders and quadrature points instead.
 
     discretisation  settings of the scene file or of a result
     chosen_plan     plan of a solved result (modelled effects, increments); None for the plan made
@@ -66,7 +66,7 @@ class RingSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Description of a solve: its modelled effects, and the number of increments of each load
+        """Plan of a solve: its modelled physical effects, and its number of increments per load
         step.
         """
         return self.chosen_plan or radial.plan(self.scene)
@@ -75,7 +75,7 @@ class RingSolver(DiscretisedSolver):
     def depends_on_rings(self) -> bool:
         """True if the accuracy of the radial solver depends on its number of rings.
 
-        The accuracy of the other solves, such as those without friction, depends on the numbers of
+        The accuracy of other solves, such as those without friction, depends on the numbers of
         Legendre orders and quadrature points instead.
         """
         return self.plan.coupled or self.plan.circle is not None
@@ -89,10 +89,12 @@ class RingSolver(DiscretisedSolver):
         return result.plan.fineness
 
     def coarser(self, result: Result, share: float, more: int) -> float:
-        """Return the factor of the default number of rings for a coarse solve of a result.
+        """Return the factor of the default number of rings for a solve that is compared with a
+        result.
 
-        If the accuracy depends on Legendre orders and quadrature points instead of rings, the
-        factor is twice that of the result: the result is then compared with a finer solve.
+        The difference from the result yields the error estimate. If the accuracy depends on rings,
+        the solve is coarser. Otherwise it depends on Legendre orders and quadrature points, and the
+        solve has twice as fine a discretisation as the result.
 
         result  result whose errors are estimated
         share   fraction of the rings of the result
@@ -115,10 +117,11 @@ class RingSolver(DiscretisedSolver):
     def _measure_features(self, result: Result, end: Increment) -> Features:
         """Measure the sizes of contact and stick zone in half rings at the end of a load step.
 
-        The sizes decide if the rings resolve the contact. The contact radius is divided by the
+        The sizes determine if the rings resolve the contact. The contact radius is divided by the
         width of the widest ring, and stick zone and slip annulus by the mean width. Half rings are
-        counted, because of the linear interpolation between rings. If the accuracy does not depend
-        on the rings, the contact counts as infinitely resolved.
+        counted, because linear interpolation between rings resolves a feature as well as two cells
+        per ring. If the accuracy does not depend on the rings, the contact counts as infinitely
+        resolved.
 
         result  result of the radial solver
         end     state at the end of the load step
