@@ -96,7 +96,9 @@ class RefinementLevel:
 
     @property
     def processor_seconds(self) -> float:
-        """CPU time of the solve of this level and of the coarse solves for its error estimate [s]."""
+        """CPU time of the solve of this level and of the coarse solves of its error
+        estimate [s].
+        """
         return self.solve_seconds + self.error_seconds
 
     def largest(self, name: str) -> float:

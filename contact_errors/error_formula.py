@@ -128,7 +128,7 @@ class Features:
         The order is 2 for means of smooth fields, 1 for values at an edge of the contact or stick
         zone that lies within a cell, and ½ for values near a square-root singularity.
 
-        name  name of the scalar
+        name  name of the scalar, such as "peak_pressure"
         """
         if self.sharp:
             return EDGE
@@ -145,10 +145,11 @@ class Features:
     def resolve(self, name: str) -> bool:
         """Return true if the cells resolve all features of the contact on which a scalar depends.
 
-        Each feature, such as the stick zone, must be at least as large as its limit in cells. The
-        error estimate of the scalar is unreliable otherwise.
+        Features are the contact, layers, waves of a rough surface, the stick zone and the slip
+        annulus. Each must be at least as large as its limit in cells. Otherwise the error estimate
+        of the scalar is unreliable.
 
-        name  name of the scalar
+        name  name of the scalar, such as "stick_radius"
         """
         sizes = {"contact": self.contact, "layer": self.layer, "wave": self.wave}
         if name in STICK_EDGE:
@@ -164,7 +165,7 @@ PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical
 
 
 def values_of(result: Any) -> tuple[Values, ...]:
-    """Return the scalars of a contact result, such as forces, at the end of each load step.
+    """Collect the scalars of a contact result, such as forces, at the end of each load step.
 
     The result has one mapping per load step, from the name of a scalar to its value (1,), or (2,)
     for a vector. A load step that closes a load cycle includes the scalars of the cycle. Undefined
@@ -189,11 +190,13 @@ def values_of(result: Any) -> tuple[Values, ...]:
 
 
 def prescribed_scalars(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
-    """Return the names of the scalars that a load step prescribes, which therefore have no error.
+    """Return the names of the scalars that a load step prescribes, and whose error is therefore
+    zero.
 
-    With a spring of a test rig, the prescribed displacement is that of the actuator.
+    For example, a load step under force control prescribes the normal force. With a spring of a
+    test rig, the prescribed displacement is that of the actuator.
 
-    ramp  controls of the load step
+    ramp  load step, with its prescribed force or displacement in each direction
     rig   springs of the test rig, or None
     """
     approach, shift = prescribed_motions(rig)
@@ -214,15 +217,15 @@ def prescribed_scalars(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
 
 
 def characteristic_size(name: str, values: Values) -> float:
-    """Return the characteristic magnitude of a scalar at the end of a load step, in its unit.
+    """Compute a characteristic magnitude of a scalar from approach, force, contact radius and
+    pressure.
 
-    The magnitude is composed of approach, normal force, contact radius and peak pressure; for
-    example normal force times approach for an energy. It is 0 for a unit without such a product.
-    The tolerance of a solve causes an error relative to this magnitude, if the scalar itself is
-    smaller.
+    The tolerance of a solve causes an error relative to this magnitude, even if the scalar itself
+    is nearly zero. The magnitude is a product with the unit of the scalar, for example normal force
+    times approach for an energy. It is 0 for other units.
 
     name    name of the scalar
-    values  all scalars at the end of the load step, by name
+    values  all scalars at the end of a load step, by name
     """
     sizes = {key: float(np.max(np.abs(value))) for key, value in values.items()}
     length, force = sizes["approach"], sizes["normal_force"]
@@ -252,8 +255,10 @@ def is_singular(indenter: ShapedBody) -> bool:
 def has_cusp(indenter: ShapedBody) -> bool:
     """Return true if the pressure below a smooth indenter has a cusp at the point of first contact.
 
-    This is the case if the gap between the undeformed surfaces is a power between 1 and 2 of the
-    distance from this point.
+    The pressure has a cusp if the gap between the undeformed surfaces is a power between 1 and 2 of
+    the distance from this point. The cusp reduces the convergence order of the peak pressure.
+
+    indenter  body with its shape
     """
     return indenter.gap_exponent is not None and 1 < indenter.gap_exponent < 2
 
@@ -264,8 +269,9 @@ class Comparison:
 
     The two solves of the scene differ in one discretisation parameter only, such as the cell size.
 
-    part          part of the error to which the parameter contributes
-    base, coarse  scalars of the finer and of the coarser solve at the end of each load step
+    part          name of the part of the error that the parameter causes, such as "cells"
+    base, coarse  scalars of the finer and of the coarser solve at the end of each load step, by
+                  name
     ratios        coarsening factor of the parameter at the end of each load step; 1 if the
                   parameter has no effect up to this step, 0 if `coarse` has no error by it
     """
@@ -300,13 +306,13 @@ class SolvedRun:
     """Scalars of a contact result and of its coarse solves, from which its errors are computed.
 
     scene        solved scene
-    values       scalars of the result at the end of each load step
-    tolerance    relative residual of each load step
+    values       scalars of the result at the end of each load step, by name
+    tolerance    relative residual of the contact equations at the end of each load step
     features     sizes of contact, stick zone and layers in cells at the end of each load step
     comparisons  pairs of solves that differ in one parameter, for all parameters
-    required     error parts without which an error is unknown; for each part, the load steps that
-                 need it
-    neglected    relative error of scalars due to effects that the solver neglects
+    required     for each part of the error, such as "increments": true for the load steps at which
+                 the error of a scalar is unknown without this part
+    neglected    relative error of scalars, by name, due to effects that the solver neglects
     """
 
     scene: Scene
@@ -318,7 +324,11 @@ class SolvedRun:
     neglected: Mapping[str, float]
 
     def errors(self) -> Iterator[Mapping[str, StatedError]]:
-        """Yield the stated errors of all scalars, by name, at the end of each load step."""
+        """Yield the error estimates of all scalars of the result, by name, for each load step.
+
+        An estimate is the sum of parts by cells, increments, tolerance and other causes. Prescribed
+        scalars have no error.
+        """
         before: dict[str, dict[Part, Numbers]] = {}
         for step, ramp in enumerate(self.scene.load_path()):
             exact = prescribed_scalars(ramp, self.scene.rig)
@@ -363,7 +373,7 @@ class SolvedRun:
 
     @cached_property
     def _largest_so_far(self) -> Sequence[Values]:
-        """For each load step, largest absolute value of each scalar from the start of the history.
+        """Largest absolute value of each scalar from the start of the history, for each load step.
 
         Errors are compared with this value, because a scalar may pass through zero.
         """
@@ -371,10 +381,11 @@ class SolvedRun:
 
     @cached_property
     def _near_gross_slip(self) -> Sequence[bool]:
-        """For each load step, true if the tangential force has come close to the friction limit.
+        """Flag of each load step: true once the tangential force has come close to the friction
+        limit.
 
-        The limit may have been approached in this or in an earlier load step. Errors of shift, slip
-        and dissipated energy are unreliable from then on.
+        The force may have come close in this or in an earlier load step. Errors of shift, slip and
+        dissipated energy are unreliable from then on.
         """
         return near_gross_slip(self.scene)
 
@@ -388,10 +399,11 @@ class SolvedRun:
         return min(features.convergence_order(name) for features in self.features)
 
     def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
-        """Compute all parts of the error of a scalar at the end of a load step, by their cause.
+        """Compute the parts of the error of a scalar at the end of a load step, by name of the
+        cause.
 
-        The causes are cells, increments, tolerance and others. The result is None if a required
-        part is unknown or the exact value is infinite.
+        Causes are the discretisation parameters (cells, increments), the tolerance and neglected
+        effects. The result is None if a required part is unknown or the exact value is infinite.
 
         step     load step, from 0
         name     name of the scalar
@@ -417,9 +429,11 @@ class SolvedRun:
 
 
 def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
-    """Return the largest absolute value of each scalar from the start to the end of each load step.
+    """Compute the largest absolute value of each scalar from the start of the history to each load
+    step.
 
-    All components of a vector receive the value of the largest component.
+    All components of a vector receive the value of the largest component. Relative errors refer to
+    these values.
 
     values  scalars at the end of each load step, by name
     """
@@ -434,7 +448,7 @@ def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
 
 
 def build_stated_error(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
-    """Build the stated error of a scalar as the sum of its parts, with its status.
+    """Build the error estimate of a scalar as the sum of its parts, with its status.
 
     parts      size of the error by cause, such as cells and increments, in the unit of the scalar
     converged  false for an unreliable error, which is an order of magnitude at best
@@ -449,7 +463,7 @@ UNKNOWN = StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED)
 
 
 def _error_amount(size: Numbers, count: int) -> Amount:
-    """Convert an error to the form of a stated error: a float, or two floats for a vector.
+    """Convert the error of a scalar from an array to a float, or to two floats for a vector.
 
     size   error of the components, (1,) or (count,)
     count  number of components of the scalar, 1 or 2

@@ -71,8 +71,10 @@ def largest_stresses(
 ) -> Mapping[str, tuple[float, StatedError | None]]:
     """Compute the largest stresses in the regions of the lower body at the end of a load step.
 
-    Returns values [force/length^2] and their stated errors by name; empty for a rigid body.
+    Regions are the body, its layers and its interfaces. Returns values [force/length^2] and their
+    error estimates by name; empty for a rigid body.
 
+    result  result of any of the solvers
     errors  error estimates of the result; None to omit the errors of the stresses
     names   requested stresses as MEASURE@REGION, such as "max_principal@body"; an interface is
             named by its number, and the side with the larger value is returned
@@ -132,11 +134,11 @@ def stress_at(
 def _compute_stress_field(
     state: LoadedBodies, *, indenter: bool = False, depths: Any = None
 ) -> StressField:
-    """Compute the stress field in a body from the surface tractions of any solver.
+    """Compute the stress below the contact in a body from the surface tractions of any solver.
 
-    state     bodies and surface tractions
+    state     bodies and surface tractions of a contact result
     indenter  true for the indenter, false for the lower body
-    depths    depths of the field [length]; None for those of the solver
+    depths    depths at which the stress is computed [length]; None for those of the solver
     """
     if state.pressed is not None:
         return stress_on_disc(state, indenter=indenter, depths=depths)
@@ -150,12 +152,12 @@ def stress_errors(
 ) -> tuple[StatedError, ...]:
     """Estimate the errors of the largest stresses found in the stress field of a body.
 
-    The stresses are compared with those of coarse tractions. The increment error of the tractions
-    is added. Their error by the cells is not, because it is far smaller than the effect of the
-    coarse tractions on the stress.
+    The stress is computed again from coarse surface tractions, and the largest stresses are
+    compared. The increment error of the tractions is added. Their error by the cells is not added,
+    because it is far smaller than the effect of the coarse tractions on the stress.
 
-    state     bodies and tractions
-    field     stress field
+    state     bodies and surface tractions of a contact result
+    field     stress field of the body
     found     largest stress of each region and measure in this field
     indenter  true for the indenter, false for the lower body
     """
@@ -212,9 +214,9 @@ def _largest_by_place(
 ) -> Mapping[bool, Mapping[Key, float]]:
     """Find the largest stresses near the surface and, separately, those below.
 
-    There is one value for each region of the body and each stress measure. Points near the surface
-    include the fitted contact edge. The values near the surface are returned with the key True,
-    those below with the key False.
+    The two places have different convergence orders. There is one value for each region of the body
+    and each stress measure. Points near the surface include the fitted contact edge. The values
+    near the surface are returned with the key True, those below with the key False.
 
     field  stress field
     body   layers and substrate, which determine the regions
@@ -231,12 +233,12 @@ def _largest_by_place(
 
 
 def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> float:
-    """Estimate the error of a largest stress because its maximum lies between two depth levels.
+    """Estimate how much the largest stress exceeds the value found at discrete depths.
 
-    The stress is computed at discrete depths (levels) only. A parabola is drawn through the largest
-    values on three levels. The error is twice the excess of its maximum over the largest stress
-    found. The factor 2 accounts for the third-order terms that a parabola omits. The error is 0 on
-    an interface and at the end of a material.
+    The stress is computed at discrete depths (levels) only, and its maximum may lie between two of
+    them. A parabola is drawn through the largest values on three levels. The error is twice the
+    excess of its maximum over the largest stress found. The factor 2 accounts for the third-order
+    terms that a parabola omits. The error is 0 on an interface and at the end of a material.
 
     points   points of the stress field
     values   stress measure at the points (…) [force/length^2]
@@ -257,10 +259,11 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
 
 
 def _error_divisor(order: float) -> float:
-    """Return the divisor that converts the difference of a coarse and a fine stress to an error.
+    """Compute the divisor that converts the difference of a coarse and a fine stress to an error.
 
-    The divisor is r^(0.6 p) - 1 for the coarsening factor r = 2. The safety factor 0.6 reduces the
-    theoretical convergence order p, which errors on few cells do not reach.
+    The error is |coarse - fine| / (r^(0.6 p) - 1), as in Richardson extrapolation. The coarsening
+    factor r is 2 and p is the theoretical convergence order. The safety factor 0.6 is needed
+    because errors on few cells decrease more slowly than the theoretical order.
 
     order  convergence order p of the stress
     """
@@ -268,9 +271,10 @@ def _error_divisor(order: float) -> float:
 
 
 def _traction_cell_width(state: LoadedBodies) -> float:
-    """Return the width of a traction cell along x, or the mean width of a traction ring [length].
+    """Compute the width along x of the cells that carry the surface tractions [length].
 
-    Used to express depths and contact radii in cells.
+    For tractions on rings the mean width of a ring is returned. Used to express depths and contact
+    radii in cells.
 
     state  bodies and surface tractions on cells or rings
     """
@@ -279,12 +283,12 @@ def _traction_cell_width(state: LoadedBodies) -> float:
 
 
 def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
-    """Average the surface tractions of a state over pairs of cells in both directions.
+    """Return a contact state whose surface tractions are means over two by two cells.
 
-    The total force is preserved. The stress below these coarse tractions is compared with that of
-    the fine tractions, for an error estimate.
+    The total force is preserved. The stress below these coarse tractions is compared with that
+    below the fine tractions, for an error estimate.
 
-    state  bodies and tractions on cells
+    state  bodies and surface tractions on cells
     shift  0 or 1, number of empty cells before the first pair of cells along each side; it selects
            the position of the coarse cells
     """
@@ -307,7 +311,7 @@ def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
 
     The stress of this state is compared with that of the fine mesh, for its error estimate.
 
-    state  bodies and tractions on rings
+    state  bodies and surface tractions on rings
     every  1 to keep the tractions of all rings, 2 to keep those of every second ring
     """
     asked, radii = state.discretisation, state.axes["radii"]
@@ -333,10 +337,10 @@ def _stress_errors_on_disc(
 ) -> tuple[StatedError, ...]:
     """Estimate the errors of the largest stresses below the tractions of the radial solver.
 
-    The stresses are computed again with twice the numbers of Legendre orders and quadrature points,
-    and compared.
+    The stresses are computed again with twice the numbers of Legendre orders and quadrature points.
+    The differences yield the errors.
 
-    state     bodies and tractions
+    state     bodies and surface tractions of the radial solver
     found     largest stress of each region and measure in the body
     indenter  true for the indenter, false for the lower body
     """
@@ -357,9 +361,11 @@ def _stress_errors_on_disc(
 
 
 def _maximum_key(e: Extreme) -> tuple[str, float, float, float, float]:
-    """Return measure, value and position of a largest stress, as the key of its error.
+    """Return measure, value and position of a largest stress, as the dictionary key of its error.
 
     The largest stress of a body is also the largest stress of one of its layers or of the
-    substrate. The two have equal keys, so that the error is computed once.
+    substrate. These two entries have equal keys, so that the error is computed once.
+
+    e  largest stress of a region, with its position
     """
     return e.measure, e.value, e.x, e.y, e.depth
