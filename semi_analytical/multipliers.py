@@ -18,18 +18,18 @@ MAX_SWEEPS = 100
 
 
 class ProjectedTraction(Protocol):
-    """Interface of the projected traction for one value of the multipliers of the prescribed
-    forces.
+    """Interface of a traction projected on the friction or contact law, for given multipliers.
 
-    The traction is shifted by the multipliers and projected on the friction or contact law.
-    `find_multiplier` changes the multipliers until its forces have the prescribed values.
+    The multipliers of the prescribed forces shift the traction before its projection.
+    `find_multiplier` changes the multipliers until the forces have the prescribed values.
     """
 
     @property
     def defect(self) -> Vector:
-        """Sums (forces, moments) of the projected traction minus the prescribed sums.
+        """Forces and moments of the projected traction minus the prescribed ones, over the cell
+        area.
 
-        The defect is the gradient of the dual function.
+        The defect is the gradient of the convex dual function that the multipliers minimise.
         """
 
     def has_prescribed_forces(self, multiplier: Vector) -> bool:
@@ -40,8 +40,9 @@ class ProjectedTraction(Protocol):
         """
 
     def newton_step(self) -> Vector:
-        """Compute the change of the multipliers that gives the traction its prescribed forces to
-        first order."""
+        """Compute the change of the multipliers that corrects the forces of the traction to first
+        order.
+        """
 
 
 Point = TypeVar("Point", bound=ProjectedTraction)
@@ -50,13 +51,13 @@ Point = TypeVar("Point", bound=ProjectedTraction)
 def find_multiplier(
     shifted_by: Callable[[Vector], Point], multiplier: Vector
 ) -> tuple[Point, Vector]:
-    """Find the multipliers for which the projected traction has the prescribed sums.
+    """Find the multipliers for which a projected traction has the prescribed forces and moments.
 
-    Return the projected traction and the multipliers. The result is not settled if no traction has
-    the prescribed sums.
+    A damped Newton method is used. Return the projected traction and the multipliers. If no
+    traction has the prescribed forces, the last iterate is returned, which the caller must check.
 
-    shifted_by  projected traction as a function of the multipliers
-    multiplier  initial guess
+    shifted_by  function that computes the projected traction for given multipliers
+    multiplier  initial guess of the multipliers
     """
     shifted = shifted_by(multiplier)
     for _ in range(MAX_SWEEPS):

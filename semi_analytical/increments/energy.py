@@ -40,20 +40,20 @@ from contact_scene.friction import sliding_friction
 
 @dataclass(frozen=True)
 class Configuration:
-    """Tractions, displacements and loads of a converged state, as needed by the energy balance.
+    """Tractions, displacements and loads of one converged state, as needed by the energy balance.
 
     Fields are on the reduced domain. Without shear the tangential fields have no cells.
 
     pressure, normal_displacement   p [force/length^2] and u_z [length], each (nx, ny)
     gap                             gap g (nx, ny) [length]; may be infinite where p is always zero
-    shear, tangential_displacement  q and u, each (2, nx, ny)
-    friction_limit                  µp (nx, ny)
+    shear, tangential_displacement  q [force/length^2] and u [length], each (2, nx, ny)
+    friction_limit                  µp (nx, ny) [force/length^2]
     slipped                         u less the rigid motion (2, nx, ny) [length]; its change is the
                                     slip; zero where the motion is undefined
     contact_fraction                fraction κ of the increment ending here during which each cell
                                     is in contact (nx, ny)
-    forces, motions                 forces and moments f, and conjugate motions ω, in one order;
-                                    motions None where undefined
+    forces, motions                 forces and moments f on the indenter, and its conjugate rigid
+                                    motions ω, in one order; motions None where undefined
     """
 
     pressure: Field
@@ -69,10 +69,11 @@ class Configuration:
 
     @classmethod
     def unloaded(cls, gap: Field, after: Configuration) -> Configuration:
-        """Return the unloaded configuration before first touch, in which all tractions are zero.
+        """Return the configuration of the bodies before first touch, in which all tractions are
+        zero.
 
         gap    undeformed gap (nx, ny) [length]
-        after  configuration whose shapes of fields are used
+        after  configuration of the first increment, which determines the shapes of the fields
         """
         nothing, unsheared = np.zeros_like(gap), np.zeros_like(after.shear)
         return cls(
@@ -91,11 +92,11 @@ class Configuration:
 
 @dataclass(frozen=True)
 class Energy:
-    """Energies of a load history since its start, where all are zero [force length].
+    """Energies of a contact since the start of the load history, where all are zero [force length].
 
     elastic     energy stored in both bodies
     input_work  trapezoidal sum of the work of forces and moments; None from the first undefined
-                motion on (friction limit under force control), as are the three that follow
+                motion on (friction limit under force control), as are the next three energies
     dissipated  energy lost to friction by slip
     unresolved  unresolved work of finite increments
     uncertain   uncertainty of `dissipated` due to finite increments
@@ -116,16 +117,20 @@ class Energy:
 
     @property
     def left_open(self) -> float | None:
-        """Input work minus the energy stored and dissipated [force length]; None where
-        undefined."""
+        """Input work minus the energy stored and dissipated [force length]; None if undefined.
+
+        This difference is the unresolved work of finite increments and the error of the solution.
+        """
         if self.input_work is None or self.stored_and_dissipated is None:
             return None
         return self.input_work - self.stored_and_dissipated
 
     def imbalance(self, before: Energy) -> float | None:
-        """Compute the relative residual of the energy balance of one increment [1].
+        """Compute the relative residual of the energy balance (first law) of one increment [1].
 
-        The scale is the largest energy so far. The result is None where the motion is undefined.
+        The residual is input work minus the changes of elastic, dissipated and unresolved energy.
+        The scale is the largest energy so far. The result is None where the rigid motion of the
+        indenter is undefined.
 
         before  energies at the start of the increment
         """
@@ -136,8 +141,11 @@ class Energy:
         return float(abs(work - elastic - dissipated - unresolved) / self.largest)
 
     def _balance_terms(self) -> Vector | None:
-        """Return input work, elastic, dissipated and unresolved energy (4,); None where
-        undefined."""
+        """Return the terms of the energy balance as an array (4,); None where undefined.
+
+        The terms are input work, elastic energy, dissipated energy and unresolved work [force
+        length].
+        """
         if self.input_work is None or self.dissipated is None or self.unresolved is None:
             return None
         return np.array([self.input_work, self.elastic, self.dissipated, self.unresolved])
@@ -155,10 +163,13 @@ def add_increment_energy(
     *,
     path_matters: bool,
 ) -> Energy:
-    """Compute the energies since the start of the history at the end of one increment.
+    """Compute the energies since the start of the load history at the end of one increment.
+
+    The changes in the increment are added to the energies at its start. The result has no work and
+    dissipation where a motion is undefined.
 
     spent          energies at the start of the increment
-    before, after  configurations at the start and the end of the increment
+    before, after  configurations (tractions, displacements, loads) at the start and the end
     dissipated     energy dissipated since the start of the history, None where undefined [force
                    length]
     cell_area      area of a cell and its mirror images [length^2]
@@ -181,8 +192,11 @@ def add_increment_energy(
 
 
 def elastic_energy(state: Configuration, cell_area: float) -> float:
-    """Compute the elastic energy ½ Σ (p u_z + q·u) Δ of a state [force length].
+    """Compute the elastic energy ½ Σ (p u_z + q·u) Δ stored in both bodies [force length].
 
+    p and q are pressure and shear, u_z and u the normal and tangential displacement of the cells.
+
+    state      tractions and displacements of a state
     cell_area  area Δ of a cell and its mirror images [length^2]
     """
     normal = float(np.sum(state.pressure * state.normal_displacement))
@@ -191,14 +205,14 @@ def elastic_energy(state: Configuration, cell_area: float) -> float:
 
 
 def pressed_work(pressure: Field, displacement: Field) -> float:
-    """Compute the integral ∫ p u_z over the contact area, divided by the cell area [force/length].
+    """Compute the integral ∫ p u_z of pressure times displacement over the contact, per cell area.
 
     Half this integral times the cell area is the elastic energy of an edge-corrected pressure. The
     sum Σ p (u_z - Δ²u_z/24) is used, with Δ² the sum of second differences. Its error is of third
     order in the cell size, because p is the mean and u_z the central value of a cell.
 
-    pressure      mean pressure of each cell (nx, ny), on the window
-    displacement  u_z at the cell centres (nx, ny), on the window
+    pressure      mean pressure p of each cell (nx, ny), on the window
+    displacement  normal displacement u_z at the cell centres (nx, ny), on the window
     """
     bend = np.zeros_like(displacement)
     bend[1:-1] += np.diff(displacement, 2, axis=0)
@@ -208,13 +222,16 @@ def pressed_work(pressure: Field, displacement: Field) -> float:
 
 
 def unresolved_work(before: Configuration, after: Configuration, cell_area: float) -> float:
-    """Compute the work of one increment that linear interpolation of the load path misses [force
-    length].
+    """Compute the work of one increment that linear interpolation between its ends misses.
 
-    The formula is ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ. Indices 0 and 1 denote
-    start and end of the increment, p pressure, g gap, q shear, f mean friction, κ contact fraction,
-    s slip and Δ the cell area. The first sum is over cells where contact begins or ends. A gap
-    within lasting contact is a residual of the solution and belongs to the imbalance.
+    The formula is ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ [force length]. Indices
+    0 and 1 denote start and end of the increment, p pressure, g gap, q shear, f mean friction, κ
+    contact fraction, s slip and Δ the cell area. The first sum is over cells where contact begins
+    or ends. A gap within lasting contact is a residual of the solution and belongs to the
+    imbalance.
+
+    before, after  configurations (tractions, displacements, loads) at the start and the end
+    cell_area      area Δ of a cell and its mirror images [length^2]
     """
     p0, p1 = before.pressure, after.pressure
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
@@ -233,8 +250,12 @@ def unresolved_work(before: Configuration, after: Configuration, cell_area: floa
 def friction_changed(before: Configuration, after: Configuration, cell_area: float) -> float:
     """Compute the uncertainty of the energy dissipated in one increment [force length].
 
-    The formula is Σ |q₁ - q₀| κ|s₁ - s₀| Δ. Indices 0 and 1 denote start and end of the increment,
-    q shear, s slip, κ contact fraction and Δ the cell area.
+    The uncertainty is the change of the friction times the slip: Σ |q₁ - q₀| κ|s₁ - s₀| Δ. Indices
+    0 and 1 denote start and end of the increment, q shear, s slip, κ contact fraction and Δ the
+    cell area.
+
+    before, after  configurations (tractions, displacements, loads) at the start and the end
+    cell_area      area Δ of a cell and its mirror images [length^2]
     """
     changed, slipped = after.shear - before.shear, after.slipped - before.slipped
     way = after.contact_fraction * np.hypot(*slipped)
@@ -242,10 +263,12 @@ def friction_changed(before: Configuration, after: Configuration, cell_area: flo
 
 
 def _load_work(before: Configuration, after: Configuration) -> float | None:
-    """Compute the work of all prescribed forces and moments in one increment [force length].
+    """Compute the work of all forces and moments on the indenter in one increment [force length].
 
-    The sum is Σ ½ (f₀ + f₁)(ω₁ - ω₀), with the forces and moments f and their conjugate rigid
-    motions ω at start (0) and end (1). None is returned where a motion is undefined.
+    The work is Σ ½ (f₀ + f₁)(ω₁ - ω₀), with the forces and moments f and their conjugate rigid
+    motions ω at start (0) and end (1). The result is None where a motion is undefined.
+
+    before, after  configurations (tractions, displacements, loads) at the start and the end
     """
     if before.motions is None or after.motions is None:
         return None

@@ -22,11 +22,14 @@ from semi_analytical.tangential.admissible_shear import everywhere
 def add_energies(
     model: ContactModel, before: State | None, after: State, *, path_matters: bool = True
 ) -> State:
-    """Return the converged state `after` an increment, completed by its energies.
+    """Return the state at the end of an increment, completed by its energies.
 
-    No convolution is needed, because states include their displacements.
+    The energies are elastic energy, work of the loads and dissipated energy since the start. They
+    need no convolution, because states include their displacements.
 
+    model         contact model
     before        state at the start of the increment; None at the start of the history
+    after         converged state at the end of the increment
     path_matters  True if `after` depends on the number of increments of its load step
     """
     end = configuration(model, after)
@@ -42,10 +45,13 @@ def add_energies(
 
 
 def configuration(model: ContactModel, state: State) -> Configuration:
-    """Collect tractions, displacements and loads of a state for the energy balance.
+    """Collect tractions, displacements and loads of a contact state for the energy balance.
 
     Without shear the tangential fields are empty. The springs of a test rig store no energy of the
     bodies: their extension is subtracted from motions and displacements.
+
+    model  contact model
+    state  converged state
     """
     pressing, sheared = state.pressing, state.sheared
     pressure, (down, along) = pressing.pressure, model.springs

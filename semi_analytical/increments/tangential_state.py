@@ -20,16 +20,17 @@ EQUALLY_FAR = 12
 
 @dataclass(frozen=True)
 class TangentialState:
-    """Tangential part of a converged state; all fields are on the reduced domain.
+    """Tangential part of a converged state of contact; all fields are on the reduced domain.
 
     shear              q (2, nx, ny) [force/length^2]
     pressure           p at which the tangential problem was solved (nx, ny) [force/length^2]
     contact_fraction   fraction of the increment during which each cell is in contact (nx, ny)
-    displacement       tangential displacement u_t by the tractions (2, nx, ny) [length]
+    displacement       tangential surface displacement u_t by the tractions (2, nx, ny) [length]
     shift              tangential shift of the indenter (2,) [length]; None at the friction limit
-                       under force control
-    slip               u_t + strain - motion accumulated while in contact (paper, eq. (4)) (2, nx,
-                       ny) [length]
+                       under force control, where it is undefined
+    slip               slip of the lower body relative to the indenter, accumulated while in
+                       contact: u_t + displacement by bulk strain - rigid motion (2, nx, ny)
+                       [length]
     slip_distance      path length of slip since the start (nx, ny), sum of |increments| [length]
     dissipation        energy dissipated per area since the start (nx, ny) [force/length]
     in_stick           sticking cells (nx, ny)
@@ -63,14 +64,15 @@ class TangentialState:
 
     @property
     def motion(self) -> Vector:
-        """Rigid tangential motion of the indenter: shift (2,), followed by the twist under
-        torsion."""
+        """Rigid tangential motion of the indenter: shift (2,) [length], followed by the twist under
+        torsion.
+        """
         assert self.shift is not None
         return self.shift if self.twist is None else np.array([*self.shift, self.twist])
 
 
 def untouched_state(cells: tuple[int, int]) -> TangentialState:
-    """Return the tangential state before first touch: no shear, no shift, no slip.
+    """Return the tangential state of the contact before first touch: no shear, no shift, no slip.
 
     cells  number of cells of the domain along x and y
     """
@@ -97,9 +99,10 @@ def rigid(model: ContactModel, motion: Vector) -> VectorField:
     """Compute the displacement of the indenter's surface points by its rigid tangential motion
     [length].
 
-    The result broadcasts with (2, nx, ny).
+    The result broadcasts with fields (2, nx, ny).
 
-    motion  shift (2,), or shift and twist (3,)
+    model   contact model with the coordinates of the cells
+    motion  shift (2,) [length], or shift and twist (3,)
     """
     shift = everywhere(motion[:2])
     return shift if len(motion) == 2 else shift + motion[2] * model.rotation
@@ -108,14 +111,14 @@ def rigid(model: ContactModel, motion: Vector) -> VectorField:
 def surface_target(
     model: ContactModel, last: TangentialState, load: TangentialTarget
 ) -> VectorField:
-    """Compute the relative surface displacement that full stick requires (2, nx, ny) [length].
+    """Compute the relative tangential surface displacement that full stick requires [length].
 
-    The result consists of the displacement locked in by the previous increment, the strain of the
-    lower body in this increment, and the prescribed twist. The rigid motion of the load is not
-    included.
+    The result (2, nx, ny) consists of the displacement locked in by the previous increment, the
+    bulk strain of the lower body in this increment, and the prescribed twist. The rigid motion that
+    the solver determines is not included.
 
     last  tangential state at the start of the increment
-    load  prescribed tangential load at its end
+    load  prescribed tangential load at the end of the increment
     """
     target = last.displacement - rigid(model, last.motion)
     target = target - bulk_strain_displacement(model, load.strain, last.strain)
@@ -125,12 +128,12 @@ def surface_target(
 def bulk_strain_displacement(
     model: ContactModel, strain: Strain | None, last: Strain | None = None
 ) -> VectorField | float:
-    """Compute the surface displacement by a change of the bulk strain (2, nx, ny) [length].
+    """Compute the surface displacement by a change of the lower body's bulk strain [length].
 
-    Return 0.0 without strain.
+    The result has the shape (2, nx, ny). Without strain it is the number 0.
 
-    strain  strain (xx, yy, xy) at the end; None without strain
-    last    strain at the start; None for zero
+    strain  strain (xx, yy, xy) at the end of the increment; None without strain
+    last    strain at the start of the increment; None for zero
     """
     if strain is None:
         return 0.0
@@ -139,10 +142,12 @@ def bulk_strain_displacement(
 
 
 def strain_moments(model: ContactModel, q: VectorField) -> Vector:
-    """Compute the forces conjugate to a bulk strain, Σ(q_x x, q_y y, q_x y + q_y x) Δ (3,) [force
-    length].
+    """Compute the generalised forces of a shear that do work on a bulk strain [force length].
 
-    q  shear (2, nx, ny)
+    The forces are Σ(q_x x, q_y y, q_x y + q_y x) Δ (3,), with Δ the area of a cell. The energy
+    balance multiplies them by the strains (xx, yy, xy).
+
+    q  shear (2, nx, ny) [force/length^2]
     """
     y, x = model.arms
     products = (q[0] * x, q[1] * y, q[0] * y + q[1] * x)
@@ -150,12 +155,13 @@ def strain_moments(model: ContactModel, q: VectorField) -> Vector:
 
 
 def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:
-    """Return the initial guess of the rigid tangential motion: the motion of the previous state.
+    """Return the rigid tangential motion of the indenter at the start of an increment.
 
-    The result is the shift (2,), or shift and twist (3,) if a torque is prescribed.
+    The solver uses it as initial guess. The result is the shift (2,), or shift and twist (3,) if a
+    torque is prescribed.
 
     last  tangential state at the start of the increment
-    load  prescribed tangential load
+    load  prescribed tangential load of the increment
     """
     assert last.shift is not None
     if load.torque is None:
@@ -164,19 +170,26 @@ def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:
 
 
 def torque_of(model: ContactModel, q: VectorField) -> float:
-    """Compute the torque Σ(q_y x - q_x y) Δ of a shear q (2, nx, ny) about the z axis [force
-    length]."""
+    """Compute the torque Σ(q_y x - q_x y) Δ of a shear about the z axis [force length].
+
+    Δ is the area of a cell.
+
+    q  shear (2, nx, ny) [force/length^2]
+    """
     return float(np.sum(q * model.rotation)) * model.grid.cell_area
 
 
 def torsion_reached(
     model: ContactModel, load: TangentialTarget, motion: Vector, q: VectorField
 ) -> tuple[float | None, float | None]:
-    """Return twist and torque at the end of an increment, each prescribed or solved; None without
-    torsion.
+    """Return twist and torque of the indenter at the end of an increment; None without torsion.
 
+    Under a prescribed torque, the twist is that of the solution. Under a prescribed twist, the
+    torque follows from the shear.
+
+    load    prescribed tangential load
     motion  solved rigid motion: shift, and twist under a prescribed torque
-    q       solved shear (2, nx, ny)
+    q       solved shear (2, nx, ny) [force/length^2]
     """
     if load.torque is not None:
         return float(motion[2]), load.torque
@@ -186,13 +199,14 @@ def torsion_reached(
 def touching_share(before: Field, after: Field, gap: Field) -> Field:
     """Compute the contact fraction: the part of an increment during which each cell is in contact.
 
-    Particles slip relative to each other only while in contact. Behind an advancing contact edge,
-    p² grows in proportion to the advance since first contact (below a paraboloid p² ~ a² - r²). The
-    contact fraction of a new cell is therefore the ratio of its p² to the growth of p² at the
-    nearest cell that was in contact before. The mean of equally near cells is used, so that
-    mirrored contacts have mirrored slip. The result is correct to first order in the increment. In
-    first contact the largest p² takes the place of the growth, and cells without gap have the
-    fraction 1. Separation is treated as contact in reverse.
+    The slip of an increment is multiplied by this fraction (nx, ny), because surfaces slip relative
+    to each other only while in contact. Behind an advancing contact edge, p² grows in proportion to
+    the advance since first contact (below a paraboloid p² ~ a² - r²). The contact fraction of a new
+    cell is therefore the ratio of its p² to the growth of p² at the nearest cell that was in
+    contact before. The mean of equally near cells is used, so that mirrored contacts have mirrored
+    slip. The result is correct to first order in the increment. In first contact the largest p²
+    takes the place of the growth, and cells without gap have the fraction 1. Separation is treated
+    as contact in reverse.
 
     before, after  pressure at the start and the end of the increment (nx, ny)
     gap            undeformed gap (nx, ny)
@@ -208,13 +222,14 @@ def touching_share(before: Field, after: Field, gap: Field) -> Field:
 
 
 def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
-    """Compute the contact fraction of cells that are in contact only at one end of the increment.
+    """Compute the part of an increment during which cells of a new contact are in contact.
 
-    The fraction is p² of the cell over the growth of p² at the nearest cell in lasting contact, at
-    most 1.
+    The part is p² of the cell over the growth of p² at the nearest cell in lasting contact, at most
+    1. For cells that separate, the increment is considered in reverse.
 
-    less, more  pressure at the end with the smaller and with the larger contact (nx, ny)
-    changes     cells whose contact changes (nx, ny)
+    less, more  pressure at the end of the increment with the smaller and with the larger contact
+                (nx, ny)
+    changes     cells that are in contact in `more` only (nx, ny)
     """
     touched, largest = less > 0, np.max(more)
     p, grown = more / largest, (more / largest) ** 2 - (less / largest) ** 2
@@ -227,8 +242,7 @@ def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
 
 
 def _mean_at_nearest_cells(values: Field, known: Mask, wanted: Mask) -> Field:
-    """Return for each wanted cell the mean of a field over the nearest cells where the field is
-    known.
+    """Compute for given cells the mean of a field over the nearest cells where the field is known.
 
     Equally near cells have equal weight. The result has the shape (number of wanted cells,).
 

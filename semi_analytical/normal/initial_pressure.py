@@ -17,12 +17,13 @@ from semi_analytical.normal.normal_load import NormalLoad
 
 
 def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) -> Field:
-    """Compute an initial guess of the pressure (nx, ny) from an undeformed gap (nx, ny) by Hertz
+    """Compute an initial guess of the contact pressure (nx, ny) from the undeformed gap by Hertz
     theory.
 
-    The guess is uniform if the modulus is not positive, or if the cells below the bearing depth
-    cannot carry the load.
+    Cells whose gap is below the bearing depth carry the load. Where Hertz theory does not apply,
+    the guess is uniform: if E* is not positive, or if these cells cannot carry the load.
 
+    gap      undeformed gap (nx, ny) [length]; infinite where contact is impossible
     load     prescribed normal load
     modulus  E* [force/length^2]; not positive where a uniform pressure raises its centre, as on an
              incompressible film with rigid base
@@ -41,10 +42,10 @@ def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) 
 
 
 def modulus_of(compliance: Field, spacing: tuple[float, float]) -> float:
-    """Compute the modulus E* of the half-space with the same central displacement [force/length^2].
+    """Compute the modulus E* of the half-space that represents layered bodies [force/length^2].
 
-    Both bodies carry a uniform pressure on the same rectangle (Johnson 1985, eq. 3.25). The initial
-    guess of the pressure uses E* for layered bodies.
+    Under a uniform pressure on a rectangle, the half-space has the same central displacement as the
+    bodies (Johnson 1985, eq. 3.25). The initial guess of the pressure uses E*.
 
     compliance  normal displacement of a cell by unit pressure on another (nx, ny), at offsets (i
                 dx, j dy) from the centre to half the sides of the rectangle [length^3/force]

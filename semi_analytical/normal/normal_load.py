@@ -23,74 +23,92 @@ Projection = Callable[[Field], Field]
 
 
 class NormalLoad(Protocol):
-    """Interface of the load of the normal problem: prescribed force, approach or moments.
+    """Interface of the prescribed load of the normal problem: force or approach, and moments.
 
-    The rigid motion of a load is the approach, or a vector (approach, tilt x, tilt y).
+    The normal problem determines the pressure and the rigid motion of the indenter under this load.
+    The rigid motion is the approach, or a vector (approach, tilt x, tilt y) under moments.
     """
 
     def touches(self, gap: Field) -> bool:
-        """Return True if a pressure on the cells of finite gap can carry the load.
+        """Return True if cells of finite gap can carry the prescribed normal load.
 
-        Otherwise the grid is too coarse, or the bodies do not touch.
+        Otherwise the grid is too coarse, or the bodies do not touch at the prescribed approach.
 
         gap  undeformed gap (nx, ny) [length]; infinite where contact is impossible
         """
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return the depth below which cells carry the load in the initial guess of the pressure
+        """Return the bearing depth of the normal load, used in the initial guess of the pressure
         [length].
 
-        The initial guess applies Hertz theory: cells with an undeformed gap below this depth are in
-        contact.
+        The guess follows from Hertz theory: cells whose undeformed gap is below the bearing depth
+        are in contact.
 
         gaps       undeformed gaps of all cells, in ascending order [length]
         stiffness  Σp over the depth, as a function of the number of these cells [force/length^3]
         """
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """Compute the rigid motion that closes a gap in the least-squares sense, weighted by the
-        pressure.
+        """Compute the rigid motion of the indenter that closes the gap under the present pressure.
+
+        A prescribed component of the motion is returned unchanged. The other components minimise
+        the sum of the squared gaps of all cells, weighted by the pressure.
 
         p  pressure (nx, ny)
-        s  gap before the rigid motion (nx, ny) [length]
+        s  gap before the rigid motion (nx, ny) [length]: undeformed gap plus displacement
         """
 
     def closure(self, motion: Motion) -> float | Field:
-        """Return the closure of the gap by a rigid motion [length]; by default the approach."""
+        """Return the closure of the gap by a rigid motion of the indenter [length].
+
+        By default the rigid motion is the approach, which closes the gap equally in all cells.
+        """
         return motion
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """Return the overlap of the undeformed bodies, the scale of residual gaps [length].
+        """Return the overlap of the undeformed bodies at a rigid motion of the indenter [length].
 
-        By default the overlap is the magnitude of the approach.
+        Residual gaps are divided by this overlap. By default the overlap is the magnitude of the
+        approach.
 
-        motion   rigid motion of the load
-        gap      undeformed gap (nx, ny)
+        motion   rigid motion of the indenter
+        gap      undeformed gap (nx, ny) [length]
         allowed  cells of finite gap (nx, ny)
         """
         return abs(float(motion))
 
     def admissible(self, p: Field) -> Field:
-        """Return a non-negative pressure near p (nx, ny) that carries the prescribed load."""
+        """Return a non-negative pressure near a given pressure that has the prescribed force and
+        moments.
+
+        p  given pressure (nx, ny)
+        """
 
     def projection(self, inside: Field) -> Projection:
-        """Return the projection of pressure changes on changes that preserve the prescribed forces.
+        """Return a linear projection of pressure changes, for conjugate gradients on a contact set.
+
+        A projected change is zero outside the contact and does not change the prescribed force and
+        moments.
 
         inside  1 in contact, 0 elsewhere (nx, ny)
         """
 
     def less(self, carried: Field) -> NormalLoad:
-        """Return the load that remains for the solver if other cells carry given pressures.
+        """Return the normal load reduced by the force and the moments of given cell pressures.
 
-        carried  pressures of the other cells (nx, ny)
+        The edge correction fixes the pressure of edge cells and solves for the other cells, which
+        carry the reduced load. By default the load is not changed.
+
+        carried  fixed pressure of the edge cells, zero in other cells (nx, ny)
         """
         return self
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return the closures of the gap (nx, ny) by unit rigid motions whose conjugate forces are
-        prescribed.
+        """Return the closures of the gap (nx, ny) by the unit rigid motions that the load leaves
+        free.
 
-        Without a prescribed force or moment there is none.
+        A rigid motion (approach, tilt) is free if its conjugate force or moment is prescribed. By
+        default there is none.
 
         shape  number of cells (nx, ny)
         """
@@ -107,13 +125,18 @@ class PressureSum(NormalLoad):
     total: float
 
     def touches(self, gap: Field) -> bool:
-        """Return True if the gap of at least one cell is finite, so that this cell can carry the
-        force."""
+        """Return True if at least one cell has a finite gap, so that it can carry the prescribed
+        force.
+
+        gap  undeformed gap (nx, ny) [length]; infinite where contact is impossible
+        """
         return bool(np.isfinite(np.min(gap)))
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return the depth below which cells carry the prescribed force in the initial guess
-        [length].
+        """Return the depth at which cells carry the prescribed force by Hertz theory [length].
+
+        In the initial guess of the pressure, cells whose undeformed gap is below this depth are in
+        contact.
 
         gaps       undeformed gaps of all cells, in ascending order [length]
         stiffness  Σp over the depth, as a function of the number of these cells [force/length^3]
@@ -122,23 +145,27 @@ class PressureSum(NormalLoad):
         return float(self.total / stiffness[max(bearing - 1, 0)])
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """Return the approach that closes the gap on average [length]: mean of s, weighted by the
-        pressure p.
+        """Compute the approach of the bodies at which the gap is zero on average [length].
+
+        The average over the cells is weighted by the pressure.
 
         p  pressure (nx, ny)
-        s  gap before the rigid motion (nx, ny) [length]
+        s  gap before the approach (nx, ny) [length]: undeformed gap plus displacement
         """
         return float(np.vdot(p, s) / p.sum())
 
     def admissible(self, p: Field) -> Field:
-        """Set negative pressures to zero and scale the pressure to the prescribed sum."""
+        """Set the negative pressures of a field (nx, ny) to zero and scale its sum to the
+        prescribed force.
+        """
         p = np.maximum(p, 0.0)
         return np.asarray(p * (self.total / p.sum()))
 
     def projection(self, inside: Field) -> Projection:
-        """Return the projection of pressure changes on changes that preserve the sum Σp.
+        """Return a linear projection of pressure changes that keeps the sum Σp, the normal force.
 
         The projection restricts a change to the contact and subtracts its mean over the contact.
+        Conjugate gradients on a contact set use it.
 
         inside  1 in contact, 0 elsewhere (nx, ny)
         """
@@ -152,14 +179,23 @@ class PressureSum(NormalLoad):
         return projected
 
     def less(self, carried: Field) -> NormalLoad:
-        """Return the load less the sum of the pressures that other cells carry.
+        """Return the normal force reduced by the sum of given cell pressures.
 
-        carried  pressures of the other cells (nx, ny)
+        The edge correction fixes the pressure of edge cells and solves for the other cells, which
+        carry the reduced force.
+
+        carried  fixed pressure of the edge cells, zero in other cells (nx, ny)
         """
         return PressureSum(self.total - float(np.sum(carried)))
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return the unit approach as a field (nx, ny) of ones."""
+        """Return the closure of the gap by a unit approach: a field (nx, ny) of ones, as the only
+        entry.
+
+        The approach is free under a prescribed normal force.
+
+        shape  number of cells (nx, ny)
+        """
         return (np.ones(shape),)
 
 
@@ -173,11 +209,18 @@ class FixedApproach(NormalLoad):
     approach: float
 
     def touches(self, gap: Field) -> bool:
-        """Return True if the approach closes the undeformed gap of at least one cell."""
+        """Return True if the prescribed approach closes the undeformed gap of at least one cell.
+
+        gap  undeformed gap (nx, ny) [length]; infinite where contact is impossible
+        """
         return float(np.min(gap)) < self.approach
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return half of the approach, the bearing depth of Hertz theory [length]."""
+        """Return half of the prescribed approach, the bearing depth of Hertz theory [length].
+
+        In the initial guess of the pressure, cells whose undeformed gap is below this depth are in
+        contact.
+        """
         return 0.5 * self.approach
 
     def motion(self, p: Field, s: Field) -> Motion:
@@ -185,12 +228,14 @@ class FixedApproach(NormalLoad):
         return self.approach
 
     def admissible(self, p: Field) -> Field:
-        """Return the pressure with negative values set to zero."""
+        """Set the negative pressures of a field (nx, ny) to zero; no force is prescribed."""
         return np.maximum(p, 0.0)
 
     def projection(self, inside: Field) -> Projection:
-        """Return the projection of pressure changes: the restriction to the cells in contact.
+        """Return the projection that restricts pressure changes to the cells in contact.
 
-        No force is prescribed that the projection must preserve.
+        Under a prescribed approach there is no prescribed force that the projection must keep.
+
+        inside  1 in contact, 0 elsewhere (nx, ny)
         """
         return lambda field: field * inside

@@ -35,10 +35,12 @@ LEAST_FALL = 0.1
 
 @dataclass(frozen=True)
 class NormalSolution:
-    """Solution of the normal problem under one load.
+    """Solution of the normal problem (contact without penetration, given shear) under one load.
 
-    pressure, displacement  p [force/length^2] and u_z [length], each (nx, ny)
-    motion                  rigid motion of the load
+    pressure, displacement  p [force/length^2] and normal surface displacement u_z [length], each
+                            (nx, ny)
+    motion                  rigid motion of the indenter: approach, and tilt under prescribed
+                            moments
     iterations              iterations of all linear solves
     first_residual          residual of the initial guess, dimensionless
     """
@@ -59,8 +61,11 @@ class _Problem:
     load: NormalLoad
 
     def residual(self, p: Field, g: Field, overlap: float) -> float:
-        """Return the larger of the complementarity and the penetration residual, relative to the
-        overlap.
+        """Return the larger of the complementarity and penetration residuals of the normal problem.
+
+        Complementarity is Σ|g| p / Σp (pressure acts where the gap is open), penetration the
+        largest overlap of the deformed bodies. Each is divided by the overlap of the undeformed
+        bodies.
 
         p        pressure (nx, ny)
         g        gap (nx, ny) [length]; negative where the deformed bodies overlap
@@ -82,15 +87,18 @@ def solve_normal(
     tolerance: float,
     enough: float = 0.0,
 ) -> NormalSolution:
-    """Compute the contact pressure and the rigid motion of the load for an undeformed gap.
+    """Compute the contact pressure and the rigid motion of the indenter for an undeformed gap.
 
-    displace      pressure (nx, ny) -> normal displacement (nx, ny); symmetric, positive definite
+    The active-set Newton method of this module is used.
+
+    displace      function pressure (nx, ny) -> normal displacement (nx, ny); symmetric, positive
+                  definite
     precondition  approximate inverse of `displace`; symmetric, positive definite
     gap           undeformed gap (nx, ny) [length]; infinite where contact is impossible
-    load          prescribed force or approach
+    load          prescribed normal force or approach, and moments
     start         initial pressure (nx, ny), not zero everywhere
-    tolerance     on complementarity Σ|g|p / (δ Σp) and penetration max(-g) / δ, dimensionless; δ is
-                  the overlap of the undeformed bodies
+    tolerance     limit of complementarity Σ|g|p / (δ Σp) and penetration max(-g) / δ,
+                  dimensionless; g is the gap and δ the overlap of the undeformed bodies
     enough        reduction of the initial residual that suffices, if above the tolerance
     raises        NotConverged
     """
@@ -128,11 +136,12 @@ def _solve_on(
 ) -> tuple[Field, Field, int]:
     """Solve for the pressure that closes the gap on a fixed contact set.
 
-    Return pressure, displacement and number of iterations. Conjugate gradients stop when the
-    residual norm has fallen by the factor `depth`.
+    The linear problem of one Newton step is solved: pressures may become negative. Return pressure,
+    displacement and number of conjugate-gradient iterations.
 
     contact  contact set, which contains all cells under pressure (nx, ny)
     p, u, g  pressure, displacement and gap at the start (nx, ny)
+    depth    reduction of the residual norm at which the iteration stops
     """
     projected = problem.load.projection(contact.astype(np.float64))
     return close_gap(problem.displace, problem.precondition, projected, p, u, g, depth)
@@ -147,14 +156,16 @@ def close_gap(
     g: Field,
     depth: float,
 ) -> tuple[Field, Field, int]:
-    """Solve for the pressure that closes the gap on a contact set, by preconditioned conjugate
-    gradients.
+    """Solve for the pressure that closes the gap on a contact set, by conjugate gradients.
 
-    Return pressure, displacement and iterations.
+    Return pressure, displacement and number of iterations.
 
-    projected  projection on the contact set and the prescribed forces
-    p, u, g    pressure, displacement and gap at the start (nx, ny)
-    depth      reduction of the residual norm at which the iteration stops
+    displace      function pressure (nx, ny) -> normal displacement (nx, ny)
+    precondition  approximate inverse of `displace`
+    projected     projection of pressure changes on the contact set and on constant prescribed
+                  forces
+    p, u, g       pressure, displacement and gap at the start (nx, ny)
+    depth         reduction of the residual norm at which the iteration stops
     """
     p, u, r = p.copy(), u.copy(), projected(-g)
     t = z = projected(precondition(r))
@@ -181,14 +192,13 @@ def _line_search(
     u: Field,
     g: Field,
 ) -> tuple[Field, Field, int]:
-    """Move to the Newton point with negative pressures set to zero, or bisect the step (line
-    search).
+    """Accept the pressure of a Newton step, with negative values set to zero, or a shorter step.
 
     The energy must decrease sufficiently. Under a stiff coating pressure lifts adjacent cells, and
     setting all negative pressures to zero at once may raise the energy repeatedly. Cells then leave
     the contact set successively. Return pressure, displacement and iterations.
 
-    newton, newton_u  pressure and displacement of the Newton point (nx, ny)
+    newton, newton_u  pressure and displacement after the full Newton step (nx, ny)
     p, u, g           pressure, displacement and gap of the last accepted point (nx, ny)
     """
     step = 1.0
@@ -215,15 +225,15 @@ def _remove_tension(
     u: Field,
     g: Field,
 ) -> tuple[Field, Field, int]:
-    """Remove cells in tension from the contact set until none is left (Lawson and Hanson 1974, ch.
-    23).
+    """Remove cells with negative pressure from the contact set in several passes, until none is
+    left.
 
-    Each pass moves towards the Newton point until `many` cells reach zero pressure, at most half of
-    those in tension, provided that the energy decreases sufficiently; else `many` is halved. With
-    `many` = 1 the energy always decreases, so that every pass removes at least one cell. Return
-    pressure, displacement and iterations.
+    The method is that of Lawson and Hanson (1974, ch. 23). Each pass moves towards the Newton point
+    until `many` cells reach zero pressure, at most half of the negative ones. If the energy does
+    not decrease sufficiently, `many` is halved. With `many` = 1 the energy always decreases, so
+    that every pass removes at least one cell. Return pressure, displacement and iterations.
 
-    newton, newton_u  pressure and displacement of the Newton point (nx, ny)
+    newton, newton_u  pressure and displacement after the full Newton step (nx, ny)
     p, u, g           pressure, displacement and gap of the last accepted point (nx, ny)
     """
     contact = (p > 0) | (newton != 0)
@@ -254,8 +264,9 @@ def _remove_tension(
 
 
 def _decreases_energy(d: Field, d_u: Field, g: Field) -> bool:
-    """Return True if a change of the pressure satisfies Armijo's condition on the elastic contact
-    energy.
+    """Return True if a change of the pressure decreases the elastic contact energy sufficiently.
+
+    The criterion is Armijo's condition: the decrease is at least 10 % of the decrease by the slope.
 
     d, d_u  changes of pressure and displacement (nx, ny)
     g       gap before the change (nx, ny), the gradient of the energy
@@ -265,9 +276,9 @@ def _decreases_energy(d: Field, d_u: Field, g: Field) -> bool:
 
 
 def _gradient_step(problem: _Problem, p: Field, u: Field, g: Field) -> tuple[Field, Field]:
-    """Move the pressure along the projected gradient of the energy by an exact line search.
+    """Move the pressure along the projected gradient of the contact energy by an exact line search.
 
-    The step length is at most 1. Return pressure and displacement.
+    Used if a Newton step fails. The step length is at most 1. Return pressure and displacement.
 
     p, u, g  pressure, displacement and gap of the last accepted point (nx, ny)
     """

@@ -27,14 +27,15 @@ ROUND_OFF = 1e-14
 
 @dataclass(frozen=True)
 class PressureMoments:
-    """Normal load with prescribed moments Σp y and Σp x, and with prescribed Σp or approach.
+    """Normal load of a tilting indenter: prescribed moments Σp y and Σp x, and Σp or the approach.
 
-    The rigid motion is (approach, tilt x, tilt y).
+    The pressure p has these sums over all cells. The rigid motion of the indenter is (approach,
+    tilt x, tilt y).
 
     arms      (y, x) of the cells (2, nx, ny) [length]
     cells     cells of finite gap (nx, ny)
     moments   (Σp y, Σp x) = (M_x, M_y) / cell area, shape (2,)
-    total     Σp = W / cell area; None where the approach is prescribed
+    total     Σp = W / cell area with the normal force W; None where the approach is prescribed
     approach  approach of the bodies at the origin [length]; None where Σp is prescribed
     """
 
@@ -46,30 +47,34 @@ class PressureMoments:
 
     @cached_property
     def reach(self) -> float:
-        """Largest |x| or |y| of a cell [length]; a tilt times this length compares with the
-        approach."""
+        """Length that makes tilts comparable with the approach: largest |x| or |y| of a cell
+        [length].
+        """
         return float(np.max(np.abs(self.arms)))
 
     @cached_property
     def shapes(self) -> Field:
-        """Closures of the gap (k, nx, ny) by unit rigid motions whose conjugate forces are
-        prescribed.
+        """Closures of the gap (k, nx, ny) by the unit rigid motions of the indenter that are free.
 
-        The closures are 1 (approach) if the normal force is prescribed, then y and x (tilts) over
-        `reach`, the largest |x| or |y| of a cell.
+        A motion is free if its conjugate force or moment is prescribed. The closures are 1
+        (approach) if the normal force is prescribed, then y and x (tilts), divided by the largest
+        |x| or |y| of a cell.
         """
         slopes = self.arms / self.reach
         return slopes if self.total is None else np.stack([np.ones_like(slopes[0]), *slopes])
 
     @cached_property
     def sums(self) -> Vector:
-        """Prescribed sums (k,) over the cells of pressure times each field of `shapes`: force
-        and moments."""
+        """Prescribed normal force and moments in the scaling of `shapes` (k,), over the cell area.
+
+        Each entry is the sum over all cells of pressure times one field of `shapes`. The force is
+        absent where the approach is prescribed.
+        """
         moments = self.moments / self.reach
         return moments if self.total is None else np.array([self.total, *moments])
 
     def touches(self, gap: Field) -> bool:
-        """Return True if some pressure on the cells of finite gap has the prescribed force and
+        """Return True if a pressure on cells of finite gap can have the prescribed force and
         moments.
 
         The cells must surround the point of action of the normal force, see `_is_carried_on`.
@@ -79,10 +84,10 @@ class PressureMoments:
         return self._is_carried_on(self.cells & np.isfinite(gap))
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return the depth below which cells carry the load in the initial guess of the pressure
-        [length].
+        """Return the bearing depth of Hertz theory without the moments of the load [length].
 
-        The moments are ignored.
+        In the initial guess of the pressure, cells whose undeformed gap is below this depth are in
+        contact.
 
         gaps       undeformed gaps of all cells, in ascending order [length]
         stiffness  Σp over the depth, as a function of the number of these cells [force/length^3]
@@ -92,11 +97,13 @@ class PressureMoments:
         return PressureSum(self.total).bearing_depth(gaps, stiffness)
 
     def motion(self, p: Field, s: Field) -> Motion:
-        """Compute approach and tilt of the plane that fits a gap by least squares, weighted by the
-        pressure.
+        """Compute the approach and the tilt of the indenter that close the gap under a pressure.
+
+        They are the plane that fits the gap by least squares, weighted by the pressure. Return the
+        vector (approach, tilt x, tilt y). A prescribed approach is returned unchanged.
 
         p  pressure (nx, ny)
-        s  gap before the rigid motion (nx, ny) [length]
+        s  gap before the rigid motion (nx, ny) [length]: undeformed gap plus displacement
         """
         shapes = self.shapes
         metric = _weighted_products(p * shapes, shapes)
@@ -106,22 +113,35 @@ class PressureMoments:
         return np.array([approach, *(fit[-2:] / self.reach)])
 
     def closure(self, motion: Motion) -> float | Field:
-        """Return the closure of the gap by approach and tilt, a plane (nx, ny) [length]."""
+        """Compute the closure of the gap by approach and tilt of the indenter, a plane (nx, ny)
+        [length].
+
+        motion  vector (approach, tilt x, tilt y)
+        """
         approach, tilt_x, tilt_y = np.ravel(motion)
         return np.asarray(approach + tilt_x * self.arms[0] + tilt_y * self.arms[1])
 
     def overlap(self, motion: Motion, gap: Field, allowed: Mask) -> float:
-        """Return the largest overlap of the undeformed bodies over the allowed cells [length]."""
+        """Compute the largest overlap of the undeformed bodies at an approach and tilt [length].
+
+        Residual gaps are divided by this overlap.
+
+        motion   vector (approach, tilt x, tilt y)
+        gap      undeformed gap (nx, ny) [length]
+        allowed  cells of finite gap (nx, ny)
+        """
         return float(np.max(self.closure(motion) - gap, where=allowed, initial=-np.inf))
 
     def admissible(self, p: Field) -> Field:
-        """Return a non-negative pressure near p (nx, ny) with the prescribed sum and moments.
+        """Return a non-negative pressure near a given pressure with the prescribed force and
+        moments.
 
-        Negative values are set to zero, and the pressure is corrected by a plane, weighted by the
-        pressure. Where this is impossible the correction has equal weight on all cells of finite
-        gap.
+        Negative values are set to zero. A plane, weighted by the pressure, is then added so that
+        force and moments are correct. If the loaded cells cannot carry the moments, the plane is
+        added with equal weight on all cells of finite gap.
 
-        raises  NotConverged where no pressure has the prescribed sums
+        p       given pressure (nx, ny)
+        raises  NotConverged where no pressure has the prescribed force and moments
         """
         p = np.maximum(p, 0.0)
         if self.total is not None:
@@ -134,10 +154,10 @@ class PressureMoments:
         return carrying
 
     def _is_carried_on(self, cells: Mask) -> bool:
-        """Return True if some pressure on these cells has the prescribed sum and moments.
+        """Return True if some pressure on given cells has the prescribed force and moments.
 
-        The cells must surround the point where Σp acts; if Σp is free, they must lie on both sides
-        of the direction of the moments.
+        The cells must surround the point where the normal force acts. If the normal force is free,
+        they must lie on both sides of the direction of the moments.
 
         cells  cells that may carry pressure (nx, ny)
         """
@@ -155,8 +175,7 @@ class PressureMoments:
         return bool(left - right < np.pi)
 
     def _nearest_carrying_pressure(self, p: Field, weight: Field) -> Field | None:
-        """Return the non-negative pressure with the prescribed sum and moments that is nearest to
-        p.
+        """Return the non-negative pressure nearest to p that has the prescribed force and moments.
 
         None is returned if no such pressure exists.
 
@@ -172,10 +191,10 @@ class PressureMoments:
         return shifted.p if shifted.has_prescribed_forces(multiplier) else None
 
     def projection(self, inside: Field) -> Projection:
-        """Return the projection of pressure changes that preserves the prescribed sum and moments.
+        """Return a linear projection of pressure changes that keeps force and moments constant.
 
-        The projection restricts a field to the contact and removes the least-squares fit of a
-        plane.
+        The projection restricts a change to the contact and subtracts the plane that fits it by
+        least squares. Conjugate gradients on a contact set use it.
 
         inside  1 in contact, 0 elsewhere (nx, ny)
         """
@@ -190,11 +209,12 @@ class PressureMoments:
         return projected
 
     def less(self, carried: Field) -> NormalLoad:
-        """Return the load that remains for the solver if other cells carry given pressures.
+        """Return the normal load reduced by the force and the moments of given cell pressures.
 
-        Force and moments of these pressures are subtracted, and these cells are excluded.
+        The edge correction fixes the pressure of edge cells and solves for the other cells, which
+        carry the reduced load. The edge cells are excluded from the cells that can carry it.
 
-        carried  pressures of the other cells (nx, ny)
+        carried  fixed pressure of the edge cells, zero in other cells (nx, ny)
         """
         return replace(
             self,
@@ -204,16 +224,25 @@ class PressureMoments:
         )
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return the closures of the gap (nx, ny) by unit rigid motions whose conjugate forces
-        are prescribed."""
+        """Return the closures of the gap (nx, ny) by the unit approach and tilts that the load
+        leaves free.
+
+        The tilts are free, because moments are prescribed. The approach is free if the normal force
+        is prescribed.
+
+        shape  number of cells (nx, ny)
+        """
         return tuple(self.shapes)
 
 
 def _weighted_products(a: Field, b: Field) -> Field:
-    """Compute the symmetric matrix (k, k) of sums over the cells of products of two sets of k
-    fields.
+    """Compute the symmetric matrix (k, k) of the scalar products of two sets of k fields.
 
-    a, b  fields (k, nx, ny)
+    A scalar product is the sum over all cells. Used to fit approach and tilts by least squares, and
+    in Newton's method for their multipliers.
+
+    a, b  fields (k, nx, ny): closures of the gap by unit approach and tilts, times a weight per
+          cell
     """
     sums = np.array([[np.sum(one * other) for other in b] for one in a])
     return 0.5 * (sums + sums.T)
@@ -224,6 +253,12 @@ class _ShiftedPressure:
 
     The shapes are the closures of the gap by unit rigid motions. `multipliers.py` solves for the
     multipliers whose pressure has the prescribed force and moments.
+
+    multiplier  multipliers λ (k,)
+    p           given pressure (nx, ny)
+    weight      weight of the correction in each cell (nx, ny)
+    shapes      closures of the gap by unit approach and tilts (k, nx, ny)
+    sums        prescribed force and moments (k,)
     """
 
     def __init__(
@@ -237,7 +272,10 @@ class _ShiftedPressure:
         self.defect = np.array([np.sum(self.p * shape) for shape in shapes]) - sums
 
     def has_prescribed_forces(self, multiplier: Vector) -> bool:
-        """Return True if the pressure has the prescribed force and moments up to rounding errors.
+        """Return True if the projected pressure has the prescribed force and moments up to rounding
+        errors.
+
+        The Newton iteration for the multipliers stops then.
 
         multiplier  not used
         """
@@ -245,7 +283,8 @@ class _ShiftedPressure:
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * size)
 
     def newton_step(self) -> Vector:
-        """Compute the Newton step of the multipliers of force and moments (k,).
+        """Compute the Newton step of the multipliers (k,) that corrects force and moments of the
+        pressure.
 
         The shortest step is taken where the multipliers are not unique.
         """

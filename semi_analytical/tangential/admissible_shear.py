@@ -23,16 +23,18 @@ MULTIPLIER_ROUND_OFF = 5e-16
 
 
 class TangentialLoad(Protocol):
-    """Interface of the load of the tangential problem: prescribed forces or prescribed rigid
-    motion.
+    """Interface of the prescribed load of the tangential problem: force or shift, and torque or
+    twist.
 
-    The rigid motion of a load is the shift (2,), or shift and twist (3,).
+    The tangential problem determines the shear and the rigid motion of the indenter under this
+    load. The rigid motion is the shift (2,), or shift and twist (3,).
     """
 
     def rigid(self, motion: Vector) -> VectorField:
-        """Compute the displacement of the indenter's surface points by a rigid tangential motion.
+        """Compute the displacement of the indenter's surface points by a rigid tangential motion
+        [length].
 
-        The result [length] broadcasts with (2, nx, ny). By default the motion is a shift.
+        The result broadcasts with (2, nx, ny). By default the motion is a shift.
 
         motion  shift (2,) [length], or shift and twist (3,)
         """
@@ -45,13 +47,13 @@ class TangentialLoad(Protocol):
         indenter.
 
         A shear is admissible if |q| <= bound in all cells and its forces have the prescribed
-        values. The projected shear is y + γ rigid(motion). The motion is chosen so that the
+        values. The projected shear is that of y + γ rigid(motion). The motion is chosen so that the
         projection has the prescribed forces. Return the admissible shear and this motion.
 
         y       trial shear without the rigid motion (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny)
         gamma   γ, traction per displacement [force/length^3]
-        motion  initial guess of the free components of the rigid motion
+        motion  initial guess of the rigid motion
         """
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
@@ -62,34 +64,46 @@ class TangentialLoad(Protocol):
         """
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return the unit rigid motions whose conjugate forces are prescribed, as fields (2, nx,
-        ny)."""
+        """Return the unit rigid motions of the indenter that the load leaves free, as fields (2,
+        nx, ny).
+
+        A rigid motion (shift along x or y, twist) is free if its conjugate force or torque is
+        prescribed. By default there is none.
+
+        shape  shape of a field, (2, nx, ny)
+        """
         return ()
 
     @property
     def prescribed_forces(self) -> Vector:
-        """Prescribed tangential forces and torque, divided by the cell area.
+        """Prescribed tangential forces and torque, divided by the cell area (k,).
 
         The order is that of `free_motions`: one force per rigid motion that is free.
         """
         return np.zeros(0)
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute the forces and the torque of a shear (2, nx, ny), divided by the cell area.
+        """Compute the forces and the torque of a shear (2, nx, ny), divided by the cell area (k,).
 
-        The result has one entry per rigid motion of `free_motions`, conjugate to this motion.
+        Only prescribed forces are computed. The order is that of `free_motions`: each entry is
+        conjugate to one of these rigid motions.
+
+        q  shear (2, nx, ny) [force/length^2]
         """
         return np.zeros(0)
 
     def exhausts(self, bound: Field) -> bool:
-        """Return True if the prescribed load reaches or exceeds the friction limit, so that all
-        cells slip.
+        """Return True if the prescribed load reaches or exceeds the friction limit (gross slip).
+
+        All cells slip then, and the rigid motion is undefined under force control.
 
         bound  friction limit µp (nx, ny); may be zero everywhere
         """
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
         """Return the shear (2, nx, ny) and the rigid motion of the indenter in gross slip.
+
+        In gross slip the shear of all cells is at the friction limit.
 
         bound   friction limit µp (nx, ny)
         motion  rigid motion that is returned where gross slip does not determine it
@@ -98,12 +112,14 @@ class TangentialLoad(Protocol):
 
 @dataclass(frozen=True)
 class ShearSum(TangentialLoad):
-    """Force control of the tangential problem: the sum Σq of the shear over all cells is
-    prescribed.
+    """Force control of the tangential problem: the tangential force is prescribed.
+
+    The force is the sum Σq of the shear over all cells times the cell area.
 
     total   tangential force over cell area (2,) [force/length^2]
-    summed  components with a resultant; the others are odd about a mirror plane: their sum over the
-            window is zero, and the indenter does not move along them
+    summed  for x and y: true if the shear along this axis has a resultant. On a reduced domain, a
+            component that is odd about a mirror plane has the sum zero, and the indenter does not
+            move along it
     """
 
     total: Vector
@@ -112,10 +128,11 @@ class ShearSum(TangentialLoad):
     def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project a trial shear on the shears with the prescribed tangential force.
+        """Project a trial shear on the shears with the prescribed tangential force, within
+        friction.
 
-        The projected shear is y + γ shift, within |q| <= bound. The shift is chosen so that the sum
-        of the projection is the prescribed sum. Return the projected shear and the shift.
+        The shear y + γ shift is projected on |q| <= bound. The shift is chosen so that the sum of
+        the projection is the prescribed sum. Return the projected shear and the shift.
 
         y       trial shear without the shift (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny)
@@ -126,34 +143,63 @@ class ShearSum(TangentialLoad):
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear on the discs |q| <= bound of all cells and on the prescribed sum."""
+        """Project a shear on the shears with |q| <= bound in all cells and the prescribed
+        tangential force.
+
+        q      shear (2, nx, ny) [force/length^2]
+        bound  friction limit µp (nx, ny)
+        """
         return project(q, bound, self.total, summed=self.summed)[0]
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return unit shifts of the indenter along the components with a resultant, as fields (2,
-        nx, ny)."""
+        """Return the unit shifts of the indenter along x and y as fields (2, nx, ny).
+
+        The shifts are free under a prescribed tangential force. On a reduced domain, a shift is
+        omitted if the shear along it has no resultant by symmetry.
+
+        shape  shape of a field, (2, nx, ny)
+        """
         return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2)[list(self.summed)])
 
     @property
     def prescribed_forces(self) -> Vector:
-        """Prescribed sum of the shear over the cells, for the components x and y with a
-        resultant."""
+        """Prescribed tangential force over the cell area, for the components x and y with a
+        resultant.
+
+        On a reduced domain, a component of the shear that is odd about a mirror plane has no
+        resultant.
+        """
         return self.total[list(self.summed)]
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute the sum of a shear (2, nx, ny) over the cells, for the components with a
-        resultant."""
+        """Compute the tangential force of a shear over the cell area, for components with a
+        resultant.
+
+        The force is the sum of the shear over all cells. On a reduced domain, a component of the
+        shear that is odd about a mirror plane has no resultant.
+
+        q  shear (2, nx, ny) [force/length^2]
+        """
         return np.array([np.sum(one) for one, summed in zip(q, self.summed, strict=True) if summed])
 
     def exhausts(self, bound: Field) -> bool:
-        """Return True if the prescribed force is at or above the friction limit Σ bound."""
+        """Return True if the prescribed tangential force is at or above the friction limit Σµp.
+
+        Force and limit are compared after division by the cell area.
+
+        bound  friction limit µp of each cell (nx, ny)
+        """
         return float(np.hypot(*self.total)) >= float(np.sum(bound)) * (1 - AT_LIMIT)
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the shear in gross slip: the friction limit in the direction of the prescribed
+        """Return the shear (2, nx, ny) in gross slip: the friction limit along the prescribed
         force.
 
-        The rigid motion is returned unchanged.
+        The rigid motion is returned unchanged, because gross slip under force control does not
+        determine it. Without friction the shear is zero.
+
+        bound   friction limit µp (nx, ny)
+        motion  rigid motion to return
         """
         if not np.any(bound):
             return np.zeros((2, *bound.shape)), motion
@@ -172,9 +218,9 @@ class FixedShift(TangentialLoad):
     def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project the trial shear y + γ shift on the friction discs |q| <= bound, cell by cell.
+        """Project the trial shear y + γ shift on the friction limit |q| <= bound, cell by cell.
 
-        Return the projected shear and the prescribed shift.
+        Return the projected shear and the prescribed shift of the indenter.
 
         y       trial shear without the shift (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny)
@@ -184,17 +230,32 @@ class FixedShift(TangentialLoad):
         return project_on_discs(y + everywhere(gamma * self.shift), bound), self.shift
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear on the discs |q| <= bound of all cells."""
+        """Scale the shear of each cell to the friction limit where the shear exceeds this limit.
+
+        No tangential force is prescribed.
+
+        q      shear (2, nx, ny) [force/length^2]
+        bound  friction limit µp (nx, ny)
+        """
         return project_on_discs(q, bound)
 
     def exhausts(self, bound: Field) -> bool:
-        """Return True if friction is zero in all cells: a prescribed shift causes gross slip only
-        then."""
+        """Return True if friction is zero in all cells.
+
+        Under a prescribed shift, gross slip is certain before the solution only without friction.
+
+        bound  friction limit µp (nx, ny)
+        """
         return not np.any(bound)
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return zero shear and the prescribed shift; under a prescribed shift only zero
-        friction gives gross slip."""
+        """Return zero shear and the prescribed shift: the state of a contact without friction.
+
+        Under a prescribed shift only zero friction counts as gross slip.
+
+        bound   friction limit µp (nx, ny), zero everywhere
+        motion  not used, because the shift is prescribed
+        """
         return np.zeros((2, *bound.shape)), self.shift
 
 
@@ -204,31 +265,35 @@ class SprungShift(FixedShift):
     prescribed.
 
     The shift of the contact is the shift of the actuator minus the extension of the spring.
-    `nearest` uses the spring force after the step. With the force before the step, a soft spring
-    would convert every change of the shift into slip of all cells.
+    `project_trial` uses the spring force of the projected shear. With the force of the previous
+    iterate, a soft spring would convert every change of the shift into slip of all cells.
 
     shift       shift of the actuator (2,) [length]
     compliance  extension of the spring per sum of the shear over the cells [length^3/force]
-    summed      True for the components x and y with a resultant; the sum of the others is zero
+    summed      for x and y: true if the shear along this axis has a resultant; on a reduced domain,
+                a component that is odd about a mirror plane has the sum zero
     """
 
     compliance: float
     summed: tuple[bool, bool] = (True, True)
 
     def extension(self, q: VectorField) -> Vector:
-        """Compute the extension of the spring (2,) [length] under the force of a shear (2, nx,
-        ny)."""
+        """Compute the extension of the test rig's spring (2,) [length] under the force of a shear.
+
+        q  shear (2, nx, ny) [force/length^2]
+        """
         return np.asarray(self.compliance * np.sum(q, axis=(1, 2)) * self.summed)
 
     def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project a trial shear on the shears that are in equilibrium with the spring of the test
-        rig.
+        """Project a trial shear on the shears within friction that are in equilibrium with the
+        spring.
 
-        The projected shear is q = P(y + λ), with P the projection on |q| <= bound and λ = γ times
-        the shift of the contact. Equilibrium requires Σq + λ/(γ c) = δ/c, with the actuator shift δ
-        and the spring compliance c. Return q and λ/γ, the shift of the contact.
+        The spring of the test rig connects actuator and indenter. The projected shear is q = P(y +
+        λ), with P the projection on |q| <= bound and λ = γ times the shift of the contact.
+        Equilibrium requires Σq + λ/(γ c) = δ/c, with the actuator shift δ and the spring compliance
+        c. Return q and λ/γ, the shift of the contact.
 
         y       trial shear without the shift (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny)
@@ -242,11 +307,11 @@ class SprungShift(FixedShift):
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear on the friction discs |q| <= bound, and preserve its sum if friction can
+        """Project a shear on the friction limit |q| <= bound, and keep its sum if friction can
         carry it.
 
-        The preserved sum keeps the extension of the spring. With a soft spring a change of the sum
-        would mean a large change of the shift.
+        The sum determines the extension of the test rig's spring. With a soft spring a change of
+        the sum would mean a large change of the shift.
 
         q      shear (2, nx, ny) [force/length^2]
         bound  friction limit µp (nx, ny)
@@ -258,14 +323,15 @@ class SprungShift(FixedShift):
 
 
 class NaturalShear(NamedTuple):
-    """Value of the natural map P(z) of the tangential problem at a shear q, with P the projection.
+    """Value of the friction law, written as a natural map q -> P(z), at a shear q.
 
-    The shear is a solution if P(z) = q.
+    P is the projection on the admissible shears: within the friction limit and with the prescribed
+    forces. The shear is a solution of the tangential problem if P(z) = q.
 
     z          q + γ (ω + c - u) (2, nx, ny): ω rigid motion, c displacement that stick requires, u
-               displacement
+               displacement, γ a stiffness
     projected  P(z) (2, nx, ny)
-    slipped    slip ω + c - u (2, nx, ny) [length]
+    slipped    slip ω + c - u of the indenter relative to the body (2, nx, ny) [length]
     motion     rigid motion ω of the load
     error      residual Σ|q - P(z)| / Σ bound
     """
@@ -285,18 +351,18 @@ def natural_shear(
     gamma: float,
     motion: Vector,
 ) -> NaturalShear:
-    """Evaluate the natural map P(z) of the tangential problem at a shear q, for semismooth Newton
-    methods.
+    """Evaluate the friction law, written as a natural map q -> P(z), at a shear q.
 
-    z is q + γ times the slip, and P the projection on the admissible shears. The shear is a
-    solution if P(z) = q. With a spring, z has the motion of the contact after the step, and the
-    slip has that of the present extension; the two are equal in a solution.
+    Semismooth Newton methods use the natural map. z is q + γ times the slip, and P is the
+    projection on the admissible shears. The shear is a solution if P(z) = q. With a spring, z has
+    the motion of the contact that is in equilibrium with the spring, and the slip has that of the
+    present extension. The two motions are equal in a solution.
 
     load    prescribed tangential load
     q       shear (2, nx, ny)
     apart   displacement that stick requires minus actual displacement (2, nx, ny) [length]
     bound   friction limit µp (nx, ny)
-    gamma   γ, inverse self-compliance of a cell [force/length^3]
+    gamma   γ, inverse self-compliance of a cell or a patch of cells [force/length^3]
     motion  initial guess of the rigid motion
     """
     if isinstance(load, SprungShift):
@@ -319,15 +385,18 @@ def magnitude(v: VectorField) -> Field:
 
 
 def everywhere(v: Vector) -> VectorField:
-    """Reshape a vector (2,) to a uniform vector field (2, 1, 1), which broadcasts with (2, nx,
-    ny)."""
+    """Return a vector (2,) as a uniform vector field (2, 1, 1), which broadcasts with (2, nx, ny).
+
+    v  vector, such as the shift of the indenter
+    """
     return v[:, None, None]
 
 
 def project_on_discs(y: VectorField, bound: Field) -> VectorField:
-    """Project a shear on the friction discs |q| <= bound, cell by cell.
+    """Scale the shear of each cell to the friction limit where the shear exceeds this limit.
 
-    A shear above the friction limit is scaled to this limit. Its direction is preserved.
+    The direction of the shear is preserved. The operation is the projection on the friction discs
+    |q| <= bound.
 
     y      shear (2, nx, ny) [force/length^2]
     bound  friction limit µp (nx, ny)
@@ -344,16 +413,16 @@ def project(
     summed: tuple[bool, bool] = (True, True),
     stiffness: float = 0.0,
 ) -> tuple[VectorField, Vector]:
-    """Project a shear on the shears with |q| <= bound in all cells and a prescribed sum over the
-    cells.
+    """Return the shear with a prescribed sum, within the friction limit, that is nearest to a given
+    one.
 
-    The result is q = P(y + λ), with P the projection on |q| <= bound. The multiplier λ of the sum
-    is a uniform traction (2,). Return q and λ.
+    The result is q = P(y + λ), with P the projection on |q| <= bound of each cell. The multiplier λ
+    of the sum is a uniform traction (2,). Return q and λ.
 
     y          any shear (2, nx, ny)
     bound      friction limit µp (nx, ny); |total| must be less than its sum
-    total      prescribed sum of the shear (2,)
-    guess      initial guess of λ (2,)
+    total      prescribed sum of the shear over the cells (2,)
+    guess      initial guess of λ (2,); None for an estimate
     summed     components with a prescribed sum; λ is zero along the others
     stiffness  stiffness of a test rig's spring, over γ: the sum then obeys Σq + stiffness λ = total
     """
@@ -370,13 +439,14 @@ def project(
 class ProjectedShear:
     """Projection of a shear z on the friction discs |q| <= bound, for one value of a multiplier.
 
-    `multipliers.py` solves for the multiplier whose projected shear has the prescribed forces.
+    The shear z contains the multiplier of the prescribed forces, such as a uniform traction.
+    `multipliers.py` solves for the multiplier whose projected shear q has the prescribed forces.
 
     defect     forces of the projected shear minus prescribed forces
     z, length  shear (2, ...) and its magnitude (...)
-    outside    cells where the magnitude exceeds the bound
+    outside    cells where the magnitude exceeds the friction limit
     scale, q   factor of the projection (...), and q = scale z
-    capacity   sum of the bound
+    capacity   sum of the friction limit over the cells
     """
 
     defect: Vector
@@ -391,8 +461,7 @@ class ProjectedShear:
         self.capacity = float(np.sum(bound))
 
     def has_prescribed_forces(self, multiplier: Vector) -> bool:
-        """Return True if the forces of the projected shear equal the prescribed ones up to rounding
-        errors.
+        """Return True if the projected shear has the prescribed forces up to rounding errors.
 
         The Newton iteration for the multiplier stops then.
 
@@ -407,17 +476,18 @@ class ProjectedShear:
     def radial(self) -> Field:
         """Weight w (…) of the radial part of the derivative of the projection z -> q in each cell.
 
-        The derivative is the matrix scale - w z zᵀ. The weight is zero where |z| is within the
-        friction limit, because q = z there.
+        z is the shear before and q the shear after the projection on the friction limit. The
+        derivative is the matrix scale - w z zᵀ. The weight is zero where |z| is within the friction
+        limit, because q = z there.
         """
         return np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
 
 
 class _ShiftedSum(ProjectedShear):
-    """Projection of y + λ on the friction discs |q| <= bound, for one value of the multiplier λ.
+    """Projection of a shear y + λ on the friction discs |q| <= bound, for one uniform traction λ.
 
-    The defect is Σq + stiffness λ - total, with the prescribed sum `total`. It is zero along
-    components without a prescribed sum. `project` solves for the λ with zero defect.
+    The defect is Σq + stiffness λ - total, with the prescribed sum `total` of the shear. It is zero
+    along components without a prescribed sum. `project` solves for the λ with zero defect.
     """
 
     def __init__(
@@ -434,10 +504,11 @@ class _ShiftedSum(ProjectedShear):
         self.defect = (np.sum(self.q, axis=(1, 2)) + stiffness * multiplier - total) * summed
 
     def newton_step(self) -> Vector:
-        """Compute the regularised Newton step of the multiplier λ that reduces the defect.
+        """Compute the damped Newton step of the uniform traction λ that reduces the defect of Σq.
 
-        A cell on its disc changes only perpendicular to its shear. A multiple of the identity keeps
-        the matrix regular while all cells are on their discs, and vanishes with the defect.
+        The derivative of the sum is singular if all cells slip in one direction, because a slipping
+        cell changes only perpendicular to its shear. A multiple of the identity keeps the matrix
+        regular. It vanishes with the defect.
         """
         (x, y), w = self.z, self.radial
         xx, yy = np.sum(self.scale - w * x * x), np.sum(self.scale - w * y * y)

@@ -23,7 +23,7 @@ UNDETERMINED = 1e-12
 
 
 class Point(NamedTuple):
-    """Iterate of the tangential problem: a shear and the displacement that it causes.
+    """Iterate of the tangential problem: a shear and the tangential displacement that it causes.
 
     shear         q (2, nx, ny) [force/length^2]
     displacement  tangential displacement by the shear (2, nx, ny) [length]
@@ -34,13 +34,16 @@ class Point(NamedTuple):
 
 
 class LinearisedShear:
-    """Tangential problem linearised in given stick and slip zones under a load.
+    """Tangential problem under a load, linearised in given stick and slip zones.
 
-    displace, inverse  shear-to-displacement map and its approximate inverse, see
+    Newton's method solves this linear problem in each step.
+
+    displace, inverse  map from shear to displacement and its approximate inverse, see
                        `tangential_problem.solve_tangential`
-    zones              stick and slip zones
+    zones              stick and slip zones of an iterate
     load               prescribed tangential load
-    carriers           shears (2, nx, ny) that correct the prescribed forces in these zones
+    carriers           shears (2, nx, ny) that change the prescribed forces in these zones, one per
+                       force
     """
 
     def __init__(
@@ -51,8 +54,9 @@ class LinearisedShear:
         load: TangentialLoad,
         carriers: list[VectorField] | None = None,
     ) -> None:
-        """Compute the carriers, shears that correct the prescribed forces in the stick and slip
-        zones.
+        """Compute the carriers: shears in the given zones that change the prescribed forces.
+
+        Combinations of the carriers correct the forces of an iterate.
 
         carriers  carriers of another iterate with the same zones, which are reused; None to compute
                   them
@@ -68,8 +72,7 @@ class LinearisedShear:
         self._shares = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Return an admissible shear near q: within the friction limit and with the prescribed
-        forces.
+        """Return a shear near q that is within the friction limit and has the prescribed forces.
 
         Slipping cells first receive the friction limit along their slip. The result is then
         corrected to the prescribed forces and projected.
@@ -82,15 +85,14 @@ class LinearisedShear:
         return self._load.admissible(near, bound)
 
     def solve_in_zones(self, base: Point, slipped: VectorField, depth: float) -> tuple[Point, int]:
-        """Solve the tangential problem in fixed stick and slip zones by preconditioned conjugate
-        gradients.
+        """Solve the tangential problem in fixed stick and slip zones by conjugate gradients.
 
-        Return the solution and the number of iterations. The iteration stops when the norm of the
-        residual has fallen by the factor `depth`.
+        Return the shear with its displacement, and the number of iterations.
 
         base     starting point: shear and its displacement
         slipped  slip at the starting point (2, nx, ny) [length]: rigid motion plus the displacement
                  that stick requires minus the actual displacement
+        depth    reduction of the residual norm at which the iteration stops
         """
         zones = self._zones
         q, u = base.shear.copy(), base.displacement.copy()
@@ -112,17 +114,21 @@ class LinearisedShear:
         return Point(q, u), iterations
 
     def _precondition(self, v: VectorField) -> VectorField:
-        """Apply the preconditioner to a residual v (2, nx, ny), without changing the prescribed
-        forces."""
+        """Apply the preconditioner to a residual, and correct the result to zero prescribed forces.
+
+        The conjugate gradients then keep the forces of the shear constant.
+
+        v  residual displacement (2, nx, ny) [length]
+        """
         free = self._zones.precondition(v, self._inverse)
         self._correct_forces(-self._load.forces(free), free)
         return free
 
     def _correct_forces(self, forces: Field, free: VectorField) -> None:
-        """Add a combination of carrier shears to a shear in place, so that its forces change as
-        required.
+        """Change the prescribed forces of a shear by given amounts, in place.
 
-        Carriers are the shears that correct the prescribed forces in the present zones.
+        A combination of the carriers is added. Carriers are the shears that change the prescribed
+        forces in the present stick and slip zones.
 
         forces  required change of the forces (k,), divided by the cell area
         free    shear that is changed (2, nx, ny)

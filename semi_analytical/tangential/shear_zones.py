@@ -34,8 +34,8 @@ class ShearZones:
 
     slip             slipping cells (nx, ny)
     sliding_shear    µp n in slipping cells, n the direction of slip (2, nx, ny) [force/length^2]
-    slip_compliance  additional compliance d of slipping cells perpendicular to the slip (nx, ny)
-                     [length^3/force]
+    slip_compliance  additional compliance d of slipping cells perpendicular to the slip, due to the
+                     curvature of the friction disc |q| = µp (nx, ny) [length^3/force]
     """
 
     def __init__(self, z: VectorField, bound: Field, self_compliance: float) -> None:
@@ -57,11 +57,12 @@ class ShearZones:
         self._xy = self._tangent[0] * self._tangent[1]
 
     def free(self, v: VectorField) -> VectorField:
-        """Restrict a vector field (2, nx, ny) to the components in which the shear is free to
-        change.
+        """Restrict a vector field (2, nx, ny) to the components in which the shear can change.
 
-        Both components remain in sticking cells, the component perpendicular to the slip in
-        slipping cells. All others become zero.
+        These are both components in sticking cells, and the component perpendicular to the slip in
+        slipping cells, whose magnitude is the friction limit. All other components become zero.
+
+        v  shear or displacement (2, nx, ny)
         """
         across = self._xy * v
         free = np.empty_like(across)
@@ -71,7 +72,10 @@ class ShearZones:
         return free
 
     def has_same_slip(self, other: "ShearZones | None") -> bool:
-        """Return True if another iterate has the same slip zone; None counts as different."""
+        """Return True if another iterate has the same slip zone, so that the zones have settled.
+
+        other  zones of the other iterate; None counts as different
+        """
         return other is not None and np.array_equal(self.slip, other.slip)
 
     @cached_property
@@ -89,14 +93,18 @@ class ShearZones:
         return self._excess_compliance / (self._self_compliance + self.slip_compliance)
 
     def precondition(self, v: VectorField, inverse: Map) -> VectorField:
-        """Apply an approximate inverse of the derivative of the tangential problem to v (2, nx,
-        ny),
+        """Apply an approximate inverse of the derivative of the tangential problem to a field v.
 
-            M = Π χ_0 F⁻¹ χ_0 Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    χ_0 = 1 in sticking cells,
+        The inverse is
 
-        with F, f and the weights χ_j of bins as in `ApproximateInverse` and `slip_compliance_bins`.
-        Far beyond the last bin d dominates f: there M tends to t (K₀ + d)⁻¹ t.
+            M = Π χ_0 F⁻¹ χ_0 Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    χ_0 = 1 in sticking cells
 
+        Π is the restriction to the free components and t the unit vector perpendicular to the slip.
+        F is the map from shear to displacement and f its scalar mean. χ_j are the weights of a cell
+        in bins of the slip compliance d (see `slip_compliance_bins`). Far beyond the last bin d
+        dominates f: there M tends to t (K₀ + d)⁻¹ t, with the self-compliance K₀ of a cell.
+
+        v        displacement (2, nx, ny)
         inverse  F⁻¹ of two components, then (f + d_j)⁻¹ of one component per bin
         """
         given = np.empty((len(self._bin_weights) + 1, *v.shape[1:]))

@@ -44,8 +44,8 @@ LEVEL = 1e-12
 class TangentialSolution:
     """Solution of the tangential problem of one increment at a given pressure.
 
-    shear, displacement  shear [force/length^2] and its tangential displacement [length], (2, nx,
-                         ny)
+    shear, displacement  shear [force/length^2] and its tangential displacement [length], each (2,
+                         nx, ny)
     motion               rigid tangential motion of the indenter: shift, and twist under a torque
     in_slip              slipping cells (nx, ny)
     residual             larger of the two residuals: friction law (natural map) and slip direction
@@ -61,7 +61,9 @@ class TangentialSolution:
 
     @property
     def point(self) -> Point:
-        """Shear and tangential displacement of the solution as a `Point`."""
+        """Shear and tangential displacement of the solution as one object, for use as an initial
+        guess.
+        """
         return Point(self.shear, self.displacement)
 
 
@@ -102,17 +104,23 @@ def solve_tangential(
 ) -> TangentialSolution:
     """Compute shear, rigid motion and slip zone of one increment at a given pressure.
 
-    displace         shear (2, nx, ny) -> tangential displacement (2, nx, ny); symmetric, positive
+    The semismooth Newton method of this module is used. P is the projection on the admissible
+    shears, ω the rigid motion, A the map `displace`, q the shear and γ the inverse self-compliance.
+
+    displace         function A from a shear (2, nx, ny) to its tangential displacement (2, nx, ny);
+                     symmetric, positive
     inverse          approximate inverse of `displace`, then of one component with the compliance of
                      each bin: (2 + bins, nx, ny) to the same shape (see `ApproximateInverse`);
                      symmetric, positive
     bound            friction limit µp (nx, ny), zero outside the contact [force/length^2]
-    target           c (2, nx, ny): cells stick where A q = ω + c [length]
-    load             prescribed Σq (with |Σq| < Σ bound) or shift ω
+    target           c (2, nx, ny) [length], the displacement that stick requires: cells stick where
+                     A q = ω + c
+    load             prescribed tangential force (with |Σq| < Σ bound) or shift ω
     start, motion    initial guesses: shear with its displacement, which only determines the initial
-                     zones, and motion of the load
+                     zones, and rigid motion of the indenter
     self_compliance  displacement of a cell by its own unit shear [length^3/force]
-    tolerance        on Σ|q - P(q + γ(ω + c - A q))| / Σ bound, and on the slip direction
+    tolerance        limit of Σ|q - P(q + γ(ω + c - A q))| / Σ bound, and of the residual of the
+                     slip direction
     enough           reduction of the initial residual that suffices, if above the tolerance
     raises           NotConverged
     """
@@ -163,14 +171,14 @@ def _line_search(
     newton: Point,
     motion: Vector,
 ) -> tuple[Point, NaturalShear]:
-    """Accept the Newton point, a shortened step, or a step along the projected gradient (line
-    search).
+    """Accept the Newton step of the tangential problem, a shortened step, or a gradient step.
 
-    Close to the solution changes of the energy are below round-off. Only there a point is also
-    accepted if its natural residual is smaller than that of the accepted point. Elsewhere this
-    criterion may increase the energy and lead to cycles.
+    A step is accepted if the energy decreases sufficiently. Close to the solution changes of the
+    energy are below round-off. Only there a point is also accepted if its residual of the friction
+    law is smaller than that of the accepted point. Elsewhere this criterion may increase the energy
+    and lead to cycles. Return the point and its natural map.
 
-    accepted  last accepted point and its natural residual; None in the first step
+    accepted  last accepted point and its residual of the friction law; None in the first step
     newton    point after the Newton step
     motion    rigid motion, initial guess of the projection
     """

@@ -31,13 +31,15 @@ FLAT = 1e-15
 
 @dataclass(frozen=True)
 class ShearMoments:
-    """Tangential load with a prescribed torque Σ(q_y x - q_x y), and with prescribed Σq or shift.
+    """Tangential load with a prescribed torque, and with prescribed tangential force or shift.
 
-    The rigid motion is (shift x, shift y, twist).
+    The torque is Σ(q_y x - q_x y) and the tangential force Σq, with the shear q of all cells, each
+    times the cell area. The rigid motion of the indenter is (shift x, shift y, twist).
 
     rotation  (-y, x) of the cells (2, nx, ny) [length]
-    torque    Σ(q_y x - q_x y) = M_z / cell area
-    total     Σq = T / cell area, shape (2,); None where the shift is prescribed
+    torque    Σ(q_y x - q_x y) = M_z / cell area, with the torque M_z
+    total     Σq = T / cell area, shape (2,), with the tangential force T; None where the shift is
+              prescribed
     shift     shift of the indenter (2,) [length]; None where Σq is prescribed
     """
 
@@ -48,18 +50,18 @@ class ShearMoments:
 
     @cached_property
     def reach(self) -> float:
-        """Largest distance of a cell from the origin [length]; a twist times this length
-        compares with a shift."""
+        """Length that makes a twist comparable with a shift: largest distance of a cell from the
+        origin.
+        """
         return float(np.max(magnitude(self.rotation)))
 
     @cached_property
     def units(self) -> tuple[VectorField, ...]:
-        """Unit rigid motions of the indenter whose conjugate forces are prescribed, fields (2, nx,
-        ny).
+        """Unit rigid motions of the indenter that the load leaves free, as fields (2, nx, ny).
 
-        The motions are shifts along x and y if the tangential force is prescribed, and the
-        rotation. The rotation is divided by `reach`, the largest distance of a cell from the
-        origin.
+        A motion is free if its conjugate force or torque is prescribed. The motions are shifts
+        along x and y if the tangential force is prescribed, then the rotation. The rotation is
+        divided by the largest distance of a cell from the origin.
         """
         turn = self.rotation / self.reach
         if self.total is None:
@@ -68,26 +70,41 @@ class ShearMoments:
 
     @cached_property
     def prescribed_forces(self) -> Vector:
-        """Prescribed tangential force and torque (k,) of the unit motions `units`, divided by the
-        cell area."""
+        """Prescribed tangential force and torque (k,), divided by the cell area.
+
+        Each entry is conjugate to one of the unit motions `units`. The torque is also divided by
+        the largest distance of a cell from the origin, like the unit rotation.
+        """
         torque = self.torque / self.reach
         return np.array([torque] if self.total is None else [*self.total, torque])
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute tangential force and torque (k,) of a shear (2, nx, ny), divided by the cell
-        area.
+        """Compute tangential force and torque (k,) of a shear, divided by the cell area.
 
-        Each entry is conjugate to one of the unit motions `units`.
+        Each entry is conjugate to one of the unit motions `units`. The force is absent where the
+        shift is prescribed.
+
+        q  shear (2, nx, ny) [force/length^2]
         """
         return np.array([np.sum(q * unit) for unit in self.units])
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return the unit rigid motions whose conjugate forces are prescribed, as fields (2, nx,
-        ny)."""
+        """Return the unit rigid motions that the load leaves free, as fields (2, nx, ny).
+
+        The rotation is free, because the torque is prescribed. Shifts are free if the tangential
+        force is prescribed.
+
+        shape  not used
+        """
         return self.units
 
     def rigid(self, motion: Vector) -> VectorField:
-        """Compute the tangential displacement by shift and twist (2, nx, ny) [length]."""
+        """Compute the displacement of surface points by shift and twist of the indenter [length].
+
+        The result has the shape (2, nx, ny).
+
+        motion  vector (shift x, shift y, twist)
+        """
         return everywhere(motion[:2]) + motion[2] * self.rotation
 
     def project_trial(
@@ -96,7 +113,7 @@ class ShearMoments:
         """Project a trial shear on the shears with the prescribed torque and tangential force or
         shift.
 
-        The projected shear is y + γ rigid(motion), within |q| <= bound. The free components of the
+        The shear y + γ rigid(motion) is projected on |q| <= bound. The free components of the
         motion are chosen so that the projection has the prescribed force and torque. Return the
         projected shear and the motion (shift x, shift y, twist).
 
@@ -115,10 +132,12 @@ class ShearMoments:
         return q, np.array([*shift, multiplier[-1] / (gamma * self.reach)])
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear (2, nx, ny) on the shears within the friction limit with the prescribed
-        torque.
+        """Project a shear on the shears within the friction limit that have the prescribed torque.
 
-        The projection also has the prescribed tangential force, if one is prescribed.
+        The projection also has the prescribed tangential force, if a force is prescribed.
+
+        q      shear (2, nx, ny) [force/length^2]
+        bound  friction limit µp (nx, ny)
         """
         return self._project(q, bound, np.zeros(len(self.prescribed_forces)))[0]
 
@@ -137,24 +156,32 @@ class ShearMoments:
         """Select the cells that can carry shear, because their friction limit is positive.
 
         Return their mask (nx, ny) and the unit motions in these n cells (k, 2, n).
+
+        bound  friction limit µp (nx, ny)
         """
         loaded = bound > 0
         return loaded, np.stack([unit[:, loaded] for unit in self.units])
 
     def exhausts(self, bound: Field) -> bool:
-        """Return True if the prescribed forces are at or above the friction limit."""
+        """Return True if torque and tangential force together are at or above the friction limit.
+
+        All cells slip then (gross slip). Without friction the result is True.
+
+        bound  friction limit µp (nx, ny)
+        """
         if not np.any(bound):
             return True
         return bool(np.any(self.prescribed_forces)) and self.limit(bound)[0] <= 1 + AT_LIMIT
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the shear (2, nx, ny) in gross slip under torque and force, and the given motion
-        unchanged.
+        """Return the shear (2, nx, ny) in gross slip under torque and tangential force.
 
-        Each cell carries the friction limit in the direction of the rigid motion of gross slip.
+        Each cell carries the friction limit in the direction of the rigid motion of gross slip. The
+        second result is the given rigid motion, because gross slip under force control does not
+        determine its size. Without friction or without load the shear is zero.
 
         bound   friction limit µp (nx, ny)
-        motion  rigid motion, which gross slip under force control does not determine
+        motion  rigid motion of the indenter, returned unchanged
         """
         if not np.any(bound) or not np.any(self.prescribed_forces):
             return np.zeros((2, *bound.shape)), motion
@@ -165,12 +192,12 @@ class ShearMoments:
         return q, motion
 
     def limit(self, bound: Field) -> tuple[float, Vector]:
-        """Compute the factor by which the load could grow until all cells slip, and the motion of
-        gross slip.
+        """Compute the ratio of the limit load to the prescribed load, and the motion of gross slip.
 
-        The factor is the limit load over the prescribed load. Newton's method minimises the power
-        of friction over all rigid motions on which the load does unit work; the minimum is the
-        factor (upper-bound theorem). The motion (k,) is given in components along `units`.
+        At the limit load all cells slip. Force and torque are increased by one common factor.
+        Newton's method minimises the power of friction over all rigid motions on which the load
+        does unit work. The minimum is the ratio (upper-bound theorem of limit analysis). The motion
+        (k,) is given in components along `units`.
 
         bound  friction limit µp (nx, ny)
         """
@@ -200,7 +227,10 @@ class ShearMoments:
 def _friction_power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector, Field]:
     """Compute the power of friction in gross slip, with its gradient and Hessian.
 
-    velocity  components along the unit motions (k,)
+    The power is the sum over the cells of friction limit times sliding speed. The limit load
+    minimises this power over the rigid motions of the indenter.
+
+    velocity  rigid motion, as components along the unit motions (k,)
     limit     friction limit of the loaded cells (n,)
     units     unit motions in the loaded cells (k, 2, n)
     """
@@ -213,29 +243,32 @@ def _friction_power(velocity: Vector, limit: Vector, units: Field) -> tuple[floa
 
 
 def _resultant_forces(units: Field, q: Field) -> Vector:
-    """Compute tangential force and torque (k,) of a shear, divided by the cell area.
+    """Compute tangential force and torque (k,) of the shear in given cells, divided by the cell
+    area.
 
-    units  unit rigid motions (k, 2, n), to which the forces are conjugate
-    q      shear of n cells (2, n)
+    units  unit rigid motions in the cells (k, 2, n), to which the forces are conjugate
+    q      shear of the n cells (2, n)
     """
     return np.asarray(units.reshape(len(units), -1) @ q.ravel())
 
 
 def _unit_projections(units: Field, vector: Field) -> Field:
-    """Compute the scalar products of the unit motions with a vector field, in each of n cells (k,
+    """Compute the scalar product of each unit rigid motion with a vector, in each of n cells (k,
     n).
 
-    units   unit motions (k, 2, n)
-    vector  vector of each cell (2, n)
+    units   unit rigid motions of the indenter in the cells (k, 2, n)
+    vector  vector of each cell (2, n), such as the shear
     """
     return np.asarray(units[:, 0] * vector[0] + units[:, 1] * vector[1])
 
 
 def _unit_products(units: Field, weight: Vector) -> Field:
-    """Compute the matrix (k, k) of weighted scalar products of pairs of unit motions, summed over
+    """Compute the matrix (k, k) of the scalar products of the unit rigid motions, summed over
     cells.
 
-    units   unit motions (k, 2, n)
+    Used for the derivatives of force and torque with respect to the rigid motion.
+
+    units   unit rigid motions of the indenter in n cells (k, 2, n)
     weight  weight of each cell (n,)
     """
     flat = units.reshape(len(units), -1)
@@ -243,9 +276,12 @@ def _unit_products(units: Field, weight: Vector) -> Field:
 
 
 def _blunt_size(speed: VectorField) -> Field:
-    """Compute the sliding speed of each cell (n,), smoothed near the pole.
+    """Compute the sliding speed of each cell (n,), smoothed near the centre of rotation.
 
-    At the pole, the centre of rotation, the slip direction of a cell is undefined.
+    At this centre, the pole of the rigid motion, the speed is zero and its derivative does not
+    exist.
+
+    speed  sliding velocity of each cell (2, n)
     """
     size = magnitude(speed)
     return np.hypot(size, BLUNT * np.max(size))
@@ -259,9 +295,11 @@ def _descend(
 ) -> tuple[Vector, Power]:
     """Apply a Newton step, bisected until the power of friction decreases sufficiently (Armijo).
 
-    Return the accepted position and its power with gradient and Hessian.
+    The steps minimise the power of friction to find the limit load of gross slip. Return the
+    accepted position and its power with gradient and Hessian.
 
-    x, step      position and Newton step
+    power_at     function from a position to the power of friction, its gradient and its Hessian
+    x, step      position (components of the rigid motion) and Newton step
     power, fall  power at x, and its decrease predicted by the gradient
     """
     part = 1.0
@@ -273,14 +311,16 @@ def _descend(
 
 
 class _ShiftedMoments(ProjectedShear):
-    """Projection of y + Σ λ unit on the friction discs of the loaded cells, for given multipliers
-    λ.
+    """Projection of a shear y + Σ λ unit on the friction limit of the loaded cells, for given λ.
 
-    The defect is the difference between the forces of the projection and the prescribed forces.
-    `ShearMoments` solves for the λ with zero defect.
+    The multipliers λ are those of prescribed torque and force. The defect is the difference between
+    the forces of the projection and the prescribed forces. `ShearMoments` solves for the λ with
+    zero defect.
 
     multiplier  multipliers λ (k,) of the prescribed forces
-    units       unit rigid motions in the loaded cells (k, 2, n)
+    y           shear of the loaded cells before the shift (2, n)
+    limit       friction limit of these cells (n,)
+    units       unit rigid motions in these cells (k, 2, n)
     given       prescribed forces and torque conjugate to the unit motions (k,)
     """
 
@@ -292,10 +332,10 @@ class _ShiftedMoments(ProjectedShear):
         self.defect = _resultant_forces(units, self.q) - given
 
     def newton_step(self) -> Vector:
-        """Compute the Newton step of the multipliers λ (k,), damped while all cells slip.
+        """Compute the damped Newton step of the multipliers λ (k,) of torque and tangential force.
 
-        The damping is relative to the stiffness of the cells. The trace of the derivative is no
-        measure: it vanishes where all cells slip along their motion.
+        The damping acts where all cells slip. It is relative to the stiffness of the cells, because
+        the trace of the derivative vanishes where all cells slip along their motion.
         """
         along, products = (
             _unit_projections(self._units, self.z),
