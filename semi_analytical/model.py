@@ -24,7 +24,10 @@ COARSEST = 64
 
 
 class ContactModel:
-    """Discrete contact model of a scene on one grid; its properties are computed at first use.
+    """Discrete contact model of a scene on one grid: gap, friction limit and displacement
+    operators.
+
+    Properties are computed at first use.
 
     scene         scene with bodies, friction and loads
     grid          cells of the reduced domain; their area includes the mirror images
@@ -47,6 +50,7 @@ class ContactModel:
     ) -> "ContactModel":
         """Build the contact model of a scene, with the undeformed gap at the cell centres.
 
+        scene     scene with bodies, friction and loads
         window    grid of the full window
         symmetry  symmetry reduction of the plan; the full window is used if cells lie on a mirror
                   plane
@@ -58,26 +62,32 @@ class ContactModel:
         return cls(scene, ReducedGrid(window, domain), domain.restrict(gap), Convolutions())
 
     def friction_limit(self, pressure: Field, first: Pair = (0, 0)) -> Field:
-        """Compute the friction limit at a pressure [force/length^2].
+        """Compute the largest shear that friction can carry at a pressure, in each cell
+        [force/length^2].
 
         pressure  p on the reduced domain, or on a box of its cells (nx, ny)
-        first     first cell of the box
+        first     indices of the first cell of the box
         """
         return self.friction.limit(pressure, self._window_slices(first, pressure.shape))
 
     def friction_slope(self, pressure: Field, first: Pair = (0, 0)) -> Field:
-        """Compute the derivative of the friction limit with respect to the pressure [1].
+        """Compute the derivative of the friction limit with respect to the pressure in each cell
+        [1].
+
+        The derivative is the coefficient of friction, if the limit is proportional to the pressure.
 
         pressure  p on the reduced domain, or on a box of its cells (nx, ny)
-        first     first cell of the box
+        first     indices of the first cell of the box
         """
         return self.friction.slope(pressure, self._window_slices(first, pressure.shape))
 
     def _window_slices(self, first: Pair, shape: tuple[int, ...]) -> tuple[slice, slice]:
-        """Return the slices of a box of cells of the reduced domain for arrays on the full window.
+        """Return the slices that select a box of the reduced domain from arrays on the full window.
 
-        first  first cell of the box
-        shape  number of cells of the box
+        Used for a coefficient of friction that varies over the window.
+
+        first  indices of the first cell of the box in the reduced domain
+        shape  number of cells of the box along x and y
         """
         cells = zip(self.window.cells, self.grid.cells, first, strict=True)
         begins = (whole - n + i for whole, n, i in cells)
@@ -107,17 +117,21 @@ class ContactModel:
 
     @property
     def springs(self) -> tuple[float, float]:
-        """Normal and tangential displacement of the springs of a test rig per sum of the tractions.
+        """Compliances of the test rig's springs, normal and tangential, for sums of tractions over
+        cells.
 
-        The sum is taken over the reduced domain. The unit is [length^3/force].
+        A compliance is the displacement of a spring per sum of the pressure or shear over the
+        reduced domain [length^3/force]. It is 0 without a spring.
         """
         down, along = compliances(self.scene.rig)
         return down * self.grid.cell_area, along * self.grid.cell_area
 
     @cached_property
     def arms(self) -> Field:
-        """Distances (y, x) of the cells from the axes (2, nx, ny) [length]: closure of the gap
-        by unit tilts."""
+        """Coordinates (y, x) of the cells (2, nx, ny) [length]: closure of the gap by unit tilts.
+
+        They are also the lever arms of the pressure for the moments (M_x, M_y).
+        """
         x, y = self.grid.coordinates()
         return np.stack([y, x])
 
@@ -129,15 +143,18 @@ class ContactModel:
 
     @property
     def self_compliance(self) -> float:
-        """Tangential displacement of a cell by its own unit shear, mean of x and y
-        [length^3/force]."""
+        """Tangential displacement of a cell by unit shear in this cell [length^3/force].
+
+        The value is the mean of the directions x and y.
+        """
         return self.operator(self.grid.cells).self_compliance
 
     @property
     def bearing_modulus(self) -> float:
-        """Effective modulus E* for a contact of half the width of the window [force/length^2].
+        """Modulus E* of a homogeneous half-space that represents the bodies [force/length^2].
 
-        Used for the initial guess of the pressure.
+        It applies to a contact of half the width of the window, and is used for the initial guess
+        of the pressure.
         """
         nx, ny = self.window.cells
         spring = self.springs[0] / self.domain.images
@@ -145,7 +162,7 @@ class ContactModel:
         return modulus_of(zz, self.grid.spacing)
 
     def operator(self, shape: Pair) -> DisplacementOperator:
-        """Return the displacement operator on a box of cells.
+        """Return the map from tractions to surface displacements (operator) on a box of cells.
 
         Operators on the whole domain and on one other shape are stored: growing contacts rarely
         return to an earlier shape.
@@ -163,7 +180,9 @@ class ContactModel:
 
     @cached_property
     def on_window(self) -> "ContactModel":
-        """Contact model with the same cells and influence coefficients, on the full window."""
+        """Contact model with equal cells and influence coefficients on the full window, without
+        symmetry.
+        """
         if self.domain == WINDOW:
             return self
         gap = self.domain.extend(self.gap)
@@ -173,10 +192,10 @@ class ContactModel:
 
     @cached_property
     def coarse(self) -> "ContactModel | None":
-        """Contact model on the same domain with half the cells per side, for initial guesses of the
-        pressure.
+        """Contact model on the same domain with half the cells per side, for initial guesses.
 
-        None if a number of cells is odd or the window has too few cells to save time.
+        The pressure solved on the coarser cells is the initial guess on the finer cells. The value
+        is None if a number of cells is odd or the window has too few cells to save time.
         """
         if any(n % 2 for n in self.grid.cells) or min(self.window.cells) <= COARSEST:
             return None
@@ -185,12 +204,14 @@ class ContactModel:
 
 
 def coarsen_field(values: Field) -> Field:
-    """Average a field over two by two cells, (..., nx, ny) to (..., nx/2, ny/2)."""
+    """Compute the mean of a field over each two by two cells: (..., nx, ny) to (..., nx/2,
+    ny/2).
+    """
     # Sums of pairs: means of mirror images are bitwise mirror images.
     along = values[..., ::2, :] + values[..., 1::2, :]
     return np.asarray((along[..., ::2] + along[..., 1::2]) / 4)
 
 
 def refine_field(values: Field) -> Field:
-    """Repeat each cell value of a field on two by two cells, (..., nx, ny) to (..., 2 nx, 2 ny)."""
+    """Repeat each cell value of a field on two by two cells: (..., nx, ny) to (..., 2 nx, 2 ny)."""
     return np.repeat(np.repeat(values, 2, axis=-2), 2, axis=-1)

@@ -56,11 +56,14 @@ def solve_coupled(
 ) -> CoupledSolution:
     """Solve a coupled increment by alternating iteration of the normal and the tangential problem.
 
-    An inner solve reduces its initial residual by a factor, and stops earlier only if the residual
-    meets the tolerance. The iteration has converged when the shear solved at a pressure and the
-    normal problem at this pressure and shear both meet the tolerance.
+    Each iteration solves the tangential problem at a fixed pressure, then the normal problem at a
+    fixed shear. An inner solve reduces its initial residual by a factor, and stops earlier only if
+    the residual meets the tolerance. The iteration has converged when the shear solved at a
+    pressure and the normal problem at this pressure and shear both meet the tolerance.
 
+    problem                  operators, loads and friction law of the increment
     pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
+    tolerance                limit of the dimensionless residuals
     most_iterations          limit of the sum of inner iterations, at most MAX_ITERATIONS
     raises                   NotConverged
     """
@@ -104,8 +107,11 @@ def one_iteration(
 ) -> tuple[Field, VectorField, Vector, int]:
     """Compute pressure, shear and rigid motion after one alternating iteration, from zero shear.
 
-    The last value returned is the number of inner iterations.
+    The tangential problem is solved at the given pressure, then the normal problem at the new
+    shear. The result is an initial guess for Newton's method. The last value returned is the number
+    of inner iterations.
 
+    problem   operators, loads and friction law of the increment
     pressure  initial guess of the pressure (nx, ny)
     motion    initial guess of the rigid tangential motion
     raises    NotConverged
@@ -126,9 +132,14 @@ def _solve_shear(
     tolerance: float,
     reduction: float,
 ) -> TangentialSolution:
-    """Solve the tangential problem of a coupled increment at a fixed pressure p (nx, ny).
+    """Solve the tangential problem of a coupled increment at a fixed pressure.
 
+    This solve is the first half of an alternating iteration. The tangential displacement by the
+    pressure is included.
+
+    p              fixed pressure (nx, ny) [force/length^2]
     start, motion  initial guesses of the shear with its displacement, and of the rigid motion
+    tolerance      limit of the dimensionless residual
     reduction      reduction of the initial residual that suffices
     """
     return solve_tangential(
@@ -148,9 +159,14 @@ def _solve_shear(
 def _solve_pressure(
     problem: CoupledProblem, p: Field, q: VectorField, tolerance: float, reduction: float
 ) -> NormalSolution:
-    """Solve the normal problem of a coupled increment at a fixed shear q (2, nx, ny).
+    """Solve the normal problem of a coupled increment at a fixed shear.
+
+    This solve is the second half of an alternating iteration. The normal displacement by the shear
+    is included.
 
     p          initial guess of the pressure (nx, ny)
+    q          fixed shear (2, nx, ny) [force/length^2]
+    tolerance  limit of the dimensionless residual
     reduction  reduction of the initial residual that suffices
     """
     return solve_normal(
@@ -175,10 +191,11 @@ def _full_slip(problem: CoupledProblem, bound: Field, motion: Vector) -> Tangent
 
 
 class _AndersonMixing:
-    """Anderson mixing, which accelerates the fixed-point iteration of the pressure.
+    """Anderson mixing of pressures, which accelerates the alternating iteration.
 
-    Without mixing the iteration is p -> p + factor r(p). The residual r is the pressure after one
-    alternating iteration minus the pressure before.
+    Without mixing the fixed-point iteration is p -> p + factor r(p). The residual r is the pressure
+    after one alternating iteration minus the pressure before. Mixing combines earlier pressures and
+    residuals such that the combined residual is smallest.
 
     load    normal load, which defines the admissible pressures
     factor  damping factor of the residual
@@ -206,10 +223,10 @@ class _AndersonMixing:
         return self._load.admissible(guess)
 
     def _history_correction(self, r: Field) -> Field:
-        """Compute the correction of Anderson mixing, Σ c_k (Δx_k + factor Δr_k) (nx, ny).
+        """Compute the correction of the next pressure from earlier iterations, by Anderson mixing.
 
-        The coefficients c_k minimise |r - Σ c_k Δr_k|. Δx_k and Δr_k are differences of successive
-        pressures and residuals.
+        The correction (nx, ny) is Σ c_k (Δx_k + factor Δr_k). The coefficients c_k minimise |r - Σ
+        c_k Δr_k|. Δx_k and Δr_k are differences of successive pressures and residuals.
 
         r  residual of the present pressure (nx, ny)
         """

@@ -67,11 +67,12 @@ def solve_coupled_increment(
     tangential: TangentialTarget | None,
     tolerance: float,
 ) -> State:
-    """Solve one increment of the coupled normal and tangential problems.
+    """Solve one increment of bodies whose normal and tangential problems are coupled.
 
     The increment is solved in a box of cells around the contact. The residuals are then computed on
     the whole domain with new convolutions.
 
+    model               contact model
     before              state at the start of the increment; None before first touch
     normal, tangential  prescribed loads at the end of the increment
     tolerance           limit of all dimensionless residuals
@@ -119,8 +120,10 @@ def solve_coupled_increment(
 def _box_with_margin(cells: Mask, domain: ReducedDomain) -> Box:
     """Return the smallest box around given cells, with a margin into which the contact may grow.
 
+    The coupled increment is solved in this box.
+
     cells   cells that the box must contain (nx, ny), such as those under pressure
-    domain  domain of the cells
+    domain  domain of the cells: full window or reduced by symmetry
     """
     nx, ny = (int(np.count_nonzero(np.any(cells, axis=axis))) for axis in (1, 0))
     widest = max(domain.window((nx, ny)))
@@ -136,10 +139,12 @@ def _initial_guess(
 ) -> tuple[Field, VectorField, int]:
     """Return the initial guess of pressure and shear of an increment, and the iterations spent.
 
-    The predictor supplies the guess. Without a prediction, the guess is an approximate frictionless
-    pressure and the shear of the previous increment.
+    The guess is extrapolated from previous increments. Without such a prediction, the guess is an
+    approximate frictionless pressure and the shear of the previous increment.
 
-    before, last  state at the start of the increment, and its tangential part
+    model               contact model
+    before, last        state at the start of the increment, and its tangential part
+    normal, tangential  prescribed loads at the end of the increment
     """
     guess = None if before is None else predict_tractions(model, before, normal, tangential)
     if guess is not None:
@@ -155,9 +160,13 @@ def _coupled_problem(
     normal: NormalTarget,
     tangential: TangentialTarget,
 ) -> CoupledProblem:
-    """Build the coupled problem of an increment, restricted to a box of cells.
+    """Assemble operators, loads and friction law of a coupled increment, restricted to a box of
+    cells.
 
-    last  tangential state at the start of the increment
+    model               contact model
+    box                 box of cells in which the increment is solved
+    last                tangential state at the start of the increment
+    normal, tangential  prescribed loads at the end of the increment
     """
     operator = model.operator(box.shape)
     target = surface_target(model, last, tangential)
@@ -188,10 +197,12 @@ def _coupled_problem(
 class _Trial:
     """Solution of an increment in a box of cells, as a candidate for the state of the whole domain.
 
-    The residuals of the candidate are evaluated on the whole domain.
+    The residuals of the candidate are evaluated on the whole domain. The candidate is accepted if
+    they meet the tolerance.
 
+    model               contact model
     last                tangential state at the start of the increment
-    normal, tangential  prescribed loads
+    normal, tangential  prescribed loads at the end of the increment
     box                 cells on which the increment was solved
     solution            solution in the box
     iterations          iterations of all attempts
@@ -206,7 +217,11 @@ class _Trial:
     iterations: int
 
     def whole_state(self) -> tuple[State, Field]:
-        """Return the state of the solution on the whole domain, and its gap (nx, ny) [length]."""
+        """Build the contact state on the whole domain from the solution in a box of cells.
+
+        Tractions are zero outside the box. Displacements, slip and residuals are computed for all
+        cells. Return the state, and its gap (nx, ny) [length].
+        """
         model, solution, cells = self.model, self.solution, self.model.grid.cells
         p, q = self.box.embed(solution.pressure, cells), self.box.embed(solution.shear, cells)
         u = model.operator(cells).together(np.concatenate([q, p[None]]))
@@ -257,10 +272,12 @@ class _Trial:
         return replace(after, displacement=u_t)
 
     def _gross_slip(self, p: Field, bound: Field, u_t: VectorField) -> TangentialState:
-        """Return the tangential state of gross slip at the friction limit, or of a contact without
-        friction.
+        """Return the tangential state of a contact in gross slip: at the friction limit, or
+        frictionless.
 
-        p      pressure (nx, ny)
+        Raise GrossSliding if a prescribed force or torque exceeds the friction limit.
+
+        p      pressure (nx, ny) [force/length^2]
         bound  friction limit µp (nx, ny)
         u_t    tangential displacement (2, nx, ny) [length]
         """

@@ -20,10 +20,10 @@ PATCHES = 40
 
 
 class Preconditioner(Protocol):
-    """Interface of an approximate inverse of the displacement operator, from displacements to
-    tractions.
+    """Interface of an approximate inverse of the map from tractions to surface displacements.
 
-    Krylov solvers use it as preconditioner. `ApproximateInverse` implements it.
+    A call converts displacements to tractions. Krylov solvers use it as preconditioner.
+    `ApproximateInverse` implements the interface.
     """
 
     def __call__(self, displacements: NDArray[Any], /) -> NDArray[Any]: ...
@@ -79,7 +79,8 @@ class CoupledProblem:
 
     @property
     def gamma(self) -> float:
-        """Scale γ of the natural map [force/length^3]: stiffness of a patch of cells.
+        """Stiffness γ of a patch of cells [force/length^3], which multiplies gap and slip in the
+        natural map.
 
         The solution does not depend on γ > 0. An inexact linear solve leaves a smooth gap error of
         the width of the contact. With the stiffness of a single small cell, γ times this error
@@ -89,8 +90,8 @@ class CoupledProblem:
         return 1 / (self.self_compliance * max(1.0, shortest / PATCHES))
 
     def with_compliance(self, compliance: float, tractions: Field) -> "CoupledProblem":
-        """Return the coupled problem with an additional compliance, as a step of the proximal-point
-        method.
+        """Return the coupled problem of one step of the proximal-point method, with a compliance
+        added.
 
         Displacements become u + compliance * (t - tractions), with the tractions t. Newton's method
         solves the new problem. Of the operators only `together` and its preconditioner are changed.

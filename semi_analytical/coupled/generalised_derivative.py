@@ -41,7 +41,7 @@ MAX_SLIP_COMPLIANCE = 1e6
 
 @dataclass(frozen=True)
 class NewtonPoint:
-    """Iterate of Newton's method for a coupled increment.
+    """Iterate of Newton's method for a coupled increment: tractions, displacements, rigid motion.
 
     tractions      shear and pressure (q_x, q_y, p), shape (3, nx, ny) [force/length^2]
     displacements  surface displacements (u_x, u_y, u_z) by these tractions (3, nx, ny) [length]
@@ -57,17 +57,17 @@ class NewtonPoint:
 
 @dataclass(frozen=True)
 class Natural:
-    """Contact and friction conditions at an iterate (natural map); fields (nx, ny), vectors (2, nx,
-    ny).
+    """Contact and friction conditions at an iterate of Newton's method, written as a natural map.
 
-    The iterate is a solution if p = max(0, p - γ g) and q = P_b(z). P_b is the projection of a
-    vector on the disc of radius b, and γ a stiffness [force/length^3].
+    Fields are (nx, ny), vectors (2, nx, ny). The iterate is a solution if p = max(0, p - γ g) and q
+    = P_b(z). P_b is the projection of a vector on the disc of radius b, and γ a stiffness
+    [force/length^3].
 
     pressure        p [force/length^2]
     gap             g [length]
     bound           friction limit b of max(0, p)
-    z, length       z = q + γ (ω + c - u_t) and its magnitude, with the displacement c that stick
-                    requires and the tangential displacement u_t
+    z, length       z = q + γ (ω + c - u_t) and its magnitude, with the shear q, the displacement c
+                    that stick requires and the tangential displacement u_t
     motion          rigid tangential motion ω, for which the projected shear carries the load
     contact         cells with p > γ g
     slip            cells in contact with |z| > b
@@ -90,12 +90,12 @@ class Natural:
 
     @classmethod
     def evaluate(cls, point: NewtonPoint, problem: CoupledProblem) -> "Natural":
-        """Evaluate the natural map of contact and friction at an iterate.
+        """Evaluate the contact and friction conditions at an iterate, written as a natural map.
 
         The tangential load must be below the friction limit.
 
         point    tractions, displacements and rigid motion of the iterate
-        problem  coupled problem of the increment
+        problem  operators, loads and friction law of the increment
         """
         gamma = problem.gamma
         q, p = point.tractions[:2], point.tractions[2]
@@ -123,8 +123,10 @@ class Natural:
 
     @property
     def merit(self) -> float:
-        """Merit function of the line search: sum of the relative errors of pressure and shear
-        [1]."""
+        """Sum of the relative errors of pressure and shear [1], which the line search must reduce.
+
+        The errors are those of the contact and friction conditions.
+        """
         return self.pressure_error + self.shear_error
 
 
@@ -132,14 +134,16 @@ class Natural:
 class Zones:
     """Zones of contact, stick and slip of an iterate, and the free unknowns in these zones.
 
-    Free unknowns and the rows of the derivative are vectors: q_x, then q_y of the stick zone, s of
-    the slip zone, p of the contact.
+    Free unknowns and the rows of the derivative are vectors: q_x, then q_y of the stick zone, the
+    shear s perpendicular to the slip direction n in the slip zone, p of the contact.
 
     contact, stick   cells in contact and sticking cells (nx, ny)
     slip             flat indices of slipping cells (cells,)
     tangent          unit vector t perpendicular to the slip in slipping cells (2, cells)
-    friction_slope   µ n in slipping cells (2, cells), µ the derivative of the friction limit
-    slip_compliance  compliance d of slipping cells (cells,) [length^3/force]
+    friction_slope   µ n in slipping cells (2, cells), µ the derivative of the friction limit with
+                     respect to the pressure
+    slip_compliance  compliance d of slipping cells perpendicular to the slip (cells,)
+                     [length^3/force]
     """
 
     contact: Mask
@@ -185,24 +189,33 @@ class Zones:
 
     @property
     def size(self) -> int:
-        """Number of free unknowns: shear in the stick zone, shear across the slip, pressure in
-        contact."""
+        """Number of free unknowns of the linear system of a Newton step.
+
+        They are both components of the shear in the stick zone, the shear across the slip direction
+        in the slip zone, and the pressure in contact.
+        """
         return 2 * len(self._stick_cells) + len(self.slip) + len(self._contact_cells)
 
     def split_unknowns(self, vector: Vector) -> tuple[Vector, Vector, Vector]:
-        """Split a vector of the free unknowns of the linear system into views of its three parts.
+        """Split a vector of the free unknowns of a Newton step into views of its three parts.
 
-        The parts are the shear in the stick zone (2, cells), the shear across the slip in the slip
-        zone (cells,) and the pressure in contact (cells,).
+        The parts are the shear in the stick zone (2, cells), the shear across the slip direction in
+        the slip zone (cells,) and the pressure in contact (cells,).
+
+        vector  free unknowns, or rows of the linear system (size,)
         """
         stuck, slip = 2 * len(self._stick_cells), len(self.slip)
         return vector[:stuck].reshape(2, -1), vector[stuck : stuck + slip], vector[stuck + slip :]
 
     def free(self, v: NDArray[Any]) -> Vector:
-        """Restrict a traction or displacement field (3, nx, ny) to the free unknowns of the zones.
+        """Restrict a traction or displacement field (3, nx, ny) to the free unknowns of a Newton
+        step.
 
-        Free are both tangential components in the stick zone, the component across the slip in the
-        slip zone, and the normal component in contact.
+        Free are both tangential components in the stick zone, the component across the slip
+        direction in the slip zone, and the normal component in contact. The result is a vector
+        (size,).
+
+        v  tractions (q_x, q_y, p) or displacements (u_x, u_y, u_z)
         """
         # NumPy is many times slower with indices after a slice, so components are separate.
         x, y, z = v.reshape(3, -1)
@@ -217,10 +230,12 @@ class Zones:
         return free
 
     def field(self, vector: Vector) -> Field:
-        """Extend the free unknowns of the zones by zeros to a traction field (3, nx, ny).
+        """Convert a vector of the free unknowns of a Newton step to a traction field (3, nx, ny).
 
-        vector  free unknowns: shear of sticking cells, shear across the slip of slipping cells,
-                pressure of cells in contact
+        All other components of the field are zero.
+
+        vector  free unknowns: shear of sticking cells, shear across the slip direction of slipping
+                cells, pressure of cells in contact
         """
         v = np.zeros((3, self.contact.size))
         stuck, along, pressed = self.split_unknowns(vector)
@@ -233,7 +248,10 @@ class Zones:
         """Restrict a field (3, nx, ny) to the components that the linear system does not solve for.
 
         These are the components along the slip direction in slipping cells and all components
-        outside the contact. The result is a vector.
+        outside the contact. The result is a vector. Together with the free components it determines
+        the field.
+
+        v  displacements (u_x, u_y, u_z) or tractions
         """
         v = v.reshape(3, -1)
         across = self.tangent[1] * v[0][self.slip] - self.tangent[0] * v[1][self.slip]
@@ -242,11 +260,12 @@ class Zones:
     def assemble_field(self, free: Vector, fixed: Vector) -> Field:
         """Assemble a field (3, nx, ny) from its free and its fixed components in the zones.
 
-        Inverse of `free` and `fixed` together. Used for the displacement of a Newton step.
+        The operation is the inverse of `free` and `restrict_to_fixed` together. Used for the
+        displacement of a Newton step.
 
-        free   shear components and pressure, or displacements, that are free: vector as from `free`
-        fixed  components along the slip direction, and all outside the contact: vector as from
-               `fixed`
+        free   free components: vector as from `free`
+        fixed  components along the slip direction in slipping cells, and all components outside the
+               contact: vector as from `restrict_to_fixed`
         """
         v = self._add_slip_components(self.field(free), fixed[: len(self.slip)]).reshape(3, -1)
         for one, apart in zip(v, fixed[len(self.slip) :].reshape(3, -1), strict=True):
@@ -254,10 +273,10 @@ class Zones:
         return v.reshape(3, *self.contact.shape)
 
     def _add_slip_components(self, v: Field, normal: Vector) -> Field:
-        """Add components along the slip direction n in slipping cells to a field (3, nx, ny), in
-        place.
+        """Add given components along the slip direction in slipping cells to a field, in place.
 
-        normal  components along n (cells,)
+        v       field (3, nx, ny), such as tractions
+        normal  components along the slip direction n (cells,)
         """
         x, y, _ = v.reshape(3, -1)
         x[self.slip] += self.tangent[1] * normal
@@ -267,7 +286,10 @@ class Zones:
     def tractions(self, free: Vector) -> Tractions:
         """Compute the change of the tractions (3, nx, ny) by changes of the free unknowns.
 
-        In slipping cells the shear b n along the slip changes with the pressure.
+        The free unknowns do not contain the shear along the slip direction in slipping cells. This
+        shear is the friction limit b, which changes with the pressure.
+
+        free  changes of the free unknowns (size,)
         """
         t = self.field(free).reshape(3, -1)
         pressure = t[2][self.slip]
@@ -276,7 +298,7 @@ class Zones:
         return t.reshape(3, *self.contact.shape)
 
     def admissible_tractions(self, tractions: Tractions, bound: Field) -> Tractions:
-        """Modify tractions so that they are admissible in the zones of contact, stick and slip.
+        """Change tractions so that they match the zones of contact, stick and slip.
 
         Tractions become zero outside the contact. The shear of slipping cells along the slip
         direction becomes the friction limit.
@@ -287,10 +309,10 @@ class Zones:
         return self._add_slip_components(self.field(self.free(tractions)), bound.ravel()[self.slip])
 
     def slip_terms(self, free: Vector) -> Vector:
-        """Compute the terms d s of slipping cells in the rows of the linear system; other rows are
-        zero.
+        """Compute the contribution of the slip compliance to the rows of the linear system (size,).
 
-        s is the shear across the slip direction and d the slip compliance [length^3/force].
+        The rows of slipping cells are d s, with the shear s across the slip direction and the slip
+        compliance d [length^3/force]. Other rows are zero.
 
         free  free unknowns (size,)
         """
@@ -299,8 +321,10 @@ class Zones:
         return rows
 
     def changes(self, other: "Zones | None") -> int:
-        """Return the number of cells that are in another zone (contact, stick, slip) than in
-        another iterate.
+        """Return the number of cells that are in another zone than in another iterate.
+
+        Zones are contact, stick and slip. Few changes indicate that Newton's method is near the
+        solution.
 
         other  zones of the other iterate; None counts all cells
         """

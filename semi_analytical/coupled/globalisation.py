@@ -37,13 +37,17 @@ FAR = 1.0
 def solve_together(
     problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
-    """Solve a coupled increment from an initial pressure, shear and rigid motion.
+    """Solve a coupled increment from an initial guess by the first of several methods that
+    converges.
 
-    Newton's method converges fast from nearly correct zones and may stall otherwise. On failure the
-    next method of the sequence starts from the same initial guess. Only the alternating iteration
-    can return gross slip at the friction limit.
+    Newton's method converges fast from nearly correct zones of contact, stick and slip, and may
+    stall otherwise. On failure the next method starts from the same initial guess. Only the
+    alternating iteration can return gross slip at the friction limit.
 
-    raises  NotConverged
+    problem                  operators, loads and friction law of the increment
+    pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
+    tolerance                limit of the dimensionless residuals
+    raises                   NotConverged
     """
     methods: tuple[Method, ...] = (solve_by_newton, _alternating_then_newton, solve_on_springs)
     if _gross_slip(problem, pressure):
@@ -65,10 +69,12 @@ def _first_converged(
 ) -> CoupledSolution:
     """Return the solution of the first method that converges; raise NotConverged if none does.
 
-    methods                  methods in the order in which they are tried
+    methods                  solvers of the coupled increment, in the order in which they are tried
+    problem                  operators, loads and friction law of the increment
     pressure, shear, motion  initial guess of each method
+    tolerance                limit of the dimensionless residuals
     spent                    iterations and outer iterations of the initial guess, included in the
-                             counts
+                             counts of the solution
     """
     (iterations, outer), residual = spent, np.inf
     for method in methods:
@@ -87,7 +93,12 @@ def _first_converged(
 
 
 def _gross_slip(problem: CoupledProblem, pressure: Field) -> bool:
-    """Return True if the tangential load reaches the friction limit of a pressure (nx, ny)."""
+    """Return True if the tangential load reaches the friction limit that a pressure allows.
+
+    All cells slip then.
+
+    pressure  p (nx, ny) [force/length^2]
+    """
     return problem.tangential_load.exhausts(problem.friction_limit(pressure))
 
 
@@ -96,7 +107,8 @@ def _one_iteration_then_newton(
 ) -> CoupledSolution:
     """Solve a coupled increment by Newton's method from the result of one alternating iteration.
 
-    The alternating iteration starts at the given pressure with zero shear.
+    The alternating iteration starts at the given pressure with zero shear. It solves the
+    tangential, then the normal problem.
     """
     pressure, shear, motion, spent = one_iteration(problem, pressure, motion, tolerance)
     return _first_converged(
@@ -109,8 +121,9 @@ def _alternating_then_newton(
 ) -> CoupledSolution:
     """Solve a coupled increment by Newton's method from the result of a few alternating iterations.
 
-    If Newton's method fails, a few more alternating iterations follow. At gross slip the
-    alternating iteration continues without this limit.
+    An alternating iteration solves the tangential, then the normal problem. If Newton's method
+    fails, a few more alternating iterations follow. At gross slip the alternating iteration
+    continues without this limit.
     """
     few = partial(solve_coupled, most_iterations=FEW_ITERATIONS)
     near = few(problem, pressure, shear, motion, max(NEAR, tolerance))

@@ -20,9 +20,11 @@ ROUND_OFF = 1e-14
 class LeastResidual:
     """Solution of the linear system A v + E m = r by GMRES.
 
+    In Newton's method v are changes of tractions, m changes of rigid motions and r the residual.
+
     solution    vector v
     image       product A v
-    extra       product B v of another linear map B, summed from single-precision values
+    extra       product B v with another linear map B, summed from single-precision values
     motion      coefficients m of the columns of E (rigid motions of the indenter)
     iterations  number of products with A
     """
@@ -45,12 +47,14 @@ def least_residual(
     """Solve the linear system A v + E m = r for the vectors v and m by GMRES.
 
     Newton's method uses this function: v are changes of tractions, m changes of rigid motions. The
-    solve ends when the residual is `depth` times the minimum over m at v = 0, or after `most`
-    iterations. The rounding does not depend on the number of threads (no matrix products).
+    rounding does not depend on the number of threads (no matrix products).
 
     apply  function v -> (A v, B v), with B another linear map, to vectors of the size `extra`
-    right  r (n,)
-    free   columns of E (k, n); they may be linearly dependent
+    right  right-hand side r (n,)
+    free   columns of E as rows (k, n); they may be linearly dependent
+    extra  size of B v
+    depth  residual at which the solve ends, over the minimum residual for v = 0
+    most   maximum number of iterations
     """
     rows, combination = orthonormal(free)
     k = len(rows)
@@ -90,10 +94,12 @@ def least_residual(
 
 
 def _orthogonalise(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
-    """Return the components of a vector along an orthonormal basis, and its orthogonal remainder.
+    """Compute the components of a vector along an orthonormal basis, and the orthogonal remainder.
 
-    Gram-Schmidt orthogonalisation is repeated once if the remainder is small.
+    GMRES builds its basis with this function. Gram-Schmidt orthogonalisation is repeated once if
+    the remainder is small.
 
+    v      vector (n,)
     basis  orthonormal rows (k, n)
     """
     components = np.einsum("ik,k->i", basis, v)
@@ -105,7 +111,7 @@ def _orthogonalise(v: Vector, basis: Matrix) -> tuple[Vector, Vector]:
 
 
 def orthonormal(given: Matrix) -> tuple[Matrix, Matrix]:
-    """Compute orthonormal rows (j, n) with the span of given rows (k, n), j <= k.
+    """Compute orthonormal rows (j, n) that span the same space as given rows (k, n), with j <= k.
 
     The second result is the matrix (k, j) of the coefficients of the orthonormal rows in terms of
     the given rows.

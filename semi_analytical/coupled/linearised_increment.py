@@ -42,15 +42,17 @@ class Step:
 
 
 class LinearisedIncrement:
-    """Linearised coupled increment in given zones of contact, stick and slip, with the load
-    constraints.
+    """Linear system of a Newton step in given zones of contact, stick and slip, with prescribed
+    forces.
 
-    Unknowns are the free tractions and the rigid motions with a prescribed force. Steps do not
-    change the prescribed forces.
+    Unknowns are the free tractions (shear in the stick zone, shear across the slip direction,
+    pressure in contact) and the rigid motions with a prescribed force. Steps do not change the
+    prescribed forces.
 
-    problem   coupled problem of the increment
+    problem   operators, loads and friction law of the increment
     zones     zones of the iterate
-    carriers  tractions that correct the prescribed forces (k, unknowns); None to compute them
+    carriers  tractions that change the prescribed forces (k, unknowns), one row per force; None to
+              compute them
     """
 
     def __init__(
@@ -58,7 +60,7 @@ class LinearisedIncrement:
     ) -> None:
         """Assemble the linear system of a Newton step.
 
-        carriers  tractions that correct the prescribed forces, from similar zones (see
+        carriers  tractions that change the prescribed forces, from similar zones (see
                   `carriers_in`), which saves their computation; None to compute them
         """
         self._problem, self._zones = problem, zones
@@ -76,16 +78,22 @@ class LinearisedIncrement:
         self._inverse = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
     def carriers_in(self, zones: Zones) -> Matrix:
-        """Transfer the carriers, tractions that correct the prescribed forces, to other zones
-        (k, unknowns)."""
+        """Transfer the carriers to the free unknowns of other zones of contact, stick and slip.
+
+        Carriers are tractions that change the prescribed forces. The result (k, unknowns) has one
+        row per prescribed force.
+
+        zones  zones of the next iterate
+        """
         transferred = (zones.free(self._zones.field(carrier)) for carrier in self._carriers)
         return np.array([*transferred]).reshape(-1, zones.size)
 
     def _free_units(self) -> Matrix:
-        """Restrict the unit rigid motions of prescribed force to the free unknowns (k, unknowns).
+        """Restrict the unit rigid motions of the indenter to the free unknowns of the zones (k,
+        unknowns).
 
-        Rows are the shifts and the twist of the tangential load, then approach and tilts of the
-        normal load, as far as their forces are prescribed.
+        Only motions with a prescribed force are included. Rows are the shifts and the twist of the
+        tangential load, then approach and tilts of the normal load.
         """
         zones, free = self._zones, []
         for parts, motions in ((slice(2), self._shifts), (slice(2, 3), self._closures)):
@@ -96,9 +104,11 @@ class LinearisedIncrement:
         return np.array(free).reshape(len(free), zones.size)
 
     def admissible(self, tractions: Tractions) -> Tractions:
-        """Return admissible tractions near given tractions.
+        """Return tractions near given ones that satisfy friction law and loads in the present
+        zones.
 
-        The result lies in the zones and within the friction limit, and has the prescribed forces.
+        Pressure is non-negative and zero outside the contact zone. The shear is within the friction
+        limit, and at the limit in the slip zone. Forces have the prescribed values.
 
         tractions  (q_x, q_y, p), shape (3, nx, ny)
         raises     NotConverged if the load reaches the friction limit
@@ -120,8 +130,12 @@ class LinearisedIncrement:
         return t
 
     def residual(self, base: NewtonPoint, natural: Natural) -> Vector:
-        """Compute the residual of the linearised contact and friction equations, one row per free
-        unknown.
+        """Compute the residual of the linearised contact and friction conditions, for a Newton
+        step.
+
+        The residual has one row per free unknown [length]: slip in the stick zone, slip across the
+        slip direction less the term of the slip compliance in the slip zone, and negative gap in
+        contact.
 
         base, natural  iterate, and natural map at the iterate
         """
@@ -157,8 +171,10 @@ class LinearisedIncrement:
         )
 
     def _preconditioned_change(self, rows: Vector) -> Vector:
-        """Apply the preconditioner to a residual; the resulting change leaves the prescribed forces
-        constant.
+        """Apply the preconditioner to a residual, and correct the result to constant prescribed
+        forces.
+
+        The result is a change of the free tractions.
 
         rows  residual, one row per free unknown
         """
@@ -170,23 +186,29 @@ class LinearisedIncrement:
         return free
 
     def _force_changes(self, free: Vector) -> Vector:
-        """Compute the changes of the prescribed forces and moments caused by changes of the free
-        tractions."""
+        """Compute the changes of the prescribed forces and moments by a change of the free
+        tractions.
+
+        The changes are divided by the cell area (k,).
+
+        free  change of the free unknowns
+        """
         t = self._zones.tractions(free)
         normal = [np.sum(closure * t[2]) for closure in self._closures]
         return np.array([*self._problem.tangential_load.forces(t[:2]), *normal])
 
 
 class BinnedPreconditioner:
-    """Approximate inverse of the generalised derivative, with bins of the slip compliance.
+    """Approximate inverse of the generalised derivative, with slipping cells in bins of compliance.
 
     In the stick zone the derivative is the tangential operator. A slipping cell adds its slip
     compliance d (see `slip_compliance_bins`). The approximate inverse is
 
         M = Π F⁻¹ Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    Π = stick + χ_0 t t
 
-    F is the tangential operator with the unpadded period, f its scalar mean. Rows and free unknowns
-    are vectors of the zones.
+    F is the tangential operator with the unpadded period, f its scalar mean. χ_j is the weight of a
+    cell in bin j with the compliance d_j, and t the unit vector perpendicular to the slip. Rows and
+    free unknowns are vectors of the zones.
     """
 
     def __init__(self, zones: Zones, problem: CoupledProblem) -> None:
@@ -194,7 +216,8 @@ class BinnedPreconditioner:
         self._shares = shares(zones.slip_compliance / problem.self_compliance)
 
     def __call__(self, rows: Vector) -> Vector:
-        """Apply the preconditioner to a residual; return changes of the free tractions.
+        """Apply the preconditioner of a Newton step to a residual; return changes of the free
+        tractions.
 
         rows  residual, one row per free unknown
         """

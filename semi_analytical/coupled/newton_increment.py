@@ -31,9 +31,11 @@ def solve_by_newton(
 ) -> CoupledSolution:
     """Solve a coupled increment by the semismooth Newton method from an initial guess.
 
+    problem                  operators, loads and friction law of the increment
     pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
     tolerance                limit of all dimensionless residuals
-    furthest                 largest merit (relative error) of the first linearised tractions
+    furthest                 largest merit (relative error) of the first iterate, above which the
+                             method is not tried
     raises                   NotConverged if the iteration stalls, the load reaches the friction
                              limit, or the first merit exceeds `furthest`
     """
@@ -60,9 +62,14 @@ def solve_by_newton(
 
 
 def _largest_residual(problem: CoupledProblem, at: NewtonIterate) -> float:
-    """Return the largest dimensionless residual of an iterate with admissible tractions.
+    """Return the largest dimensionless residual of an iterate of Newton's method.
 
-    The residuals are those of contact conditions, friction law and slip direction.
+    The residuals are those of contact conditions, friction law and slip direction. The tractions of
+    the iterate must be admissible (non-negative pressure, shear within friction, prescribed
+    forces).
+
+    problem  operators, loads and friction law of the increment
+    at       iterate
     """
     point, natural = at.point, at.natural
     q, p = point.tractions[:2], point.tractions[2]

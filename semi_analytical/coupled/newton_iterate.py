@@ -28,12 +28,16 @@ STEP_FACTORS = 0.5 ** np.arange(5)
 
 
 class NewtonIterate:
-    """Current iterate of Newton's method; its tractions are admissible after `linearise` only.
+    """Current iterate of Newton's method for a coupled increment of the normal and tangential
+    problem.
+
+    The tractions are admissible (non-negative pressure, shear within the friction limit, prescribed
+    forces) after `linearise` only.
 
     point       tractions and displacements
-    natural     natural map at the iterate
+    natural     contact and friction conditions at the iterate (natural map)
     closing     rigid normal motion that closes the gap of the iterate
-    settled     True if the last step changed the zone of only few cells
+    settled     True if the last step changed the zone (contact, stick, slip) of only few cells
     iterations  sum of GMRES iterations
     """
 
@@ -41,14 +45,14 @@ class NewtonIterate:
     closing: Motion
 
     def __init__(self, problem: CoupledProblem, start: Tractions, motion: Vector) -> None:
-        """Start Newton's method at tractions (3, nx, ny), whose pressure is scaled to the normal
-        load in place.
+        """Start Newton's method at given tractions, whose pressure is scaled to the normal load in
+        place.
 
         All methods of this class raise NotConverged at the friction limit, for non-finite tractions
         or without contact.
 
-        problem  coupled problem of the increment
-        start    initial tractions (q_x, q_y, p)
+        problem  operators, loads and friction law of the increment
+        start    initial tractions (q_x, q_y, p), shape (3, nx, ny)
         motion   initial guess of the rigid tangential motion
         """
         start[2] = problem.normal_load.admissible(np.where(np.isfinite(problem.gap), start[2], 0.0))
@@ -60,11 +64,10 @@ class NewtonIterate:
         self._increment: LinearisedIncrement | None = None
 
     def linearise(self) -> None:
-        """Linearise the coupled problem in the zones of the iterate, and make the tractions
-        admissible.
+        """Linearise the contact and friction conditions at the iterate, for the next Newton step.
 
-        The zones of contact, stick and slip follow from the natural map. The tractions become
-        admissible in these zones, and the natural map is evaluated again.
+        The zones of contact, stick and slip follow from the natural map. The tractions are changed
+        so that they are admissible in these zones, and the natural map is evaluated again.
         """
         problem, motion = self._problem, self.natural.motion
         zones = Zones.from_natural_map(self.natural, problem)
@@ -81,8 +84,10 @@ class NewtonIterate:
         self.natural = natural_map(problem, self.point)
 
     def step(self, depth: float) -> None:
-        """Take a Newton step: solve the linear system in the present zones, then search along the
-        step.
+        """Take a Newton step: solve the linear system in the present zones, then apply a line
+        search.
+
+        Zones are the cells in contact, in stick and in slip.
 
         depth  reduction of the residual by the linear solve
         """
@@ -100,8 +105,10 @@ def evaluate_point(
 ) -> tuple[NewtonPoint, Motion]:
     """Compute displacements and rigid normal motion for given tractions of a coupled increment.
 
-    Return the iterate, and the rigid normal motion that closes its gap on average.
+    Return the iterate of Newton's method, and the rigid normal motion that closes its gap on
+    average.
 
+    problem    operators, loads and friction law of the increment
     tractions  (q_x, q_y, p), shape (3, nx, ny)
     motion     initial guess of the rigid tangential motion
     """
@@ -114,9 +121,9 @@ def evaluate_point(
 def natural_map(problem: CoupledProblem, point: NewtonPoint) -> Natural:
     """Evaluate the contact and friction conditions at an iterate, written as a natural map.
 
-    The natural map yields zones, residuals and slip of the iterate.
+    The natural map yields zones of contact, stick and slip, residuals and slip of the iterate.
 
-    problem  coupled problem of the increment
+    problem  operators, loads and friction law of the increment
     point    tractions, displacements and rigid motion of the iterate
     raises   NotConverged at the friction limit, for non-finite tractions or without contact
     """
@@ -132,11 +139,13 @@ def natural_map(problem: CoupledProblem, point: NewtonPoint) -> Natural:
 def _line_search(
     problem: CoupledProblem, base: NewtonPoint, step: Step, merit: float
 ) -> tuple[NewtonPoint, Natural]:
-    """Return the first iterate of a backtracking line search with sufficient decrease of the merit.
+    """Return the first point along a Newton step at which the merit decreases sufficiently.
 
-    Without sufficient decrease the iterate of lowest merit is returned. Displacements are linear in
-    tractions, so the search needs no convolutions.
+    The step is halved up to four times. Without sufficient decrease the point of lowest merit is
+    returned. The merit is the sum of the relative errors of pressure and shear. Displacements are
+    linear in tractions, so the search needs no convolutions.
 
+    problem     operators, loads and friction law of the increment
     base, step  iterate before the Newton step, and the step
     merit       merit of the iterate before the step
     """

@@ -30,12 +30,13 @@ Start = tuple[Field, VectorField]
 
 @dataclass(frozen=True)
 class Dilation:
-    """Geometric dilation of fields about a centre, used to predict the tractions of a growing
-    contact.
+    """Geometric dilation of surface fields, used to predict the tractions of a growing contact.
 
-    centre  centre in index coordinates (x, y)
+    A call returns the dilated field.
+
+    centre  fixed point of the dilation in index coordinates (x, y)
     factor  ratio of lengths after and before the dilation
-    domain  domain of the fields
+    domain  domain of the fields: full window or reduced by symmetry
     """
 
     centre: tuple[float, float]
@@ -44,12 +45,13 @@ class Dilation:
 
     @classmethod
     def about(cls, pressure: Field, factor: float, domain: ReducedDomain = WINDOW) -> Dilation:
-        """Return the dilation about the centroid of a pressure (nx, ny).
+        """Create the dilation whose fixed point is the centroid of a pressure (nx, ny).
 
-        Along an axis with a mirror plane the centre lies on the plane.
+        Along an axis with a mirror plane the fixed point lies on the plane.
 
         pressure  pressure of the last state
         factor    ratio of lengths after and before the dilation
+        domain    domain of the pressure
         """
         lines = (np.sum(pressure, axis=1), np.sum(pressure, axis=0))
         x, y = (
@@ -86,10 +88,11 @@ class Dilation:
     def grown(self, p: Field, q: VectorField, load: float) -> Start:
         """Predict pressure and shear of a contact that has grown or shrunk by this dilation.
 
-        The square of the pressure is dilated, and the ratio q/p of a material point is constant.
-        Return pressure and shear.
+        The square of the pressure is dilated, because the pressure falls like a root towards the
+        edge. The ratio q/p of shear and pressure at a dilated point is constant. Return pressure
+        and shear.
 
-        p, q  pressure (nx, ny) and shear (2, nx, ny) before
+        p, q  pressure (nx, ny) and shear (2, nx, ny) before the dilation
         load  ratio of the normal forces after and before
         """
         pressure, linear = np.sqrt(self(p * p)), self(p)
@@ -101,10 +104,14 @@ class Dilation:
 def predict_tractions(
     model: ContactModel, before: State, normal: NormalTarget, tangential: TangentialTarget
 ) -> Start | None:
-    """Predict pressure and shear at the end of an increment; None without a prediction.
+    """Predict pressure and shear at the end of an increment from previous increments.
 
+    The prediction is the initial guess of the coupled problem. None is returned without a
+    prediction.
+
+    model               contact model
     before              state at the start of the increment
-    normal, tangential  prescribed loads at the end
+    normal, tangential  prescribed loads at the end of the increment
     """
     now = before.seen()
     if now is None:
@@ -117,11 +124,13 @@ def predict_tractions(
 def _extrapolate_tractions(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> Start:
-    """Extrapolate pressure and shear linearly along a straight tangential load path.
+    """Predict pressure and shear by linear extrapolation, at constant normal load.
 
-    Without a valid extrapolation the last pressure and shear are returned.
+    Without a valid extrapolation, such as after a change of direction of the tangential load, the
+    last pressure and shear are returned.
 
-    now, behind  data of the last state and of the state before
+    now, behind  data of the last converged state and of the state before
+    tangential   tangential load of the next increment
     """
     ratio = further(now, behind, tangential)
     if behind is None or ratio == 0:
@@ -138,10 +147,12 @@ def _predict_by_dilation(
 ) -> Start | None:
     """Predict pressure and shear under a changed normal load by dilation of the last state.
 
-    The dilation follows the growth of the last increment. Without a preceding increment, or after a
-    much smaller one, radius and force follow the gap r^k. None is returned without a prediction.
+    The dilation continues the growth of the contact in the last increment. Without a preceding
+    increment, or after a much smaller one, contact radius and force follow from the power k of the
+    undeformed gap r^k. None is returned without a prediction.
 
-    now, behind  data of the last state and of the state before
+    model        contact model
+    now, behind  data of the last converged state and of the state before
     normal       prescribed normal load at the end of the increment
     """
     exponent = model.scene.indenter.gap_exponent

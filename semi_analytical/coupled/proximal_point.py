@@ -42,10 +42,13 @@ def solve_on_springs(
 ) -> CoupledSolution:
     """Solve a coupled increment by the proximal-point method from an initial guess.
 
-    The additional compliance λ acts like springs between the bodies. The final solve has λ = 0 and
-    meets the tolerance.
+    Each step solves the increment with an additional compliance λ of every cell, which acts like
+    springs between the bodies and keeps the tractions near to those of the last step. λ decreases.
+    The final solve has λ = 0 and meets the tolerance.
 
+    problem                  operators, loads and friction law of the increment
     pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
+    tolerance                limit of the dimensionless residuals
     raises                   NotConverged
     """
     tractions = np.concatenate([shear, pressure[None]])

@@ -119,7 +119,8 @@ class Energy:
     def left_open(self) -> float | None:
         """Input work minus the energy stored and dissipated [force length]; None if undefined.
 
-        This difference is the unresolved work of finite increments and the error of the solution.
+        This difference is the sum of the unresolved work of finite increments and the error of the
+        solution.
         """
         if self.input_work is None or self.stored_and_dissipated is None:
             return None
@@ -165,8 +166,8 @@ def add_increment_energy(
 ) -> Energy:
     """Compute the energies since the start of the load history at the end of one increment.
 
-    The changes in the increment are added to the energies at its start. The result has no work and
-    dissipation where a motion is undefined.
+    The changes in the increment are added to the energies at its start. Work and dissipation are
+    None from the first undefined rigid motion on.
 
     spent          energies at the start of the increment
     before, after  configurations (tractions, displacements, loads) at the start and the end
@@ -205,7 +206,7 @@ def elastic_energy(state: Configuration, cell_area: float) -> float:
 
 
 def pressed_work(pressure: Field, displacement: Field) -> float:
-    """Compute the integral ∫ p u_z of pressure times displacement over the contact, per cell area.
+    """Compute the integral ∫ p u_z of pressure times displacement, divided by the cell area.
 
     Half this integral times the cell area is the elastic energy of an edge-corrected pressure. The
     sum Σ p (u_z - Δ²u_z/24) is used, with Δ² the sum of second differences. Its error is of third

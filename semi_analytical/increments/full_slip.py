@@ -23,11 +23,13 @@ from semi_analytical.tangential.admissible_shear import AT_LIMIT
 
 
 def force_reaches_limit(force: Vector, limit: float) -> bool:
-    """Return True if a tangential force is at the friction limit; raise GrossSliding if it is
-    larger.
+    """Return True if a tangential force is at the friction limit, so that the contact slips
+    everywhere.
+
+    Raise GrossSliding if the force is larger than the limit.
 
     force  tangential force (2,) [force]
-    limit  friction limit Σµp Δ of the contact [force]
+    limit  friction limit Σµp Δ of the contact [force]: sum over the cells of area Δ
     """
     magnitude = float(np.hypot(*force))
     if magnitude > limit * (1 + AT_LIMIT):
@@ -39,8 +41,9 @@ def force_reaches_limit(force: Vector, limit: float) -> bool:
 
 
 def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialTarget) -> None:
-    """Raise GrossSliding if friction cannot carry a prescribed torque together with the other
-    loads.
+    """Raise GrossSliding if friction cannot carry a prescribed torque with the tangential force.
+
+    The message contains the friction limit of this load.
 
     bound  friction limit µp (nx, ny)
     load   tangential load with a prescribed torque
@@ -71,8 +74,7 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
 def gross_slip_state(
     model: ContactModel, pressure: Field, last: TangentialState, load: TangentialTarget
 ) -> TangentialState:
-    """Return the tangential state in which a prescribed tangential force reaches the friction
-    limit.
+    """Return the tangential state in which a prescribed tangential force is at the friction limit.
 
     The shear is µp in the direction of the force in all cells. The tangential shift is undefined
     (None), because the indenter could slide any distance.
@@ -118,10 +120,12 @@ def frictionless_state(
 ) -> TangentialState:
     """Return the tangential state of a contact that slips everywhere without friction: no shear.
 
+    The slip of the increment follows from rigid motion and displacements.
+
     pressure      p (nx, ny) [force/length^2]
     displacement  tangential displacement (2, nx, ny) [length] by the pressure alone
     last          tangential state of the previous increment
-    load          tangential load
+    load          prescribed tangential load
     motion        rigid motion of the indenter: shift, and twist under torsion
     """
     nothing = np.zeros_like(last.shear)

@@ -34,13 +34,13 @@ from semi_analytical.tangential.admissible_shear import magnitude
 
 @dataclass(frozen=True)
 class State:
-    """Converged state at the end of an increment, from which the next increment starts.
+    """Converged state of contact at the end of an increment, from which the next increment starts.
 
     target        prescribed normal load
-    normal_force  Σp times the cell area [force]
+    normal_force  normal force: Σp times the cell area [force]
     pressing      solution of the normal problem
     sheared       solution of the tangential problem; None without shear
-    moment        (Σp y, Σp x) times the cell area [force length]; None without tilt
+    moment        moment (Σp y, Σp x) times the cell area [force length]; None without tilt
     energy        energies since the start of the history, added by the load stepping
     rounds        iterations of the coupled problem; 0 without coupling
     corrected     edge-corrected state, which later increments do not use; None where the correction
@@ -61,9 +61,9 @@ class State:
     behind: PreviousIncrement | None = None
 
     def seen(self) -> PreviousIncrement | None:
-        """Return the data of this state that predictors of later increments use.
+        """Return the data of this state that the predictor of the next increments extrapolates.
 
-        None is returned without shear or with undefined shift.
+        None is returned without shear, or if the tangential shift is undefined.
         """
         pressing, sheared = self.pressing, self.sheared
         if sheared is None or sheared.shift is None:
@@ -81,12 +81,17 @@ class State:
 
     @property
     def iterations(self) -> int:
-        """Number of iterations of the normal and the tangential solver in this increment."""
+        """Number of iterations of the normal and the tangential solver in this increment,
+        in sum.
+        """
         return self.pressing.iterations + (self.sheared.iterations if self.sheared else 0)
 
 
 def moment_of(model: ContactModel, pressure: Field) -> Pair:
-    """Compute the moment (Σp y, Σp x) of a pressure times the cell area [force length].
+    """Compute the moment (M_x, M_y) of a pressure about the origin: (Σp y, Σp x) times the cell
+    area.
+
+    The unit is [force length].
 
     pressure  p (nx, ny) [force/length^2]
     """
@@ -95,7 +100,7 @@ def moment_of(model: ContactModel, pressure: Field) -> Pair:
 
 
 def reached_moment(model: ContactModel, target: NormalTarget, pressure: Field) -> Pair | None:
-    """Return the moment (M_x, M_y) on the indenter in a solved state [force length].
+    """Return the moment (M_x, M_y) on the indenter at the end of an increment [force length].
 
     The result is the prescribed moment, or else the moment of the pressure. None is returned if the
     indenter does not tilt.
@@ -109,7 +114,13 @@ def reached_moment(model: ContactModel, target: NormalTarget, pressure: Field) -
 
 
 def residuals_of(model: ContactModel, state: State) -> Residuals:
-    """Collect the residuals of a solved state: contact conditions, friction law and equilibrium."""
+    """Collect the residuals of a solved state: contact conditions, friction law and equilibrium.
+
+    All residuals are dimensionless. The load stepping compares them with the tolerance.
+
+    model  contact model
+    state  state at the end of an increment
+    """
     pressing, force = state.pressing, state.target.force
     pressed = Residuals(
         pressing.complementarity,
@@ -121,9 +132,10 @@ def residuals_of(model: ContactModel, state: State) -> Residuals:
 
 
 def _moment_equilibrium(model: ContactModel, state: State) -> float | None:
-    """Compute the relative error |Σp (y, x) - M| / Σp r of the prescribed moment M.
+    """Compute the relative error of a prescribed moment M in a state: |Σp (y, x) Δ - M| / Σp r Δ.
 
-    r is the distance of a cell from the origin. None is returned where no moment is prescribed.
+    r is the distance of a cell from the origin and Δ its area. None is returned where no moment is
+    prescribed.
     """
     moment, p = state.target.moment, state.pressing.pressure
     if moment is None:
@@ -176,11 +188,14 @@ def solve_increment(
 def normal_target(
     ramp: LoadRamp, start: State | None, fraction: float, tilts: bool
 ) -> NormalTarget:
-    """Return the prescribed normal load at a fraction of a load ramp.
+    """Return the normal load that a load step prescribes at the end of an increment.
 
+    The prescribed force or approach changes linearly along the load step (ramp).
+
+    ramp      controls of the load step
     start     state at the start of the load step; None before first touch
-    fraction  completed fraction of the ramp, 0 to 1
-    tilts     include the tilt or moment
+    fraction  completed fraction of the ramp at the end of the increment, 0 to 1
+    tilts     True to include the prescribed tilt or moment
     """
     reached = (0.0, 0.0) if start is None else (start.normal_force, start.pressing.approach)
     force, approach = ramp.normal.prescribed(fraction, reached)
@@ -195,11 +210,15 @@ def normal_target(
 def tangential_target(
     ramp: LoadRamp, start: State | None, fraction: float, twists: bool
 ) -> TangentialTarget:
-    """Return the prescribed tangential load at a fraction of a load ramp.
+    """Return the tangential load that a load step prescribes at the end of an increment.
 
+    The prescribed force or shift changes linearly along the load step (ramp). Bulk strain is
+    included.
+
+    ramp      controls of the load step
     start     state at the start of the load step; None before first touch
-    fraction  completed fraction of the ramp, 0 to 1
-    twists    include the twist or torque
+    fraction  completed fraction of the ramp at the end of the increment, 0 to 1
+    twists    True to include the prescribed twist or torque
     """
     sheared = start.sheared if start is not None else None
     reached: tuple[Pair, Pair | None] = ((0.0, 0.0), (0.0, 0.0))

@@ -18,13 +18,13 @@ FURTHEST = 2.0
 
 @dataclass(frozen=True)
 class PreviousIncrement:
-    """Data of an earlier converged state that the predictor of the next increment uses.
+    """Data of an earlier converged state, from which the predictor extrapolates the next increment.
 
     target               prescribed normal load
     pressure             p (nx, ny) [force/length^2]
     shear                q (2, nx, ny) [force/length^2]
-    displacement         tangential displacement (2, nx, ny) [length]
-    normal_force, force  normal force and tangential force (2,)
+    displacement         tangential surface displacement (2, nx, ny) [length]
+    normal_force, force  normal force and tangential force (2,) [force]
     approach, shift      approach and tangential shift (2,) [length]
     """
 
@@ -44,11 +44,11 @@ def further(
     """Compute the ratio of the next increment of the tangential load to the last increment.
 
     The predictor extrapolates shear and displacement by this ratio. The result is 0 where no
-    extrapolation applies: the direction of the load or the normal load changes, the ratio exceeds
-    FURTHEST, or torsion acts.
+    extrapolation applies: the direction of the tangential load or the normal load changes, the
+    ratio exceeds FURTHEST, or torsion acts.
 
     now         data of the last converged state
-    behind      data of the state before `now`; None if unknown
+    behind      data of the converged state before `now`; None if unknown
     tangential  tangential load of the next increment
     """
     if behind is None or behind.target != now.target or tangential.twists:
@@ -68,13 +68,13 @@ def further(
 def further_shear(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
 ) -> Point:
-    """Extrapolate shear and tangential displacement linearly to the next tangential load.
+    """Predict shear and tangential displacement of the next increment by linear extrapolation.
 
-    The result is an initial guess for the next increment. Without valid extrapolation it is the
-    last shear and displacement.
+    The prediction is the initial guess of the tangential problem. Without valid extrapolation it is
+    the last shear and displacement.
 
     now         data of the last converged state
-    behind      data of the state before `now`; None if unknown
+    behind      data of the converged state before `now`; None if unknown
     tangential  tangential load of the next increment
     """
     ratio = further(now, behind, tangential)

@@ -58,7 +58,8 @@ class NormalState:
     tilt: Pair | None = None
 
     def closure(self, model: ContactModel) -> float | Field:
-        """Return the closure of the undeformed gap by approach and tilt [length].
+        """Compute the reduction of the undeformed gap by approach and tilt of the indenter
+        [length].
 
         The result is a number, or a field (nx, ny) with tilt.
         """
@@ -69,10 +70,11 @@ class NormalState:
 
 @dataclass(frozen=True)
 class NormalTarget:
-    """Prescribed normal load, and prescribed moment or tilt.
+    """Prescribed normal load of an increment: force or approach, and moment or tilt.
 
     force, approach  normal force [force] or approach [length]: exactly one is given
-    moment, tilt     moment (M_x, M_y) or tilt (φ_x, φ_y): one is given; both None without tilt
+    moment, tilt     moment (M_x, M_y) [force length] or tilt (φ_x, φ_y): one is given; both None
+                     without tilt
     """
 
     force: float | None = None
@@ -81,27 +83,29 @@ class NormalTarget:
     tilt: Pair | None = None
 
     def gap(self, model: ContactModel) -> Field:
-        """Return the undeformed gap (nx, ny) [length] at first touch.
+        """Return the undeformed gap of the bodies at first touch (nx, ny) [length].
 
-        For a prescribed tilt the indenter is tilted first.
+        For a prescribed tilt, the gap is that of the tilted indenter at its first touch.
         """
         if self.tilt is None:
             return model.gap
         return model.gap - plane(model, self.tilt) - self._first_touch(model)
 
     def _first_touch(self, model: ContactModel) -> float:
-        """Return the approach at which the indenter, tilted as prescribed, first touches a cell
-        [length].
+        """Return the approach at which the indenter, tilted as prescribed, first touches a cell.
 
-        The result is 0 without prescribed tilt.
+        The approach [length] counts from first touch without tilt. It is 0 without prescribed tilt.
         """
         return 0.0 if self.tilt is None else float(np.min(model.gap - plane(model, self.tilt)))
 
     def as_load(self, model: ContactModel, box: Box) -> NormalLoad:
-        """Convert the prescribed normal load to a load object of the normal solver, on a box of
-        cells.
+        """Convert the prescribed normal load to the object with which the normal solver works.
 
-        Its approach counts from first touch, as `NormalTarget.gap` does.
+        The object computes rigid motions and admissible pressures. Its approach counts from first
+        touch of the tilted indenter, as `NormalTarget.gap` does.
+
+        model  contact model
+        box    box of cells in which the normal problem is solved
         """
         total = None if self.force is None else self.force / model.grid.cell_area
         if self.moment is not None:
@@ -117,10 +121,11 @@ class NormalTarget:
         return FixedApproach(self.approach - self._first_touch(model))
 
     def reached(self, model: ContactModel, motion: Motion) -> tuple[float, Pair | None]:
-        """Convert the rigid motion found by the normal solver to approach [length] and tilt.
+        """Convert the rigid motion found by the normal solver to approach [length] and tilt of the
+        indenter.
 
-        motion  approach relative to first touch, or (approach, tilt x, tilt y) under a prescribed
-                moment
+        motion  approach relative to first touch of the tilted indenter, or (approach, tilt x, tilt
+                y) under a prescribed moment
         """
         if self.moment is None:
             return float(motion) + self._first_touch(model), self.tilt
@@ -129,18 +134,21 @@ class NormalTarget:
 
 
 def plane(model: ContactModel, tilt: Pair) -> Field:
-    """Compute the closure of the gap by a tilt of the indenter (nx, ny) [length]."""
+    """Compute the reduction of the gap by a tilt of the indenter (nx, ny) [length].
+
+    tilt  (φ_x, φ_y): slopes along y and x
+    """
     return np.asarray(tilt[0] * model.arms[0] + tilt[1] * model.arms[1])
 
 
 def press(model: ContactModel, target: NormalTarget, tolerance: float) -> NormalState:
-    """Solve the normal problem of a contact model for a prescribed normal load.
+    """Solve the normal problem of a contact model for a prescribed normal load, without shear.
 
     The solver works in a box of cells around the contact. A convolution over the whole domain
-    checks the solution. If bodies overlap outside the box, the box becomes the whole domain.
-    Otherwise the solve is repeated with a tighter tolerance.
+    checks the solution. If the bodies overlap outside the box, the box becomes the whole domain. If
+    a residual exceeds the tolerance otherwise, the solve is repeated with a tighter tolerance.
 
-    tolerance  bound of complementarity and penetration residuals, dimensionless
+    tolerance  limit of complementarity and penetration residuals, dimensionless
     raises     ContactAtWindowEdge, ContactNotResolved, NotConverged
     """
     refuse_unresolved_contact(model, target)
@@ -179,11 +187,12 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
 
 
 def nested_initial_guess(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """Return an initial guess of the pressure (nx, ny), and the iterations spent on it.
+    """Return an initial guess of the contact pressure (nx, ny), and the iterations spent on it.
 
-    The guess is the solution on a coarser grid, whose initial guess is found in the same manner. It
-    follows from Hertz theory (`initial_pressure`) without a coarser grid, or if no cell of that
-    grid comes into contact.
+    The guess is the solution on a grid with half the cells per side, whose initial guess is found
+    in the same manner. On the coarsest grid the guess follows from Hertz theory
+    (`initial_pressure`). Hertz theory is also used if no cell of the coarser grid comes into
+    contact.
     """
     coarse = model.coarse
     if coarse is None or not _makes_contact(coarse, target):
@@ -195,7 +204,7 @@ def nested_initial_guess(model: ContactModel, target: NormalTarget) -> tuple[Fie
 
 
 def rough_initial_guess(model: ContactModel, target: NormalTarget) -> tuple[Field, int]:
-    """Solve the frictionless normal problem on the model's own grid at the loose COARSE_TOLERANCE.
+    """Solve the frictionless normal problem with the loose tolerance COARSE_TOLERANCE.
 
     Return the pressure (nx, ny) and the number of iterations. The pressure is the initial guess on
     the next finer grid, and that of the coupled problem.
@@ -256,8 +265,7 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
 
 
 def _remedy_at_border(model: ContactModel) -> str:
-    """Return the remedy, as text of an error message, for a contact that begins at the window
-    border."""
+    """Return a sentence for an error message: the remedy if contact begins at the window border."""
     if model.scene.indenter.extent is None:
         return _remedy_for_window(model)
     return (
@@ -267,7 +275,9 @@ def _remedy_at_border(model: ContactModel) -> str:
 
 
 def _remedy_for_window(model: ContactModel) -> str:
-    """Return the remedy, as text of an error message, for a window that is too small."""
+    """Return a sentence for an error message: the remedy if the window is too small for the
+    contact.
+    """
     if model.scene.indenter.extent is not None:
         return "Use a height map and a window that are larger than the contact"
     if model.scene.friction is not None and model.scene.friction.extent is not None:

@@ -52,11 +52,15 @@ def slip_and_stick(
 ) -> TangentialState:
     """Solve the tangential problem of one increment at a given pressure, from the previous state.
 
-    pressure  p at the end of the increment (nx, ny) [force/length^2]
-    last      tangential state at the start of the increment
-    load      prescribed tangential load
-    guess     initial guess of the shear with its displacement; None for that of the previous state
-    raises    NotConverged; GrossSliding if a force exceeds the friction limit
+    The solution determines shear, stick and slip zones, slip and dissipated energy at the end of
+    the increment.
+
+    pressure   p at the end of the increment (nx, ny) [force/length^2]
+    last       tangential state at the start of the increment
+    load       prescribed tangential load
+    tolerance  limit of all dimensionless residuals
+    guess      initial guess of the shear with its displacement; None for that of the previous state
+    raises     NotConverged; GrossSliding if a force exceeds the friction limit
     """
     bound = model.friction_limit(pressure)
     if last.shift is None:
@@ -87,13 +91,16 @@ def _trivial_state(
     last: TangentialState,
     load: TangentialTarget,
 ) -> TangentialState | None:
-    """Return the tangential state in cases that need no solve; None in all other cases.
+    """Return the tangential state at the end of an increment in cases that need no solve; else
+    None.
 
-    These cases are: no tangential load so far, slip without friction, and a force at the friction
-    limit.
+    These cases are: no tangential load so far, slip without friction, and a prescribed force at the
+    friction limit.
 
-    bound  friction limit µp (nx, ny)
-    last   tangential state at the start of the increment
+    pressure  p at the end of the increment (nx, ny) [force/length^2]
+    bound     friction limit µp (nx, ny)
+    last      tangential state at the start of the increment
+    load      prescribed tangential load
     """
     nothing = np.zeros_like(last.shear)
     if load.torque is not None:
@@ -130,6 +137,8 @@ def shear_residuals(
     last: TangentialState,
 ) -> ShearResiduals:
     """Compute the residuals of Coulomb's friction law and of tangential equilibrium for a solution.
+
+    Residuals are dimensionless. Those of equilibrium are None without a prescribed force or torque.
 
     solution       solution of the tangential problem
     bound          friction limit µp (nx, ny)
@@ -169,11 +178,15 @@ def end_state(
 ) -> TangentialState:
     """Build the tangential state at the end of an increment from an accepted solution.
 
-    Slip, slip distance and dissipation of the increment are added to those of the previous state
-    `last`.
+    Slip, slip distance and dissipation of the increment are added to those of the previous state.
 
+    pressure       p at the end of the increment (nx, ny) [force/length^2]
     bound          friction limit µp (nx, ny)
+    last           tangential state at the start of the increment
+    load           prescribed tangential load
+    solution       solution of the tangential problem
     relative_slip  slip of the indenter relative to the body in the increment (2, nx, ny) [length]
+    residuals      residuals of friction law and equilibrium
     """
     q = solution.shear
     # Within the tolerance of the solver slip may oppose the shear: such cells count as sticking.

@@ -21,11 +21,13 @@ from semi_analytical.tangential.tangential_problem import TangentialSolution, so
 
 @dataclass(frozen=True)
 class TangentialTarget:
-    """Prescribed tangential load: tangential force or shift, torque or twist, and bulk strain.
+    """Prescribed tangential load of an increment: force or shift, torque or twist, and bulk strain.
 
-    force, shift   T [force] or shift of the indenter [length], each (2,): exactly one is given
-    torque, twist  M_z [force length] or twist: exactly one is given; both None without torsion
-    strain         bulk strain of the lower body since first touch; None without strain
+    force, shift   tangential force T [force] or shift of the indenter [length], each (2,): exactly
+                   one is given
+    torque, twist  torque M_z [force length] or twist: exactly one is given; both None without
+                   torsion
+    strain         bulk strain (xx, yy, xy) of the lower body since first touch; None without strain
     """
 
     force: Vector | None = None
@@ -36,7 +38,7 @@ class TangentialTarget:
 
     @property
     def twists(self) -> bool:
-        """True if torsion acts: a torque or a twist is prescribed."""
+        """True if the load includes torsion: a torque or a twist is prescribed."""
         return self.torque is not None or self.twist is not None
 
     def as_load(
@@ -46,11 +48,15 @@ class TangentialTarget:
         domain: ReducedDomain = WINDOW,
         spring: float = 0.0,
     ) -> TangentialLoad:
-        """Convert the prescribed tangential load to a load object of the tangential solver.
+        """Convert the prescribed tangential load to the object with which the tangential solver
+        works.
+
+        The object projects shears on the prescribed forces. Its class depends on the prescribed
+        quantities.
 
         cell_area  area of a cell and its mirror images [length^2]
         rotation   (-y, x) of the cells (2, nx, ny) [length]; None without torsion
-        domain     domain of the cells
+        domain     domain of the cells: full window or reduced by symmetry
         spring     displacement of a test rig's spring per sum of the shear [length^3/force]
         """
         total = None if self.force is None else self.force / cell_area
@@ -79,13 +85,18 @@ def shear(
     motion: Vector,
     tolerance: float,
 ) -> TangentialSolution:
-    """Solve the tangential problem of one increment at a given pressure.
+    """Solve the tangential problem of one increment at a given pressure, in a box around the
+    contact.
 
+    The solution is then extended to the whole domain, with the displacements of all cells.
+
+    model          contact model
     bound          friction limit µp (nx, ny), not zero everywhere
     target         relative surface displacement that stick requires (2, nx, ny) [length], without
                    the motion of the load
     load           prescribed tangential load
     start, motion  initial guesses of the shear with its displacement, and of the rigid motion
+    tolerance      limit of the residuals of friction law and slip direction
     raises         NotConverged
     """
     cells = bound.shape
