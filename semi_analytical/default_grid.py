@@ -44,24 +44,28 @@ GROWTH = 1.6
 
 
 def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
-    """Choose the number of cells and the window that a discretisation does not prescribe.
+    """Choose the number of cells and the window for a scene, where the settings do not prescribe
+    them.
 
-    The window is fitted to the largest contact of the history, found on a coarse grid under the
-    largest normal load, within the extent of height and friction maps. The spacing of a map (of
-    heights, if there are two) is an integer multiple of the cell side, with one multiple along x
-    and y. Cells are not wider than the spacing of the other map.
+    The window is fitted to the largest contact of the load history, found on a coarse grid under
+    the largest normal load. It lies within the extent of height and friction maps. The spacing of a
+    map (of heights, if there are two) is an integer multiple of the cell side, with one multiple
+    along x and y. Cells are not wider than the spacing of the other map.
+
+    scene  scene to solve
+    asked  settings of the scene file, with prescribed cells and window if any
     """
     scene = normal_form(scene)
     return _grid_on_window(scene, asked, asked.window or _within_maps(scene, fit_window(scene)))
 
 
 def enlarge_window(scene: Scene, asked: SurfaceDiscretisation, grid: SurfaceGrid) -> SurfaceGrid:
-    """Return a grid with a window GROWTH times wider, if a contact has reached the border of the
-    window.
+    """Return a grid with a window GROWTH times wider, for a contact that reaches the window border.
 
     The window stays within the extent of the height and friction maps of the scene.
 
-    asked  prescribed number of cells and window
+    scene  scene to solve
+    asked  settings of the scene file, with prescribed cells and window if any
     grid   grid whose window is too small
     """
     L_x, L_y = grid.window
@@ -97,7 +101,10 @@ def _within_maps(scene: Scene, window: Pair) -> Pair:
 
 
 def fit_window(scene: Scene) -> Pair:
-    """Determine the sides of the smallest window for the largest contact of the history [length].
+    """Determine the sides of a window that fits the largest contact of the load history [length].
+
+    The contact is found without friction on a coarse grid. The window is larger than the contact by
+    the factor MARGIN. For a height map it is the extent of the map.
 
     raises  ContactAtWindowEdge if no window contains the contact; UnsupportedScene for a shape
             without a law for the contact size
@@ -134,7 +141,8 @@ def fit_window(scene: Scene) -> Pair:
 def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
     """Raise ContactAtWindowEdge if the contact under the largest load reaches the window border.
 
-    The test uses the frictionless contact under `SURELY` of the load, which is smaller.
+    Used before a long solution. The frictionless contact under `SURELY` of the load is tested,
+    because it is smaller than the contact with friction under the full load.
     """
     decided = plan(scene)
     model = ContactModel.from_scene(scene, grid, decided.symmetry)
@@ -149,9 +157,12 @@ def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
 
 
 def _contact_cells(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]:
-    """Return the cells in contact under a normal load on the full window (nx, ny).
+    """Find the cells in contact under a normal load without friction, on the full window (nx, ny).
 
-    No cell is returned where the contact is too small for the grid.
+    No cell is marked where the contact is too small for the grid.
+
+    model  contact model on a coarse grid
+    load   prescribed normal load
     """
     try:
         return model.domain.extend(press(model, load, SCOUT_TOLERANCE).pressure > 0)
@@ -160,10 +171,10 @@ def _contact_cells(model: ContactModel, load: NormalTarget) -> NDArray[np.bool_]
 
 
 def _contact_extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[float, float]:
-    """Compute the sides of the smallest window about the origin that contains the contact cells
-    [length].
+    """Compute the sides of the smallest window about the origin that contains given cells [length].
 
     contact  cells in contact (nx, ny)
+    grid     grid of the cells
     """
     x, y = grid.coordinates()
     return (
@@ -175,7 +186,8 @@ def _contact_extents(contact: NDArray[np.bool_], grid: SurfaceGrid) -> tuple[flo
 def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
     """Select the normal loads of a history whose contact may extend farthest from the origin.
 
-    These are the largest force and the largest approach; all loads if the indenter tilts.
+    These are the largest force and the largest approach; all loads if the indenter tilts. The
+    window is fitted to these contacts.
 
     tilts  True if the indenter tilts
     """
@@ -192,6 +204,10 @@ def _largest_loads(scene: Scene, tilts: bool) -> list[NormalTarget]:
 def _guessed_semi_axes(scene: Scene, load: NormalTarget) -> tuple[float, float]:
     """Estimate the semi-axes of the contact along x and y to an order of magnitude [length].
 
+    The fit of the window starts with this estimate.
+
+    scene   scene with the shape of the indenter
+    load    prescribed normal load
     raises  UnsupportedScene for a shape without a law for the contact size
     """
     indenter, exponent = scene.indenter, scene.indenter.gap_exponent

@@ -136,5 +136,5 @@ class Result:
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """Last increment of every load step."""
+        """Increments at the ends of the load steps, one for each load step."""
         return tuple(i for i in self.increments if i.index == i.increments_in_step)

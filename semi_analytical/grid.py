@@ -47,24 +47,32 @@ class SurfaceGrid:
 
     @property
     def even(self) -> bool:
-        """True if x = 0 and y = 0 lie between cells and the cell coordinates are exactly
-        symmetric."""
+        """True if the cells are symmetric about x = 0 and y = 0, with both planes between cells.
+
+        The coordinates of the cells must be exactly symmetric. A symmetry reduction requires such a
+        grid.
+        """
         if any(count % 2 for count in self.cells):
             return False
         return all(bool((at == -at[::-1]).all()) for at in (self.x, self.y))
 
     def coordinates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the cell centres X, Y, each of shape (nx, ny) [length]."""
+        """Return the x and the y coordinates of all cell centres, each of shape (nx, ny)
+        [length].
+        """
         return np.repeat(self.x[:, None], self.cells[1], axis=1), np.tile(
             self.y, (self.cells[0], 1)
         )
 
     def refined(self, factor: int = 2) -> "SurfaceGrid":
-        """Return a grid of the same window with `factor` times as many cells along each side."""
+        """Return a finer grid on an equal window, with the numbers of cells multiplied by a factor.
+
+        factor  factor of the numbers of cells along x and y
+        """
         return SurfaceGrid((self.cells[0] * factor, self.cells[1] * factor), self.window)
 
     def coarsened(self) -> "SurfaceGrid":
-        """Return a grid of the same window with half the cells per side.
+        """Return a coarser grid on an equal window, with half the cells per side.
 
         Raises ValueError for odd numbers of cells.
         """

@@ -70,10 +70,11 @@ MAX_CONVOLUTIONS = 30_000
 def solve_history(
     model: ContactModel, plan: Plan, tolerance: float, since: Checkpoint | None = None
 ) -> Iterator[tuple[Increment, ResumePoint[State]]]:
-    """Iterate over the converged increments of the load history, each with a state for a later
-    restart.
+    """Solve the load history of a contact model; yield the converged increments.
 
-    model, plan  contact model, and effects to compute
+    Each increment is accompanied by a state from which the solution can be resumed later.
+
+    model, plan  contact model, and physical effects to compute
     tolerance    limit of all dimensionless residuals
     since        checkpoint from which to resume; None to start at the beginning
     raises       NotConverged and GrossSliding, with the last converged increment as `last_state`
@@ -83,9 +84,12 @@ def solve_history(
 
 
 def _increment_solver(plan: Plan) -> Advance:
-    """Return the function that solves one increment, as required by the coupling of the plan.
+    """Return the function that solves one increment, for uncoupled or for coupled bodies.
 
-    Solvers that are not required are not imported.
+    The coupling is that of the normal and tangential problems. Solvers that are not required are
+    not imported.
+
+    plan  physical effects to compute
     """
     if plan.coupling is Coupling.NONE:
         return solve_increment
@@ -95,7 +99,12 @@ def _increment_solver(plan: Plan) -> Advance:
 
 
 def _edge_correction(model: ContactModel, plan: Plan) -> Correct | None:
-    """Return the edge correction that is applied to each state; None if the plan excludes it."""
+    """Return the edge correction that is applied to solved states; None if the plan excludes it.
+
+    The edge correction accounts for contact edges inside cells.
+
+    model, plan  contact model, and physical effects to compute
+    """
     if plan.edge == "off":
         return None
     from semi_analytical.edge_correction.correction import EdgeCorrection
@@ -110,9 +119,9 @@ class _Solver:
     The cost of an increment is counted in convolutions.
 
     model      contact model of the scene on a grid
-    plan       effects to compute, such as friction and coupling
+    plan       physical effects to compute, such as friction and coupling
     increment  function that solves one increment
-    correct    edge correction; None without one
+    correct    edge correction (contact edges inside cells); None without one
     tolerance  limit of all dimensionless residuals
     """
 
@@ -124,20 +133,24 @@ class _Solver:
 
     @property
     def most_spent(self) -> float:
-        """Number of convolutions above which an increment that does not converge is not
-        bisected."""
+        """Limit of the work of one increment, as a number of convolutions.
+
+        An increment that exceeds this limit without convergence is not bisected.
+        """
         return MAX_CONVOLUTIONS
 
     def spent(self) -> float:
-        """Return the number of convolutions since the start of the solution."""
+        """Return the work since the start of the solution, as a number of convolutions."""
         return self.model.convolutions.count
 
     def advance(
         self, ramp: LoadRamp, start: State | None, before: State | None, fraction: float
     ) -> State:
-        """Solve the state at a fraction of a load ramp, and add its energies and its edge
-        correction.
+        """Solve for the contact state at a fraction of a load ramp, with its energies.
 
+        The edge correction is added if the plan requires it for this increment.
+
+        ramp      controls of the load step
         start     state at the start of the load step; None before first touch
         before    state of the previous increment; None before first touch
         fraction  completed fraction of the ramp at the end of the increment, 0 to 1
@@ -168,20 +181,25 @@ class _Solver:
         return replace(after, corrected=edges, edge_report=replace(edges.report, stick=stick))
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
-        """Return the gap of the undeformed surfaces on the window, closed by the tilt but not by an
-        approach.
+        """Compute the gap of the undeformed surfaces on the full window, at an approach of 0 and a
+        tilt.
 
-        See `contact_scene.stepping.load_stepping.Solver`.
+        Load stepping uses the gap [length] for separated bodies.
+
+        last  last increment; not used
+        tilt  tilt of the indenter (φ_x, φ_y); None without tilt
         """
         closure = 0.0 if tilt is None else plane(self.model, tilt)
         return self.model.domain.extend(self.model.gap - closure)
 
     def report(self, reached: ConvergedIncrement[State], last: Increment | None) -> Increment:
-        """Convert a converged state to an increment of the results, with changes and cost since the
-        last one.
+        """Convert a converged state to an increment of the results, with changes since the last
+        increment.
+
+        Changes are, for example, the slip in the increment and the number of convolutions.
 
         reached  converged state with its place in the load history
-        last     preceding increment; None for the first
+        last     preceding increment of the results; None for the first
         """
         before, after = reached.before, reached.state
         held = before is not None and before.target == after.target
@@ -201,9 +219,11 @@ def _reported_increment(
 
     Changes and cost are those since the last increment.
 
-    last     preceding increment; None for the first
+    model    contact model
+    last     preceding increment of the results; None for the first
     reached  converged state with its place in the load history
-    spreads  True if the stick zone may have grown; determines the power laws fitted at its border
+    spreads  True if the stick zone may have grown; determines the power laws of the shear that are
+             fitted at the border of the stick zone
     """
     state, extend, before = reached.state, model.domain.extend_fields, reached.before
     pressing, sheared = extend(state.pressing), extend(state.sheared) if state.sheared else None
@@ -257,7 +277,12 @@ def _reported_increment(
 
 
 def _contact_cells(model: ContactModel, state: State) -> float:
-    """Compute the contact area as a number of cells of the window, with sub-cell accuracy."""
+    """Compute the contact area of a state as a number of cells of the window, with sub-cell
+    accuracy.
+
+    model  contact model
+    state  converged state, with the edge-corrected state if there is one
+    """
     if state.corrected is not None:
         return state.corrected.contact_cells
     p, domain = state.pressing.pressure, model.domain
@@ -267,10 +292,14 @@ def _contact_cells(model: ContactModel, state: State) -> float:
 def _apply_edge_correction(
     increment: Increment, state: State, corrected: Corrected, model: ContactModel
 ) -> Increment:
-    """Replace the pressure and contact of an increment by the edge-corrected ones, with the elastic
-    energy.
+    """Replace pressure, gap, approach and energy of an increment by the edge-corrected values.
 
-    The part of shear in the elastic energy and the dissipation are not corrected.
+    The part of the shear in the elastic energy and the dissipation are not corrected.
+
+    increment  increment of the results before the correction
+    state      converged state, before the correction
+    corrected  edge-corrected state, with contact edges inside cells
+    model      contact model
     """
     p, tilt, cell, target = corrected.pressure, corrected.tilt, model.window.cell_area, state.target
     moment = reached_moment(model, target, p)
@@ -312,13 +341,17 @@ def _stick_zone(
     *,
     spreads: bool,
 ) -> tuple[float, TangentialState, Increment]:
-    """Compute the stick area as a number of cells, with sub-cell accuracy.
+    """Compute the stick area of a state as a number of cells, with sub-cell accuracy.
 
     Return the area, the tangential state with edge-corrected shear, and the increment. Force, shift
     and their work are not corrected.
 
-    p        uncorrected pressure of the cells (nx, ny)
-    spreads  True if the stick zone may have grown; determines the power laws fitted at its border
+    p          pressure of the cells without edge correction (nx, ny)
+    sheared    tangential state on the full window
+    corrected  edge-corrected state; None without one
+    increment  increment of the results
+    spreads    True if the stick zone may have grown; determines the power laws of the shear that
+               are fitted at the border of the stick zone
     """
     border = corrected.sheared if corrected else None
     if corrected is not None and border is not None:
@@ -336,12 +369,13 @@ def _stick_zone(
 
 
 def _add_slip(increment: Increment, last: Increment | None, sheared: TangentialState) -> Increment:
-    """Add slip, slip distance and dissipation of a state to an increment of the results.
+    """Return an increment of the results with slip, slip distance and dissipation of its state.
 
     The increment is returned unchanged if the tangential shift is undefined.
 
-    last     preceding increment of the results, with slip and dissipation at the start
-    sheared  tangential state at the end of the increment
+    increment  increment of the results, without slip
+    last       preceding increment of the results, with slip and dissipation at the start
+    sheared    tangential state at the end of the increment
     """
     if sheared.dissipated_energy is None:
         return increment

@@ -58,10 +58,10 @@ Vector = tuple[float, float]
 
 @dataclass(frozen=True)
 class StepIncrements:
-    """Number of increments of one load step, with the reason for this number.
+    """Number of increments into which one load step is divided, with the reason for this number.
 
     count         number of increments
-    path_matters  True if the end state depends on the number of increments
+    path_matters  True if the state at the end of the load step depends on the number of increments
     why           reason in one sentence
     """
 
@@ -75,7 +75,7 @@ class Bodies:
     """Properties of the two bodies that determine the number of increments for a given error.
 
     coupled   True if the normal and tangential problems are coupled
-    beta      Dundurs constant β; None if a body has layers
+    beta      Dundurs' second constant β of the two materials; None if a body has layers
     friction  friction law
     """
 
@@ -87,15 +87,16 @@ class Bodies:
 def path_increments(
     scene: Scene, shear: bool, bodies: Bodies, accuracy: float
 ) -> tuple[StepIncrements, ...]:
-    """Choose the number of increments of each load step.
+    """Choose the number of increments of each load step for an allowed increment error.
 
     The number is the largest of: 1; for path-dependent steps the number by the error rules; the
     number for bulk strain; the number for the work of closed cycles. A number prescribed by the
     scene replaces all these numbers.
 
+    scene     scene with its load steps
     shear     True if shear is solved for
     bodies    properties of the bodies
-    accuracy  allowed increment error, Σ|error of q| / Σµp
+    accuracy  allowed increment error of the shear q: Σ|error of q| / Σµp over the cells
     """
     found = []
     sheared = bodies.coupled
@@ -127,7 +128,7 @@ NO_SHEAR = "no shear: the state does not depend on the load path"
 
 @dataclass(frozen=True)
 class _LoadStep:
-    """Load step, with functions that choose its number of increments for a given error.
+    """Load step, with functions that choose its number of increments for a given increment error.
 
     ramp   linear change of the prescribed loads
     start  tangential force or shift at the start of the step (x, y)
@@ -173,7 +174,7 @@ class _LoadStep:
         reversal.
 
         Torsion together with a tangential load counts as a change of direction if either of them
-        changes.
+        changes. The state then depends on the load path also for uncoupled bodies.
         """
         start, end = self.start, self.ramp.tangential.end
         cross = start[0] * end[1] - start[1] * end[0]
@@ -184,8 +185,9 @@ class _LoadStep:
         return abs(cross) > STRAIGHT * hypot(*start) * hypot(*end)
 
     def matters(self, coupled: bool) -> tuple[bool, str]:
-        """Determine if the end state of the load step depends on the load path; if not, state the
-        reason.
+        """Determine if the state at the end of the load step depends on the path of the loads.
+
+        If not, one increment suffices. Return True or False, and the reason if False.
 
         coupled  True if the normal and tangential problems are coupled
         """
@@ -202,20 +204,27 @@ class _LoadStep:
         return False, "the load has a constant direction and the bodies are uncoupled"
 
     def change_of_direction(self, bodies: Bodies) -> float:
-        """Compute Δx/x of a load step in which the tangential load changes its direction; 0 for
-        other steps.
+        """Compute the measure Δx/x of a change of direction of the tangential load in the load
+        step.
 
-        x is the largest ratio T/µW of tangential force to friction limit in the step, Δx its
-        change.
+        x is the largest ratio T/µW of tangential force to friction limit in the step, and Δx its
+        change. The result is 0 if the direction does not change. The error rule for several changes
+        of direction sums these measures.
+
+        bodies  properties of the bodies, with the friction law
         """
         x, change = self._parts_of_limit(bodies)
         return change / x if self._changes_direction and x else 0.0
 
     def count(self, bodies: Bodies, accuracy: float, changes: float) -> tuple[int, str]:
-        """Compute the number of increments for an accuracy, and name the error rule.
+        """Compute the number of increments of a path-dependent load step for an increment error.
 
-        accuracy  allowed increment error, Σ|error of q| / Σµp
-        changes   Σ Δx/x of all steps that change direction; 0 for fewer than two
+        Return the number, and the name of the error rule as a reason.
+
+        bodies    properties of the bodies
+        accuracy  allowed increment error of the shear q: Σ|error of q| / Σµp over the cells
+        changes   Σ Δx/x of all steps that change direction (see `change_of_direction`); 0 for fewer
+                  than two
         """
         if self._is_first_loading and not self._changes_tangential_load:
             return _first_loading_count(bodies, accuracy, self.shape)
@@ -237,18 +246,22 @@ class _LoadStep:
 
     @property
     def _pressing_change(self) -> float:
-        """Change of the normal load in the load step over the larger value; 1 if unknown."""
+        """Relative change of the normal load in the load step, over its larger value; 1 if
+        unknown.
+        """
         normal, tilting = self.ramp.normal, self.ramp.tilting
         if normal.start is None or tilting.start != tilting.end:
             return 1.0
         return abs(normal.end - normal.start) / max(normal.start, normal.end)
 
     def _parts_of_limit(self, bodies: Bodies) -> tuple[float, float]:
-        """Compute the largest ratio T/µW of tangential force to friction limit in the step, and its
+        """Compute the largest ratio of tangential force T to friction limit µW in the step, and its
         change.
 
         Each result is 1 if it is unknown before the solution, and 0 if the tangential load does not
-        change.
+        change. The error rules depend on both values.
+
+        bodies  properties of the bodies, with the friction law
         """
         if not self._changes_tangential_load:
             return 0.0, 0.0
@@ -271,12 +284,14 @@ class _LoadStep:
 
 
 def _first_loading_count(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[int, str]:
-    """Compute the number of increments of normal first loading of coupled bodies, and the reason.
+    """Compute the number of increments of first normal loading of coupled bodies, and the reason.
 
-    The error depends on the relative size of the stick zone, whose edge moves with that of the
-    contact.
+    The shear is caused by the pressure alone. The error depends on the relative size of the stick
+    zone, whose edge moves with that of the contact.
 
-    accuracy  allowed increment error, Σ|error of q| / Σµp
+    bodies    properties of the bodies
+    accuracy  allowed increment error of the shear q: Σ|error of q| / Σµp over the cells
+    shape     shape of the indenter
     """
     layered = bodies.beta is None
     most = (FULL_STICK_LAYERS if layered else FULL_STICK) / accuracy

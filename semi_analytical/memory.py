@@ -45,8 +45,13 @@ DRAWING, DRAWING_ARRAYS, DRAWING_COUPLED = 75 << 20, 11, 9 << 20
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
-    """Estimate the peak memory of a semi-analytical solution, libraries and figures included
-    [byte]."""
+    """Estimate the peak memory of a semi-analytical solution [byte].
+
+    Libraries, stored increments and figures are included.
+
+    grid  cells of the full window
+    plan  physical effects to compute, and number of increments
+    """
     array = grid.cells[0] * grid.cells[1] * DOUBLE
     increments = sum(plan.increments)
     kept = PRESSURE_RESULT + (SHEAR_RESULT if plan.shear else 0)
@@ -61,14 +66,17 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
 
 
 def _domain_share(grid: SurfaceGrid, plan: Plan) -> float:
-    """Return the ratio of the number of cells of the reduced domain to that of the window."""
+    """Return the ratio of the number of cells of the reduced domain to that of the full window.
+
+    The ratio is 1 without symmetry reduction. Used to count the arrays in memory.
+    """
     return 1 / plan.symmetry.images if grid.even else 1.0
 
 
 def _count_arrays(grid: SurfaceGrid, plan: Plan) -> float:
-    """Count the arrays of the size of the window that are in memory at the peak of the solution.
+    """Count the arrays of the size of the window that are in memory at the peak of a solution.
 
-    The edge correction is excluded.
+    The count applies to uncoupled bodies. The edge correction is excluded.
     """
     share = _domain_share(grid, plan)
     arrays = PRESSURE_ARRAYS[0] + PRESSURE_ARRAYS[1] * share
@@ -79,7 +87,10 @@ def _count_arrays(grid: SurfaceGrid, plan: Plan) -> float:
 
 
 def _coupled_bytes(grid: SurfaceGrid, plan: Plan) -> float:
-    """Estimate the memory of coupled bodies during the solution or the edge correction [byte]."""
+    """Estimate the peak memory of coupled bodies during the solution or the edge correction [byte].
+
+    Libraries and stored increments are excluded.
+    """
     array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
     by_increment = COUPLED_ARRAYS[plan.symmetry.images if grid.even else 1]
     during, between = by_increment[sum(plan.increments) > 1]
@@ -91,7 +102,10 @@ def _coupled_bytes(grid: SurfaceGrid, plan: Plan) -> float:
 
 
 def _edge_bytes(grid: SurfaceGrid, plan: Plan) -> float:
-    """Estimate the peak memory of the edge correction for uncoupled bodies [byte]."""
+    """Estimate the memory that the edge correction adds for uncoupled bodies [byte].
+
+    The edge correction accounts for contact edges inside cells. The result is 0 without it.
+    """
     if plan.edge == "off":
         return 0
     array, side = grid.cells[0] * grid.cells[1] * DOUBLE, sum(grid.cells) / 2
@@ -109,7 +123,11 @@ def _edge_bytes(grid: SurfaceGrid, plan: Plan) -> float:
 
 
 def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:
-    """Raise ResourceRefused if the estimated memory of the solution exceeds the free memory."""
+    """Raise ResourceRefused if a solution needs more memory than is available.
+
+    grid  cells of the full window
+    plan  physical effects to compute, and number of increments
+    """
     needed, available = estimated_bytes(grid, plan), available_bytes()
     if needed > available:
         raise ResourceRefused(

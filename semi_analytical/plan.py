@@ -40,7 +40,10 @@ COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)
 
 
 class Coupling(StrEnum):
-    """Coupling of the normal and the tangential problem in the solution of a scene."""
+    """Coupling of the normal and the tangential problem in the solution of a scene: none or full.
+
+    Pressure displaces the surfaces tangentially, and shear normally, if the bodies are dissimilar.
+    """
 
     NONE = "none"
     FULL = "full"
@@ -48,7 +51,9 @@ class Coupling(StrEnum):
 
 @dataclass(frozen=True)
 class Plan:
-    """Effects that the solution of a scene includes. Effects that are off cause no cost.
+    """Physical effects that the solution of a scene includes, and its increments per load step.
+
+    Effects that are off cause no cost.
 
     shear     True if shear tractions are solved for
     tilt      True if the indenter tilts, by prescribed moments or tilts
@@ -56,7 +61,7 @@ class Plan:
     coupling  coupling of the normal and the tangential problem
     path      number of increments of each load step, with reasons
     effects   every effect with its reason, as displayed
-    edge      increments at whose end the edge correction is applied
+    edge      increments at whose end the edge correction (contact edges inside cells) is applied
     symmetry  symmetry reduction: domain of the solution
     couples   True if the edge correction is that of coupled bodies; False for uncoupled bodies with
               forced coupling
@@ -78,7 +83,7 @@ class Plan:
         return tuple(step.count for step in self.path)
 
     def cut_into(self, increments: Sequence[int]) -> "Plan":
-        """Return the plan with prescribed numbers of increments.
+        """Return a copy of the plan with given numbers of increments.
 
         increments  number of increments of each load step
         """
@@ -87,8 +92,11 @@ class Plan:
 
 
 def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrection = "off") -> Plan:
-    """Decide which effects to compute for a scene, and the number of increments of each load step.
+    """Decide which physical effects to compute for a scene, and the increments of each load step.
 
+    Effects are, for example, shear, tilt, torsion, coupling and the symmetry reduction.
+
+    scene          scene to solve
     path_accuracy  allowed increment error of the shear, relative to Σµp
     edge           increments at whose end the edge correction is requested
     raises         UnsupportedScene for a ratio of shear moduli above MAX_CONTRAST
@@ -140,8 +148,9 @@ def _tangentially_loaded(scene: Scene) -> bool:
 
 
 def _prescribed_effect(name: str, on: bool, loads: str, friction: bool = True) -> Effect:
-    """Describe an effect that is on if loads of some kind are prescribed; without friction it may
-    be off.
+    """Describe an effect that is on if the scene prescribes certain loads, such as tilt or torsion.
+
+    The description contains the reason.
 
     name      name of the effect
     on        True if such loads are prescribed
@@ -156,9 +165,14 @@ def _prescribed_effect(name: str, on: bool, loads: str, friction: bool = True) -
 def _choose_symmetry(
     scene: Scene, shear: bool, coupled: bool, tilt: bool, torsion: bool
 ) -> tuple[ReducedDomain, str]:
-    """Choose the symmetry reduction of a scene, and state the reason.
+    """Choose the symmetry reduction of a scene (quarter, half or full window), and state the
+    reason.
 
-    A plane is a mirror plane if it preserves the shear of all loads, or reverses that of all loads.
+    A plane x = 0 or y = 0 is a mirror plane if it preserves the shear of all loads, or reverses
+    that of all loads.
+
+    shear, coupled  True if shear is solved for; True if normal and tangential problem are coupled
+    tilt, torsion   True if the indenter tilts; True if it rotates about z
     """
     if tilt:
         return WINDOW, "the indenter tilts"
@@ -206,9 +220,12 @@ def _decide_edge_correction(scene: Scene, asked: EdgeCorrection, torsion: bool) 
 
 
 def all_effects(plan: Plan) -> Plan:
-    """Return a plan that computes all effects, also vanishing ones: equal results at a higher cost.
+    """Return a plan in which all physical effects are computed, although some of them vanish.
 
-    Used to verify that switched-off effects do not change the results.
+    The results are equal at a higher cost. Used to verify that switched-off effects do not change
+    the results.
+
+    plan  plan that a scene requires
     """
     return replace(
         plan,
@@ -222,10 +239,12 @@ def all_effects(plan: Plan) -> Plan:
 
 
 def _forced_effect(effect: Effect) -> Effect:
-    """Return the description of an effect in a plan that computes all effects.
+    """Return the description of one effect for a plan in which all effects are computed.
 
     Effects that the scene does not require are marked as forced on, a symmetry reduction as not
     used.
+
+    effect  description of the effect in the plan that the scene requires
     """
     if effect.name == MIRROR_PLANES and effect.on:
         return replace(effect, on=False, why=f"not used, although {effect.why}")

@@ -13,45 +13,51 @@ LEAST_SLIP = 1e-3
 
 
 def complementarity(p: Field, g: Field, approach: float) -> float:
-    """Compute the complementarity residual Σ|g| p / (approach Σp): pressure acts where the gap is
+    """Compute the complementarity residual of the contact conditions: pressure where the gap is
     open.
+
+    The residual is Σ|g| p / (approach Σp), dimensionless.
 
     p         pressure (nx, ny)
     g         gap (nx, ny) [length]; may be infinite where p = 0
-    approach  approach or overlap of the bodies [length]
+    approach  approach or overlap of the bodies, the scale of the gap [length]
     """
     pressed = p > 0
     return float(np.sum(np.abs(g[pressed]) * p[pressed]) / (np.sum(p) * abs(approach)))
 
 
 def penetration(g: Field, approach: float) -> float:
-    """Compute the penetration residual max(-g) / approach, zero if the bodies do not overlap.
+    """Compute the penetration residual of the contact conditions: largest overlap of the bodies.
+
+    The residual is max(-g) / approach, dimensionless; zero if the bodies do not overlap.
 
     g         gap (nx, ny) [length]
-    approach  approach or overlap of the bodies [length]
+    approach  approach or overlap of the undeformed bodies, the scale of the gap [length]
     """
     return float(np.maximum(0.0, -np.min(g)) / abs(approach))
 
 
 def friction_cone(q: Field, bound: Field) -> float:
-    """Compute the excess of the shear over the friction limit, max(|q| - bound) / max(bound), at
-    least 0.
+    """Compute the residual of Coulomb's friction limit: largest excess of the shear over the limit.
+
+    The residual is max(|q| - bound) / max(bound), dimensionless, and at least 0.
 
     q      shear (2, nx, ny)
-    bound  friction limit (nx, ny)
+    bound  friction limit µp (nx, ny)
     """
     excess = np.max(np.sqrt(q[0] ** 2 + q[1] ** 2) - bound)
     return float(np.maximum(0.0, excess) / np.max(bound))
 
 
 def slip_direction(q: Field, bound: Field, slip: Field, displacement: Field) -> float:
-    """Compute the residual Σ(bound |w| - q·w) / Σ bound |w| of the slip direction.
+    """Compute the residual of Coulomb's slip rule: shear at the friction limit in the direction of
+    slip.
 
-    The residual is zero if the shear of all slipping cells is at the friction limit along the slip
-    w.
+    The residual is Σ(bound |w| - q·w) / Σ bound |w| with the slip w, dimensionless. It is zero if
+    the rule holds in all slipping cells.
 
     q             shear (2, nx, ny)
-    bound         friction limit (nx, ny), zero outside the contact
+    bound         friction limit µp (nx, ny), zero outside the contact
     slip          slip w (2, nx, ny) of the indenter relative to the body, in the direction of q
     displacement  tangential displacement (2, nx, ny), which sets the least scale of slip
     """

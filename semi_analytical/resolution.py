@@ -23,7 +23,9 @@ SQUARE = np.ones((3, 3), dtype=bool)  # cells that share a corner belong to one 
 
 @dataclass(frozen=True)
 class Resolution:
-    """Lengths of the solution at the end of a load step in cells; None for features that do not
+    """Sizes of contact, stick zone, layers and roughness at the end of a load step, in cells.
+
+    The sizes determine if the grid resolves the contact. None stands for a feature that does not
     exist.
 
     contact  smaller semi-axis of the contact; for several patches the mean weighted by their loads.
@@ -44,7 +46,11 @@ class Resolution:
 
 
 def resolution(result: Result) -> tuple[Resolution, ...]:
-    """Measure the resolution of a result in cells at the end of every load step."""
+    """Measure contact, stick zone, layers and roughness of a result in cells, for each load step.
+
+    The sizes are those at the end of the load step. They determine if the grid resolves the
+    contact.
+    """
     return tuple(_resolution_at(result, end) for end in result.steps)
 
 
@@ -65,8 +71,10 @@ def _contact_size(result: Result, end: Increment) -> float:
 
 
 def refuse_unresolved(result: Result) -> None:
-    """Raise ContactNotResolved if the largest contact of the history has less than one cell per
-    radius."""
+    """Raise ContactNotResolved if the grid of a result has less than one cell per contact radius.
+
+    The largest contact of the load history is tested.
+    """
     end = max(result.steps, key=lambda step: step.contact_area)
     found = _contact_size(result, end)
     if found >= 1:
@@ -79,9 +87,11 @@ def refuse_unresolved(result: Result) -> None:
 
 
 def _remedy_text(result: Result, found: float) -> str:
-    """Return the sentence of an error message with settings that would resolve the contact.
+    """Return a sentence for an error message: the settings with which the grid would resolve the
+    contact.
 
-    found  radius of the contact in cells
+    result  result with too large cells
+    found   radius of the contact in cells
     """
     (nx, ny), (L_x, L_y) = result.grid.cells, result.grid.window
     more = int(np.ceil(ENOUGH / max(found, 0.5)))
@@ -99,10 +109,11 @@ def _remedy_text(result: Result, found: float) -> str:
 
 
 def _semi_axis(marked: Mask, load: Field, area: float) -> float:
-    """Compute the smaller semi-axis of contact or stick patches in cells, as a mean weighted by
-    load.
+    """Compute the smaller semi-axis of contact or stick patches in cells.
 
-    Each patch is replaced by the ellipse of the same area and the same ratio of second moments.
+    The result is a mean over the patches, weighted by their loads. Each patch is replaced by the
+    ellipse of equal area and equal ratio of second moments. Patches without interior cell count
+    half.
 
     marked  cells of the patches (nx, ny)
     load    load of each cell (nx, ny)

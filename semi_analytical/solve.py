@@ -95,6 +95,12 @@ def solve_discretised(
     If the window is not prescribed, it is fitted to the contact, and enlarged if the contact of an
     increment reaches its border. For a height map the window is the whole map. Raises the errors of
     `solve`, and ContactNotResolved where only a few cells carry the load.
+
+    scene           scene to solve
+    discretisation  settings of the scene file: cells, window, tolerance, edge correction
+    progress        function that is called after every increment, or None
+    plan            physical effects to compute; None for those that the scene requires
+    store           checkpoints of the same solution, from which it is resumed
     """
     scene, decided = normal_form(scene), plan
     if decided is None:
@@ -126,10 +132,15 @@ def solve_within(
 ) -> Result:
     """Solve a scene on the first of several grids whose window contains the contact.
 
-    Raises the errors of `solve`.
+    A larger window is tried if the contact of an increment reaches the border of the window. Raises
+    the errors of `solve`.
 
+    scene      scene to solve
     grids      grids of successively larger windows
     tolerance  limit of every dimensionless residual
+    progress   function that is called after every increment, or None
+    plan       physical effects to compute; None for those that the scene requires
+    store      checkpoints of the same solution, from which it is resumed
     """
     last = store.last() if store else None
     if last and last.extent in grids:  # smaller windows do not contain the contact

@@ -15,9 +15,11 @@ ROUND_OFF = 1e-9
 
 
 class SurfaceTensileStress:
-    """Largest tensile stress at the surface of a result in load cycles.
+    """Largest tensile stress at the surface in load cycles, for Ruiz's second fretting parameter.
 
     The stress at the end of a load step that several cycles share is evaluated once.
+
+    result  result of the semi-analytical solver
     """
 
     def __init__(self, result: Result) -> None:
@@ -25,7 +27,8 @@ class SurfaceTensileStress:
         self._stresses: dict[int, Field] = {}
 
     def within(self, path: Sequence[Increment]) -> Field | None:
-        """Compute the tensile stress σ_T (nx, ny) of a load cycle at the surface [force/length^2].
+        """Compute the tensile stress σ_T of each surface cell in a load cycle (nx, ny)
+        [force/length^2].
 
         σ_T is the largest value at the ends of the load steps of the cycle. The stress acts along
         the direction in which the tangential force changes. None is returned if the force is
@@ -47,9 +50,13 @@ class SurfaceTensileStress:
 
 
 def _in_plane_stress(result: Result, end: Increment) -> Field:
-    """Compute σ_xx, σ_yy, σ_xy (3, nx, ny) at the surface of a body, tensile stress positive.
+    """Compute the in-plane stress components at the surface of a body, tensile stress positive.
 
-    end  increment at the end of a load step
+    The components σ_xx, σ_yy, σ_xy (3, nx, ny) [force/length^2] are those of the lower body, or of
+    the indenter if the lower body is rigid.
+
+    result  result of the semi-analytical solver
+    end     increment at the end of a load step
     """
     body, indenter, shear = result.scene.body, result.scene.indenter, end.shear
     if not body.deforms:
@@ -63,10 +70,10 @@ def _in_plane_stress(result: Result, end: Increment) -> Field:
 
 
 def _force_direction(path: Sequence[Increment], cell_area: float) -> Vector | None:
-    """Return the direction in which the tangential force changes most in a load cycle (unit
-    vector).
+    """Return the direction in which the tangential force changes most in a load cycle.
 
-    The change is counted from the start of the cycle. None is returned if the force is constant.
+    The direction is a unit vector (2,). The change is counted from the start of the cycle. None is
+    returned if the force is constant.
 
     path       increments of the cycle
     cell_area  area of a cell [length^2]
@@ -81,6 +88,10 @@ def _force_direction(path: Sequence[Increment], cell_area: float) -> Vector | No
 
 
 def _normal_stress_along(direction: Vector, stress: Field) -> Field:
-    """Compute the normal stress n·σ n of the in-plane stress (3, nx, ny) along a unit vector n."""
+    """Compute the normal stress n·σ n along a direction n in the surface (nx, ny) [force/length^2].
+
+    direction  unit vector n (2,)
+    stress     in-plane components σ_xx, σ_yy, σ_xy (3, nx, ny)
+    """
     (x, y), (xx, yy, xy) = direction, stress
     return np.asarray(x * x * xx + y * y * yy + 2 * x * y * xy)
