@@ -96,9 +96,7 @@ class RefinementLevel:
 
     @property
     def processor_seconds(self) -> float:
-        """CPU time of the solve of this level and of the coarse solves of its error
-        estimate [s].
-        """
+        """CPU time of the solve of this level and of its coarse solves [s]."""
         return self.solve_seconds + self.error_seconds
 
     def largest(self, name: str) -> float:
@@ -112,8 +110,7 @@ class RefinementLevel:
         return float(np.max(largest_so_far(self.values)[-1].get(name, 0.0)))
 
     def errors(self, name: str) -> Iterator[StatedError]:
-        """Yield the error estimate of one scalar for each load step whose results contain the
-        scalar.
+        """Yield the error estimate of one scalar at the end of each load step that has the scalar.
 
         name  name of the scalar, such as "peak_pressure"
         """
@@ -134,11 +131,10 @@ class RefinementLevel:
         return float(max(np.max(e.error or 0.0) for e in errors)) / self.largest(name)
 
     def meets(self, shares: Mapping[str, float]) -> bool:
-        """Return true if the relative errors of this level meet the requested accuracy of all
-        scalars.
+        """Return true if the errors of this level meet the requested accuracy of all scalars.
 
-        An error times the margin 1.15 must not exceed the requested error. The margin is needed
-        because the refinement stops at the first sufficient estimate. This criterion favours
+        A relative error times the margin 1.15 must not exceed the requested error. The margin is
+        needed because the refinement stops at the first sufficient estimate. This criterion favours
         estimates that are too small.
 
         shares  requested relative error by name of the scalar
@@ -147,8 +143,7 @@ class RefinementLevel:
         return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
 
     def needed_factors(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
-        """Compute the factors by which the discretisation must be refined to meet a requested
-        accuracy.
+        """Compute the refinement factors of the discretisation that a requested accuracy needs.
 
         There is one factor for each discretisation parameter, such as cells, increments and
         tolerance. A factor follows from the part of the error that the parameter causes, and from
@@ -185,8 +180,7 @@ class RefinementLevel:
 
 @dataclass(frozen=True)
 class Levels:
-    """Solver and settings of an adaptive refinement, with functions that solve and compare its
-    levels.
+    """Solver of an adaptive refinement: solves its levels and compares them with the limits.
 
     A level is one discretisation of the scene. Each level is finer than the preceding one.
 
@@ -262,8 +256,7 @@ class Levels:
         )
 
     def estimated_seconds(self, level: RefinementLevel, run: Work) -> float:
-        """Estimate the CPU time of a solve and its error estimate [s] from the time of a solved
-        level.
+        """Estimate the CPU time of a solve and its error estimate [s] from that of a solved level.
 
         level  solved level, whose measured CPU time is scaled by the work of the solves
         run    numbers of unknowns and repetitions of the solve
@@ -287,11 +280,10 @@ class Levels:
         )
 
     def last(self, first: RefinementLevel, shares: Mapping[str, float]) -> Fineness:
-        """Extrapolate the discretisation that meets a requested accuracy from the errors of the
-        first level.
+        """Extrapolate the discretisation that meets a request from the errors of the first level.
 
         Used to estimate time and memory, and to refuse a request that cannot be met. If the first
-        level meets the request, its discretisation is returned.
+        level meets the requested accuracy, its discretisation is returned.
 
         first   solved first level of the refinement
         shares  requested relative error by name of the scalar
@@ -435,11 +427,11 @@ def refine(
 
 
 def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> Price:
-    """Estimate CPU time and memory of a run with a requested accuracy, without a solve on fine
-    levels.
+    """Estimate CPU time and memory of a run with a requested accuracy, before the run.
 
     The discretisation that meets the request is extrapolated from the errors of the first and
-    coarsest level. Raises AccuracyOutOfReach for a request that cannot be met.
+    coarsest level. Finer levels are not solved. Raises AccuracyOutOfReach for a request that cannot
+    be met.
 
     levels   scene and solver
     first    solved first level, with its errors

@@ -128,8 +128,8 @@ class DiscretisedSolver(ABC):
 
     @classmethod
     def stated_errors(cls, result: Any) -> StatedErrors:
-        """Estimate the errors of all scalars of a result, such as forces, at the end of each load
-        step.
+        """Estimate the errors of all scalars (forces, radii, …) of a result at each load step's
+        end.
 
         The scene is solved again with coarser discretisations. The errors follow from the
         differences between these solves and the result.
@@ -140,8 +140,8 @@ class DiscretisedSolver(ABC):
     @property
     @abstractmethod
     def plan(self) -> Any:
-        """Plan of a solve: its modelled physical effects, and its number of increments per load
-        step.
+        """Plan of a solve: modelled physical effects, and number of increments of each
+        load step.
         """
 
     @abstractmethod
@@ -223,8 +223,7 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def features(self, result: Any) -> Sequence[Features]:
-        """Measure the sizes of contact, stick zone and layers in cells at the end of each load
-        step.
+        """Measure contact, stick zone and layers in cells at the end of each load step of a result.
 
         The sizes determine if the cells resolve the contact, and which convergence order the errors
         have.
@@ -239,8 +238,7 @@ class DiscretisedSolver(ABC):
         return [result.tolerance] * len(result.steps)
 
     def neglected_errors(self, result: Any) -> Mapping[str, float]:
-        """Return the relative errors of scalars, by name, that physical effects outside the model
-        cause.
+        """Return the relative errors of scalars, by name, due to effects that the solver neglects.
 
         An example is the error of the peak pressure by roughness that the cells do not resolve. By
         default the mapping is empty.
@@ -259,8 +257,7 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def refine_space(self, space: Any, by: Refinement) -> Any:
-        """Refine the grid, mesh or ring factor of a refinement level, to obtain that of the next
-        level.
+        """Refine the grid, mesh or ring factor of one refinement level, to obtain the next one.
 
         space  grid, mesh settings or ring factor of the present level
         by     required refinement factor of each discretisation parameter, by name
@@ -289,8 +286,7 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def work(self, fineness: Fineness) -> Work:
-        """Return the numbers of unknowns and of increments of a solve, from which its CPU time
-        follows.
+        """Count the unknowns and the increments of a solve, from which its CPU time is estimated.
 
         fineness  grid or mesh, increments and tolerance of the solve
         """
@@ -352,6 +348,12 @@ def compare_with_coarse_solves(
         return known[coarse]
 
     def compare(part: Part, base: Sequence[Values], coarse: Sequence[Values], ratio: float) -> None:
+        """Append a comparison of two solves that differ in one discretisation parameter.
+
+        part          part of the error that the parameter causes
+        base, coarse  scalars of the finer and of the coarser solve at the end of each load step
+        ratio         coarsening factor of the parameter
+        """
         comparisons.append(Comparison(part, base, coarse, [ratio] * len(values)))
 
     spaces = [solver.coarser(result, share, more) for _, share, more in solver.shares]
@@ -421,8 +423,9 @@ def coarse_tolerance(features: Sequence[Features]) -> float:
 
 
 def change_parameters(space: Any, changes: Mapping[str, Any] | None) -> Any:
-    """Return the mesh settings of a finite-element solve with some values changed, for a coarse
-    solve.
+    """Return a copy of the mesh settings of a finite-element solve with some values changed.
+
+    Used for coarse solves.
 
     space    mesh settings, which are copied
     changes  new values by name of the setting; None for no change

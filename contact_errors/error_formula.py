@@ -190,8 +190,7 @@ def values_of(result: Any) -> tuple[Values, ...]:
 
 
 def prescribed_scalars(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
-    """Return the names of the scalars that a load step prescribes, and whose error is therefore
-    zero.
+    """Return the names of the scalars that a load step prescribes; their errors are zero.
 
     For example, a load step under force control prescribes the normal force. With a spring of a
     test rig, the prescribed displacement is that of the actuator.
@@ -217,12 +216,12 @@ def prescribed_scalars(ramp: LoadRamp, rig: Rig | None) -> frozenset[str]:
 
 
 def characteristic_size(name: str, values: Values) -> float:
-    """Compute a characteristic magnitude of a scalar from approach, force, contact radius and
-    pressure.
+    """Compute a characteristic magnitude of a scalar at the end of a load step, in its unit.
 
     The tolerance of a solve causes an error relative to this magnitude, even if the scalar itself
-    is nearly zero. The magnitude is a product with the unit of the scalar, for example normal force
-    times approach for an energy. It is 0 for other units.
+    is nearly zero. The magnitude is a product of approach, normal force, contact radius and peak
+    pressure that has the unit of the scalar, for example normal force times approach for an energy.
+    It is 0 for units without such a product.
 
     name    name of the scalar
     values  all scalars at the end of a load step, by name
@@ -381,11 +380,10 @@ class SolvedRun:
 
     @cached_property
     def _near_gross_slip(self) -> Sequence[bool]:
-        """Flag of each load step: true once the tangential force has come close to the friction
-        limit.
+        """Flag of each load step: true once the tangential force has been near the friction limit.
 
-        The force may have come close in this or in an earlier load step. Errors of shift, slip and
-        dissipated energy are unreliable from then on.
+        The force may have been near the limit in this or in an earlier load step. Errors of shift,
+        slip and dissipated energy are unreliable from then on.
         """
         return near_gross_slip(self.scene)
 
@@ -399,8 +397,7 @@ class SolvedRun:
         return min(features.convergence_order(name) for features in self.features)
 
     def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
-        """Compute the parts of the error of a scalar at the end of a load step, by name of the
-        cause.
+        """Compute the parts of the error of a scalar at the end of a load step, by their cause.
 
         Causes are the discretisation parameters (cells, increments), the tolerance and neglected
         effects. The result is None if a required part is unknown or the exact value is infinite.
@@ -429,11 +426,10 @@ class SolvedRun:
 
 
 def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
-    """Compute the largest absolute value of each scalar from the start of the history to each load
-    step.
+    """Compute the largest absolute value of each scalar up to the end of each load step.
 
-    All components of a vector receive the value of the largest component. Relative errors refer to
-    these values.
+    The maximum is over this and all earlier load steps. All components of a vector receive the
+    value of the largest component. Relative errors refer to these values.
 
     values  scalars at the end of each load step, by name
     """

@@ -79,8 +79,7 @@ class CellSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Plan of a solve: its modelled physical effects, and its number of increments per load
-        step.
+        """Plan of a solve: modelled physical effects, and number of increments of each load step.
 
         The plan is that of the solved result, if there is one. Otherwise it is made from the scene,
         with the increments of the first refinement level.
@@ -112,8 +111,7 @@ class CellSolver(DiscretisedSolver):
         return result.grid
 
     def coarser(self, result: Result, share: float, more: int) -> SurfaceGrid:
-        """Return a grid with fewer cells on the window of a result, for the error estimate of the
-        result.
+        """Return a grid with fewer cells on the window of a result, for its error estimate.
 
         The numbers of cells are increased to even numbers.
 
@@ -240,11 +238,10 @@ def _may_hide_stick(end: Increment) -> bool:
 
 
 def scale_cells(cells: tuple[int, int], factor: float) -> tuple[int, int]:
-    """Multiply the numbers of cells of a grid along x and y by a factor, for a finer or larger
-    grid.
+    """Multiply the numbers of cells of a grid along x and y by a factor.
 
-    The products are increased to even numbers whose halves have no prime factor above 5. Fourier
-    transforms of such numbers of cells are fast.
+    Used for finer grids and for larger windows. The products are increased to even numbers whose
+    halves have no prime factor above 5. Fourier transforms of such numbers of cells are fast.
 
     cells   numbers of cells along x and y
     factor  factor of both numbers

@@ -66,8 +66,8 @@ class RingSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Plan of a solve: its modelled physical effects, and its number of increments per load
-        step.
+        """Plan of a solve: modelled physical effects, and number of increments of each
+        load step.
         """
         return self.chosen_plan or radial.plan(self.scene)
 
@@ -89,12 +89,11 @@ class RingSolver(DiscretisedSolver):
         return result.plan.fineness
 
     def coarser(self, result: Result, share: float, more: int) -> float:
-        """Return the factor of the default number of rings for a solve that is compared with a
-        result.
+        """Return the ring factor of a solve that is compared with a result, for its error estimate.
 
-        The difference from the result yields the error estimate. If the accuracy depends on rings,
-        the solve is coarser. Otherwise it depends on Legendre orders and quadrature points, and the
-        solve has twice as fine a discretisation as the result.
+        The factor multiplies the default number of rings. If the accuracy depends on rings, the
+        solve is coarser than the result. Otherwise the accuracy depends on Legendre orders and
+        quadrature points, and the solve has twice their numbers.
 
         result  result whose errors are estimated
         share   fraction of the rings of the result

@@ -44,8 +44,7 @@ GROWTH = 1.6
 
 
 def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
-    """Choose the number of cells and the window for a scene, where the settings do not prescribe
-    them.
+    """Choose the number of cells and the window of a scene that the settings do not prescribe.
 
     The window is fitted to the largest contact of the load history, found on a coarse grid under
     the largest normal load. It lies within the extent of height and friction maps. The spacing of a
@@ -73,6 +72,15 @@ def enlarge_window(scene: Scene, asked: SurfaceDiscretisation, grid: SurfaceGrid
 
 
 def _grid_on_window(scene: Scene, asked: SurfaceDiscretisation, window: Pair) -> SurfaceGrid:
+    """Choose the number of cells on a window that the settings do not prescribe.
+
+    The default is 128 cells per side. With maps, the numbers of cells are multiples of the numbers
+    of points of the height map in the window, or of the friction map without a height map.
+
+    scene   scene to solve
+    asked   settings of the scene file, with prescribed cells if any
+    window  sides of the window [length]
+    """
     if asked.cells is not None:
         return SurfaceGrid(asked.cells, window)
     cells = np.array(DEFAULT_CELLS)
@@ -95,6 +103,11 @@ def _scene_maps(scene: Scene) -> list[HeightMap | FrictionMap]:
 
 
 def _within_maps(scene: Scene, window: Pair) -> Pair:
+    """Reduce the sides of a window to the extent of the height map and friction map of a scene
+    [length].
+
+    window  sides of the window along x and y [length]
+    """
     known = (scene.indenter.extent, scene.friction.extent if scene.friction else None)
     L_x, L_y = np.min([window, *filter(None, known)], axis=0)
     return float(L_x), float(L_y)

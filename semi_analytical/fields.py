@@ -85,17 +85,16 @@ class Increment(ReportedIncrement):
 
     @property
     def in_contact(self) -> Annotated[Mask, Reported("", "Whether the cell carries pressure.", F)]:
-        """Cells that carry pressure (nx, ny)."""
+        """Cells in contact (nx, ny): those that carry pressure."""
         return np.asarray(self.pressure > 0)
 
     @property
     def slip_increment(
         self,
     ) -> Annotated[VectorField | None, Reported("m", "Slip (x, y) within the increment.", F)]:
-        """Slip of the lower body relative to the indenter within the increment (2, nx, ny)
-        [length].
+        """Slip of the lower body relative to the indenter within the increment [length].
 
-        None without friction.
+        The field has the shape (2, nx, ny). None without friction.
         """
         if self.slip is None or self.slip_before is None:
             return None

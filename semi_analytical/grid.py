@@ -37,12 +37,12 @@ class SurfaceGrid:
 
     @property
     def x(self) -> NDArray[np.float64]:
-        """Cell centres along x, symmetric about zero, shape (nx,) [length]."""
+        """Coordinates x of the cell centres, symmetric about zero, shape (nx,) [length]."""
         return _cell_centres(self.cells[0], self.spacing[0])
 
     @property
     def y(self) -> NDArray[np.float64]:
-        """Cell centres along y, symmetric about zero, shape (ny,) [length]."""
+        """Coordinates y of the cell centres, symmetric about zero, shape (ny,) [length]."""
         return _cell_centres(self.cells[1], self.spacing[1])
 
     @property
@@ -57,9 +57,7 @@ class SurfaceGrid:
         return all(bool((at == -at[::-1]).all()) for at in (self.x, self.y))
 
     def coordinates(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the x and the y coordinates of all cell centres, each of shape (nx, ny)
-        [length].
-        """
+        """Return the coordinates x and y of all cell centres, each of shape (nx, ny) [length]."""
         return np.repeat(self.x[:, None], self.cells[1], axis=1), np.tile(
             self.y, (self.cells[0], 1)
         )

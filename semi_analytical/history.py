@@ -49,10 +49,9 @@ Advance = Callable[
 
 
 class Correct(Protocol):
-    """Interface of the edge correction: a function that corrects pressure and shear of a solved
-    state.
+    """Interface of the edge correction of pressure and shear in a solved contact state.
 
-    The correction accounts for contact edges inside cells. The result is the corrected state, or a
+    The correction accounts for contact edges inside cells. A call returns the corrected state, or a
     report of the reason why a correction is impossible. `EdgeCorrection` implements the interface.
     """
 
@@ -181,10 +180,9 @@ class _Solver:
         return replace(after, corrected=edges, edge_report=replace(edges.report, stick=stick))
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
-        """Compute the gap of the undeformed surfaces on the full window, at an approach of 0 and a
-        tilt.
+        """Compute the gap of the undeformed surfaces on the full window at a tilt [length].
 
-        Load stepping uses the gap [length] for separated bodies.
+        The approach is 0. Load stepping uses the gap for separated bodies.
 
         last  last increment; not used
         tilt  tilt of the indenter (φ_x, φ_y); None without tilt
@@ -193,10 +191,10 @@ class _Solver:
         return self.model.domain.extend(self.model.gap - closure)
 
     def report(self, reached: ConvergedIncrement[State], last: Increment | None) -> Increment:
-        """Convert a converged state to an increment of the results, with changes since the last
-        increment.
+        """Convert a converged state to an increment of the results.
 
-        Changes are, for example, the slip in the increment and the number of convolutions.
+        The increment contains changes since the last increment, such as the slip and the number of
+        convolutions.
 
         reached  converged state with its place in the load history
         last     preceding increment of the results; None for the first
@@ -277,8 +275,7 @@ def _reported_increment(
 
 
 def _contact_cells(model: ContactModel, state: State) -> float:
-    """Compute the contact area of a state as a number of cells of the window, with sub-cell
-    accuracy.
+    """Compute the contact area of a state in cells of the window, with sub-cell accuracy.
 
     model  contact model
     state  converged state, with the edge-corrected state if there is one

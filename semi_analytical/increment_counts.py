@@ -141,7 +141,7 @@ class _LoadStep:
 
     @property
     def ends_sheared(self) -> bool:
-        """True if the tangential load or the torsion at the end of the load step is not zero."""
+        """True if a tangential load or torsion acts at the end of the load step."""
         return any(self.ramp.tangential.end) or self.ramp.twisting.end != 0
 
     @property
@@ -170,8 +170,7 @@ class _LoadStep:
 
     @property
     def _changes_direction(self) -> bool:
-        """True if the tangential load changes its direction in the load step, other than by
-        reversal.
+        """True if the tangential load changes its direction in the load step, not by reversal.
 
         Torsion together with a tangential load counts as a change of direction if either of them
         changes. The state then depends on the load path also for uncoupled bodies.
@@ -204,12 +203,11 @@ class _LoadStep:
         return False, "the load has a constant direction and the bodies are uncoupled"
 
     def change_of_direction(self, bodies: Bodies) -> float:
-        """Compute the measure Δx/x of a change of direction of the tangential load in the load
-        step.
+        """Compute the measure Δx/x of a change of direction of the tangential load in the step.
 
-        x is the largest ratio T/µW of tangential force to friction limit in the step, and Δx its
-        change. The result is 0 if the direction does not change. The error rule for several changes
-        of direction sums these measures.
+        x is the largest ratio T/µW of tangential force to friction limit in the load step, and Δx
+        its change. The result is 0 if the direction does not change. The error rule for several
+        changes of direction sums these measures.
 
         bodies  properties of the bodies, with the friction law
         """
@@ -246,20 +244,17 @@ class _LoadStep:
 
     @property
     def _pressing_change(self) -> float:
-        """Relative change of the normal load in the load step, over its larger value; 1 if
-        unknown.
-        """
+        """Change of the normal load in the load step over its larger value; 1 if unknown."""
         normal, tilting = self.ramp.normal, self.ramp.tilting
         if normal.start is None or tilting.start != tilting.end:
             return 1.0
         return abs(normal.end - normal.start) / max(normal.start, normal.end)
 
     def _parts_of_limit(self, bodies: Bodies) -> tuple[float, float]:
-        """Compute the largest ratio of tangential force T to friction limit µW in the step, and its
-        change.
+        """Compute the largest ratio T/µW of a load step and its change, for the error rules.
 
-        Each result is 1 if it is unknown before the solution, and 0 if the tangential load does not
-        change. The error rules depend on both values.
+        T is the tangential force and µW the friction limit. Each result is 1 if it is unknown
+        before the solution, and 0 if the tangential load does not change.
 
         bodies  properties of the bodies, with the friction law
         """
@@ -311,4 +306,5 @@ def _first_loading_count(bodies: Bodies, accuracy: float, shape: ShapedBody) -> 
 
 
 def _round_up(count: float) -> int:
+    """Round a number of increments up to an integer between 1 and the largest allowed number."""
     return min(MOST, max(1, ceil(count - ROUND_OFF)))

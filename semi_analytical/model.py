@@ -24,10 +24,9 @@ COARSEST = 64
 
 
 class ContactModel:
-    """Discrete contact model of a scene on one grid: gap, friction limit and displacement
-    operators.
+    """Discrete contact model of a scene on one grid: gap, friction limit and operators.
 
-    Properties are computed at first use.
+    Operators compute surface displacements from tractions. Properties are computed at first use.
 
     scene         scene with bodies, friction and loads
     grid          cells of the reduced domain; their area includes the mirror images
@@ -62,8 +61,7 @@ class ContactModel:
         return cls(scene, ReducedGrid(window, domain), domain.restrict(gap), Convolutions())
 
     def friction_limit(self, pressure: Field, first: Pair = (0, 0)) -> Field:
-        """Compute the largest shear that friction can carry at a pressure, in each cell
-        [force/length^2].
+        """Compute the largest shear that friction can carry in each cell [force/length^2].
 
         pressure  p on the reduced domain, or on a box of its cells (nx, ny)
         first     indices of the first cell of the box
@@ -71,8 +69,7 @@ class ContactModel:
         return self.friction.limit(pressure, self._window_slices(first, pressure.shape))
 
     def friction_slope(self, pressure: Field, first: Pair = (0, 0)) -> Field:
-        """Compute the derivative of the friction limit with respect to the pressure in each cell
-        [1].
+        """Compute the derivative of the friction limit of each cell by its pressure [1].
 
         The derivative is the coefficient of friction, if the limit is proportional to the pressure.
 
@@ -96,9 +93,10 @@ class ContactModel:
 
     @cached_property
     def friction(self) -> CoulombFriction:
-        """Friction law, with one coefficient per cell of the window if it varies.
+        """Friction law of the scene on this grid.
 
-        Raises UnsupportedScene for a map that does not cover the window.
+        A coefficient of friction that varies has one value per cell of the window. Raises
+        UnsupportedScene for a map of the coefficient that does not cover the window.
         """
         friction = self.scene.friction or FRICTIONLESS
         try:
@@ -108,7 +106,10 @@ class ContactModel:
 
     @cached_property
     def coefficients(self) -> InfluenceCoefficients:
-        """Influence coefficients at all cell offsets required on this grid."""
+        """Influence coefficients: displacements of a cell by unit tractions on another cell.
+
+        They are stored at all cell offsets that occur on the full window [length^3/force].
+        """
         offsets = offsets_for(self.window.cells)
         scene = self.scene
         return influence_coefficients(
@@ -117,11 +118,10 @@ class ContactModel:
 
     @property
     def springs(self) -> tuple[float, float]:
-        """Compliances of the test rig's springs, normal and tangential, for sums of tractions over
-        cells.
+        """Compliances of the test rig's springs, normal and tangential [length^3/force].
 
-        A compliance is the displacement of a spring per sum of the pressure or shear over the
-        reduced domain [length^3/force]. It is 0 without a spring.
+        A compliance is the displacement of a spring per sum of the pressure or shear over the cells
+        of the reduced domain. It is 0 without a spring.
         """
         down, along = compliances(self.scene.rig)
         return down * self.grid.cell_area, along * self.grid.cell_area
@@ -137,7 +137,7 @@ class ContactModel:
 
     @cached_property
     def rotation(self) -> Field:
-        """Vector field (-y, x) at the cells (2, nx, ny) [length]: displacement by a unit twist."""
+        """Displacement of the cells by a unit twist: vector field (-y, x) (2, nx, ny) [length]."""
         x, y = self.grid.coordinates()
         return np.stack([-y, x])
 
@@ -180,8 +180,9 @@ class ContactModel:
 
     @cached_property
     def on_window(self) -> "ContactModel":
-        """Contact model with equal cells and influence coefficients on the full window, without
-        symmetry.
+        """Contact model with equal cells on the full window, without symmetry reduction.
+
+        The influence coefficients are shared.
         """
         if self.domain == WINDOW:
             return self
@@ -204,9 +205,7 @@ class ContactModel:
 
 
 def coarsen_field(values: Field) -> Field:
-    """Compute the mean of a field over each two by two cells: (..., nx, ny) to (..., nx/2,
-    ny/2).
-    """
+    """Compute the mean of a field over two by two cells: (..., nx, ny) to (..., nx/2, ny/2)."""
     # Sums of pairs: means of mirror images are bitwise mirror images.
     along = values[..., ::2, :] + values[..., 1::2, :]
     return np.asarray((along[..., ::2] + along[..., 1::2]) / 4)

@@ -26,23 +26,20 @@ class ProjectedTraction(Protocol):
 
     @property
     def defect(self) -> Vector:
-        """Forces and moments of the projected traction minus the prescribed ones, over the cell
-        area.
+        """Forces and moments of the projected traction minus the prescribed ones (k,).
 
-        The defect is the gradient of the convex dual function that the multipliers minimise.
+        All are divided by the cell area. The defect is the gradient of the convex dual function
+        that the multipliers minimise.
         """
 
     def has_prescribed_forces(self, multiplier: Vector) -> bool:
-        """Return True if the forces of the traction have the prescribed values up to rounding
-        errors.
+        """Return True if the traction has the prescribed forces up to rounding errors.
 
         multiplier  multipliers for which the traction was computed
         """
 
     def newton_step(self) -> Vector:
-        """Compute the change of the multipliers that corrects the forces of the traction to first
-        order.
-        """
+        """Compute the change of the multipliers that corrects the forces to first order."""
 
 
 Point = TypeVar("Point", bound=ProjectedTraction)

@@ -79,7 +79,7 @@ class Plan:
 
     @property
     def increments(self) -> tuple[int, ...]:
-        """Number of increments of each load step."""
+        """Number of increments of each load step in the solution."""
         return tuple(step.count for step in self.path)
 
     def cut_into(self, increments: Sequence[int]) -> "Plan":
@@ -139,6 +139,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
 
 
 def _tangentially_loaded(scene: Scene) -> bool:
+    """Return True if a load step prescribes a tangential force or shift, a torque or a twist."""
     return any(
         any(step.tangential_force or (0, 0))
         or any(step.tangential_shift or (0, 0))
@@ -165,8 +166,7 @@ def _prescribed_effect(name: str, on: bool, loads: str, friction: bool = True) -
 def _choose_symmetry(
     scene: Scene, shear: bool, coupled: bool, tilt: bool, torsion: bool
 ) -> tuple[ReducedDomain, str]:
-    """Choose the symmetry reduction of a scene (quarter, half or full window), and state the
-    reason.
+    """Choose the symmetry reduction of a scene: quarter, half or full window; state the reason.
 
     A plane x = 0 or y = 0 is a mirror plane if it preserves the shear of all loads, or reverses
     that of all loads.

@@ -13,8 +13,7 @@ LEAST_SLIP = 1e-3
 
 
 def complementarity(p: Field, g: Field, approach: float) -> float:
-    """Compute the complementarity residual of the contact conditions: pressure where the gap is
-    open.
+    """Compute the complementarity residual of the contact: pressure where the gap is open.
 
     The residual is Σ|g| p / (approach Σp), dimensionless.
 
@@ -50,8 +49,7 @@ def friction_cone(q: Field, bound: Field) -> float:
 
 
 def slip_direction(q: Field, bound: Field, slip: Field, displacement: Field) -> float:
-    """Compute the residual of Coulomb's slip rule: shear at the friction limit in the direction of
-    slip.
+    """Compute the residual of Coulomb's slip rule: shear of magnitude µp in the slip direction.
 
     The residual is Σ(bound |w| - q·w) / Σ bound |w| with the slip w, dimensionless. It is zero if
     the rule holds in all slipping cells.

@@ -55,6 +55,10 @@ def resolution(result: Result) -> tuple[Resolution, ...]:
 
 
 def _resolution_at(result: Result, end: Increment) -> Resolution:
+    """Measure contact, stick zone, layers and roughness of a result in cells, at one increment.
+
+    end  increment at the end of a load step
+    """
     grid, load, contact = result.grid, end.pressure, _contact_size(result, end)
     stick = annulus = None
     if end.in_stick is not None and end.stick_area is not None:
@@ -67,6 +71,7 @@ def _resolution_at(result: Result, end: Increment) -> Resolution:
 
 
 def _contact_size(result: Result, end: Increment) -> float:
+    """Compute the smaller semi-axis of the contact at the end of a load step, in cells."""
     return _semi_axis(end.in_contact, end.pressure, end.contact_area / result.grid.cell_area)
 
 
@@ -87,8 +92,7 @@ def refuse_unresolved(result: Result) -> None:
 
 
 def _remedy_text(result: Result, found: float) -> str:
-    """Return a sentence for an error message: the settings with which the grid would resolve the
-    contact.
+    """Return a sentence for an error message: settings with which the cells resolve the contact.
 
     result  result with too large cells
     found   radius of the contact in cells
@@ -137,6 +141,7 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
 
 
 def _layer_cells(result: Result) -> float | None:
+    """Compute the thickness of the thinnest layer in cells; None without layers."""
     thinnest = min(result.scene.body.thinnest, result.scene.indenter.thinnest)
     return thinnest / max(result.grid.spacing) if np.isfinite(thinnest) else None
 

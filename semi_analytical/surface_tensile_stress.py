@@ -27,12 +27,11 @@ class SurfaceTensileStress:
         self._stresses: dict[int, Field] = {}
 
     def within(self, path: Sequence[Increment]) -> Field | None:
-        """Compute the tensile stress σ_T of each surface cell in a load cycle (nx, ny)
-        [force/length^2].
+        """Compute the largest tensile stress σ_T of each surface cell in a load cycle.
 
-        σ_T is the largest value at the ends of the load steps of the cycle. The stress acts along
-        the direction in which the tangential force changes. None is returned if the force is
-        constant.
+        σ_T (nx, ny) [force/length^2] is the largest value at the ends of the load steps of the
+        cycle. The stress acts along the direction in which the tangential force changes. None is
+        returned if the force is constant.
 
         path  increments of the cycle; cycles must be given in the order of their start
         """

@@ -160,8 +160,7 @@ def _coupled_problem(
     normal: NormalTarget,
     tangential: TangentialTarget,
 ) -> CoupledProblem:
-    """Assemble operators, loads and friction law of a coupled increment, restricted to a box of
-    cells.
+    """Assemble operators, loads and friction law of a coupled increment in a box of cells.
 
     model               contact model
     box                 box of cells in which the increment is solved
@@ -247,6 +246,14 @@ class _Trial:
         return State(self.normal, normal_force, pressing, sheared, moment, rounds=rounds), g
 
     def _tangential_state(self, p: Field, q: VectorField, u_t: VectorField) -> TangentialState:
+        """Build the tangential state on the whole domain from the solution in a box of cells.
+
+        The state contains slip, stick zone, dissipation and residuals at the end of the increment.
+
+        p    pressure (nx, ny) [force/length^2]
+        q    shear (2, nx, ny) [force/length^2]
+        u_t  tangential surface displacement by pressure and shear (2, nx, ny) [length]
+        """
         model, solution, cells = self.model, self.solution, self.model.grid.cells
         bound = model.friction_limit(p)
         if solution.at_limit:
@@ -272,8 +279,7 @@ class _Trial:
         return replace(after, displacement=u_t)
 
     def _gross_slip(self, p: Field, bound: Field, u_t: VectorField) -> TangentialState:
-        """Return the tangential state of a contact in gross slip: at the friction limit, or
-        frictionless.
+        """Return the tangential state in gross slip: at the friction limit, or without friction.
 
         Raise GrossSliding if a prescribed force or torque exceeds the friction limit.
 

@@ -41,6 +41,9 @@ class Preconditioner(Protocol):
 class CoupledProblem:
     """Operators, loads and friction law of one coupled increment in a box of cells.
 
+    p is the pressure (nx, ny), q the shear (2, nx, ny), u_z the normal and u_t the tangential
+    surface displacement.
+
     normal, shear                 maps p -> u_z and q -> u_t
     normal_by_shear               map q -> u_z
     shear_by_pressure             map p -> u_t
@@ -50,14 +53,15 @@ class CoupledProblem:
     precondition_together         approximate inverse of `together` without coupling, followed by
                                   those of the bins of slip compliance (see `ApproximateInverse`)
     gap                           undeformed gap (nx, ny) [length], infinite outside the indenter
-    friction_limit                pressure (nx, ny) -> largest shear (nx, ny)
-    friction_slope                pressure (nx, ny) -> derivative of the largest shear (nx, ny)
-    target                        c = u_t - rigid motion of the previous state (2, nx, ny) [length]:
-                                  displacement that stick requires
+    friction_limit                map from pressure (nx, ny) to the largest shear (nx, ny)
+    friction_slope                map from pressure (nx, ny) to the derivative of the largest shear
+                                  (nx, ny)
+    target                        displacement that stick requires: c = u_t - rigid motion of the
+                                  previous state (2, nx, ny) [length]
     normal_load, tangential_load  prescribed loads
     self_compliance               tangential displacement of a cell by its own unit shear
                                   [length^3/force]
-    domain                        domain of all fields
+    domain                        domain of all fields: full window or reduced by symmetry
     """
 
     normal: Callable[[Field], Field]
@@ -79,19 +83,17 @@ class CoupledProblem:
 
     @property
     def gamma(self) -> float:
-        """Stiffness γ of a patch of cells [force/length^3], which multiplies gap and slip in the
-        natural map.
+        """Stiffness γ that multiplies gap and slip in the natural map [force/length^3].
 
-        The solution does not depend on γ > 0. An inexact linear solve leaves a smooth gap error of
-        the width of the contact. With the stiffness of a single small cell, γ times this error
-        would open many loaded cells.
+        γ is the stiffness of a patch of cells. The solution does not depend on γ > 0. An inexact
+        linear solve leaves a smooth gap error of the width of the contact. With the stiffness of a
+        single small cell, γ times this error would open many loaded cells.
         """
         shortest = min(self.domain.window(self.gap.shape))
         return 1 / (self.self_compliance * max(1.0, shortest / PATCHES))
 
     def with_compliance(self, compliance: float, tractions: Field) -> "CoupledProblem":
-        """Return the coupled problem of one step of the proximal-point method, with a compliance
-        added.
+        """Return the coupled problem with an additional compliance, for the proximal-point method.
 
         Displacements become u + compliance * (t - tractions), with the tractions t. Newton's method
         solves the new problem. Of the operators only `together` and its preconditioner are changed.

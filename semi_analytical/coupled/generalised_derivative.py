@@ -155,10 +155,10 @@ class Zones:
 
     @classmethod
     def from_natural_map(cls, natural: Natural, problem: CoupledProblem) -> "Zones":
-        """Determine the zones of contact, stick and slip of an iterate.
+        """Determine the zones of contact, stick and slip of an iterate of Newton's method.
 
         natural  contact and friction conditions at the iterate (natural map)
-        problem  coupled problem of the increment
+        problem  operators, loads and friction law of the increment
         """
         slip = np.flatnonzero(natural.slip)
         length, bound = natural.length.ravel()[slip], natural.bound.ravel()[slip]
@@ -208,12 +208,11 @@ class Zones:
         return vector[:stuck].reshape(2, -1), vector[stuck : stuck + slip], vector[stuck + slip :]
 
     def free(self, v: NDArray[Any]) -> Vector:
-        """Restrict a traction or displacement field (3, nx, ny) to the free unknowns of a Newton
-        step.
+        """Restrict a traction or displacement field (3, nx, ny) to the free unknowns of a step.
 
-        Free are both tangential components in the stick zone, the component across the slip
-        direction in the slip zone, and the normal component in contact. The result is a vector
-        (size,).
+        Newton's method solves for these unknowns: both tangential components in the stick zone, the
+        component across the slip direction in the slip zone, and the normal component in contact.
+        The result is a vector (size,).
 
         v  tractions (q_x, q_y, p) or displacements (u_x, u_y, u_z)
         """

@@ -37,8 +37,7 @@ FAR = 1.0
 def solve_together(
     problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
 ) -> CoupledSolution:
-    """Solve a coupled increment from an initial guess by the first of several methods that
-    converges.
+    """Solve a coupled increment by the first of several methods that converges.
 
     Newton's method converges fast from nearly correct zones of contact, stick and slip, and may
     stall otherwise. On failure the next method starts from the same initial guess. Only the

@@ -31,7 +31,7 @@ class Step:
     """Newton step of a coupled increment: changes of the iterate.
 
     tractions, displacements  changes of tractions and surface displacements (3, nx, ny)
-    closure                   change of the closure of the gap by the rigid normal motion [length]
+    closure                   change of the reduction of the gap by the rigid normal motion [length]
     iterations                GMRES iterations of the linear solve
     """
 
@@ -42,8 +42,7 @@ class Step:
 
 
 class LinearisedIncrement:
-    """Linear system of a Newton step in given zones of contact, stick and slip, with prescribed
-    forces.
+    """Linear system of a Newton step in given zones of contact, stick and slip.
 
     Unknowns are the free tractions (shear in the stick zone, shear across the slip direction,
     pressure in contact) and the rigid motions with a prescribed force. Steps do not change the
@@ -89,8 +88,7 @@ class LinearisedIncrement:
         return np.array([*transferred]).reshape(-1, zones.size)
 
     def _free_units(self) -> Matrix:
-        """Restrict the unit rigid motions of the indenter to the free unknowns of the zones (k,
-        unknowns).
+        """Restrict the unit rigid motions of the indenter to the free unknowns (k, unknowns).
 
         Only motions with a prescribed force are included. Rows are the shifts and the twist of the
         tangential load, then approach and tilts of the normal load.
@@ -104,8 +102,7 @@ class LinearisedIncrement:
         return np.array(free).reshape(len(free), zones.size)
 
     def admissible(self, tractions: Tractions) -> Tractions:
-        """Return tractions near given ones that satisfy friction law and loads in the present
-        zones.
+        """Return tractions near given ones that satisfy friction and loads in the present zones.
 
         Pressure is non-negative and zero outside the contact zone. The shear is within the friction
         limit, and at the limit in the slip zone. Forces have the prescribed values.
@@ -130,8 +127,7 @@ class LinearisedIncrement:
         return t
 
     def residual(self, base: NewtonPoint, natural: Natural) -> Vector:
-        """Compute the residual of the linearised contact and friction conditions, for a Newton
-        step.
+        """Compute the residual of the linearised contact and friction conditions of a Newton step.
 
         The residual has one row per free unknown [length]: slip in the stick zone, slip across the
         slip direction less the term of the slip compliance in the slip zone, and negative gap in
@@ -171,10 +167,10 @@ class LinearisedIncrement:
         )
 
     def _preconditioned_change(self, rows: Vector) -> Vector:
-        """Apply the preconditioner to a residual, and correct the result to constant prescribed
-        forces.
+        """Convert a residual to a change of the tractions by the preconditioner.
 
-        The result is a change of the free tractions.
+        The change is corrected so that the prescribed forces stay constant. The result are changes
+        of the free unknowns.
 
         rows  residual, one row per free unknown
         """
@@ -186,8 +182,7 @@ class LinearisedIncrement:
         return free
 
     def _force_changes(self, free: Vector) -> Vector:
-        """Compute the changes of the prescribed forces and moments by a change of the free
-        tractions.
+        """Compute the change of the prescribed forces and moments by a change of the tractions.
 
         The changes are divided by the cell area (k,).
 
@@ -216,8 +211,7 @@ class BinnedPreconditioner:
         self._shares = shares(zones.slip_compliance / problem.self_compliance)
 
     def __call__(self, rows: Vector) -> Vector:
-        """Apply the preconditioner of a Newton step to a residual; return changes of the free
-        tractions.
+        """Convert a residual of Newton's method to changes of the free tractions, approximately.
 
         rows  residual, one row per free unknown
         """

@@ -28,8 +28,7 @@ STEP_FACTORS = 0.5 ** np.arange(5)
 
 
 class NewtonIterate:
-    """Current iterate of Newton's method for a coupled increment of the normal and tangential
-    problem.
+    """Current iterate of Newton's method for a coupled increment.
 
     The tractions are admissible (non-negative pressure, shear within the friction limit, prescribed
     forces) after `linearise` only.
@@ -45,11 +44,10 @@ class NewtonIterate:
     closing: Motion
 
     def __init__(self, problem: CoupledProblem, start: Tractions, motion: Vector) -> None:
-        """Start Newton's method at given tractions, whose pressure is scaled to the normal load in
-        place.
+        """Start Newton's method at given tractions.
 
-        All methods of this class raise NotConverged at the friction limit, for non-finite tractions
-        or without contact.
+        Their pressure is scaled to the normal load in place. All methods of this class raise
+        NotConverged at the friction limit, for non-finite tractions or without contact.
 
         problem  operators, loads and friction law of the increment
         start    initial tractions (q_x, q_y, p), shape (3, nx, ny)
@@ -84,8 +82,7 @@ class NewtonIterate:
         self.natural = natural_map(problem, self.point)
 
     def step(self, depth: float) -> None:
-        """Take a Newton step: solve the linear system in the present zones, then apply a line
-        search.
+        """Take a Newton step: solve the linear system in fixed zones, then apply a line search.
 
         Zones are the cells in contact, in stick and in slip.
 

@@ -61,10 +61,11 @@ class Dilation:
         return cls((x, y), factor, domain)
 
     def __call__(self, values: Field) -> Field:
-        """Dilate a scalar (nx, ny) or vector field (2, nx, ny) by bilinear interpolation between
-        cell centres.
+        """Dilate a field by bilinear interpolation between cell centres.
 
         The field is constant beyond the outermost cell centres.
+
+        values  scalar (nx, ny) or vector field (2, nx, ny)
         """
         if values.ndim == 2:
             return self._dilate_component(values, self.domain.scalar)
@@ -72,6 +73,12 @@ class Dilation:
         return np.stack([self._dilate_component(one, parity) for one, parity in components])
 
     def _dilate_component(self, values: Field, parity: Parity) -> Field:
+        """Dilate a scalar field or one component of a vector field (nx, ny).
+
+        values  field (nx, ny)
+        parity  for x and y: -1 if the field is odd about the mirror plane, 1 if even, 0 without a
+                plane
+        """
         for axis, (middle, sign) in enumerate(zip(self.centre, parity, strict=True)):
             count = values.shape[axis]
             at = middle + (np.arange(count) - middle) / self.factor

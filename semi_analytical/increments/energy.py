@@ -69,8 +69,7 @@ class Configuration:
 
     @classmethod
     def unloaded(cls, gap: Field, after: Configuration) -> Configuration:
-        """Return the configuration of the bodies before first touch, in which all tractions are
-        zero.
+        """Return the configuration of the bodies before first touch, with zero tractions.
 
         gap    undeformed gap (nx, ny) [length]
         after  configuration of the first increment, which determines the shapes of the fields
@@ -112,7 +111,7 @@ class Energy:
 
     @property
     def stored_and_dissipated(self) -> float | None:
-        """Energy stored in the bodies plus energy dissipated since the start [force length]."""
+        """Elastic energy plus energy lost to friction [force length]; None where undefined."""
         return None if self.dissipated is None else self.elastic + self.dissipated
 
     @property

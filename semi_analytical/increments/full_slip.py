@@ -23,8 +23,7 @@ from semi_analytical.tangential.admissible_shear import AT_LIMIT
 
 
 def force_reaches_limit(force: Vector, limit: float) -> bool:
-    """Return True if a tangential force is at the friction limit, so that the contact slips
-    everywhere.
+    """Return True if a tangential force is at the friction limit, so that all cells slip.
 
     Raise GrossSliding if the force is larger than the limit.
 

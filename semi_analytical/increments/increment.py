@@ -81,17 +81,14 @@ class State:
 
     @property
     def iterations(self) -> int:
-        """Number of iterations of the normal and the tangential solver in this increment,
-        in sum.
-        """
+        """Sum of the iterations of the normal and the tangential solver in this increment."""
         return self.pressing.iterations + (self.sheared.iterations if self.sheared else 0)
 
 
 def moment_of(model: ContactModel, pressure: Field) -> Pair:
-    """Compute the moment (M_x, M_y) of a pressure about the origin: (Σp y, Σp x) times the cell
-    area.
+    """Compute the moment (M_x, M_y) of a pressure about the origin [force length].
 
-    The unit is [force length].
+    The moment is (Σp y, Σp x) times the cell area.
 
     pressure  p (nx, ny) [force/length^2]
     """

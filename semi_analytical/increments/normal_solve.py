@@ -41,12 +41,12 @@ class NormalState:
     """Solution of the normal problem on the reduced domain.
 
     pressure         p (nx, ny) [force/length^2]
-    displacement     u_z (nx, ny) [length]
+    displacement     normal surface displacement u_z (nx, ny) [length]
     approach         approach of the bodies [length]
     complementarity  residual Σ p |gap| / (Σp times overlap of the undeformed bodies), dimensionless
     penetration      residual max(-gap) / overlap of the undeformed bodies, dimensionless
     iterations       iterations of all solves
-    tilt             tilt of the indenter (x, y); None without tilt
+    tilt             tilt of the indenter (φ_x, φ_y); None without tilt
     """
 
     pressure: Field
@@ -58,8 +58,7 @@ class NormalState:
     tilt: Pair | None = None
 
     def closure(self, model: ContactModel) -> float | Field:
-        """Compute the reduction of the undeformed gap by approach and tilt of the indenter
-        [length].
+        """Compute the reduction of the undeformed gap by approach and tilt [length].
 
         The result is a number, or a field (nx, ny) with tilt.
         """
@@ -99,7 +98,7 @@ class NormalTarget:
         return 0.0 if self.tilt is None else float(np.min(model.gap - plane(model, self.tilt)))
 
     def as_load(self, model: ContactModel, box: Box) -> NormalLoad:
-        """Convert the prescribed normal load to the object with which the normal solver works.
+        """Convert the prescribed normal load to the load object of the normal solver.
 
         The object computes rigid motions and admissible pressures. Its approach counts from first
         touch of the tilted indenter, as `NormalTarget.gap` does.
@@ -121,8 +120,7 @@ class NormalTarget:
         return FixedApproach(self.approach - self._first_touch(model))
 
     def reached(self, model: ContactModel, motion: Motion) -> tuple[float, Pair | None]:
-        """Convert the rigid motion found by the normal solver to approach [length] and tilt of the
-        indenter.
+        """Convert the rigid motion found by the normal solver to approach [length] and tilt.
 
         motion  approach relative to first touch of the tilted indenter, or (approach, tilt x, tilt
                 y) under a prescribed moment
@@ -224,19 +222,25 @@ def rough_initial_guess(model: ContactModel, target: NormalTarget) -> tuple[Fiel
 
 
 def _makes_contact(model: ContactModel, target: NormalTarget) -> bool:
-    """Return True if the prescribed normal load brings at least one cell of the grid into
-    contact."""
+    """Return True if a prescribed normal load brings at least one cell into contact.
+
+    model   contact model, whose grid may be too coarse
+    target  prescribed normal load
+    """
     gap = target.gap(model)
     load = target.as_load(model, Box.whole(gap.shape))
     return load.touches(gap)
 
 
 def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None:
-    """Raise an error if the grid cannot represent the contact under a prescribed normal load.
+    """Raise an error if the grid cannot represent the contact under a normal load.
 
-    ContactNotResolved (NothingTouches under a prescribed approach) if no cell of the window comes
-    into contact; ContactAtWindowEdge if the window is too small, or its border comes into contact
-    first.
+    ContactNotResolved is raised if no cell of the window comes into contact (NothingTouches under a
+    prescribed approach). ContactAtWindowEdge is raised if the window is too small, or if its border
+    comes into contact first.
+
+    model   contact model
+    target  prescribed normal load
     """
     if _makes_contact(model, target):
         undeformed = target.gap(model)
@@ -275,9 +279,7 @@ def _remedy_at_border(model: ContactModel) -> str:
 
 
 def _remedy_for_window(model: ContactModel) -> str:
-    """Return a sentence for an error message: the remedy if the window is too small for the
-    contact.
-    """
+    """Return a sentence for an error message: the remedy if the window is too small."""
     if model.scene.indenter.extent is not None:
         return "Use a height map and a window that are larger than the contact"
     if model.scene.friction is not None and model.scene.friction.extent is not None:

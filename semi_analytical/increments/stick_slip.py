@@ -91,8 +91,7 @@ def _trivial_state(
     last: TangentialState,
     load: TangentialTarget,
 ) -> TangentialState | None:
-    """Return the tangential state at the end of an increment in cases that need no solve; else
-    None.
+    """Return the tangential state of an increment in cases that need no solve; else None.
 
     These cases are: no tangential load so far, slip without friction, and a prescribed force at the
     friction limit.
@@ -227,6 +226,14 @@ def end_state(
 def _contact_status(
     model: ContactModel, after: TangentialState, bound: Field, last: TangentialState
 ) -> ContactStatus:
+    """Determine the contact status at the end of an increment, such as partial slip.
+
+    If no cell sticks, the contact slides if the load reaches the friction limit. The limit is that
+    of the force, or of the power of friction under torsion.
+
+    after, last  tangential states at the end and at the start of the increment
+    bound        friction limit µp (nx, ny)
+    """
     if np.any(after.in_stick):
         everything = np.count_nonzero(after.in_stick) == np.count_nonzero(bound)
         return ContactStatus.FULL_STICK if everything else ContactStatus.PARTIAL_SLIP

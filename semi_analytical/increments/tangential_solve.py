@@ -48,8 +48,7 @@ class TangentialTarget:
         domain: ReducedDomain = WINDOW,
         spring: float = 0.0,
     ) -> TangentialLoad:
-        """Convert the prescribed tangential load to the object with which the tangential solver
-        works.
+        """Convert the prescribed tangential load to the load object of the tangential solver.
 
         The object projects shears on the prescribed forces. Its class depends on the prescribed
         quantities.
@@ -85,10 +84,10 @@ def shear(
     motion: Vector,
     tolerance: float,
 ) -> TangentialSolution:
-    """Solve the tangential problem of one increment at a given pressure, in a box around the
-    contact.
+    """Solve the tangential problem of one increment at a given pressure.
 
-    The solution is then extended to the whole domain, with the displacements of all cells.
+    The problem is solved in a box around the contact. The solution is then extended to the whole
+    domain, with the displacements of all cells.
 
     model          contact model
     bound          friction limit µp (nx, ny), not zero everywhere

@@ -64,7 +64,7 @@ class TangentialState:
 
     @property
     def motion(self) -> Vector:
-        """Rigid tangential motion of the indenter: shift (2,) [length], followed by the twist under
+        """Rigid tangential motion of the indenter: shift (2,) [length], then twist under
         torsion.
         """
         assert self.shift is not None
@@ -96,8 +96,7 @@ def untouched_state(cells: tuple[int, int]) -> TangentialState:
 
 
 def rigid(model: ContactModel, motion: Vector) -> VectorField:
-    """Compute the displacement of the indenter's surface points by its rigid tangential motion
-    [length].
+    """Compute the displacement of the indenter's surface points by shift and twist [length].
 
     The result broadcasts with fields (2, nx, ny).
 

@@ -17,8 +17,7 @@ from semi_analytical.normal.normal_load import NormalLoad
 
 
 def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) -> Field:
-    """Compute an initial guess of the contact pressure (nx, ny) from the undeformed gap by Hertz
-    theory.
+    """Compute an initial guess of the contact pressure (nx, ny) from the gap by Hertz theory.
 
     Cells whose gap is below the bearing depth carry the load. Where Hertz theory does not apply,
     the guess is uniform: if E* is not positive, or if these cells cannot carry the load.

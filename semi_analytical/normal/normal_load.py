@@ -38,8 +38,7 @@ class NormalLoad(Protocol):
         """
 
     def bearing_depth(self, gaps: Vector, stiffness: Vector) -> float:
-        """Return the bearing depth of the normal load, used in the initial guess of the pressure
-        [length].
+        """Return the bearing depth of the load, for the initial guess of the pressure [length].
 
         The guess follows from Hertz theory: cells whose undeformed gap is below the bearing depth
         are in contact.
@@ -78,8 +77,7 @@ class NormalLoad(Protocol):
         return abs(float(motion))
 
     def admissible(self, p: Field) -> Field:
-        """Return a non-negative pressure near a given pressure that has the prescribed force and
-        moments.
+        """Return a non-negative pressure near a given one with the prescribed force and moments.
 
         p  given pressure (nx, ny)
         """
@@ -104,11 +102,10 @@ class NormalLoad(Protocol):
         return self
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return the closures of the gap (nx, ny) by the unit rigid motions that the load leaves
-        free.
+        """Return the closures of the gap by the unit rigid motions that the load leaves free.
 
-        A rigid motion (approach, tilt) is free if its conjugate force or moment is prescribed. By
-        default there is none.
+        A rigid motion (approach, tilt) is free if its conjugate force or moment is prescribed. Its
+        closure is a field (nx, ny). By default there is none.
 
         shape  number of cells (nx, ny)
         """
@@ -125,8 +122,7 @@ class PressureSum(NormalLoad):
     total: float
 
     def touches(self, gap: Field) -> bool:
-        """Return True if at least one cell has a finite gap, so that it can carry the prescribed
-        force.
+        """Return True if at least one cell has a finite gap and can carry the prescribed force.
 
         gap  undeformed gap (nx, ny) [length]; infinite where contact is impossible
         """
@@ -155,8 +151,9 @@ class PressureSum(NormalLoad):
         return float(np.vdot(p, s) / p.sum())
 
     def admissible(self, p: Field) -> Field:
-        """Set the negative pressures of a field (nx, ny) to zero and scale its sum to the
-        prescribed force.
+        """Set negative pressures to zero and scale the sum of the pressure to the prescribed force.
+
+        p  given pressure (nx, ny)
         """
         p = np.maximum(p, 0.0)
         return np.asarray(p * (self.total / p.sum()))
@@ -189,10 +186,10 @@ class PressureSum(NormalLoad):
         return PressureSum(self.total - float(np.sum(carried)))
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return the closure of the gap by a unit approach: a field (nx, ny) of ones, as the only
-        entry.
+        """Return the closure of the gap by a unit approach, a field (nx, ny) of ones.
 
-        The approach is free under a prescribed normal force.
+        The field is the only entry of a tuple. The approach is free under a prescribed normal
+        force.
 
         shape  number of cells (nx, ny)
         """
@@ -228,7 +225,10 @@ class FixedApproach(NormalLoad):
         return self.approach
 
     def admissible(self, p: Field) -> Field:
-        """Set the negative pressures of a field (nx, ny) to zero; no force is prescribed."""
+        """Set negative pressures of a field (nx, ny) to zero; no force is prescribed.
+
+        p  given pressure (nx, ny)
+        """
         return np.maximum(p, 0.0)
 
     def projection(self, inside: Field) -> Projection:

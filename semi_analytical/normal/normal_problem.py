@@ -54,6 +54,15 @@ class NormalSolution:
 
 @dataclass(frozen=True)
 class _Problem:
+    """Normal problem of one increment: pressure without penetration under a load.
+
+    displace, precondition  map from pressure (nx, ny) to normal displacement, and its approximate
+                            inverse
+    h                       undeformed gap (nx, ny) [length]; zero where it is infinite
+    allowed                 cells of finite gap, which can come into contact (nx, ny)
+    load                    prescribed normal load
+    """
+
     displace: Map
     precondition: Map
     h: Field
@@ -225,8 +234,7 @@ def _remove_tension(
     u: Field,
     g: Field,
 ) -> tuple[Field, Field, int]:
-    """Remove cells with negative pressure from the contact set in several passes, until none is
-    left.
+    """Remove cells with negative pressure from the contact set, until none is left.
 
     The method is that of Lawson and Hanson (1974, ch. 23). Each pass moves towards the Newton point
     until `many` cells reach zero pressure, at most half of the negative ones. If the energy does

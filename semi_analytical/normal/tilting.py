@@ -47,9 +47,7 @@ class PressureMoments:
 
     @cached_property
     def reach(self) -> float:
-        """Length that makes tilts comparable with the approach: largest |x| or |y| of a cell
-        [length].
-        """
+        """Length that makes tilts comparable with the approach: largest |x| or |y| of a cell."""
         return float(np.max(np.abs(self.arms)))
 
     @cached_property
@@ -74,8 +72,7 @@ class PressureMoments:
         return moments if self.total is None else np.array([self.total, *moments])
 
     def touches(self, gap: Field) -> bool:
-        """Return True if a pressure on cells of finite gap can have the prescribed force and
-        moments.
+        """Return True if cells of finite gap can carry the prescribed force and moments.
 
         The cells must surround the point of action of the normal force, see `_is_carried_on`.
 
@@ -113,8 +110,7 @@ class PressureMoments:
         return np.array([approach, *(fit[-2:] / self.reach)])
 
     def closure(self, motion: Motion) -> float | Field:
-        """Compute the closure of the gap by approach and tilt of the indenter, a plane (nx, ny)
-        [length].
+        """Compute the closure of the gap by approach and tilt, a plane (nx, ny) [length].
 
         motion  vector (approach, tilt x, tilt y)
         """
@@ -133,8 +129,7 @@ class PressureMoments:
         return float(np.max(self.closure(motion) - gap, where=allowed, initial=-np.inf))
 
     def admissible(self, p: Field) -> Field:
-        """Return a non-negative pressure near a given pressure with the prescribed force and
-        moments.
+        """Return a non-negative pressure near a given one with the prescribed force and moments.
 
         Negative values are set to zero. A plane, weighted by the pressure, is then added so that
         force and moments are correct. If the loaded cells cannot carry the moments, the plane is
@@ -224,11 +219,10 @@ class PressureMoments:
         )
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[Field, ...]:
-        """Return the closures of the gap (nx, ny) by the unit approach and tilts that the load
-        leaves free.
+        """Return the closures of the gap by the unit approach and tilts that the load leaves free.
 
-        The tilts are free, because moments are prescribed. The approach is free if the normal force
-        is prescribed.
+        A closure is a field (nx, ny). The tilts are free, because moments are prescribed. The
+        approach is free if the normal force is prescribed.
 
         shape  number of cells (nx, ny)
         """
@@ -272,8 +266,7 @@ class _ShiftedPressure:
         self.defect = np.array([np.sum(self.p * shape) for shape in shapes]) - sums
 
     def has_prescribed_forces(self, multiplier: Vector) -> bool:
-        """Return True if the projected pressure has the prescribed force and moments up to rounding
-        errors.
+        """Return True if the pressure has the prescribed force and moments up to round-off.
 
         The Newton iteration for the multipliers stops then.
 
@@ -283,8 +276,7 @@ class _ShiftedPressure:
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * size)
 
     def newton_step(self) -> Vector:
-        """Compute the Newton step of the multipliers (k,) that corrects force and moments of the
-        pressure.
+        """Compute the Newton step of the multipliers (k,) that corrects force and moments.
 
         The shortest step is taken where the multipliers are not unique.
         """

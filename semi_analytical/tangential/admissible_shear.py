@@ -23,18 +23,17 @@ MULTIPLIER_ROUND_OFF = 5e-16
 
 
 class TangentialLoad(Protocol):
-    """Interface of the prescribed load of the tangential problem: force or shift, and torque or
-    twist.
+    """Interface of the prescribed load of the tangential problem.
 
-    The tangential problem determines the shear and the rigid motion of the indenter under this
-    load. The rigid motion is the shift (2,), or shift and twist (3,).
+    The load is a force or shift, and a torque or twist. The tangential problem determines the shear
+    and the rigid motion of the indenter under this load. The rigid motion is the shift (2,), or
+    shift and twist (3,).
     """
 
     def rigid(self, motion: Vector) -> VectorField:
-        """Compute the displacement of the indenter's surface points by a rigid tangential motion
-        [length].
+        """Compute the displacement of the indenter's surface points by shift and twist [length].
 
-        The result broadcasts with (2, nx, ny). By default the motion is a shift.
+        The result broadcasts with (2, nx, ny). By default the rigid motion is a shift.
 
         motion  shift (2,) [length], or shift and twist (3,)
         """
@@ -43,12 +42,12 @@ class TangentialLoad(Protocol):
     def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project a trial shear on the admissible shears, and find the rigid motion of the
-        indenter.
+        """Compute the admissible shear nearest to a trial shear, and the indenter's rigid motion.
 
         A shear is admissible if |q| <= bound in all cells and its forces have the prescribed
-        values. The projected shear is that of y + γ rigid(motion). The motion is chosen so that the
-        projection has the prescribed forces. Return the admissible shear and this motion.
+        values. The shear y + γ rigid(motion) is projected on the admissible shears. The motion is
+        chosen so that the projection has the prescribed forces. Return the admissible shear and
+        this motion.
 
         y       trial shear without the rigid motion (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny)
@@ -57,18 +56,19 @@ class TangentialLoad(Protocol):
         """
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear on the shears within the friction limit that have the prescribed forces.
+        """Return the shear nearest to a given one that has the prescribed forces, within friction.
 
-        q      shear (2, nx, ny) [force/length^2]
+        Friction limits the shear of each cell to |q| <= bound.
+
+        q      given shear (2, nx, ny) [force/length^2]
         bound  friction limit µp (nx, ny)
         """
 
     def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return the unit rigid motions of the indenter that the load leaves free, as fields (2,
-        nx, ny).
+        """Return the unit rigid motions of the indenter that the load leaves free.
 
         A rigid motion (shift along x or y, twist) is free if its conjugate force or torque is
-        prescribed. By default there is none.
+        prescribed. The motions are displacement fields (2, nx, ny). By default there is none.
 
         shape  shape of a field, (2, nx, ny)
         """
@@ -128,8 +128,7 @@ class ShearSum(TangentialLoad):
     def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project a trial shear on the shears with the prescribed tangential force, within
-        friction.
+        """Compute the shear with the prescribed force nearest to a trial shear, within friction.
 
         The shear y + γ shift is projected on |q| <= bound. The shift is chosen so that the sum of
         the projection is the prescribed sum. Return the projected shear and the shift.
@@ -143,10 +142,11 @@ class ShearSum(TangentialLoad):
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear on the shears with |q| <= bound in all cells and the prescribed
-        tangential force.
+        """Return the shear with the prescribed force nearest to a given one, within friction.
 
-        q      shear (2, nx, ny) [force/length^2]
+        Friction limits the shear of each cell to |q| <= bound.
+
+        q      given shear (2, nx, ny) [force/length^2]
         bound  friction limit µp (nx, ny)
         """
         return project(q, bound, self.total, summed=self.summed)[0]
@@ -163,8 +163,7 @@ class ShearSum(TangentialLoad):
 
     @property
     def prescribed_forces(self) -> Vector:
-        """Prescribed tangential force over the cell area, for the components x and y with a
-        resultant.
+        """Prescribed tangential force over the cell area, for components with a resultant.
 
         On a reduced domain, a component of the shear that is odd about a mirror plane has no
         resultant.
@@ -172,11 +171,10 @@ class ShearSum(TangentialLoad):
         return self.total[list(self.summed)]
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute the tangential force of a shear over the cell area, for components with a
-        resultant.
+        """Compute the tangential force of a shear over the cell area: its sum over all cells.
 
-        The force is the sum of the shear over all cells. On a reduced domain, a component of the
-        shear that is odd about a mirror plane has no resultant.
+        On a reduced domain, a component of the shear that is odd about a mirror plane has no
+        resultant and is omitted.
 
         q  shear (2, nx, ny) [force/length^2]
         """
@@ -192,11 +190,10 @@ class ShearSum(TangentialLoad):
         return float(np.hypot(*self.total)) >= float(np.sum(bound)) * (1 - AT_LIMIT)
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the shear (2, nx, ny) in gross slip: the friction limit along the prescribed
-        force.
+        """Return the shear in gross slip: the friction limit in the direction of the force.
 
-        The rigid motion is returned unchanged, because gross slip under force control does not
-        determine it. Without friction the shear is zero.
+        The second result is the given rigid motion, because gross slip under force control does not
+        determine the motion. Without friction the shear is zero.
 
         bound   friction limit µp (nx, ny)
         motion  rigid motion to return
@@ -210,6 +207,8 @@ class ShearSum(TangentialLoad):
 class FixedShift(TangentialLoad):
     """Displacement control of the tangential problem: the shift of the indenter is prescribed.
 
+    The tangential force follows from the solution.
+
     shift  tangential shift (2,) [length]
     """
 
@@ -218,7 +217,7 @@ class FixedShift(TangentialLoad):
     def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project the trial shear y + γ shift on the friction limit |q| <= bound, cell by cell.
+        """Scale the trial shear y + γ shift of each cell to the friction limit where it exceeds it.
 
         Return the projected shear and the prescribed shift of the indenter.
 
@@ -261,12 +260,12 @@ class FixedShift(TangentialLoad):
 
 @dataclass(frozen=True)
 class SprungShift(FixedShift):
-    """Displacement control through a spring of the test rig: the shift of the actuator is
-    prescribed.
+    """Tangential displacement control through a spring of the test rig.
 
-    The shift of the contact is the shift of the actuator minus the extension of the spring.
-    `project_trial` uses the spring force of the projected shear. With the force of the previous
-    iterate, a soft spring would convert every change of the shift into slip of all cells.
+    The shift of the actuator is prescribed. The shift of the contact is the shift of the actuator
+    minus the extension of the spring. `project_trial` uses the spring force of the projected shear.
+    With the force of the previous iterate, a soft spring would convert every change of the shift
+    into slip of all cells.
 
     shift       shift of the actuator (2,) [length]
     compliance  extension of the spring per sum of the shear over the cells [length^3/force]
@@ -287,8 +286,7 @@ class SprungShift(FixedShift):
     def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project a trial shear on the shears within friction that are in equilibrium with the
-        spring.
+        """Compute the shear near a trial shear that is in equilibrium with the rig's spring.
 
         The spring of the test rig connects actuator and indenter. The projected shear is q = P(y +
         λ), with P the projection on |q| <= bound and λ = γ times the shift of the contact.
@@ -307,13 +305,14 @@ class SprungShift(FixedShift):
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear on the friction limit |q| <= bound, and keep its sum if friction can
-        carry it.
+        """Return the shear within friction nearest to a given one, with an unchanged sum if
+        possible.
 
         The sum determines the extension of the test rig's spring. With a soft spring a change of
-        the sum would mean a large change of the shift.
+        the sum would mean a large change of the shift. If friction cannot carry the sum, the shear
+        of each cell is scaled to the friction limit.
 
-        q      shear (2, nx, ny) [force/length^2]
+        q      given shear (2, nx, ny) [force/length^2]
         bound  friction limit µp (nx, ny)
         """
         total = np.sum(q, axis=(1, 2)) * self.summed
@@ -413,13 +412,12 @@ def project(
     summed: tuple[bool, bool] = (True, True),
     stiffness: float = 0.0,
 ) -> tuple[VectorField, Vector]:
-    """Return the shear with a prescribed sum, within the friction limit, that is nearest to a given
-    one.
+    """Compute the shear with a prescribed sum nearest to a given one, within friction.
 
     The result is q = P(y + λ), with P the projection on |q| <= bound of each cell. The multiplier λ
     of the sum is a uniform traction (2,). Return q and λ.
 
-    y          any shear (2, nx, ny)
+    y          given shear (2, nx, ny) [force/length^2]
     bound      friction limit µp (nx, ny); |total| must be less than its sum
     total      prescribed sum of the shear over the cells (2,)
     guess      initial guess of λ (2,); None for an estimate

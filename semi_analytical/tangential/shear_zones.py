@@ -26,8 +26,7 @@ STIFFEST = 1e6
 
 
 class ShearZones:
-    """Stick and slip zones of one iterate of the tangential problem, with the slip direction per
-    cell.
+    """Stick and slip zones of one iterate of the tangential problem, with slip directions.
 
     The zones follow from z = q + γ slip, with the shear q and a stiffness γ: cells with |z| above
     the friction limit µp slip.

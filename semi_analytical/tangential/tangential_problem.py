@@ -61,14 +61,21 @@ class TangentialSolution:
 
     @property
     def point(self) -> Point:
-        """Shear and tangential displacement of the solution as one object, for use as an initial
-        guess.
-        """
+        """Shear and displacement of the solution as one object, for use as initial guess."""
         return Point(self.shear, self.displacement)
 
 
 @dataclass(frozen=True)
 class _Problem:
+    """Tangential problem of one increment at a given pressure.
+
+    displace         map from shear (2, nx, ny) to its tangential displacement
+    bound            friction limit µp (nx, ny)
+    target           displacement that full stick requires (2, nx, ny) [length]
+    load             prescribed tangential load
+    self_compliance  displacement of a cell by its own unit shear [length^3/force]
+    """
+
     displace: Map
     bound: Field
     target: VectorField

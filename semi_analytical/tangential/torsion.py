@@ -50,9 +50,7 @@ class ShearMoments:
 
     @cached_property
     def reach(self) -> float:
-        """Length that makes a twist comparable with a shift: largest distance of a cell from the
-        origin.
-        """
+        """Length that makes a twist comparable with a shift: largest distance of a cell from 0."""
         return float(np.max(magnitude(self.rotation)))
 
     @cached_property
@@ -110,12 +108,11 @@ class ShearMoments:
     def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Project a trial shear on the shears with the prescribed torque and tangential force or
-        shift.
+        """Compute the shear with the prescribed torque nearest to a trial shear, within friction.
 
         The shear y + γ rigid(motion) is projected on |q| <= bound. The free components of the
-        motion are chosen so that the projection has the prescribed force and torque. Return the
-        projected shear and the motion (shift x, shift y, twist).
+        motion are chosen so that the projection has the prescribed torque, and the tangential force
+        if it is prescribed. Return the projected shear and the motion (shift x, shift y, twist).
 
         y       trial shear without the rigid motion (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny)
@@ -132,16 +129,25 @@ class ShearMoments:
         return q, np.array([*shift, multiplier[-1] / (gamma * self.reach)])
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Project a shear on the shears within the friction limit that have the prescribed torque.
+        """Return the shear with the prescribed torque nearest to a given one, within friction.
 
-        The projection also has the prescribed tangential force, if a force is prescribed.
+        The result also has the prescribed tangential force, if a force is prescribed.
 
-        q      shear (2, nx, ny) [force/length^2]
+        q      given shear (2, nx, ny) [force/length^2]
         bound  friction limit µp (nx, ny)
         """
         return self._project(q, bound, np.zeros(len(self.prescribed_forces)))[0]
 
     def _project(self, y: VectorField, bound: Field, guess: Vector) -> tuple[VectorField, Vector]:
+        """Compute the shear with the prescribed torque nearest to a given one, and the multipliers.
+
+        The multipliers (k,) are tractions per unit motion that are added before the projection on
+        the friction limit. They are found by Newton's method.
+
+        y      given shear (2, nx, ny) [force/length^2]
+        bound  friction limit µp (nx, ny)
+        guess  initial guess of the multipliers (k,)
+        """
         loaded, units = self._loaded_cells(bound)
         of_loaded, limit = y[:, loaded], bound[loaded]
 
@@ -243,30 +249,29 @@ def _friction_power(velocity: Vector, limit: Vector, units: Field) -> tuple[floa
 
 
 def _resultant_forces(units: Field, q: Field) -> Vector:
-    """Compute tangential force and torque (k,) of the shear in given cells, divided by the cell
-    area.
+    """Compute tangential force and torque (k,) of a shear, divided by the cell area.
 
-    units  unit rigid motions in the cells (k, 2, n), to which the forces are conjugate
-    q      shear of the n cells (2, n)
+    units  unit rigid motions of the indenter in n cells (k, 2, n), to which the forces are
+           conjugate
+    q      shear of these cells (2, n)
     """
     return np.asarray(units.reshape(len(units), -1) @ q.ravel())
 
 
 def _unit_projections(units: Field, vector: Field) -> Field:
-    """Compute the scalar product of each unit rigid motion with a vector, in each of n cells (k,
-    n).
+    """Compute the scalar product of each unit rigid motion with a vector in each cell (k, n).
 
-    units   unit rigid motions of the indenter in the cells (k, 2, n)
+    units   unit rigid motions of the indenter in n cells (k, 2, n)
     vector  vector of each cell (2, n), such as the shear
     """
     return np.asarray(units[:, 0] * vector[0] + units[:, 1] * vector[1])
 
 
 def _unit_products(units: Field, weight: Vector) -> Field:
-    """Compute the matrix (k, k) of the scalar products of the unit rigid motions, summed over
-    cells.
+    """Compute the matrix (k, k) of weighted scalar products of the unit rigid motions.
 
-    Used for the derivatives of force and torque with respect to the rigid motion.
+    The products are summed over cells. Used for the derivatives of force and torque with respect to
+    the rigid motion.
 
     units   unit rigid motions of the indenter in n cells (k, 2, n)
     weight  weight of each cell (n,)
