@@ -128,11 +128,11 @@ class DiscretisedSolver(ABC):
 
     @classmethod
     def stated_errors(cls, result: Any) -> StatedErrors:
-        """Estimate the errors of all scalars (forces, radii, …) of a result at each load step's
-        end.
+        """Estimate the errors of all scalars of a result at the end of each load step.
 
-        The scene is solved again with coarser discretisations. The errors follow from the
-        differences between these solves and the result.
+        Scalars are, for example, forces and the contact radius. The scene is solved again with
+        coarser discretisations. The errors follow from the differences between these solves and the
+        result.
         """
         run, coarse = compare_with_coarse_solves(cls.of(result), result)
         return StatedErrors(tuple(run.errors()), coarse)
@@ -140,9 +140,7 @@ class DiscretisedSolver(ABC):
     @property
     @abstractmethod
     def plan(self) -> Any:
-        """Plan of a solve: modelled physical effects, and number of increments of each
-        load step.
-        """
+        """Plan of a solve: modelled physical effects, and increments of each load step."""
 
     @abstractmethod
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Any:

@@ -79,7 +79,7 @@ class CellSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Plan of a solve: modelled physical effects, and number of increments of each load step.
+        """Plan of a solve: modelled physical effects, and increments of each load step.
 
         The plan is that of the solved result, if there is one. Otherwise it is made from the scene,
         with the increments of the first refinement level.

@@ -66,9 +66,7 @@ class RingSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Plan of a solve: modelled physical effects, and number of increments of each
-        load step.
-        """
+        """Plan of a solve: modelled physical effects, and increments of each load step."""
         return self.chosen_plan or radial.plan(self.scene)
 
     @property

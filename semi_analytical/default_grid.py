@@ -103,8 +103,9 @@ def _scene_maps(scene: Scene) -> list[HeightMap | FrictionMap]:
 
 
 def _within_maps(scene: Scene, window: Pair) -> Pair:
-    """Reduce the sides of a window to the extent of the height map and friction map of a scene
-    [length].
+    """Reduce the sides of a window to the extent of the maps of a scene [length].
+
+    These are the height map of the indenter and the map of the coefficient of friction.
 
     window  sides of the window along x and y [length]
     """

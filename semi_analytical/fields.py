@@ -31,7 +31,8 @@ class Increment(ReportedIncrement):
     Slip is that of the lower body relative to the indenter, opposite to the shear. Fields of shear
     are None without friction.
 
-    moment                           (Σ p y Δ, Σ p x Δ) [force length]
+    moment                           (Σ p y Δ, Σ p x Δ) with the pressure p and the area Δ of a cell
+                                     [force length]
     iterations                       iterations of the normal and tangential solvers on all grids
     convolutions                     number of convolutions of scalars on all grids
     slip_before, dissipation_before  slip and dissipation at the start of the increment
@@ -122,7 +123,7 @@ class Result:
 
     scene, grid  solved scene, and cells and window of the solution
     tolerance    limit of the dimensionless residuals
-    plan         effects that were computed
+    plan         physical effects that were computed, and increments of each load step
     increments   converged increments of all load steps
     """
 

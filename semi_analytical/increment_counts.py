@@ -155,7 +155,9 @@ class _LoadStep:
 
     @property
     def _only_normal_load_grows(self) -> bool:
-        """True if only the normal load changes in the load step, and does not decrease."""
+        """True if the normal load grows or is constant in the load step, and no other load
+        changes.
+        """
         normal, tilting = self.ramp.normal, self.ramp.tilting
         grows = normal.start is not None and normal.start <= normal.end
         return grows and tilting.start == tilting.end and not self._changes_tangential_load

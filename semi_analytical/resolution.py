@@ -141,7 +141,10 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
 
 
 def _layer_cells(result: Result) -> float | None:
-    """Compute the thickness of the thinnest layer in cells; None without layers."""
+    """Compute the thickness of the thinnest layer of both bodies, over the larger cell side.
+
+    The result is None without layers.
+    """
     thinnest = min(result.scene.body.thinnest, result.scene.indenter.thinnest)
     return thinnest / max(result.grid.spacing) if np.isfinite(thinnest) else None
 

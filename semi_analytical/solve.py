@@ -100,7 +100,8 @@ def solve_discretised(
     discretisation  settings of the scene file: cells, window, tolerance, edge correction
     progress        function that is called after every increment, or None
     plan            physical effects to compute; None for those that the scene requires
-    store           checkpoints of the same solution, from which it is resumed
+    store           store of checkpoints, from which an interrupted solution is resumed; None
+                    without one
     """
     scene, decided = normal_form(scene), plan
     if decided is None:
@@ -140,7 +141,7 @@ def solve_within(
     tolerance  limit of every dimensionless residual
     progress   function that is called after every increment, or None
     plan       physical effects to compute; None for those that the scene requires
-    store      checkpoints of the same solution, from which it is resumed
+    store      store of checkpoints, from which an interrupted solution is resumed; None without one
     """
     last = store.last() if store else None
     if last and last.extent in grids:  # smaller windows do not contain the contact

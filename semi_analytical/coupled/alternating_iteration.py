@@ -210,6 +210,8 @@ class _AndersonMixing:
     def next_pressure(self, p: Field, answer: Field) -> Field:
         """Compute the next pressure of the alternating iteration by Anderson mixing.
 
+        The pressure is admissible: non-negative, with the prescribed normal load.
+
         p       present pressure (nx, ny)
         answer  pressure after one alternating iteration from p (nx, ny)
         """

@@ -114,7 +114,7 @@ class CoupledProblem:
 
 @dataclass(frozen=True)
 class CoupledSolution:
-    """Solution of a coupled increment in a box of cells.
+    """Solution of a coupled increment (normal and tangential problem) in a box of cells.
 
     pressure, shear   p (nx, ny) and q (2, nx, ny) [force/length^2]
     closing           rigid normal motion: approach, and tilt under prescribed moments

@@ -141,9 +141,9 @@ class LinearisedIncrement:
         return rows
 
     def solve(self, residual: Vector, depth: float) -> Step:
-        """Solve the linearised contact and friction equations for a Newton step, by GMRES.
+        """Solve the linearised contact and friction conditions for a Newton step, by GMRES.
 
-        residual  residual of the iterate, one row per free unknown
+        residual  residual of the iterate, one row per free unknown [length]
         depth     reduction of the residual at which GMRES stops
         """
         zones, problem = self._zones, self._problem

@@ -43,8 +43,8 @@ def solve_on_springs(
     """Solve a coupled increment by the proximal-point method from an initial guess.
 
     Each step solves the increment with an additional compliance λ of every cell, which acts like
-    springs between the bodies and keeps the tractions near to those of the last step. λ decreases.
-    The final solve has λ = 0 and meets the tolerance.
+    springs between the bodies and keeps the tractions near to those of the last step. λ is reduced
+    while the changes are small. The final solve has λ = 0 and meets the tolerance.
 
     problem                  operators, loads and friction law of the increment
     pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
@@ -84,10 +84,12 @@ def solve_on_springs(
 
 
 def _proximal_step(problem: CoupledProblem, tractions: Tractions, motion: Vector) -> NewtonIterate:
-    """Solve the coupled increment with additional compliance approximately, by Newton's method.
+    """Solve a coupled increment with an additional compliance approximately, by Newton's method.
+
+    This solve is one step of the proximal-point method.
 
     problem    coupled problem with the additional compliance
-    tractions  reference and initial tractions (q_x, q_y, p), shape (3, nx, ny)
+    tractions  tractions of the last step (q_x, q_y, p), shape (3, nx, ny), used as initial guess
     motion     initial guess of the rigid tangential motion
     raises     NotConverged
     """

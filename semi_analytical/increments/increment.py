@@ -150,8 +150,10 @@ def solve_increment(
 ) -> State:
     """Solve one increment of uncoupled bodies: the normal problem, then the tangential problem.
 
+    The normal problem determines the pressure, the tangential problem the shear at this pressure.
     The normal problem is not solved again if its load is unchanged.
 
+    model       contact model
     before      state at the start of the increment; None before first touch
     normal      prescribed normal load
     tangential  prescribed tangential load; None without shear

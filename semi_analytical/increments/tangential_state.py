@@ -64,9 +64,7 @@ class TangentialState:
 
     @property
     def motion(self) -> Vector:
-        """Rigid tangential motion of the indenter: shift (2,) [length], then twist under
-        torsion.
-        """
+        """Rigid tangential motion of the indenter: shift (2,) [length], then twist in torsion."""
         assert self.shift is not None
         return self.shift if self.twist is None else np.array([*self.shift, self.twist])
 
@@ -113,8 +111,8 @@ def surface_target(
     """Compute the relative tangential surface displacement that full stick requires [length].
 
     The result (2, nx, ny) consists of the displacement locked in by the previous increment, the
-    bulk strain of the lower body in this increment, and the prescribed twist. The rigid motion that
-    the solver determines is not included.
+    bulk strain of the lower body in this increment, and the prescribed twist. The shift of the
+    indenter is not included, nor a twist that the solver determines.
 
     last  tangential state at the start of the increment
     load  prescribed tangential load at the end of the increment

@@ -114,7 +114,9 @@ class NormalLoad(Protocol):
 
 @dataclass(frozen=True)
 class PressureSum(NormalLoad):
-    """Force control of the normal problem: the sum Σp of the pressure over all cells is prescribed.
+    """Force control of the normal problem: the normal force is prescribed.
+
+    The force is the sum Σp of the pressure over all cells times the cell area.
 
     total  normal force over cell area [force/length^2]
     """
@@ -198,9 +200,11 @@ class PressureSum(NormalLoad):
 
 @dataclass(frozen=True)
 class FixedApproach(NormalLoad):
-    """Displacement control of the normal problem: the approach of the two bodies is prescribed.
+    """Displacement control of the normal problem: the approach of the bodies is prescribed.
 
-    approach  approach [length]
+    The normal force follows from the solution.
+
+    approach  approach, counted from first touch [length]
     """
 
     approach: float

@@ -268,7 +268,7 @@ class _ShiftedPressure:
     def has_prescribed_forces(self, multiplier: Vector) -> bool:
         """Return True if the pressure has the prescribed force and moments up to round-off.
 
-        The Newton iteration for the multipliers stops then.
+        The Newton iteration for the Lagrange multipliers of force and moments stops then.
 
         multiplier  not used
         """
@@ -276,9 +276,10 @@ class _ShiftedPressure:
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * size)
 
     def newton_step(self) -> Vector:
-        """Compute the Newton step of the multipliers (k,) that corrects force and moments.
+        """Compute the Newton step of the Lagrange multipliers (k,) of force and moments.
 
-        The shortest step is taken where the multipliers are not unique.
+        The multipliers are the coefficients of a plane that is added to the pressure, so that it
+        has the prescribed force and moments. The shortest step is taken where they are not unique.
         """
         metric = _weighted_products(self._slack * self._shapes, self._shapes)
         return np.asarray(-np.linalg.pinv(metric, rcond=1e-14, hermitian=True) @ self.defect)

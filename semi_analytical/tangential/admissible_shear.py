@@ -163,15 +163,16 @@ class ShearSum(TangentialLoad):
 
     @property
     def prescribed_forces(self) -> Vector:
-        """Prescribed tangential force over the cell area, for components with a resultant.
+        """Prescribed tangential force divided by the cell area: up to two components (k,).
 
         On a reduced domain, a component of the shear that is odd about a mirror plane has no
-        resultant.
+        resultant and is omitted.
         """
         return self.total[list(self.summed)]
 
     def forces(self, q: VectorField) -> Vector:
-        """Compute the tangential force of a shear over the cell area: its sum over all cells.
+        """Compute the tangential force of a shear, divided by the cell area: the sum over all
+        cells.
 
         On a reduced domain, a component of the shear that is odd about a mirror plane has no
         resultant and is omitted.
@@ -217,9 +218,10 @@ class FixedShift(TangentialLoad):
     def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Scale the trial shear y + γ shift of each cell to the friction limit where it exceeds it.
+        """Scale the trial shear of each cell to the friction limit where the limit is exceeded.
 
-        Return the projected shear and the prescribed shift of the indenter.
+        The trial shear is y + γ shift. Return the scaled shear and the prescribed shift of the
+        indenter.
 
         y       trial shear without the shift (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny)
@@ -305,8 +307,7 @@ class SprungShift(FixedShift):
         return q, multiplier / gamma
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Return the shear within friction nearest to a given one, with an unchanged sum if
-        possible.
+        """Return the shear within friction nearest to a given one, if possible with equal sum.
 
         The sum determines the extension of the test rig's spring. With a soft spring a change of
         the sum would mean a large change of the shift. If friction cannot carry the sum, the shear

@@ -50,7 +50,10 @@ class ShearMoments:
 
     @cached_property
     def reach(self) -> float:
-        """Length that makes a twist comparable with a shift: largest distance of a cell from 0."""
+        """Length that makes a twist comparable with a shift [length].
+
+        It is the largest distance of a cell from the origin.
+        """
         return float(np.max(magnitude(self.rotation)))
 
     @cached_property
@@ -304,7 +307,7 @@ def _descend(
     accepted position and its power with gradient and Hessian.
 
     power_at     function from a position to the power of friction, its gradient and its Hessian
-    x, step      position (components of the rigid motion) and Newton step
+    x, step      position (free components of the rigid motion) and Newton step
     power, fall  power at x, and its decrease predicted by the gradient
     """
     part = 1.0
