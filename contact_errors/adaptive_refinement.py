@@ -96,7 +96,10 @@ class RefinementLevel:
 
     @property
     def processor_seconds(self) -> float:
-        """CPU time of the solve of this level and of its coarse solves [s]."""
+        """CPU time of the solve of this level and of its coarse solves [s].
+
+        The coarse solves yield the error estimate of the level.
+        """
         return self.solve_seconds + self.error_seconds
 
     def largest(self, name: str) -> float:
@@ -171,9 +174,10 @@ class RefinementLevel:
 
     @property
     def part(self) -> Part:
-        """Name of the part of an error that the spatial discretisation causes.
+        """Name of the error part due to the spatial discretisation of this solver.
 
-        The name is "cells", "elements" or "quadrature", depending on the solver.
+        An error is the sum of parts by cause. The name is "cells" for the semi-analytical,
+        "elements" for the finite-element and "quadrature" for the radial solver.
         """
         return next(iter(self.run.required))
 
@@ -310,6 +314,8 @@ class Levels:
 
     def beyond_memory(self, fineness: Fineness) -> str | None:
         """Return a message if a solve needs more than the available memory; else None.
+
+        The refinement stops with this message.
 
         fineness  grid or mesh, increments and tolerance of the solve
         """

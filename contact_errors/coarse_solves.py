@@ -140,7 +140,10 @@ class DiscretisedSolver(ABC):
     @property
     @abstractmethod
     def plan(self) -> Any:
-        """Plan of a solve: modelled physical effects, and increments of each load step."""
+        """Plan of a solve: modelled physical effects, and increments of each load step.
+
+        The plan depends on the scene, not on the grid or mesh.
+        """
 
     @abstractmethod
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Any:
@@ -291,7 +294,10 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def memory(self, fineness: Fineness) -> int:
-        """Estimate the peak memory of a solve with given discretisation parameters [byte]."""
+        """Estimate the peak memory of a solve with given discretisation parameters [byte].
+
+        fineness  grid or mesh, increments and tolerance of the solve
+        """
 
 
 def compare_with_coarse_solves(

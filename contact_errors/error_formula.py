@@ -374,7 +374,7 @@ class SolvedRun:
     def _largest_so_far(self) -> Sequence[Values]:
         """Largest absolute value of each scalar from the start of the history, for each load step.
 
-        Errors are compared with this value, because a scalar may pass through zero.
+        Error estimates are compared with this value, because a scalar may pass through zero.
         """
         return largest_so_far(self.values)
 

@@ -66,7 +66,10 @@ class RingSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        """Plan of a solve: modelled physical effects, and increments of each load step."""
+        """Plan of a solve: modelled physical effects, and increments of each load step.
+
+        The plan is that of the solved result, if there is one. Otherwise it is made from the scene.
+        """
         return self.chosen_plan or radial.plan(self.scene)
 
     @property

@@ -136,5 +136,8 @@ class Result:
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """Increments at the ends of the load steps, one for each load step."""
+        """Increments at the ends of the load steps, one for each load step.
+
+        They are part of all increments of the result.
+        """
         return tuple(i for i in self.increments if i.index == i.increments_in_step)

@@ -27,7 +27,7 @@ class SurfaceGrid:
 
     @property
     def spacing(self) -> tuple[float, float]:
-        """Cell sides along x and y [length]."""
+        """Side lengths of a cell along x and y [length]."""
         return self.window[0] / self.cells[0], self.window[1] / self.cells[1]
 
     @property

@@ -132,14 +132,18 @@ class _Solver:
 
     @property
     def most_spent(self) -> float:
-        """Limit of the work of one increment, as a number of convolutions.
+        """Work above which an increment that does not converge is given up.
 
-        An increment that exceeds this limit without convergence is not bisected.
+        The work is a number of convolutions. Below this limit, load stepping bisects such an
+        increment.
         """
         return MAX_CONVOLUTIONS
 
     def spent(self) -> float:
-        """Return the work since the start of the solution, as a number of convolutions."""
+        """Return the work since the start of the solution: the number of convolutions.
+
+        Load stepping compares the work of an increment with its limit.
+        """
         return self.model.convolutions.count
 
     def advance(

@@ -155,8 +155,9 @@ class _LoadStep:
 
     @property
     def _only_normal_load_grows(self) -> bool:
-        """True if the normal load grows or is constant in the load step, and no other load
-        changes.
+        """True if only the normal load changes in the load step, and does not decrease.
+
+        No slip occurs in such a step if the bodies are uncoupled.
         """
         normal, tilting = self.ramp.normal, self.ramp.tilting
         grows = normal.start is not None and normal.start <= normal.end
@@ -246,7 +247,10 @@ class _LoadStep:
 
     @property
     def _pressing_change(self) -> float:
-        """Change of the normal load in the load step over its larger value; 1 if unknown."""
+        """Change of the normal load in the load step over its larger value; 1 if unknown.
+
+        The increment error under a changing normal load is proportional to this ratio.
+        """
         normal, tilting = self.ramp.normal, self.ramp.tilting
         if normal.start is None or tilting.start != tilting.end:
             return 1.0
@@ -308,5 +312,5 @@ def _first_loading_count(bodies: Bodies, accuracy: float, shape: ShapedBody) -> 
 
 
 def _round_up(count: float) -> int:
-    """Round a number of increments up to an integer between 1 and the largest allowed number."""
+    """Return a number of increments rounded up to an integer, at least 1 and at most `MOST`."""
     return min(MOST, max(1, ceil(count - ROUND_OFF)))

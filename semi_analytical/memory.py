@@ -66,9 +66,10 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
 
 
 def _domain_share(grid: SurfaceGrid, plan: Plan) -> float:
-    """Return the ratio of the number of cells of the reduced domain to that of the full window.
+    """Return the ratio of the cells solved for to the cells of the window.
 
-    The ratio is 1 without symmetry reduction. Used to count the arrays in memory.
+    With mirror planes only a half or a quarter of the window is solved for. The ratio is 1 without
+    mirror planes. Used to count the arrays in memory.
     """
     return 1 / plan.symmetry.images if grid.even else 1.0
 

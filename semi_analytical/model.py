@@ -205,12 +205,18 @@ class ContactModel:
 
 
 def coarsen_field(values: Field) -> Field:
-    """Compute the mean of a field over two by two cells: (..., nx, ny) to (..., nx/2, ny/2)."""
+    """Compute the mean of a field over two by two cells: (..., nx, ny) to (..., nx/2, ny/2).
+
+    Used for the undeformed gap of a coarser grid.
+    """
     # Sums of pairs: means of mirror images are bitwise mirror images.
     along = values[..., ::2, :] + values[..., 1::2, :]
     return np.asarray((along[..., ::2] + along[..., 1::2]) / 4)
 
 
 def refine_field(values: Field) -> Field:
-    """Repeat each cell value of a field on two by two cells: (..., nx, ny) to (..., 2 nx, 2 ny)."""
+    """Repeat each cell value of a field on two by two cells: (..., nx, ny) to (..., 2 nx, 2 ny).
+
+    Used to transfer a pressure from a coarse grid to the next finer grid.
+    """
     return np.repeat(np.repeat(values, 2, axis=-2), 2, axis=-1)

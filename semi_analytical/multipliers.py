@@ -39,7 +39,10 @@ class ProjectedTraction(Protocol):
         """
 
     def newton_step(self) -> Vector:
-        """Compute the change of the multipliers that corrects the forces to first order."""
+        """Compute the Newton step of the multipliers that corrects the forces of the traction.
+
+        The corrected forces have the prescribed values to first order.
+        """
 
 
 Point = TypeVar("Point", bound=ProjectedTraction)

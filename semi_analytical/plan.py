@@ -85,6 +85,8 @@ class Plan:
     def cut_into(self, increments: Sequence[int]) -> "Plan":
         """Return a copy of the plan with given numbers of increments.
 
+        Used for solves with coarser or finer increments.
+
         increments  number of increments of each load step
         """
         path = zip(self.path, increments, strict=True)

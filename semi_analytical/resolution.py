@@ -55,9 +55,10 @@ def resolution(result: Result) -> tuple[Resolution, ...]:
 
 
 def _resolution_at(result: Result, end: Increment) -> Resolution:
-    """Measure contact, stick zone, layers and roughness of a result in cells, at one increment.
+    """Measure contact, stick zone, layers and roughness in cells at the end of a load step.
 
-    end  increment at the end of a load step
+    result  result of the semi-analytical solver
+    end     increment at the end of the load step
     """
     grid, load, contact = result.grid, end.pressure, _contact_size(result, end)
     stick = annulus = None
@@ -71,7 +72,11 @@ def _resolution_at(result: Result, end: Increment) -> Resolution:
 
 
 def _contact_size(result: Result, end: Increment) -> float:
-    """Compute the smaller semi-axis of the contact at the end of a load step, in cells."""
+    """Compute the smaller semi-axis of the contact at the end of a load step, in cells.
+
+    result  result of the semi-analytical solver
+    end     increment at the end of the load step
+    """
     return _semi_axis(end.in_contact, end.pressure, end.contact_area / result.grid.cell_area)
 
 

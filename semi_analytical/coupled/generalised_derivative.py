@@ -123,9 +123,10 @@ class Natural:
 
     @property
     def merit(self) -> float:
-        """Sum of the relative errors of pressure and shear [1], which the line search must reduce.
+        """Merit of the iterate: sum of the relative errors of pressure and shear [1].
 
-        The errors are those of the contact and friction conditions.
+        The errors are those of the contact and friction conditions. The line search of Newton's
+        method accepts steps that reduce the merit.
         """
         return self.pressure_error + self.shear_error
 

@@ -92,10 +92,11 @@ def _first_converged(
 
 
 def _gross_slip(problem: CoupledProblem, pressure: Field) -> bool:
-    """Return True if the tangential load reaches the friction limit that a pressure allows.
+    """Return True if the tangential load reaches the friction limit Σµp (gross slip).
 
-    All cells slip then.
+    Only the alternating iteration can solve this case.
 
+    problem   loads and friction law of the increment
     pressure  p (nx, ny) [force/length^2]
     """
     return problem.tangential_load.exhausts(problem.friction_limit(pressure))

@@ -58,9 +58,11 @@ class NormalState:
     tilt: Pair | None = None
 
     def closure(self, model: ContactModel) -> float | Field:
-        """Compute the reduction of the undeformed gap by approach and tilt [length].
+        """Compute the reduction of the undeformed gap by approach and tilt of the indenter
+        [length].
 
-        The result is a number, or a field (nx, ny) with tilt.
+        The gap is undeformed gap plus displacement minus this reduction. The result is a number, or
+        a field (nx, ny) with tilt.
         """
         if self.tilt is None:
             return self.approach

@@ -72,6 +72,8 @@ class TangentialState:
 def untouched_state(cells: tuple[int, int]) -> TangentialState:
     """Return the tangential state of the contact before first touch: no shear, no shift, no slip.
 
+    The first increment starts from this state.
+
     cells  number of cells of the domain along x and y
     """
     nothing = np.zeros((2, *cells))

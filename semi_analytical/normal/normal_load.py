@@ -58,9 +58,11 @@ class NormalLoad(Protocol):
         """
 
     def closure(self, motion: Motion) -> float | Field:
-        """Return the closure of the gap by a rigid motion of the indenter [length].
+        """Compute the reduction of the gap by a rigid motion of the indenter [length].
 
-        By default the rigid motion is the approach, which closes the gap equally in all cells.
+        By default the rigid motion is the approach, which reduces the gap equally in all cells.
+
+        motion  approach, or vector (approach, tilt x, tilt y)
         """
         return motion
 
@@ -124,9 +126,11 @@ class PressureSum(NormalLoad):
     total: float
 
     def touches(self, gap: Field) -> bool:
-        """Return True if at least one cell has a finite gap and can carry the prescribed force.
+        """Return True if the prescribed normal force can be carried: a cell has a finite gap.
 
-        gap  undeformed gap (nx, ny) [length]; infinite where contact is impossible
+        The gap is infinite where contact is impossible, as outside the indenter.
+
+        gap  undeformed gap (nx, ny) [length]
         """
         return bool(np.isfinite(np.min(gap)))
 

@@ -47,7 +47,10 @@ class PressureMoments:
 
     @cached_property
     def reach(self) -> float:
-        """Length that makes tilts comparable with the approach: largest |x| or |y| of a cell."""
+        """Length that makes tilts comparable with the approach [length].
+
+        It is the largest |x| or |y| of a cell.
+        """
         return float(np.max(np.abs(self.arms)))
 
     @cached_property
@@ -110,7 +113,7 @@ class PressureMoments:
         return np.array([approach, *(fit[-2:] / self.reach)])
 
     def closure(self, motion: Motion) -> float | Field:
-        """Compute the closure of the gap by approach and tilt, a plane (nx, ny) [length].
+        """Compute the reduction of the gap by approach and tilt, a plane (nx, ny) [length].
 
         motion  vector (approach, tilt x, tilt y)
         """

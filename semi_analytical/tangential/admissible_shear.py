@@ -279,7 +279,9 @@ class SprungShift(FixedShift):
     summed: tuple[bool, bool] = (True, True)
 
     def extension(self, q: VectorField) -> Vector:
-        """Compute the extension of the test rig's spring (2,) [length] under the force of a shear.
+        """Compute the extension of the test rig's spring under the tangential force of a shear.
+
+        The extension (2,) [length] is the difference between the shifts of actuator and contact.
 
         q  shear (2, nx, ny) [force/length^2]
         """
@@ -380,7 +382,7 @@ def natural_shear(
 
 
 def magnitude(v: VectorField) -> Field:
-    """Compute the length (...) of the two-component vectors of a field (2, ...)."""
+    """Compute the length of each two-component vector of a field (2, ...), such as the shear."""
     return np.sqrt(v[0] * v[0] + v[1] * v[1])
 
 
