@@ -176,11 +176,13 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def coarser(self, result: Any, share: float, more: int) -> Any:
-        """Return a coarser grid, mesh or ring factor than that of a result, for its error estimate.
+        """Return the discretisation of a coarse solve: a coarser grid or mesh, or fewer rings.
+
+        The radial solver returns more rings instead where its accuracy does not depend on them.
 
         result  result whose errors are estimated
-        share   fraction of the cells of the result along a side
-        more    number of cells that are added to this fraction
+        share   fraction of the cells of the result along a side, or of its elements or rings
+        more    number of cells or elements that are added to this fraction
         """
 
     def mesh_coarse_solves(self, base: Any, result: Any) -> Iterable[CoarseSolve]:
@@ -305,15 +307,16 @@ def compare_with_coarse_solves(
 ) -> tuple[SolvedRun, tuple[CoarseSolveRecord, ...]]:
     """Run the coarse solves of a result, and collect the comparisons for its error estimate.
 
-    Each discretisation parameter is coarsened in a separate comparison:
+    Each discretisation parameter is changed in a separate comparison:
 
-    - Increments: two solves with other numbers of increments, compared on few cells.
-    - Cells: two solves with coarser cells, compared with the result.
+    - Increments, if a load step has an increment error: three solves on few cells, with the
+      increments of the result and with two other numbers. Load steps of fewer than 8 increments
+      are compared with 32 and 8 increments, and with the limit that these extrapolate to.
+    - Cells, elements or rings: two solves with coarser discretisations, compared with the result.
     - Other parameters of a mesh: one solve each, compared on the first coarse mesh.
 
-    Once a coarser value of a parameter has been compared, later coarse solves use it, because they
-    are then cheaper. Its measured effect on the scalars is added before a coarse solve is compared
-    with the result.
+    Later coarse solves use the cheaper value of a parameter that has been compared. Its measured
+    effect on the scalars is added before a coarse solve is compared with the result.
 
     Returns the scalars of the result with all comparisons, and the records of the coarse solves.
 

@@ -25,7 +25,8 @@ def run_directory(target: Path, *, overwrite: bool = False) -> Iterator[Path]:
     """Yield an empty directory for the files of a run; publish it as `target` on success.
 
     target     directory of the results; missing parents are created
-    overwrite  also replace files of the same names that no run of slipstick has written
+    overwrite  also replace files of the same names that no run of slipstick has written; files of
+               an earlier run of slipstick are always replaced
 
     Raises OutputRefused before the block is entered.
     """

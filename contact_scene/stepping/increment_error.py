@@ -35,7 +35,8 @@ def has_increment_error(scene: Scene) -> tuple[bool, ...]:
     The result is False in three cases, which are proved:
 
     - No shear has acted so far.
-    - A torsion of bodies of revolution under constant pressure, without any other shear.
+    - A torsion of bodies of revolution without tilt, under constant pressure, with uniform
+      friction and without any other shear.
     - A straight push at constant pressure of two uncoated bodies of one material with ν = 0.
     """
     ramps = scene.load_path()

@@ -68,6 +68,8 @@ class EdgeCorrection:
     def _extend_state(self, state: State) -> State:
         """Extend the fields of a solved state from the reduced domain to the full window.
 
+        The reduced domain is the half or quarter of the window between mirror planes.
+
         state  solved contact state on the reduced domain
         """
         extend, sheared = self._domain.extend_fields, state.sheared

@@ -403,8 +403,9 @@ class RunRecord(Description):
 
     @property
     def fineness(self) -> int:
-        """Number of cells per side, of elements per contact radius, or of rings, as the solver has
-        it.
+        """Number of cells along x, of elements per contact radius, or of rings in the output.
+
+        0 if the run has none of these numbers.
         """
         if self.cells is not None:
             return self.cells[0]

@@ -196,7 +196,8 @@ def judge_cases(
 def _case_line(end: CaseEnd) -> str:
     """Return the line that is printed when a case of the verification has ended.
 
-    The line states status, name, number of verdicts and solves, and seconds.
+    The line states status, name, numbers of verdicts and solves, and the seconds or that the case
+    was already there. For a case without a record it states the reason.
     """
     if not isinstance(end.record, JudgedCase):
         return outcome_text(end)
