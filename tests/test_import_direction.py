@@ -148,7 +148,7 @@ ORDERS = {
         "stress_result",
     ),
     "contact_errors": (
-        *("values", "error_formula", "cost_estimate", "coarse_solves"),
+        *("error_formula", "cost_estimate", "coarse_solves"),
         *("on_cells", "on_elements", "on_radii", "stress_errors", "adaptive_refinement"),
     ),
     "verification.challenge": (
@@ -159,7 +159,6 @@ ORDERS = {
         *(
             "solvers",
             "solving",
-            "stored_run",
             "tables",
             "sweep",
             "sweep_chart",

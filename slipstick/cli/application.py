@@ -173,13 +173,13 @@ application.add_typer(
     maintenance,
     name=MAINTAIN,
     rich_help_panel="Maintenance",
-    help="Maintain the program: studies, baselines, reports, schemas, costs.",
+    help="Maintain the program: studies, baselines, tolerances, records, reports.",
 )
 
 
 @maintenance.callback()
 def maintain() -> None:
-    """Maintain the program: studies, baselines, reports, schemas, costs."""
+    """Maintain the program: studies, baselines, tolerances, records, reports."""
 
 
 def _print_version(wanted: bool) -> None:

@@ -2,7 +2,7 @@
 
 A rigid ball is pressed with friction on a coated half-space and pushed tangentially to 0.3, 0.6 and
 0.9 of µW (friction coefficient times normal force). The two solvers, with cells and with rings,
-share no numerics.
+share only the frequency responses of the layers.
 
 The error of a curve is estimated by coarse solves. Their convergence order is 1 in theory; the
 estimate assumes 0.6 to be safe: $|f - f_k| / (r_k^{0.6} - 1)$, where $r_k$ is the refinement
@@ -330,7 +330,7 @@ def _solvers_agree(rows: Sequence[Row], *, complete: bool) -> Statement:
         outcome=judged(all(share <= 1 for share in shares), complete=complete),
         measured=f"{sum(share <= 1 for share in shares)} of {len(shares)} curves; largest "
         f"difference {plain(max(shares, default=0.0), 2)} times the sum of both errors",
-        because="they share no numerics",
+        because="they share only the frequency response of the layers",
     )
 
 

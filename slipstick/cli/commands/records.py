@@ -38,9 +38,12 @@ def records(
     A record is older than the code if one of the modules that made it, or of their imports, has
     changed. --regenerate makes these records again, the cheapest first, and prints the times.
     After the command was killed, the same command computes the missing records and cases. Exit
-    code 7 with --check if a record is older than the code; 1 if a record cannot be made.
+    code 7 with --check if a record is older than the code; 1 if a record cannot be made; 2 if DIR
+    has no record.
     """
     found = stored_records(directory)
+    if not found:
+        raise typer.BadParameter(f"no record in {directory}", param_hint="DIR")
     names = [record.name for record in found]
     refuse_unknown("record", only or (), names, "slipstick maintain records")
     found = [record for record in found if not only or record.name in only]

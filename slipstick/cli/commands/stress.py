@@ -281,7 +281,8 @@ def _write_points(
             made.append(StressIncrement(number, index, *found))
         except UnsupportedScene as error:  # a contact too small for rings
             left_out = error
-            print_message(f"step {number}, increment {index} is left out: {error}")
+            which = f"step {number}" if index is None else f"step {number}, increment {index}"
+            print_message(f"{which} is left out: {error}")
     if not made:
         raise left_out
     title = f"{title or 'Stress'}: {'indenter' if indenter else 'body'}"
