@@ -53,6 +53,10 @@ def test_traction_on_the_interface_is_the_largest_of_one_side(place: Path) -> No
     found = [e for e in record["maxima"] if e["measure"] in measures]
     # The pressed interface is in compression, which decays to zero outside the computed region.
     assert [(e["region"], e["measure"]) for e in found] == [("interface 1 above", measures[0])]
+    places, maxima = ("x", "y", "depth"), rows(place / "out" / "stress_maxima.csv")
+    assert [[float(row[f"{name} [m]"]) for name in places] for row in maxima] == [
+        [entry[name] for name in places] for entry in record["maxima"]
+    ]
     table = rows(place / "out" / "stress_interfaces.csv")
     xz, zz, x = (
         np.array([float(row[name]) for row in table if row["side"] == "above"])
