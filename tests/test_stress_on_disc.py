@@ -292,7 +292,9 @@ def test_a_run_that_was_written_has_the_same_stress(scene: Scene, tmp_path: Path
     slipstick.save(result, tmp_path / "run")
     at_once = stress_on_disc(state_of_result(result, None), depths=[0.0, 0.3])
     again = stress_on_disc(state_of_run(tmp_path / "run", None), depths=[0.0, 0.3])
-    assert np.array_equal(again.points.stress, at_once.points.stress)
+    # Fields from a file have another memory layout than those of a solve, hence another order of
+    # summation: some versions of NumPy give 4e-16 of difference where stresses are of order 1.
+    assert again.points.stress == pytest.approx(at_once.points.stress, rel=0, abs=1e-14)
     assert again.direction == at_once.direction
     units = {name: on.unit for name, on in slipstick.load(tmp_path / "run").coordinates.items()}
     assert units in ({"radii": "m"}, {"radii": "m", "angles": "rad"})
