@@ -79,18 +79,6 @@ def _rows(case: Case) -> Iterator[tuple[str, str, str]]:
         if row not in seen:
             seen.add(row)
             yield row
-    for c in case.checks:
-        yield (
-            _cell(c.meaning),
-            _cell(f"{c.reference.kind}: {c.reference.source}"),
-            _cell(f"{c.tolerance.allowed:.2g} of {c.scale_name}: {c.tolerance.because}"),
-        )
-    for c in case.comparisons:
-        yield (
-            _cell(c.meaning),
-            _cell(f"{c.kind}: {c.source}"),
-            _cell(f"{c.allowed:.2g}: {c.because}"),
-        )
     for o in case.orders:
         yield (
             f"order of {_cell(o.name.removeprefix('order_of_').replace('_', ' '))}",

@@ -31,7 +31,7 @@ from verification.closed_forms.coated_indentation import (
     paraboloid,
     paraboloid_under,
 )
-from verification.judging.case import Case, Check, Comparison, Level, Required
+from verification.judging.case import Case, Level, Quantity, Required, compare_runs
 from verification.judging.declared_case import (
     APPROACH,
     CENTRAL_PRESSURE,
@@ -227,8 +227,8 @@ def coated_paraboloid(
             if some
         ),
         runs=bare.runs,
-        comparisons=tuple(
-            Comparison(
+        quantities=tuple(
+            compare_runs(
                 f"constant_of_{row.what.name}",
                 f"{row.what.label}: error over that of the uncoated body, less 1",
                 (study.levels[-1], bare.levels[-1]), partial(_error_ratio, row.what), 0.3,
@@ -420,8 +420,8 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
             judged(one, of_pairs if name in pairs else of_hertz if name in homogeneous else ())
             for name, one in grids.items()
         ),
-        comparisons=tuple(
-            Comparison(
+        quantities=tuple(
+            compare_runs(
                 "same_pressure", "largest difference of the pressure over the largest pressure",
                 (other, first), pressure_difference, 1e-7, "the solver's tolerance, times ten",
                 "equivalent descriptions of the same bodies",
@@ -514,14 +514,14 @@ class ThinLayer:
         )
 
     @property
-    def check(self) -> Check:
+    def check(self) -> Quantity:
         """Comparison of the semi-closed normal load with a number that was computed outside this
         program.
 
         Both loads are divided by the leading term for contact radius >> layer thickness.
         """
         digits = 1e-6
-        return Check(
+        return Quantity(
             "semi_closed_load", "load over the leading term, from the semi-closed solution", "",
             self.name, lambda: self.exact.load / self.leading_load,
             Reference(
@@ -529,7 +529,7 @@ class ThinLayer:
                 "computed outside this program: two settings agree to the digits given",
                 0.5 * digits,
             ),
-            Required(digits, "the digits that are given"),
+            Required(digits, "the digits that are given"), runs=(),
         )  # fmt: skip
 
 
@@ -561,7 +561,7 @@ def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
             judged(named(one.name, on_cells(one.problem, (cells,), 2.2)), one.rows)
             for one in layers
         ),
-        checks=tuple(one.check for one in layers),
+        quantities=tuple(one.check for one in layers),
         equations=(
             r"W \to \frac{\pi a^4}{4 R h} \frac{E (1 - \nu)}{(1 + \nu)(1 - 2\nu)},\quad "
             r"W \to \frac{\pi E a^6}{96 R h^3} \ (\nu = \tfrac{1}{2})",
@@ -620,14 +620,14 @@ def film_stiffness(level: Level = Level.QUICK) -> Case:
         "and Lee give the derivatives in closed form from the homogeneous stress field alone. "
         "The computed derivatives are central differences of the stiffness with the layered "
         "response of this program and the semi-closed integral equation.",
-        checks=tuple(
-            Check(
+        quantities=tuple(
+            Quantity(
                 name, meaning, "", f"h/a = {depth:g}", partial(measure, depth),
                 closed_form(
                     exact(depth),
                     "Gao, Chiu and Lee 1992, first order in the difference of film and substrate",
                 ),
-                leaves, 1.0, "1",
+                leaves, 1.0, "1", runs=(),
             )
             for depth in (0.1, 0.5, 1.0, 3.0)
             for name, (meaning, measure, exact) in derivatives.items()
@@ -851,25 +851,25 @@ def layered_reference(level: Level = Level.QUICK) -> Case:
         "to exactly ½, α h from 1e-6 to 1e4, against a solution with 50 digits. Displacement by "
         "unit traction on a square cell of a coated body, against inverse transforms. Every row "
         "is shown.",
-        checks=(
-            Check(
+        quantities=(
+            Quantity(
                 "scalars", "largest error of C₁₁, C₂₂, C_sh, each relative to itself, and of C₁₂ "
                 "relative to √(C₁₁C₂₂)", "", f"{len(FRF_ROWS)} rows",
-                partial(_worst_frf_error, 0), exact(frf, 1e-24), required, 1.0, "1",
+                partial(_worst_frf_error, 0), exact(frf, 1e-24), required, 1.0, "1", runs=(),
             ),
-            Check(
+            Quantity(
                 "matrix", "largest error of an entry relative to the largest entry", "",
                 f"{len(FRF_ROWS)} rows", partial(_worst_frf_error, 1), exact(frf, 1e-24),
-                required, 1.0, "1",
+                required, 1.0, "1", runs=(),
             ),
-            Check(
+            Quantity(
                 "influence_coefficients", "largest error relative to the loaded cell's own "
                 "displacement", "",
                 f"{len(COEFFICIENT_ROWS)} rows",
                 lambda: max(map(_coefficient_error, COEFFICIENT_ROWS)),
                 exact(COEFFICIENT_SOURCE, 1e-12),
                 Required(1e-14, "twenty times the rounding error"),
-                1.0, "1",
+                1.0, "1", runs=(),
             ),
         ),
         equations=(FREQUENCY_RESPONSE,),
@@ -895,8 +895,8 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
         "The value is the largest violation, relative to the largest entry unless stated "
         "otherwise. The bodies are the same in every run; the tests search for larger "
         "violations.",
-        checks=tuple(
-            Check(
+        quantities=tuple(
+            Quantity(
                 law.name, f"{law.number}: {law.statement}", "", f"{law.draws} bodies",
                 partial(worst_violation, law),
                 identity(0.0, f"property {law.number} of elastic layered half-spaces"),
@@ -904,7 +904,7 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
                     law.allowed, "bound of the law" if law.allowed == 1 else "rounding, or the "
                     "law's own next order",
                 ),
-                1.0, "1",
+                1.0, "1", runs=(),
             )
             for law in laws
         ),

@@ -27,7 +27,7 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import subsurface
 from verification.closed_forms.hertz import PointContact
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.judging.case import Case, Comparison, Level
+from verification.judging.case import Case, Level, Quantity, compare_runs
 from verification.judging.declared_case import (
     NORMAL_FORCE,
     Judged,
@@ -189,7 +189,7 @@ class Contact:
         off, whole = (p - p_other, p_other) if of == "pressure" else (q - q_other, limit)
         return float(np.sum(np.abs(off) * area) / np.sum(whole * area))
 
-    def comparisons(self) -> tuple[Comparison, ...]:
+    def comparisons(self) -> tuple[Quantity, ...]:
         """List the judged comparisons of every two of the three solvers at the end of every load
         step.
 
@@ -215,7 +215,7 @@ class Contact:
             measures["shift"] = ("shift, relative", shift_apart, 1.5e-3, HAND)
         parts = (0.0, *PARTS) if self.harmonics else (0.0,)
         return tuple(
-            Comparison(
+            compare_runs(
                 f"{name}_difference" + (f"_at_{part:g}" if self.harmonics else ""),
                 f"difference of two solvers: {meaning}"
                 + (f", at {part:g} µW" if self.harmonics else ""),
@@ -377,9 +377,9 @@ def cross_check(level: Level = Level.QUICK, given: tuple[Contact, ...] = ()) -> 
         "radial solver share the response of layers to one wavenumber; otherwise the three "
         "solvers share only the scene.",
         runs=tuple(run for one in chosen for run in one.runs),
-        comparisons=(
+        quantities=(
             *(comparison for one in chosen for comparison in one.comparisons()),
-            Comparison(
+            compare_runs(
                 "stress_difference",
                 "largest difference of a component of the stress over p₀: on the axis from 0.1 "
                 "to 3 contact radii, above the interface and below it",

@@ -35,7 +35,6 @@ from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging import field_errors
 from verification.judging.case import (
     Case,
-    Comparison,
     Followed,
     Level,
     NotYetAsymptotic,
@@ -43,6 +42,7 @@ from verification.judging.case import (
     Quantity,
     Refinement,
     Required,
+    compare_runs,
 )
 from verification.judging.declared_case import (
     APPROACH,
@@ -543,14 +543,14 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
         "orders are therefore determined from the changes between neighbouring levels.",
         runs=(few, many, *(run for one in series for run in one.runs)),
         orders=tuple(order for one in series for order in one.orders),
-        comparisons=(
-            Comparison(
+        quantities=(
+            compare_runs(
                 "approach", "relative error of the approach, extrapolated from 8 and 16 "
                 "increments with second order", (few.label, many.label), _approach_error, 2e-4,
                 "accuracy target of frictional_indentation, there on 256 x 256 cells", HALF.source,
                 ReferenceKind.SEMI_CLOSED, FIVE_DIGITS,
             ),
-            Comparison(
+            compare_runs(
                 "stick_radius", "relative error of the stick radius, extrapolated from 8 and 16 "
                 "increments", (few.label, many.label), _stick_error,
                 # Half a cell of the quick grid, over the stick radius.
@@ -647,8 +647,8 @@ def sheared_increments(
         "doubling of the increments must reduce the change.",
         runs=runs,
         orders=paths.orders if several else (),
-        comparisons=(
-            Comparison(
+        quantities=(
+            compare_runs(
                 "shift", f"change of the shift from {counts[-2]} to {counts[-1]} increments",
                 (runs[-2].label, runs[-1].label), _shift_change, 2e-2 * 4 / counts[-2],
                 "2 % from 4 to 8 increments, and half of that with each further doubling: first "
@@ -756,9 +756,9 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
             *bonded.values(), *smooth.values(), *(pair[0] for pair in balls.values()),
             *(pair[1] for pair in balls.values()),
         ),
-        comparisons=(
+        quantities=(
             *(
-                Comparison(
+                compare_runs(
                     f"punch_nu_{text(nu)}", f"ν = {nu:g}: load factor of the bonded over the "
                     "smooth punch, relative error",
                     (bonded[nu].label, smooth[nu].label), partial(_factor_error, nu), 1e-3,
@@ -768,7 +768,7 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
                 for nu in NO_SLIP_RATIOS
             ),
             *(
-                Comparison(
+                compare_runs(
                     f"ball_nu_{text(nu)}", f"ν = {nu:g}: approach of the ball, extrapolated from "
                     f"{few} and {many} increments, relative error",
                     (pair[0].label, pair[1].label), partial(_bonded_ball_error, nu), 2e-4,

@@ -14,7 +14,14 @@ from typing import Any
 from contact_scene import RIGID, Body, IsotropicMaterial, LoadStep, Paraboloid, Sphere
 from contact_scene.quantities.residuals import worst
 from verification.closed_forms.hertz import PointContact, SphereContact
-from verification.judging.case import Case, Comparison, Level, NotYetAsymptotic, Quantity, Required
+from verification.judging.case import (
+    Case,
+    Level,
+    NotYetAsymptotic,
+    Quantity,
+    Required,
+    compare_runs,
+)
 from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
@@ -355,8 +362,8 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
         judged(on_cells(problem, (cells,)), on_grid),
         judged(with_edge_at(problem, (elements,)), on_mesh),
         runs=tuple(pair[k].judged.run for k in (0, 1) for pair in (grids, meshes)),
-        comparisons=tuple(
-            Comparison(
+        quantities=tuple(
+            compare_runs(
                 "path_independence", "difference of pressure and approach from those of a single "
                 "loading by the smaller force",
                 (back.levels[0], once.levels[0]), _pressure_and_approach,

@@ -36,7 +36,7 @@ from contact_scene.loading import CONTROLS
 from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid, all_effects
 from verification.closed_forms.hertz import PointContact
-from verification.judging.case import Case, Check, Comparison, Finding, Level, Quantity, Required
+from verification.judging.case import Case, Finding, Level, Quantity, Required, compare_runs
 from verification.judging.declared_case import case
 from verification.judging.refinement_levels import IDENTITY
 from verification.judging.run import OTHER_NORMS, SOLVER_TOLERANCE, Run, SectionRun, per_radius
@@ -178,7 +178,7 @@ def motion_apart(degrees: float, one: Any, other: Any) -> float:
 
 def _rotation_comparison(
     one: Run, other: Run, degrees: float, allowed: float, cells: int
-) -> Comparison:
+) -> Quantity:
     """Create the comparison of a load history with the same history in a rotated direction.
 
     The angle is no symmetry of the grid, so that the results differ by discretisation errors.
@@ -189,7 +189,7 @@ def _rotation_comparison(
     allowed  accepted difference on `cells` cells per side, scaled in proportion to the cell side
     cells    number of cells per side for which `allowed` holds
     """
-    return Comparison(
+    return compare_runs(
         f"turned_by_{degrees:g}", "difference of shift and dissipated energy after a rotation of "
         f"{degrees:g}°",
         (one.label, other.label), partial(motion_apart, degrees),
@@ -245,8 +245,8 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
         "for ν = 0.3. There is no closed form. Judged are the laws of contact and friction in "
         "each increment, and the independence of the result from the direction of the load.",
         runs=(*changes, straight, quarter, oblique),
-        comparisons=(
-            Comparison(
+        quantities=(
+            compare_runs(
                 "turned_by_90", "difference of pressure, shear and shift after a rotation by a "
                 "right angle",
                 (quarter.label, straight.label), after_quarter, EXACT,
@@ -459,29 +459,6 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
         "form here. The same history is therefore also solved after a rotation, with the "
         "resulting motions prescribed instead of the forces, and by finite elements.",
         runs=(*runs, *films, section),
-        quantities=tuple(
-            Quantity(
-                name, meaning, "", label, measure, identity(0.0, source),
-                Required(allowed, because), 1.0, scale,
-            )
-            for label, again in repeated.items()
-            for name, meaning, measure, source, allowed, because, scale in (
-                (
-                    "led_by_motion", "difference from the same history with prescribed approach "
-                    "and shift, in any increment: pressure, shear; infinite if the solver does "
-                    "not complete that history", again.difference,
-                    "force and motion are conjugate: the kind of control has no effect",
-                    100 * SOLVER_TOLERANCE, carried, "the pressure",
-                ),
-                (
-                    "laws_led_by_motion", "largest violation of a law of contact and friction, "
-                    "or fraction of the energy unaccounted for, in the history with prescribed "
-                    "motion; infinite if the solver does not complete it", again.violation,
-                    "the laws do not depend on the kind of control", OTHER_NORMS * SOLVER_TOLERANCE,
-                    "as for every run", "dimensionless",
-                ),
-            )
-        ),
         findings=tuple(
             Finding(
                 "led_by_motion_iterations", "iterations of the history with prescribed motion", "",
@@ -491,9 +468,33 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
             )
             for label, again in repeated.items()
         ),
-        comparisons=(
+        quantities=(
             *(
-                Comparison(
+                Quantity(
+                    name, meaning, "", label, measure, identity(0.0, source),
+                    Required(allowed, because), 1.0, scale,
+                )
+                for label, again in repeated.items()
+                for name, meaning, measure, source, allowed, because, scale in (
+                    (
+                        "led_by_motion", "difference from the same history with prescribed "
+                        "approach and shift, in any increment: pressure, shear; infinite if the "
+                        "solver does not complete that history", again.difference,
+                        "force and motion are conjugate: the kind of control has no effect",
+                        100 * SOLVER_TOLERANCE, carried, "the pressure",
+                    ),
+                    (
+                        "laws_led_by_motion", "largest violation of a law of contact and friction, "
+                        "or fraction of the energy unaccounted for, in the history with prescribed "
+                        "motion; infinite if the solver does not complete it", again.violation,
+                        "the laws do not depend on the kind of control",
+                        OTHER_NORMS * SOLVER_TOLERANCE,
+                        "as for every run", "dimensionless",
+                    ),
+                )
+            ),
+            *(
+                compare_runs(
                     "turned_by_90", f"{contact.name}: difference of pressure, shear and shift "
                     "after a rotation by a right angle", (one.label, other.label), after_quarter,
                     100 * SOLVER_TOLERANCE, TURNS_INTO_ITSELF + carried, ISOTROPIC,
@@ -504,7 +505,7 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
             ),
             _rotation_comparison(runs[1], runs[0], 30.0, 5e-3, 32),
             *(
-                Comparison(
+                compare_runs(
                     f"{name}_{'pushed' if step == PUSHED else 'back'}",
                     f"difference of the {words} after the "
                     f"{'push' if step == PUSHED else 'reversal'}, relative",
@@ -666,14 +667,14 @@ def same_surface(level: Level = Level.QUICK) -> Case:
         "and put the coating on a body of its own material. Each variant is equivalent to "
         "another run, directly or after a reflection or rotation.",
         runs=(by_numbers, by_heights, everywhere, patchy, mirrored, narrow, wide, whole, through),
-        comparisons=(
+        quantities=(
             *(
-                Comparison(
+                compare_runs(
                     name, meaning, (one.label, other.label), difference, allowed, because, source
                 )
                 for name, meaning, one, other, difference, allowed, because, source in pairs
             ),
-            Comparison(
+            compare_runs(
                 "square_cells", "rectangular cells: difference of approach, shift and energy "
                 "from those of square cells, relative", (narrow.label, by_numbers.label),
                 scalars_apart, 1.5e-3 * 33 / cells,
@@ -732,8 +733,8 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
         "bodies, and the mirror images of tractions. Each scene is solved again with all effects "
         "on. The results must be equal.",
         runs=tuple(run for pair in pairs.values() for run in pair),
-        comparisons=tuple(
-            Comparison(
+        quantities=tuple(
+            compare_runs(
                 name.replace(" ", "_"),
                 f"{name}: largest difference of pressure, shear, approach and shift",
                 (planned.label, forced.label), as_it_is, EXACT,
@@ -856,18 +857,18 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
         "and a coated ball on the bare material. Finite elements and the ring solver have the "
         "normal load only. A reflection maps one pair to the other.",
         runs=tuple(run for _, one, other, _ in compared for run in (one, other)),
-        comparisons=tuple(
-            Comparison(
-                "exchanged", f"{name}: {same}", (one.label, other.label), difference, EXACT,
-                ANSWERED, source,
-            )
-            for name, one, other, difference in compared
-        ),
-        checks=(
-            Check(
+        quantities=(
+            *(
+                compare_runs(
+                    "exchanged", f"{name}: {same}", (one.label, other.label), difference, EXACT,
+                    ANSWERED, source,
+                )
+                for name, one, other, difference in compared
+            ),
+            Quantity(
                 "exchanged", f"{pairs[0].name}, by the radial solver: {same}", "",
                 f"{pairs[0].name}, rings", by_radial_solver, identity(0.0, source),
-                Required(EXACT, ANSWERED), 1.0, "the other's",
+                Required(EXACT, ANSWERED), 1.0, "the other's", runs=(),
             ),
         ),
         limits=("Both results of a pair could have the same error; frictional_indentation judges "
@@ -1069,8 +1070,8 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
         "displacement is that of a half-space under the resultant; a fixed boundary would reduce "
         "the motion of the punch.",
         runs=tuple(runs.values()),
-        comparisons=tuple(
-            Comparison(
+        quantities=tuple(
+            compare_runs(
                 name, f"{name} of the punch, {way}: relative difference",
                 (runs[way, near].label, runs[way, far].label), partial(apart, number),
                 near**-power,

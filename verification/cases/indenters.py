@@ -14,7 +14,14 @@ import numpy as np
 
 from contact_scene import Body, FlatPunch, LoadStep
 from verification.closed_forms.flat_punch import TiltedPunch
-from verification.judging.case import Case, Comparison, Level, NotYetAsymptotic, Quantity, Required
+from verification.judging.case import (
+    Case,
+    Level,
+    NotYetAsymptotic,
+    Quantity,
+    Required,
+    compare_runs,
+)
 from verification.judging.declared_case import (
     APPROACH,
     CENTRAL_PRESSURE,
@@ -256,8 +263,8 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
         "face is in contact, and the solution for a plane of displacements has a closed form.",
         judged(grids, rows),
         runs=(Run("given tilt", tilted, finest.grid),),
-        comparisons=(
-            Comparison(
+        quantities=(
+            compare_runs(
                 "both_controls", "prescribed moment against prescribed tilt, by the stiffnesses: "
                 "load over approach and moment over tilt", (finest.label, "given tilt"),
                 _stiffness_difference, 1e-6,
@@ -356,10 +363,8 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
                 "moment_of_given_tilt", "moment M_y at the prescribed tilt", "N m",
                 "given tilt", ("moment", 1), NORMAL_FORCE * e[0],
             ),
-        ),
-        comparisons=(
             *(
-                Comparison(
+                compare_runs(
                     f"fields{suffix}", "largest difference of pressure and shear, shifted, over "
                     "the largest pressure and the largest friction limit",
                     (f"beside{suffix}", f"centred{suffix}"), _shifted_field_difference, 1e-5,
@@ -367,7 +372,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
                 )
                 for suffix in ("", ", unlike bodies")
             ),
-            Comparison(
+            compare_runs(
                 "approach", "approach at the origin plus the rise of the tip by rolling, against "
                 "the approach of the centred ball", ("beside", "centred"),
                 lambda beside, centred: abs(

@@ -38,7 +38,7 @@ from verification.closed_forms.huber_stress import (
     stress_by_hertz_shear,
     trailing_edge_tension,
 )
-from verification.judging.case import Case, Check, Level, Required
+from verification.judging.case import Case, Level, Quantity, Required
 from verification.judging.declared_case import Observable, Within, case, error_norm, judged
 from verification.judging.refinement_levels import (
     RINGS_SHOWN,
@@ -230,18 +230,18 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
         "whole contact is compared with Huber's and Hamilton's. The same tractions on a coated "
         "body test the components that are continuous at the interface, the jump of the others, "
         "and the tractions at the surface.",
-        checks=(
+        quantities=(
             *(
-                Check(
+                Quantity(
                     name, meaning, "", "256x256", measure, closed_form(0.0, source, 1.0),
-                    Required(1e-4, required), 1.0, "p₀",
+                    Required(1e-4, required), 1.0, "p₀", runs=(),
                 )
                 for name, meaning, source, measure in closed
             ),
             *(
-                Check(
+                Quantity(
                     name, meaning, "", "coated, 64x64", measure, identity(0.0, source),
-                    Required(1e-10, required), 1.0, scale,
+                    Required(1e-10, required), 1.0, scale, runs=(),
                 )
                 for name, meaning, source, measure, scale in laws
             ),
@@ -414,9 +414,9 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
         "general position relative to the contact, and the shear is 0.1 of the pressure: tensile "
         "stress at the trailing edge. With cell means of Hertz's pressure: stress on the line "
         "through the edge, and all components near and below the edge.",
-        checks=(
+        quantities=(
             *(
-                Check(
+                Quantity(
                     f"trailing_edge_{cells}", "σ₁ on the trailing edge over p₀", "",
                     f"{cells}x{cells}",
                     partial(
@@ -424,18 +424,19 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
                         paper.paraboloid(STEEL), cells,
                     ),
                     closed_form(exact, hamilton), Required(allowed, required), exact, "its value",
+                    runs=(),
                 )
                 for cells, allowed in ((128, 5e-3), (256, 2e-3))
             ),
             *(
-                Check(
+                Quantity(
                     name, meaning, "", "128x128", measure, reference, Required(5e-4, own), 1.0,
-                    "p₀",
+                    "p₀", runs=(),
                 )
                 for name, meaning, reference, measure in (fitted[:2] if quick else fitted)
             ),
             *(
-                Check(
+                Quantity(
                     f"coated_{ratio:g}_{thickness:g}", "σ₁ on the trailing edge over Hertz's p₀",
                     "", "128x128",
                     partial(
@@ -443,7 +444,7 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
                         rigid_ball(), 128,
                     ),
                     Reference(value, ReferenceKind.SEMI_CLOSED, BY_RAYS, 1e-6),
-                    Required(1e-2, required), value, "its value",
+                    Required(1e-2, required), value, "its value", runs=(),
                 )
                 for (ratio, thickness), value in COATED.items()
                 if thickness < 1 or not quick

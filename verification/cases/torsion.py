@@ -30,7 +30,7 @@ from contact_scene import (
 from contact_scene.quantities.residuals import worst
 from semi_analytical import solve_discretised
 from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
-from verification.judging.case import Case, Check, Followed, Level, Required
+from verification.judging.case import Case, Followed, Level, Quantity, Required
 from verification.judging.declared_case import (
     SHEAR_AROUND,
     STICK_RADIUS,
@@ -637,11 +637,11 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
             judged(on_radii(beside_cells(scene), name, laws=OVER_ANGLES), of_coated)
             for name, scene in scenes.items()
         ),
-        checks=(
-            Check(
+        quantities=(
+            Quantity(
                 "turned", "difference of the shift after a quarter turn", "", "the radial solver",
                 _rotated_shift_error, identity(0.0, "a rotated scene has rotated results"),
-                Required(1e-10, "points are mapped to points"), 1.0, "the shift",
+                Required(1e-10, "points are mapped to points"), 1.0, "the shift", runs=(),
             ),
         ),
         limits=(

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from verification.convergence.observed_order import error_line, observed_order, richardson
-from verification.judging.case import Case, Check, Derived, Level, Quantity, Required
+from verification.judging.case import Case, Derived, Level, Quantity, Required
 from verification.judging.outcome import Verdict, failure_text, uncertainty_text
 from verification.judging.verdicts import judge_quantity
 from verification.problems.problem import Reference, ReferenceKind, closed_form
@@ -64,11 +64,10 @@ def worked_examples(level: Level = Level.QUICK) -> Case:
         "intervals. Judged are a tolerance derived from refinement, the limit and its "
         "uncertainty, the intervals of an order and of a line, and the printed numbers.",
         runs=(),
-        quantities=(),
-        checks=tuple(
-            Check(
+        quantities=tuple(
+            Quantity(
                 name, meaning, "", "by hand", measure,
-                closed_form(value, HAND), tolerance,
+                closed_form(value, HAND), tolerance, runs=(),
             )
             for name, meaning, measure, value, tolerance in _EXAMPLES
         ),

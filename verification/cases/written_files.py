@@ -33,7 +33,7 @@ from contact_scene.quantities.increment import (
     components,
 )
 from contact_scene.quantities.residuals import worst
-from verification.judging.case import Case, Check, Level, Required
+from verification.judging.case import Case, Level, Quantity, Required
 from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL, coated, film, pressed
@@ -113,8 +113,7 @@ def written_files(level: Level = Level.QUICK) -> Case:
         "coating the stress at the sides of the interface is bounded by that of the layer and "
         "the base.",
         runs=(),
-        quantities=(),
-        checks=(
+        quantities=(
             _file_check(
                 "loads", "largest difference of normal force, tangential force, torque and "
                 "moments in the table from the sums of the tractions, over the largest of each",
@@ -146,10 +145,10 @@ def written_files(level: Level = Level.QUICK) -> Case:
 
 def _file_check(
     name: str, meaning: str, measure: Callable[[], float], allowed: float, because: str
-) -> Check:
-    return Check(
+) -> Quantity:
+    return Quantity(
         name, meaning, "", "files", measure, identity(0.0, "consistency of the files"),
-        Required(allowed, because), 1.0, "1",
+        Required(allowed, because), 1.0, "1", runs=(),
     )  # fmt: skip
 
 

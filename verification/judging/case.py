@@ -138,77 +138,70 @@ class Derived:
 
 @dataclass(frozen=True)
 class Quantity:
-    """Number that is measured on one run of a case and judged against a reference.
+    """Number that a case judges against a reference.
+
+    The number is measured on one run, on two runs that must agree, or without a run, such as the
+    frequency response of a body.
 
     name        name of the verdict
     meaning     description of the number
     unit        SI unit; empty for a ratio
-    run         label of the run
-    measure     function from the result of the run to the number
+    run         label of the run; without a single run, the object of the measurement in words
+    measure     function from the results of the runs to the number
     reference   reference value with its uncertainty
     tolerance   largest accepted error
     scale       error scale, in the unit of the number; None: absolute value of the reference
     scale_name  description of the error scale
     scalar      name, component and load step of a registered scalar, whose stated error is judged
                 in addition; None for other numbers
+    runs        labels of the runs whose results are measured; None: the single run
     """
 
     name: str
     meaning: str
     unit: str
     run: str
-    measure: Callable[[Any], float]
+    measure: Callable[..., float]
     reference: Reference
     tolerance: Required | Derived
     scale: float | None = None
     scale_name: str = "the reference"
     scalar: tuple[str, int, int] | None = None
+    runs: tuple[str, ...] | None = None
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Labels of the runs on whose results the number is measured; empty without a run."""
+        return (self.run,) if self.runs is None else self.runs
 
 
-@dataclass(frozen=True)
-class Check:
-    """Number that is judged against a reference and needs no run of the case.
-
-    The number is computed from a function of the program, such as a frequency response.
-
-    subject     object on which the number is measured, in words
-    measure     function that computes the number
-    scale       error scale, in the unit of the number; None: absolute value of the reference
-    scale_name  description of the error scale
-    """
-
-    name: str
-    meaning: str
-    unit: str
-    subject: str
-    measure: Callable[[], float]
-    reference: Reference
-    tolerance: Required
-    scale: float | None = None
-    scale_name: str = "the reference"
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Comparison of the results of two runs that must agree, because both describe one problem.
+def compare_runs(
+    name: str,
+    meaning: str,
+    runs: tuple[str, str],
+    difference: Callable[[Any, Any], float],
+    allowed: float,
+    because: str,
+    source: str,
+    kind: ReferenceKind = ReferenceKind.IDENTITY,
+    uncertainty: float = 0.0,
+) -> Quantity:
+    """Create the judged difference of two runs that must agree, because both describe one problem.
 
     runs         labels of the two runs; the difference is relative to the second run
     difference   function from both results to a dimensionless difference, 0 if they agree; it may
                  be the error of a quantity that follows from both results
     allowed      largest accepted difference
-    kind         kind of the source that predicts the difference 0
-    uncertainty  standard uncertainty of that prediction, relative to the scale of the difference
+    because      reason for this tolerance
+    source       source that predicts the difference 0
+    kind         kind of this source
+    uncertainty  standard uncertainty of the prediction, relative to the scale of the difference
     """
-
-    name: str
-    meaning: str
-    runs: tuple[str, str]
-    difference: Callable[[Any, Any], float]
-    allowed: float
-    because: str
-    source: str
-    kind: ReferenceKind = ReferenceKind.IDENTITY
-    uncertainty: float = 0.0
+    zero = Reference(0.0, kind, source, uncertainty)
+    return Quantity(
+        name, meaning, "", " and ".join(runs), difference, zero, Required(allowed, because), 1.0,
+        "the second run's", runs=runs,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -235,11 +228,9 @@ class Case:
     name         identifier for commands and files: letters, digits and underscores
     problem      description of the problem and of the source of its answer
     runs         solves of the case, by any solver
-    quantities   numbers that are measured on runs and judged against references
+    quantities   numbers that are judged against references; a case may consist of these alone
     orders       orders of convergence that are judged
     findings     numbers that are reported and not judged
-    comparisons  pairs of runs that must agree
-    checks       numbers that are judged without a run; a case may consist of checks alone
     charts       function from the results, by label of the run, to the charts
     limits       limits of the conclusions from this case
     equations    governing equations of the reference, in LaTeX
@@ -253,8 +244,6 @@ class Case:
     quantities: tuple[Quantity, ...]
     orders: tuple[Order, ...] = ()
     findings: tuple[Finding, ...] = ()
-    comparisons: tuple[Comparison, ...] = ()
-    checks: tuple[Check, ...] = ()
     charts: Callable[[Mapping[str, Any]], tuple[Chart, ...]] | None = None
     limits: tuple[str, ...] = ()
     equations: tuple[str, ...] = ()

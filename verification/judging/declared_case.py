@@ -20,8 +20,6 @@ from verification.exhibits.chart import Chart
 from verification.judging import field_errors
 from verification.judging.case import (
     Case,
-    Check,
-    Comparison,
     Derived,
     Finding,
     Followed,
@@ -469,8 +467,6 @@ def case(
     quantities: tuple[Quantity, ...] = (),
     findings: tuple[Finding, ...] = (),
     orders: tuple[Order, ...] = (),
-    comparisons: tuple[Comparison, ...] = (),
-    checks: tuple[Check, ...] = (),
     charts: Sequence[Drawing] = (),
     limits: tuple[str, ...] = (),
     equations: tuple[str, ...] = (),
@@ -483,8 +479,6 @@ def case(
     problem      description of the problem and of the source of its answer
     parts        expanded rows on refinement levels; several parts may share runs
     runs         further runs; likewise further quantities, findings and orders
-    comparisons  pairs of runs that must agree
-    checks       numbers that are judged without a run
     charts       functions from the results to one chart each
     limits       limits of the conclusions from this case
     equations    further governing equations, in LaTeX
@@ -498,8 +492,6 @@ def case(
         quantities=(*(q for part in parts for q in part.quantities), *quantities),
         orders=(*(order for part in parts for order in part.orders), *orders),
         findings=(*(f for part in parts for f in part.findings), *findings),
-        comparisons=comparisons,
-        checks=checks,
         charts=(lambda results: tuple(draw(results) for draw in charts)) if charts else None,
         limits=limits,
         equations=tuple(dict.fromkeys((*(e for p in parts for e in p.equations), *equations))),

@@ -36,8 +36,6 @@ from verification.judging.run import (
 )
 from verification.judging.verdicts import (
     finite,
-    judge_check,
-    judge_comparison,
     judge_order,
     judge_quantity,
     judge_residuals,
@@ -198,8 +196,6 @@ def _judge_case(case: Case, results: Results) -> tuple[Verdict, ...]:
     studied = [study for study in case.orders if set(study.levels) <= results.keys()]
     return (
         *(judge_quantity(q, case, results, error_of(q, stated.get(q.run))) for q in measured),
-        *(judge_comparison(c, results) for c in case.comparisons if set(c.runs) <= results.keys()),
-        *(judge_check(check) for check in case.checks),
         *(judge_order(study, case, results) for study in studied),
         *([judge_residuals(case, results), *judge_laws(case, results)] if results else []),
     )
@@ -211,7 +207,7 @@ def _required_runs(quantity: Quantity) -> set[str]:
     A tolerance that is derived from refinement also needs the runs of all levels.
     """
     levels = quantity.tolerance.levels if isinstance(quantity.tolerance, Derived) else ()
-    return {quantity.run, *levels}
+    return {*quantity.labels, *levels}
 
 
 def _measure_finding(finding: Finding, results: Results) -> FindingRecord:

@@ -16,8 +16,6 @@ from verification.convergence.observed_order import (
 )
 from verification.judging.case import (
     Case,
-    Check,
-    Comparison,
     Derived,
     Order,
     Quantity,
@@ -32,7 +30,7 @@ from verification.judging.outcome import (
     order_status,
 )
 from verification.judging.run import AnyRun
-from verification.problems.problem import Reference, ReferenceKind, identity
+from verification.problems.problem import ReferenceKind, identity
 from verification.quantities import largest_residual
 
 Results = Mapping[str, Any]
@@ -44,7 +42,7 @@ COVERAGE = 2.0
 def judge_quantity(
     quantity: Quantity, case: Case, results: Results, stated: float | None = None
 ) -> Verdict:
-    """Judge a number that is measured on a run against its reference.
+    """Judge a number against its reference.
 
     A value that is not finite fails. A tolerance that is derived from refinement is computed first.
 
@@ -60,43 +58,15 @@ def judge_quantity(
         kind, allowed = "derived", min(tolerance.cap, u)
     else:
         kind, allowed = "required", tolerance.allowed
-    value = quantity.measure(results[quantity.run])
+    value = quantity.measure(*(results[label] for label in quantity.labels))
     known = None if stated is None else stated + quantity.reference.uncertainty
     covered = None if known is None else abs(value - quantity.reference.value) <= known
-    return _make_verdict(quantity, quantity.run, value, kind, allowed).model_copy(
-        update={
-            "stated_error": stated,
-            "covered": covered,
-            "runs": (quantity.run,),
-        }
+    return _make_verdict(quantity, value, kind, allowed).model_copy(
+        update={"stated_error": stated, "covered": covered}
     )
 
 
-def judge_check(check: Check) -> Verdict:
-    """Judge a number that is computed without a run against its reference.
-
-    A value that is not finite fails.
-    """
-    return _make_verdict(check, check.subject, check.measure(), "required", check.tolerance.allowed)
-
-
-def judge_comparison(comparison: Comparison, results: Results) -> Verdict:
-    """Judge the difference between the results of two runs, whose expected value is zero.
-
-    comparison  labels of the runs, measure of the difference, and tolerance
-    results     results of the solved runs, by label of the run
-    """
-    one, other = comparison.runs
-    value = comparison.difference(results[one], results[other])
-    same = Check(
-        comparison.name, comparison.meaning, "", f"{one} and {other}", lambda: value,
-        Reference(0.0, comparison.kind, comparison.source, comparison.uncertainty),
-        Required(comparison.allowed, comparison.because), 1.0, "the second run's",
-    )  # fmt: skip
-    return judge_check(same).model_copy(update={"runs": comparison.runs})
-
-
-def _error_scale(quantity: Quantity | Check) -> float:
+def _error_scale(quantity: Quantity) -> float:
     """Return the number by which the error of a quantity is divided, in the unit of the quantity.
 
     The number is the scale that the case defines, else the magnitude of the reference.
@@ -104,14 +74,13 @@ def _error_scale(quantity: Quantity | Check) -> float:
     return abs(quantity.reference.value) if quantity.scale is None else quantity.scale
 
 
-def _make_verdict(
-    quantity: Quantity | Check, measured_on: str, value: float, kind: str, allowed: float
-) -> Verdict:
+def _make_verdict(quantity: Quantity, value: float, kind: str, allowed: float) -> Verdict:
     reference, scale = quantity.reference, _error_scale(quantity)
     error = abs(value - reference.value) / scale
     return Verdict(
         name=quantity.name,
-        run=measured_on,
+        run=quantity.run,
+        runs=quantity.labels,
         meaning=quantity.meaning,
         unit=quantity.unit,
         value=finite(value),
@@ -299,12 +268,11 @@ def _judge_zero(
     allowed  largest accepted value
     because  reason for the accepted value
     """
-    return judge_check(
-        Check(
-            name, meaning, "", run, lambda: value, identity(0.0, source),
-            Required(allowed, because), 1.0, "dimensionless",
-        )
+    zero = Quantity(
+        name, meaning, "", run, lambda: value, identity(0.0, source), Required(allowed, because),
+        1.0, "dimensionless", runs=(),
     )  # fmt: skip
+    return _make_verdict(zero, value, "required", allowed)
 
 
 def finite(value: float) -> float | None:
