@@ -401,16 +401,6 @@ class RunRecord(Description):
             return Solver.RADII
         return Solver.ELEMENTS if self.cells is None else Solver.CELLS
 
-    @property
-    def fineness(self) -> int:
-        """Number of cells along x, of elements per contact radius, or of rings in the output.
-
-        0 if the run has none of these numbers.
-        """
-        if self.cells is not None:
-            return self.cells[0]
-        return self.elements_per_radius or self.rings or 0
-
 
 class SceneRecord(Description):
     """Record of a scene in words, with the physical effects that the solver includes or
