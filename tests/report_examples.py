@@ -6,10 +6,9 @@ from contact_scene import (
 from contact_scene.quantities.summary import EffectSummary
 from verification.exhibits.chart import Chart, Look, Panel, Table, curve
 from verification.judging.outcome import CaseOutcome, RunRecord, SceneRecord, Status, Verdict
-from verification.report.sections import OMISSIONS
-from verification.running.provenance import Provenance
+from verification.report.summary_text import OMISSIONS
+from verification.running.provenance import Provenance, source_digest
 from verification.running.report_record import Report, count
-from verification.running.sources import source_digest
 from verification.running.study import Conclusion, LostCase, Statement, StudyRecord
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)

@@ -13,7 +13,6 @@ from contact_results.directory.machine import program_version
 from contact_scene import Scene
 from contact_scene.solver_errors import NotConverged
 from verification import Answer, CannotDo, Solver, judge
-from verification.adapters import half_spaces
 from verification.adapters import own_solvers as own
 from verification.challenge.cases import challenges
 from verification.challenge.judgement import Judgement
@@ -23,6 +22,7 @@ from verification.challenge.python_api import (
 )
 from verification.judging.case import Level
 from verification.judging.outcome import Status
+from verification.peers import environment
 from verification.peers.drivers import approach_of, gap_of
 from verification.peers.environment import PEERS
 from verification.running.study import Settings
@@ -129,7 +129,7 @@ def test_codes_for_half_spaces_are_asked_for_what_they_have_alone() -> None:
     asked = set()
     for name in challenges():
         with suppress(CannotDo):
-            half_spaces._driver_request(posed(name), 32, aspher)
+            environment._driver_request(posed(name), 32, aspher)
             asked.add(name)
     assert asked == {
         "hertz_point", "hertz_elliptical", "cone_contact", "flat_punch", "cattaneo_mindlin",
@@ -140,7 +140,7 @@ def test_codes_for_half_spaces_are_asked_for_what_they_have_alone() -> None:
 def test_a_tilt_closes_the_gap_of_other_codes_at_positive_y_and_x() -> None:
     """A tilted paraboloid is a shifted one, in their units too."""
     posed_ball = posed("tilted_ball")
-    request, length, _ = half_spaces._driver_request(posed_ball, 64, PEERS[0])
+    request, length, _ = environment._driver_request(posed_ball, 64, PEERS[0])
     along_y, along_x = posed_ball.scene["loading"][0]["tilt"]
     i, j = np.unravel_index(np.argmin(gap_of(request)), (64, 64))
     x = ((np.arange(64) + 0.5) * request["window"] / 64 - request["window"] / 2) * length
@@ -163,7 +163,7 @@ def test_moments_of_a_given_tilt_are_told_by_axis(name: str) -> None:
 
 
 def test_approach_is_what_overlaps_where_codes_find_pressure() -> None:
-    request = half_spaces._driver_request(posed("flat_punch"), 32, PEERS[0])[0]
+    request = environment._driver_request(posed("flat_punch"), 32, PEERS[0])[0]
     gap = gap_of(request)
     pressure = np.where(gap == 0, 2.0, 0.0)
     assert np.sum(pressure > 0) == pytest.approx(np.pi * (request["rim"] * 32 / 3) ** 2, rel=0.05)

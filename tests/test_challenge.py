@@ -20,10 +20,8 @@ from slipstick.cli import main
 from tests.cell_means import ellipse_means
 from verification import Answer, CannotDo, Field, Solver, judge
 from verification.adapters import own_solvers as own
-from verification.challenge.answer_reader import read_answers
-from verification.challenge.cases import challenges
-from verification.challenge.export import toml_text
-from verification.challenge.frictional_cases import PLACES
+from verification.challenge.cases import PLACES, challenges
+from verification.challenge.files import read_answers, toml_text
 from verification.challenge.judgement import judged
 from verification.challenge.python_api import Posed
 from verification.challenge.requested_quantities import (
@@ -35,7 +33,7 @@ from verification.challenge.requested_quantities import (
 from verification.judging.outcome import Status
 from verification.problems.classical import EXACT as ELLIPSE
 from verification.problems.paper_scene import HERTZ
-from verification.report.judgement_sheet import render_sheet, row_texts
+from verification.report.page import render_sheet, row_texts
 
 POINT = challenges()["hertz_point"]
 NAMES = sorted(challenges())
@@ -466,7 +464,7 @@ def test_an_export_that_is_killed_leaves_all_files_or_none(there: bool, tmp_path
 import os, sys
 from pathlib import Path
 from verification.challenge.cases import challenges
-from verification.challenge.export import export
+from verification.challenge.files import export
 left = int(sys.argv[1])
 def dying(call):
     def counted(*arguments, **named):

@@ -21,10 +21,9 @@ from verification.closed_forms.coated_indentation import (
     paraboloid,
     paraboloid_under,
 )
-from verification.closed_forms.cone import ConeContact
-from verification.closed_forms.elliptical_contact import EllipticalContact
-from verification.closed_forms.flat_punch import FlatPunchContact
+from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
 from verification.closed_forms.hertz import (
+    EllipticalContact,
     PointContact,
     SphereContact,
     contact_modulus,

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from surface_quadrature import ray_integral
 
-from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
 from verification.closed_forms.flat_punch import TiltedPunch
 from verification.closed_forms.huber_stress import (
     hamilton_stress,
@@ -18,7 +17,13 @@ from verification.closed_forms.huber_stress import (
     stress_by_hertz_shear,
     trailing_edge_tension,
 )
-from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
+from verification.closed_forms.torsion import (
+    CoatedTorsion,
+    StuckTorsion,
+    TorsionalPartialSlip,
+    TorsionalSurface,
+    one_layer,
+)
 
 A, PEAK = 0.8, 1.9
 POINTS = [(0.1, 0.3), (0.5, 0.4), (0.79, 0.05), (1.2, 0.3), (2.0, 3.0)]

@@ -12,10 +12,8 @@ from contact_errors.error_formula import PER_TOLERANCE
 from contact_scene import read_scene_file
 from semi_analytical.edge_correction.pressure import SETTLED
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
-from verification.closed_forms.cone import ConeContact
-from verification.closed_forms.elliptical_contact import EllipticalContact
-from verification.closed_forms.flat_punch import FlatPunchContact
-from verification.closed_forms.hertz import PointContact, tangential_modulus
+from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
+from verification.closed_forms.hertz import EllipticalContact, PointContact, tangential_modulus
 from verification.closed_forms.torsion import TorsionalPartialSlip
 from verification.judging.case import Level
 from verification.judging.outcome import Status

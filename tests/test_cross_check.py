@@ -6,9 +6,9 @@ import pytest
 
 from contact_scene import IsotropicMaterial
 from verification.cases.cross_check import Contact, cross_check
+from verification.judging.case import SectionRun
 from verification.judging.judgement import judge
 from verification.judging.outcome import Status
-from verification.judging.run import SectionRun
 
 SMOOTH = Contact(2.0, 1.0, 0.0, 64, 32)
 

@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from verification.judging.case import Derived, Required
+from verification.judging.case import Derived, Required, Run
 from verification.judging.declared_case import (
     APPROACH,
     CENTRAL_PRESSURE,
     CONTACT_RADIUS,
+    MIDDLE,
     PEAK_PRESSURE,
     PRESSURE_L2,
     SHIFT,
@@ -21,16 +22,12 @@ from verification.judging.declared_case import (
     Reported,
     Within,
     judged,
-)
-from verification.judging.refinement_levels import (
-    MIDDLE,
     on_cells,
     on_elements,
     part_of_side,
     scaled_tolerance,
     with_edge_at,
 )
-from verification.judging.run import Run
 from verification.problems.cattaneo_mindlin import sheared
 from verification.problems.classical import BALL
 from verification.problems.paper_scene import HERTZ, hertz_grid

@@ -16,7 +16,7 @@ from contact_scene.checks.expected_contact import beyond_linear_theory
 from contact_scene.quantities.increment import SCALARS
 from semi_analytical import Result, solve
 from slipstick.cli.progress import solve_lines
-from verification.cases import hertz, histories, indenters
+from verification.cases import histories, indenters
 
 READ: dict[Any, tuple[str, ...]] = {
     histories.as_it_is: ("pressure", "shear", "tangential_shift", "approach"),
@@ -24,7 +24,7 @@ READ: dict[Any, tuple[str, ...]] = {
     partial(histories.motion_apart, 30.0): ("tangential_shift", "dissipated_energy"),
     histories.in_mirror: ("pressure", "shear"),
     histories.scalars_apart: ("approach", "tangential_shift", "dissipated_energy"),
-    hertz._pressure_and_approach: ("pressure", "approach"),
+    indenters._pressure_and_approach: ("pressure", "approach"),
     histories.after_half: ("pressure", "shear", "tangential_shift", "approach"),
     indenters._shifted_field_difference: ("pressure", "shear"),
 }

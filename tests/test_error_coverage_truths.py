@@ -14,8 +14,17 @@ from contact_errors.error_formula import values_of
 from contact_scene.body_pair import contact_modulus
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.problems.drawn.drawing import CELLS, STRESSES, KnownScene
-from verification.problems.drawn.families import CHOOSING, FAMILIES, JUDGING, TRIED, drawn
-from verification.problems.drawn.references import Similar, refined, similar, stress_maxima
+from verification.problems.drawn.families import (
+    CHOOSING,
+    FAMILIES,
+    JUDGING,
+    TRIED,
+    Similar,
+    drawn,
+    refined,
+    similar,
+    stress_maxima,
+)
 
 SEED = 2  # of draws that neither tried the rules nor judge them
 # Cheap families of all rules but that of finer cells.

@@ -29,7 +29,7 @@ from contact_scene import (
 )
 from contact_scene.friction import FRICTIONLESS, sliding_friction
 from contact_scene.solver_errors import GrossSliding
-from verification.observed.laws import observed
+from verification.observed.contact_state import observed
 
 CELLS = (6, 5)
 PRESSURES = arrays(np.float64, CELLS, elements=st.floats(0.0, 1e9))

@@ -33,7 +33,7 @@ from contact_scene.solver_errors import SolverError, UnsupportedScene
 from fem_reference import plan as plan_of_elements
 from fem_reference import solve as solve_by_elements
 from semi_analytical import solve_discretised
-from verification.closed_forms.cone import ConeContact
+from verification.closed_forms.flat_punch import ConeContact
 from verification.closed_forms.hertz import PointContact
 
 R = 0.018

@@ -152,8 +152,7 @@ ORDERS = {
         *("on_cells", "on_elements", "on_radii", "stress_errors", "adaptive_refinement"),
     ),
     "verification.challenge": (
-        *("requested_quantities", "frictional_cases", "cases", "export", "answer"),
-        *("answer_reader", "judgement", "python_api"),
+        *("requested_quantities", "cases", "files", "judgement", "python_api"),
     ),
     "slipstick": (
         *(
@@ -182,10 +181,10 @@ ORDERS = {
         *("problems", "laws", "observed"),
         "judging",
         *("running", "regression"),
-        *("cases", "defects", "peers", "challenge", "adapters", "studies"),
+        *("cases", "defects", "challenge", "peers", "adapters", "studies"),
         *("showcase", "report", "judged_by_pytest"),
     ),
-    "verification.studies.stability": ("cell", "pose", "judged", "study"),
+    "verification.studies.stability": ("contacts", "study"),
 }
 
 # What the modules within each name may not import.
@@ -357,7 +356,7 @@ PLANTED = {
     "verification/running/study.py": "def draw():\n    from verification.report import page",
     "verification/report/page.py": "from slipstick.cli import terminal",
     "verification/closed_forms/hertz.py": "from contact_scene import Scene",
-    "verification/closed_forms/cone.py": "from verification.norms import relative_error",
+    "verification/closed_forms/quadrature.py": "from verification.norms import relative_error",
     "verification/closed_forms/flat_punch.py": "import pint",
     "verification/cases.py": "from tests.strategies import scenes",
 }
@@ -371,8 +370,8 @@ SOUND = {
     "fem_reference/elasticity/compliance.py": "from .motion import motion",
     "radial/response/bodies.py": "from semi_analytical.frf.half_space import f",
     "semi_analytical/solve.py": "from . import grid\nfrom contact_scene import Scene",
-    "verification/closed_forms/hertz.py": "import scipy.special\nfrom . import cone",
-    "verification/closed_forms/cone.py": "from numpy import pi",
+    "verification/closed_forms/hertz.py": "import scipy.special\nfrom . import quadrature",
+    "verification/closed_forms/flat_punch.py": "from numpy import pi",
     "verification/cases.py": "import semi_analytical, fem_reference, contact_scene",
 }
 

@@ -15,7 +15,7 @@ from verification.running.study import (
     stored_studies,
 )
 from verification.studies.catalogue import STUDIES
-from verification.studies.stability.cell import (
+from verification.studies.stability.contacts import (
     CellRecord,
     Refusal,
     StabilityCell,

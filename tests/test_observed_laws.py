@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from contact_scene import Body, CoulombFriction, LoadStep
-from verification.judging.run import (
+from verification.judging.case import (
     OTHER_NORMS,
     SOLVER_TOLERANCE,
     RadiiRun,
@@ -16,10 +16,10 @@ from verification.judging.run import (
     per_radius,
 )
 from verification.observed.cells import states_on_cells
-from verification.observed.contact_state import imbalances, missed, violations
+from verification.observed.contact_state import imbalances, missed, observed, violations
 from verification.observed.elements import states_on_elements
-from verification.observed.laws import observed
 from verification.problems import paper_scene as paper
+from verification.problems.cattaneo_mindlin import torque_step
 from verification.problems.paper_scene import (
     FRICTION_LIMIT,
     NORMAL_FORCE,
@@ -29,7 +29,6 @@ from verification.problems.paper_scene import (
     pressed,
     rigid_ball,
 )
-from verification.problems.torsion import torque_step
 from verification.solver import Method
 
 ALLOWED = OTHER_NORMS * SOLVER_TOLERANCE

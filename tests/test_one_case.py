@@ -16,8 +16,7 @@ from contact_scene import read_scene_file
 from semi_analytical import plan
 from verification.cases.catalogue import CASES, MODULE_OF, choose
 from verification.cases.fretting import paper_fretting_loop
-from verification.judging.case import Case, Derived, Level
-from verification.judging.run import SectionRun
+from verification.judging.case import Case, Derived, Level, SectionRun
 from verification.problems.problem import ReferenceKind
 
 # What a command has loaded when its first case goes to a worker.
@@ -57,13 +56,13 @@ def within(modules: set[str], *rooms: str) -> set[str]:
 def test_one_case_loads_no_other(program: str, tmp_path: Path) -> None:
     asked = ("verify", "hertz_point", "--workers", "1") if program is AT_WORK else ("hertz_point",)
     modules = loaded(program, *asked, cwd=tmp_path)
-    assert "verification.cases.hertz" in modules
+    assert "verification.cases.indenters" in modules
     others = {MODULE_OF.get(name, name) for name in CASES} - {"hertz"}
     assert not within(modules, *(f"verification.cases.{name}" for name in others))
     assert not within(
         modules, "fem_reference", "skfem", "matplotlib", "jinja2", "verification.studies",
         "verification.defects", "verification.peers",
-        "verification.report.page", "verification.report.svg",
+        "verification.report.page", "verification.report.drawing",
     )  # fmt: skip
 
 

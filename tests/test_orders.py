@@ -12,7 +12,7 @@ import pytest
 
 from verification.cases.catalogue import choose
 from verification.cases.frictional_pressing import sheared_increments
-from verification.cases.hertz import fem_hertz
+from verification.cases.indenters import fem_hertz
 from verification.exhibits.chart import Look
 from verification.judging.case import (
     Case,
@@ -27,8 +27,8 @@ from verification.judging.case import (
     Refinement,
     Required,
 )
+from verification.judging.judgement import judge_order, judge_quantity, judge_worst
 from verification.judging.outcome import Status, Verdict
-from verification.judging.verdicts import judge_order, judge_quantity, judge_worst
 from verification.problems.problem import identity
 from verification.solver import Solver
 

@@ -18,7 +18,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 from slipstick.cli.application import ALL_COMMANDS, MAINTAIN
-from verification.report.sections import TITLES
+from verification.report.summary_text import TITLES
 from verification.studies.catalogue import SCENE_STUDIES, STUDIES
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -51,8 +51,12 @@ from semi_analytical.frf.surface import remainder_scalars
 from verification.closed_forms.coated_indentation import LayeredSurface
 from verification.closed_forms.coated_indentation import flat_punch as coated_punch
 from verification.closed_forms.coated_indentation import paraboloid as coated_paraboloid
-from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
-from verification.closed_forms.torsion import TorsionalPartialSlip
+from verification.closed_forms.torsion import (
+    CoatedTorsion,
+    TorsionalPartialSlip,
+    TorsionalSurface,
+    one_layer,
+)
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 MODULUS = STEEL.plane_strain_modulus

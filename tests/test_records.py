@@ -10,9 +10,9 @@ import pytest
 from command import slipstick
 from report_examples import made_by, study
 
-from verification.running import sources
-from verification.running.records import stored_records
-from verification.running.sources import age_text, closure, is_current
+from verification.running import provenance
+from verification.running.provenance import age_text, closure, is_current
+from verification.running.report_record import stored_records
 from verification.running.study import dump_study
 from verification.studies.catalogue import STUDIES
 
@@ -24,10 +24,10 @@ DEPENDS = {
         "verification/cases",
     ),
     "verification.cases": (
-        {"verification/cases/hertz.py", "contact_errors/on_cells.py"},
+        {"verification/cases/indenters.py", "contact_errors/on_cells.py"},
         "slipstick",
     ),
-    "verification.studies.seeded_defects": ({"verification/cases/hertz.py"}, "slipstick"),
+    "verification.studies.seeded_defects": ({"verification/cases/indenters.py"}, "slipstick"),
     "verification.studies.stability.study": ({"semi_analytical/solve.py"}, "verification/report"),
 }
 
@@ -48,21 +48,21 @@ def test_a_record_is_older_where_a_source_of_its_closure_changes(
 ) -> None:
     made = made_by()
     assert is_current(made)
-    real = sources._file_digest
+    real = provenance._file_digest
     for path, current in (("contact_scene/body_pair.py", True), ("verification/norms.py", False)):
-        sources.source_digest.cache_clear()
-        monkeypatch.setattr(sources, "_file_digest", lambda f, p=path: real(f) + "x" * (f == p))
+        provenance.source_digest.cache_clear()
+        monkeypatch.setattr(provenance, "_file_digest", lambda f, p=path: real(f) + "x" * (f == p))
         assert is_current(made) is current
         assert age_text(made) == ("" if current else "older than the code")
     monkeypatch.undo()
-    sources.source_digest.cache_clear()
+    provenance.source_digest.cache_clear()
     assert not is_current(made.model_copy(update={"modules": ()}))
 
 
 def test_texts_and_format_of_a_source_do_not_count(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(sources, "ROOT", tmp_path)
+    monkeypatch.setattr(provenance, "ROOT", tmp_path)
     texts = {
         "a.py": '"""Old."""\nX = 1.5\n\n\ndef f():\n    """Old."""\n    return "x", X\n',
         "c.py": '"""Old."""\nX = 1.6\n\n\ndef f():\n    """Old."""\n    return "x", X\n',
@@ -70,10 +70,10 @@ def test_texts_and_format_of_a_source_do_not_count(
     }
     for name, text in texts.items():
         (tmp_path / name).write_text(text)
-    assert sources._file_digest("a.py") != sources._file_digest("c.py")
-    assert sources._file_digest("a.py") != sources._file_digest("d.py")
+    assert provenance._file_digest("a.py") != provenance._file_digest("c.py")
+    assert provenance._file_digest("a.py") != provenance._file_digest("d.py")
     (tmp_path / "e.py").write_text(texts["a.py"].replace("Old.", "New.").replace("5\n", "5  # w\n"))
-    assert sources._file_digest("a.py") == sources._file_digest("e.py")
+    assert provenance._file_digest("a.py") == provenance._file_digest("e.py")
 
 
 def test_every_study_names_the_module_that_makes_it() -> None:

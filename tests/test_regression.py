@@ -12,14 +12,19 @@ from command import slipstick
 
 from slipstick.cli.commands.compare import exit_code_of
 from verification.cases.catalogue import CASES
-from verification.cases.hertz import hertz_point
-from verification.judging.case import Level
+from verification.cases.indenters import hertz_point
+from verification.judging.case import SOLVER_TOLERANCE, Level
 from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
     PEAK_PRESSURE,
+    RefinementLevels,
     Within,
     judged,
+    on_cells,
+    on_elements,
+    on_radii,
+    refinement,
 )
 from verification.judging.declared_case import case as declared
 from verification.judging.judgement import judge
@@ -31,30 +36,23 @@ from verification.judging.outcome import (
     Status,
     Verdict,
 )
-from verification.judging.refinement_levels import (
-    RefinementLevels,
-    on_cells,
-    on_elements,
-    on_radii,
-    refinement,
-)
-from verification.judging.run import SOLVER_TOLERANCE
 from verification.problems.classical import BALL
 from verification.regression import baseline as baseline_files
 from verification.regression.baseline import (
     BASELINES,
     COUNTERS,
+    NOISE,
     REMOVED,
     BaselineRefused,
     accept,
     baselines_of,
+    compared,
     dump_baseline,
     key_of,
     keys_of,
     read_baselines,
     recording,
 )
-from verification.regression.comparison import NOISE, compared
 from verification.regression.tolerances import (
     LEAST,
     MOVED,

@@ -9,8 +9,7 @@ import pytest
 import verification.report
 from contact_results.figures import style
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.report.drawing import draw
-from verification.report.svg import inline_svg
+from verification.report.drawing import draw, inline_svg
 
 STYLES = Path(verification.report.__file__).parent / "templates" / "style.css"
 TEXT, GRAPHICS = 4.5, 3.0  # contrasts that WCAG 2.1 asks for, AA

@@ -16,7 +16,6 @@ from verification.judging.outcome import (
     Origin,
     Verdict,
 )
-from verification.report.changes import moved_rows, worse_rows
 from verification.report.files import (
     EARLIER,
     PACKED,
@@ -29,6 +28,7 @@ from verification.report.files import (
     write_report,
 )
 from verification.report.page import line_of, render_page, render_sheets
+from verification.report.summary_text import moved_rows, worse_rows
 from verification.running.report_record import dump_report, load_report
 
 

@@ -15,7 +15,7 @@ from verification.exhibits.chart import Table
 from verification.judging.outcome import Status
 from verification.report.files import SHEETS
 from verification.report.page import MAX_CHARTS, heading, render_page
-from verification.report.sections import features, stored_records
+from verification.report.summary_text import features, stored_records
 from verification.running.study import StudyRecord, dump_study
 
 ROOT = Path(__file__).resolve().parents[1]

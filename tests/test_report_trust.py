@@ -18,9 +18,7 @@ from report_examples import case, made_by, report_of, run_record, study, verdict
 from slipstick.cli.errors import ExitCode, exit_code
 from verification.cases.catalogue import CaseToJudge, JudgedCase
 from verification.judging.outcome import CaseOutcome, ChangeKind, Status, order_text
-from verification.regression.baseline import accept, baselines_of
-from verification.regression.comparison import compared
-from verification.report.changes import change_rows
+from verification.regression.baseline import accept, baselines_of, compared
 from verification.report.files import (
     JUNIT,
     PAGE,
@@ -31,12 +29,16 @@ from verification.report.files import (
     write_report,
 )
 from verification.report.page import render_page
-from verification.report.summary_text import failure_lines, render_junit, render_summary
+from verification.report.summary_text import (
+    change_rows,
+    failure_lines,
+    render_junit,
+    render_summary,
+)
 from verification.running import provenance
 from verification.running.case_pool import CaseStore, DamagedRecord, _record_digest
 from verification.running.provenance import Provenance
-from verification.running.records import EARLIER
-from verification.running.report_record import Report, load_report
+from verification.running.report_record import EARLIER, Report, load_report
 from verification.running.study import LostCase, StudyRecord
 
 REASON = "as computed"

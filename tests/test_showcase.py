@@ -6,7 +6,7 @@ import re
 import pytest
 
 from verification.exhibits.chart import Picture
-from verification.report.svg import image_address
+from verification.report.drawing import image_address
 from verification.showcase import showcase
 
 LARGEST = 120_000  # bytes of one picture on the page

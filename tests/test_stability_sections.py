@@ -11,17 +11,18 @@ import pytest
 
 from contact_scene import FiniteElementDiscretisation
 from fem_reference import Increment, Method, Result, solve
-from verification.observed.laws import observed
-from verification.studies.stability.cell import (
+from verification.observed.contact_state import observed
+from verification.studies.stability.contacts import (
+    TOLERANCE,
     LoadingPath,
     Refusal,
     Solver,
     StabilityCell,
     Surface,
     Verdict,
+    judge_contact,
+    pose,
 )
-from verification.studies.stability.judged import judge_contact
-from verification.studies.stability.pose import TOLERANCE, pose
 
 BOTH = [solver for solver in Solver if solver.by_elements]
 ORDINARY = StabilityCell(solver=Solver.COMPLEMENTARITY)

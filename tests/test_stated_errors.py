@@ -88,11 +88,10 @@ from semi_analytical.edge_correction.pressure import left_over
 from slipstick import stated_errors
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
-from verification.closed_forms.cone import ConeContact
-from verification.closed_forms.elliptical_contact import EllipticalContact
-from verification.closed_forms.hertz import contact_modulus, tangential_modulus
+from verification.closed_forms.flat_punch import ConeContact
+from verification.closed_forms.hertz import EllipticalContact, contact_modulus, tangential_modulus
 from verification.problems.drawn.drawing import Profile
-from verification.problems.drawn.references import Similar
+from verification.problems.drawn.families import Similar
 from verification.problems.paper_scene import surface_of
 
 SLOW = pytest.mark.slow

@@ -22,7 +22,7 @@ from slipstick.cli import progress
 from slipstick.cli.commands.study import _compute_study
 from verification.judging.case import Level
 from verification.report.files import set_aside, write_study
-from verification.report.sections import stored_records
+from verification.report.summary_text import stored_records
 from verification.running.case_pool import (
     KILLED,
     Answer,

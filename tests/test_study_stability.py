@@ -13,30 +13,28 @@ from semi_analytical import NotConverged, Result, solve
 from verification.exhibits.chart import Look, curve
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.observed.laws import observed
+from verification.observed.contact_state import observed
 from verification.report.drawing import look_of
 from verification.running.case_pool import CaseStore
 from verification.running.study import CaseRecord, Settings
-from verification.studies.stability import judged as judging
-from verification.studies.stability import study
-from verification.studies.stability.cell import (
+from verification.studies.stability import contacts, study
+from verification.studies.stability.contacts import (
     CellRecord,
     LoadingPath,
+    Posed,
     Refusal,
+    SolvedContact,
     Solver,
     StabilityCell,
+    StabilityRun,
     Surface,
     Verdict,
+    by_superposition,
+    judge_contact,
+    pose,
     study_cells,
     views,
 )
-from verification.studies.stability.judged import (
-    SolvedContact,
-    StabilityRun,
-    by_superposition,
-    judge_contact,
-)
-from verification.studies.stability.pose import Posed, pose
 from verification.studies.stability.study import CLASSES, class_of, view_chart
 
 ORDINARY = StabilityCell(cells=16)
@@ -133,9 +131,9 @@ def test_what_a_cell_is_refused_for_does_not_hang_on_words(
     def refuse(posed: Posed) -> SolvedContact:
         raise error
 
-    monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, refuse)
+    monkeypatch.setitem(contacts.SOLVERS, ORDINARY.solver, refuse)
     if isinstance(error, SceneError):
-        monkeypatch.setattr("verification.studies.stability.judged.pose", refuse)
+        monkeypatch.setattr("verification.studies.stability.contacts.pose", refuse)
     assert judge_contact(ORDINARY).refused_for is kind
 
 
@@ -183,7 +181,7 @@ def test_an_answer_above_the_tolerance_is_silent_failure(monkeypatch: pytest.Mon
     def careless(posed: Posed) -> SolvedContact:
         return by_superposition(replace(posed, tolerance=1e-4))
 
-    monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, careless)
+    monkeypatch.setitem(contacts.SOLVERS, ORDINARY.solver, careless)
     assert judge_contact(ORDINARY).verdict is Verdict.SILENT
 
 
@@ -191,7 +189,7 @@ def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch
     def helpless(posed: Posed) -> SolvedContact:
         raise NotConverged("the shear", 60, 1e-3, 1e-8)
 
-    monkeypatch.setitem(judging.SOLVERS, ORDINARY.solver, helpless)
+    monkeypatch.setitem(contacts.SOLVERS, ORDINARY.solver, helpless)
     record = judge_contact(ORDINARY)
     assert record.verdict is Verdict.NOT_CONVERGED
     assert record.residual == 1e-3

@@ -23,8 +23,12 @@ from verification.closed_forms.coated_indentation import (
     flat_punch,
     paraboloid_under,
 )
-from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
-from verification.closed_forms.torsion import TorsionalPartialSlip
+from verification.closed_forms.torsion import (
+    CoatedTorsion,
+    TorsionalPartialSlip,
+    TorsionalSurface,
+    one_layer,
+)
 from verification.references import load_reference
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -12,7 +12,7 @@ import jsonschema
 import pytest
 from report_examples import verdict
 
-from verification.cases.hertz import hertz_point
+from verification.cases.indenters import hertz_point
 from verification.cases.partial_slip import cattaneo_mindlin
 from verification.exhibits.chart import plain, value_text
 from verification.judging.judgement import judge
@@ -24,7 +24,7 @@ from verification.judging.outcome import (
 )
 from verification.report.files import JUNIT, PAGE, RECORD, SHEETS, SUMMARY, write_report
 from verification.report.page import render_page, render_sheets
-from verification.report.sections import OMISSIONS
+from verification.report.summary_text import OMISSIONS
 from verification.running.provenance import provenance
 from verification.running.report_record import (
     Report,

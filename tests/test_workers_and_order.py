@@ -13,8 +13,14 @@ import pytest
 from command import outcome
 from study_cases import Killed, Loop, Number, Refusing, Square
 
-from verification.running.case_pool import OTHER_CODE, CaseStore, DamagedRecord, run_cases
-from verification.running.cluster import ClusterUnavailable, ClusterWorkers
+from verification.running.case_pool import (
+    OTHER_CODE,
+    CaseStore,
+    ClusterUnavailable,
+    ClusterWorkers,
+    DamagedRecord,
+    run_cases,
+)
 from verification.running.study import StudyCase
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -8,16 +8,16 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from verification.challenge.answer import Answer, Field, Solver
     from verification.challenge.python_api import (
         CannotDo,
         judge,
     )
+    from verification.challenge.requested_quantities import Answer, Field, Solver
 
 __all__ = ["Answer", "CannotDo", "Field", "Solver", "judge"]
 
 _PLACES = {
-    "verification.challenge.answer": ("Answer", "Field", "Solver"),
+    "verification.challenge.requested_quantities": ("Answer", "Field", "Solver"),
     "verification.challenge.python_api": ("CannotDo", "judge"),
 }
 

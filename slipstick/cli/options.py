@@ -110,7 +110,7 @@ def workers_at(scheduler: str | None, processes: int) -> int | Workers:
     """
     if scheduler is None:
         return processes
-    from verification.running.cluster import ClusterUnavailable, ClusterWorkers
+    from verification.running.case_pool import ClusterUnavailable, ClusterWorkers
 
     try:
         return ClusterWorkers(scheduler)

@@ -14,8 +14,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from contact_scene.reading.description import Description
+from verification.judging.judgement import lost as without_result
 from verification.judging.outcome import CaseOutcome
-from verification.judging.verdicts import lost as without_result
 
 if TYPE_CHECKING:
     from verification.judging.case import Case, Level
@@ -88,13 +88,12 @@ CASES = (
 )
 # Modules that make several cases; another case is made by the module of its name.
 MODULES = {
-    "hertz": (
+    "indenters": (
         *("hertz_point", "hertz_exact_sphere", "hertz_approach_control", "hertz_unloading"),
         *("dissimilar_bodies", "hertz_elliptical", "fem_hertz", "fem_penalty_hertz"),
-    ),
-    "indenters": (
         *("cone_contact", "flat_punch", "tilted_punch", "eccentric_ball", "fem_classical"),
     ),
+    "worked_examples": ("worked_examples", "written_files"),
     "partial_slip": ("cattaneo_mindlin", "sheared_cone", "near_sliding", "fem_harmonics"),
     "fretting": (
         *("fretting_loop", "paper_fretting_loop", "fem_partial_slip", "fem_penalty_slip"),

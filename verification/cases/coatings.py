@@ -31,11 +31,16 @@ from verification.closed_forms.coated_indentation import (
     paraboloid,
     paraboloid_under,
 )
-from verification.judging.case import Case, Level, Quantity, Required, compare_runs
+from verification.judging.case import Case, Level, Quantity, Required, Run, compare_runs
 from verification.judging.declared_case import (
     APPROACH,
+    ASKED,
     CENTRAL_PRESSURE,
     CONTACT_RADIUS,
+    EDGE,
+    ELEMENT_RADIUS,
+    IDENTITY,
+    JUDGED_BY,
     NORMAL_FORCE,
     PEAK_PRESSURE,
     PRESSURE_L2,
@@ -45,22 +50,14 @@ from verification.judging.declared_case import (
     Refined,
     Reported,
     Row,
-    Within,
-    case,
-    error_norm,
-    judged,
-)
-from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.judging.refinement_levels import (
-    ASKED,
-    EDGE,
-    ELEMENT_RADIUS,
-    IDENTITY,
-    JUDGED_BY,
     SizedRun,
+    Within,
     because,
+    case,
     cells_label,
+    error_norm,
     finest,
+    judged,
     ladder,
     levels,
     named,
@@ -71,9 +68,9 @@ from verification.judging.refinement_levels import (
     refinement,
     scaled_tolerance,
 )
-from verification.judging.run import Run
+from verification.judging.drawings import PRESSURE, convergence, profile
 from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS, frf_matrix, worst_violation
-from verification.observed.end_state import normal_force
+from verification.observed.ring_errors import normal_force
 from verification.problems import paper_scene as paper
 from verification.problems.classical import (
     BARE,

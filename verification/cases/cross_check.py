@@ -27,7 +27,19 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.stress import subsurface
 from verification.closed_forms.hertz import PointContact
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.judging.case import Case, Level, Quantity, compare_runs
+from verification.judging.case import (
+    OVER_ANGLES,
+    OVER_RINGS,
+    SOLVER_TOLERANCE,
+    AnyRun,
+    Case,
+    Level,
+    Quantity,
+    RadiiRun,
+    Run,
+    SectionRun,
+    compare_runs,
+)
 from verification.judging.declared_case import (
     NORMAL_FORCE,
     Judged,
@@ -35,21 +47,10 @@ from verification.judging.declared_case import (
     case,
     error_norm,
     judged,
-)
-from verification.judging.field_errors import pressure_at, shear_at
-from verification.judging.refinement_levels import (
     on_cells,
     on_elements,
 )
-from verification.judging.run import (
-    OVER_ANGLES,
-    OVER_RINGS,
-    SOLVER_TOLERANCE,
-    AnyRun,
-    RadiiRun,
-    Run,
-    SectionRun,
-)
+from verification.judging.field_errors import pressure_at, shear_at
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import (
     FRICTION,

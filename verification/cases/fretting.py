@@ -18,41 +18,36 @@ from contact_scene import LoadStep, Sphere
 from radial.plan import RINGS
 from verification.cases.torsion import SLIDING, shear_around
 from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.profile_chart import ProfileLabels, Section
-from verification.judging.case import Case, Level
+from verification.judging.case import OVER_ANGLES, Case, Level, Run
 from verification.judging.declared_case import (
     APPROACH,
+    ASKED,
     ENERGY,
     ENERGY_PER_CYCLE,
+    JUDGED_BY,
     LARGEST_SHEAR_ERROR,
     LARGEST_SHIFT_ERROR,
     LARGEST_STICK_RADIUS_ERROR,
     SHEAR,
     SHEAR_AROUND,
     SHIFT,
+    SQUARE_ROOTS,
     STICK_RADIUS,
     TWIST,
     WORK,
     Drawing,
     Falls,
     Observable,
+    RefinementLevels,
     Reported,
     Row,
+    SizedRun,
     Within,
     case,
-    error_norm,
-    judged,
-)
-from verification.judging.drawings import convergence, profile, radial_chart
-from verification.judging.field_errors import away_from_edges
-from verification.judging.refinement_levels import (
-    ASKED,
-    JUDGED_BY,
-    SQUARE_ROOTS,
-    RefinementLevels,
-    SizedRun,
     cells_label,
+    error_norm,
     finest,
+    judged,
     ladder,
     named,
     on_cells,
@@ -64,7 +59,8 @@ from verification.judging.refinement_levels import (
     scaled_tolerance,
     with_edge_at,
 )
-from verification.judging.run import OVER_ANGLES, Run
+from verification.judging.drawings import ProfileLabels, Section, convergence, profile, radial_chart
+from verification.judging.field_errors import away_from_edges
 from verification.observed.ring_errors import judged_within
 from verification.problems import cattaneo_mindlin as loop
 from verification.problems import paper_scene as paper
@@ -74,16 +70,16 @@ from verification.problems.cattaneo_mindlin import (
     OVER_LIMIT,
     OVER_SLIDING_SHIFT,
     PRESSED,
+    TWISTED,
     WINDOW_PER_RADIUS,
     ExactLoop,
     sheared,
 )
+from verification.problems.cattaneo_mindlin import PARTS as TWISTS
 from verification.problems.cattaneo_mindlin import fretting_loop as loop_problem
 from verification.problems.indentation import COATED
 from verification.problems.paper_scene import FRICTION, HERTZ, NU_ZERO, STEEL
 from verification.problems.problem import Problem
-from verification.problems.torsion import PARTS as TWISTS
-from verification.problems.torsion import TWISTED
 from verification.quantities import (
     force_along_x,
     shear_of,

@@ -31,9 +31,9 @@ from contact_scene import (
 from contact_scene.discretisation import EdgeCorrection
 from semi_analytical.grid import SurfaceGrid
 from verification.exhibits.chart import Chart
-from verification.exhibits.convergence_chart import convergence_chart
 from verification.judging import field_errors
 from verification.judging.case import (
+    AnyRun,
     Case,
     Followed,
     Level,
@@ -42,30 +42,29 @@ from verification.judging.case import (
     Quantity,
     Refinement,
     Required,
+    Run,
+    SectionRun,
     compare_runs,
+    per_radius,
 )
 from verification.judging.declared_case import (
     APPROACH,
     CONTACT_RADIUS,
-    Drawing,
-    Observable,
-    Reported,
-    Row,
-    Within,
-    case,
-    error_norm,
-    judged,
-)
-from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
-from verification.judging.drawings import Drawn, profile
-from verification.judging.refinement_levels import (
     ELEMENT_RADIUS,
     JUDGED_BY,
     PENALTY,
+    Drawing,
+    Observable,
     RefinementLevels,
+    Reported,
+    Row,
+    Within,
     because,
+    case,
     cells_label,
+    error_norm,
     finest,
+    judged,
     named,
     on_cells,
     on_elements,
@@ -74,9 +73,15 @@ from verification.judging.refinement_levels import (
     part_of_side,
     scaled_tolerance,
 )
-from verification.judging.run import AnyRun, Run, SectionRun, per_radius
-from verification.observed.end_state import approach, contact_radius, peak_pressure, stick_radius
-from verification.observed.ring_errors import at_radii
+from verification.judging.drawings import PRESSURE as DRAWN_PRESSURE
+from verification.judging.drawings import Drawn, convergence_chart, profile
+from verification.observed.ring_errors import (
+    approach,
+    at_radii,
+    contact_radius,
+    peak_pressure,
+    stick_radius,
+)
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.indentation import (

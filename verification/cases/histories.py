@@ -36,13 +36,29 @@ from contact_scene.loading import CONTROLS
 from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid, all_effects
 from verification.closed_forms.hertz import PointContact
-from verification.judging.case import Case, Finding, Level, Quantity, Required, compare_runs
-from verification.judging.declared_case import case
-from verification.judging.refinement_levels import IDENTITY
-from verification.judging.run import OTHER_NORMS, SOLVER_TOLERANCE, Run, SectionRun, per_radius
-from verification.observed.laws import observed
+from verification.judging.case import (
+    OTHER_NORMS,
+    SOLVER_TOLERANCE,
+    Case,
+    Finding,
+    Level,
+    Quantity,
+    Required,
+    Run,
+    SectionRun,
+    compare_runs,
+    per_radius,
+)
+from verification.judging.declared_case import IDENTITY, case
+from verification.observed.contact_state import observed
 from verification.problems import paper_scene as paper
-from verification.problems.cattaneo_mindlin import SLIDING_SHIFT
+from verification.problems.cattaneo_mindlin import (
+    LARGEST,
+    PUNCH_RADIUS,
+    SLIDING_SHIFT,
+    SLIDING_TORQUE,
+    STUCK,
+)
 from verification.problems.paper_scene import (
     FRICTION,
     HERTZ,
@@ -63,7 +79,6 @@ from verification.problems.problem import (
     closed_form,
     identity,
 )
-from verification.problems.torsion import LARGEST, PUNCH_RADIUS, SLIDING_TORQUE, STUCK
 from verification.quantities import shear_of, shift_along_x
 
 Field = NDArray[np.float64]

@@ -34,32 +34,29 @@ from fem_reference.fields import Increment
 from fem_reference.history import solved_increments
 from fem_reference.model import ContactModel
 from verification.closed_forms.cattaneo_mindlin import superpose
-from verification.closed_forms.cone import ConeContact
-from verification.judging.case import Case, Level
+from verification.closed_forms.flat_punch import ConeContact
+from verification.judging.case import Case, Level, SectionRun, per_radius
 from verification.judging.declared_case import (
     ENERGY,
     SHEAR,
     SHIFT,
+    SQUARE_ROOTS,
+    STICK_BORDER,
     STICK_RADIUS,
     WORK,
     Falls,
     Observable,
     Refined,
+    RefinementLevels,
     Reported,
     Row,
+    SizedRun,
     Within,
+    because,
     case,
     error_norm,
-    judged,
-)
-from verification.judging.drawings import Drawn, convergence, profile
-from verification.judging.refinement_levels import (
-    SQUARE_ROOTS,
-    STICK_BORDER,
-    RefinementLevels,
-    SizedRun,
-    because,
     finest,
+    judged,
     ladder,
     mesh_label,
     named,
@@ -68,7 +65,7 @@ from verification.judging.refinement_levels import (
     refinement,
     scaled_tolerance,
 )
-from verification.judging.run import SectionRun, per_radius
+from verification.judging.drawings import Drawn, convergence, profile
 from verification.observed.ring_errors import tractions_at
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (

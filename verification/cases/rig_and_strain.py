@@ -19,26 +19,23 @@ from contact_results.stress.on_cells import stress_on_cells
 from contact_scene import Ellipsoid, IsotropicMaterial, Layer, LoadStep, Rig
 from contact_scene.quantities.summary import OF_CYCLES
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
-from verification.closed_forms.elliptical_contact import EllipticalContact
+from verification.closed_forms.hertz import EllipticalContact
 from verification.judging.case import Case, Level
 from verification.judging.declared_case import (
     ENERGY,
     SHEAR,
     SHIFT,
+    SQUARE_ROOTS,
     STICK_RADIUS,
     Falls,
     Observable,
+    RefinementLevels,
     Row,
     Within,
     case,
     error_norm,
     judged,
     number,
-)
-from verification.judging.drawings import Drawn, profile
-from verification.judging.refinement_levels import (
-    SQUARE_ROOTS,
-    RefinementLevels,
     on_cells,
     on_elements,
     on_radii,
@@ -46,6 +43,7 @@ from verification.judging.refinement_levels import (
     part_of_side,
     refinement,
 )
+from verification.judging.drawings import Drawn, profile
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
     OVER_SLIDING_SHIFT,

@@ -39,13 +39,17 @@ from verification.closed_forms.huber_stress import (
     trailing_edge_tension,
 )
 from verification.judging.case import Case, Level, Quantity, Required
-from verification.judging.declared_case import Observable, Within, case, error_norm, judged
-from verification.judging.refinement_levels import (
+from verification.judging.declared_case import (
     RINGS_SHOWN,
+    Observable,
+    Within,
+    case,
+    error_norm,
+    judged,
     on_radii,
 )
 from verification.problems import paper_scene as paper
-from verification.problems.cattaneo_mindlin import sheared
+from verification.problems.cattaneo_mindlin import TWISTED, sheared
 from verification.problems.paper_scene import (
     FRICTION,
     HERTZ,
@@ -58,7 +62,6 @@ from verification.problems.paper_scene import (
     rigid_ball,
 )
 from verification.problems.problem import Problem, Reference, ReferenceKind, closed_form, identity
-from verification.problems.torsion import TWISTED
 
 Field = NDArray[np.float64]
 

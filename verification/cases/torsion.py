@@ -29,10 +29,11 @@ from contact_scene import (
 )
 from contact_scene.quantities.residuals import worst
 from semi_analytical import solve_discretised
-from verification.closed_forms.coated_torsion import CoatedTorsion, TorsionalSurface, one_layer
-from verification.judging.case import Case, Followed, Level, Quantity, Required
+from verification.closed_forms.torsion import CoatedTorsion, TorsionalSurface, one_layer
+from verification.judging.case import OVER_ANGLES, Case, Followed, Level, Quantity, Required
 from verification.judging.declared_case import (
     SHEAR_AROUND,
+    SQUARE_ROOTS,
     STICK_RADIUS,
     TWIST,
     Falls,
@@ -42,13 +43,9 @@ from verification.judging.declared_case import (
     case,
     error_norm,
     judged,
-    number,
-)
-from verification.judging.drawings import Drawn, convergence, profile
-from verification.judging.refinement_levels import (
-    SQUARE_ROOTS,
     levels,
     named,
+    number,
     on_cells,
     on_elements,
     on_radii,
@@ -58,10 +55,18 @@ from verification.judging.refinement_levels import (
     scaled_tolerance,
     with_edge_at,
 )
-from verification.judging.run import OVER_ANGLES
+from verification.judging.drawings import Drawn, convergence, profile
 from verification.norms import shear_error
 from verification.problems import paper_scene as paper
-from verification.problems.cattaneo_mindlin import OVER_LIMIT
+from verification.problems.cattaneo_mindlin import (
+    LED,
+    OVER_LIMIT,
+    OVER_TWIST,
+    PARTS,
+    STUCK,
+    TORSION_LOOP,
+    TWISTED,
+)
 from verification.problems.paper_scene import (
     FRICTION,
     FRICTION_LIMIT,
@@ -74,7 +79,6 @@ from verification.problems.paper_scene import (
     rigid_ball,
 )
 from verification.problems.problem import ROUNDING, Problem, ReferenceKind, identity
-from verification.problems.torsion import LED, OVER_TWIST, PARTS, STUCK, TORSION_LOOP, TWISTED
 from verification.quantities import energy_between, shear_of
 
 Field = NDArray[np.float64]

@@ -1,27 +1,53 @@
-"""Verification case of the verification itself: statistics and printed numbers against hand
-computation.
+"""Verification of the verification itself: statistics and printed numbers, and result files.
 
-All examples have refinement levels h = 1, 2, 4 and an error a + c h, plus a deviation (1, -6, 8) ε.
-The deviation is orthogonal to the line that is fitted with weights 1/h, as 1 - 6/4 + 8/16 = 1 - 6/2
-+ 8/4 = 0. Its weighted sum of squares is (1 + 9 + 4) ε².
+The statistics are compared with hand computation. All these examples have refinement levels h = 1,
+2, 4 and an error a + c h, plus a deviation (1, -6, 8) ε. The deviation is orthogonal to the line
+that is fitted with weights 1/h, as 1 - 6/4 + 8/16 = 1 - 6/2 + 8/4 = 0. Its weighted sum of squares
+is (1 + 9 + 4) ε².
+
+Tables and arrays of the result files must agree with each other. Their scene is a ball under an
+eccentric force, tangential forces in two directions and a torque, so that all loads and motions
+have different components.
 """
 
 from __future__ import annotations
 
+import csv
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from math import hypot, log, sqrt
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
+import h5py
 import numpy as np
+from numpy.typing import NDArray
 
+import semi_analytical
+from contact_results.directory.file_names import CYCLES, FIELDS, INCREMENTS
+from contact_results.result_files import write_result
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.stress_maxima import (
+    Extreme,
+    extremes,
+)
+from contact_scene import Body, LoadStep, Scene
+from contact_scene.quantities.increment import (
+    SCALARS,
+    components,
+)
+from contact_scene.quantities.residuals import worst
 from verification.convergence.observed_order import error_line, observed_order, richardson
-from verification.judging.case import Case, Derived, Level, Quantity, Required
+from verification.judging.case import SOLVER_TOLERANCE, Case, Derived, Level, Quantity, Required
+from verification.judging.judgement import judge_quantity
 from verification.judging.outcome import Verdict, failure_text, uncertainty_text
-from verification.judging.verdicts import judge_quantity
-from verification.problems.problem import Reference, ReferenceKind, closed_form
+from verification.problems import paper_scene as paper
+from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL, coated, film, pressed
+from verification.problems.problem import Reference, ReferenceKind, closed_form, identity
 
 LEVELS = (1.0, 2.0, 4.0)
 BESIDE = (1.0, -6.0, 8.0)
@@ -148,3 +174,237 @@ _EXAMPLES: tuple[tuple[str, str, Callable[[], float], float, Required], ...] = (
     ("interval_of_the_line", "half-width of the line's 95 % band in its middle: t √(6 ε² / 3)",
      lambda: error_line(LEVELS, _example_errors()).reach, STUDENT * EPSILON * sqrt(2), TO_ROUNDING),
 )  # fmt: skip
+
+
+Field = NDArray[np.float64]
+
+CELLS, COARSE = 24, 16
+MARGIN = 1.2  # half the window over Hertz's radius
+ARM, ACROSS = 1e-5, 2e-5  # moments M_x and M_y over the normal force [m]
+TORQUE = 5e-3
+PUSH, ASIDE = 50.0, 20.0
+
+
+def _push_step(along: float) -> LoadStep:
+    return LoadStep(tangential_force=(along, ASIDE), increments=2)
+
+
+SCENE = Scene(
+    title="Ball pressed beside its tip, pushed, twisted and pushed to and fro",
+    indenter=paper.paraboloid(STEEL),
+    body=Body(material=STEEL),
+    friction=paper.frictional("", paper.paraboloid(STEEL), STEEL).friction,
+    loading=(
+        LoadStep(
+            normal_force=NORMAL_FORCE,
+            moment=(ARM * NORMAL_FORCE, ACROSS * NORMAL_FORCE),
+            increments=2,
+        ),
+        _push_step(PUSH),
+        LoadStep(torque=TORQUE, increments=2),
+        _push_step(-PUSH),
+        _push_step(PUSH),
+    ),
+)
+# A stiff layer bends, so that the stress at its lower side differs much from that in the base.
+COATED = pressed("Ball on a stiff coating", paper.paraboloid(STEEL), coated(film(4.0, 0.25)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Written:
+    """Hold the content of the result files of one solve, read without the file reader of the
+    program.
+
+    increments  rows of the table of increments: text by column name
+    cycle       last row of the table of fretting cycles: text by column name
+    arrays      arrays of the fields file by their path
+    """
+
+    increments: list[dict[str, str]]
+    cycle: dict[str, str]
+    arrays: Mapping[str, Field]
+
+    def column(self, name: str) -> Field:
+        unit = SCALARS[name].unit or 1
+        return np.array(
+            [
+                [float(row[f"{part} [{unit}]"] or "nan") for part in components(name)]
+                for row in self.increments
+            ]
+        )
+
+
+def written_files(level: Level = Level.QUICK) -> Case:
+    """Create the verification case of the content of result files.
+
+    Loads must be the sums of the tractions, tables must agree with arrays, and the position of a
+    maximum must be correct. All levels are equal.
+    """
+    return Case(
+        name="written_files",
+        title="Contents of result files",
+        problem="A ball with an eccentric force is loaded by tangential forces in two directions "
+        "and by a torque, so that loads and motions have two different components. The result "
+        "files are read back: loads are the sums of the tractions in the files, tables agree "
+        "with the fields, and the position of a maximum is that in the field. Below a stiff "
+        "coating the stress at the sides of the interface is bounded by that of the layer and "
+        "the base.",
+        runs=(),
+        quantities=(
+            _file_check(
+                "loads", "largest difference of normal force, tangential force, torque and "
+                "moments in the table from the sums of the tractions, over the largest of each",
+                loads, 10 * SOLVER_TOLERANCE, "equilibrium, met to the tolerance of the solver",
+            ),
+            _file_check(
+                "columns", "largest difference of a column of the table from the data set of "
+                "this name, over its largest value",
+                columns, 1e-15, "the same numbers, written twice",
+            ),
+            _file_check(
+                "place_of_f1", "relative difference of Ruiz's first parameter at the tabulated "
+                "position from its largest value", place_of_f1, 1e-12, "the same cell",
+            ),
+            _file_check(
+                "sides_of_an_interface", "largest excess of the stress on a side of the "
+                "interface over that of the adjacent layer or base",
+                sides_of_an_interface, 1e-12, "a maximum over a part is at most that over the "
+                "whole",
+            ),
+        ),
+        equations=(
+            r"W = \int p \, dA,\quad \mathbf{T} = \int \mathbf{q} \, dA,\quad "
+            r"M_z = \int (x q_y - y q_x) \, dA",
+        ),
+        no_order="numbers of one run, written twice",
+    )  # fmt: skip
+
+
+def _file_check(
+    name: str, meaning: str, measure: Callable[[], float], allowed: float, because: str
+) -> Quantity:
+    return Quantity(
+        name, meaning, "", "files", measure, identity(0.0, "consistency of the files"),
+        Required(allowed, because), 1.0, "1", runs=(),
+    )  # fmt: skip
+
+
+@cache
+def _written_result() -> _Written:
+    grid = paper.square_grid(CELLS, MARGIN * HERTZ.contact_radius)
+    result = semi_analytical.solve(SCENE, grid, SOLVER_TOLERANCE)
+    with TemporaryDirectory() as name:
+        directory = Path(name)
+        write_result(result, directory, figures="none", all_fields=True)
+        with h5py.File(directory / FIELDS) as file:
+            arrays = {
+                f"increments/{key}": np.array(value)
+                for key, value in _group_items(file, "increments")
+            }
+            arrays |= {
+                f"last_cycle/{key}": np.array(value)
+                for key, value in _group_items(file, "last_cycle")
+            }
+            arrays |= {axis: np.array(file[axis]) for axis in "xy"}
+        return _Written(
+            _table_rows(directory / INCREMENTS), _table_rows(directory / CYCLES)[-1], arrays
+        )
+
+
+def _group_items(file: h5py.File, group: str) -> Any:
+    found: Any = file[group]
+    return found.items()
+
+
+def _table_rows(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def loads() -> float:
+    """Compute the largest relative difference between written loads and sums of the written
+    tractions [1].
+
+    The loads are forces, torque and moments of all increments in the table.
+    """
+    found = _written_result()
+    x, y = found.arrays["x"], found.arrays["y"]
+    area = (x[1] - x[0]) * (y[1] - y[0])
+    p = found.arrays["increments/pressure"]
+    q_x, q_y = np.moveaxis(found.arrays["increments/shear"], 1, 0)
+    X, Y = np.meshgrid(x, y, indexing="ij")
+
+    def summed(*fields: Field) -> Field:
+        return area * np.stack([np.sum(field, axis=(1, 2)) for field in fields], axis=-1)
+
+    sums = {
+        "normal_force": summed(p),
+        "tangential_force": summed(q_x, q_y),
+        "torque": summed(X * q_y - Y * q_x),
+        "moment": summed(p * Y, p * X),
+    }
+    return worst(*(_relative_difference(found.column(name), total) for name, total in sums.items()))
+
+
+def columns() -> float:
+    """Compute the largest relative difference between a table column and the array of the same
+    quantity [1].
+
+    All scalars that both table and fields file contain are compared. The result is NaN if missing
+    values differ.
+    """
+    found = _written_result()
+    there = [name for name in SCALARS if f"increments/{name}" in found.arrays]
+    apart = []
+    for name in there:
+        tabulated = found.column(name)
+        stored = found.arrays[f"increments/{name}"].reshape(tabulated.shape).astype(float)
+        if not np.array_equal(np.isnan(tabulated), np.isnan(stored)):
+            return float("nan")
+        apart.append(_relative_difference(np.nan_to_num(tabulated), np.nan_to_num(stored)))
+    return worst(*apart)
+
+
+def _relative_difference(tabulated: Field, stored: Field) -> float:
+    return float(np.max(np.abs(tabulated - stored)) / (np.max(np.abs(stored)) or 1.0))
+
+
+def place_of_f1() -> float:
+    """Compute by how much the field of Ruiz's parameter F1 at its tabulated position is below its
+    maximum.
+
+    F1 is shear times slip amplitude. The difference is relative to the maximum [1].
+    """
+    found = _written_result()
+    field = found.arrays["last_cycle/ruiz_f1"]
+    cell = tuple(
+        int(np.argmin(np.abs(found.arrays[axis] - float(found.cycle[f"ruiz_f1_{axis} [m]"]))))
+        for axis in "xy"
+    )
+    return float(1 - field[cell] / np.max(field))
+
+
+@cache
+def _stress_extremes() -> dict[tuple[str, str], Extreme]:
+    grid = paper.square_grid(COARSE, MARGIN * HERTZ.contact_radius)
+    state = state_of_result(semi_analytical.solve(COATED, grid, SOLVER_TOLERANCE), 1)
+    depth = COATED.body.layers[0].thickness
+    field = stress_on_cells(state, depths=(0.5 * depth, 1.5 * depth), see_edge=False)
+    return {(e.region, e.measure): e for e in extremes(field, COATED.body)}
+
+
+def sides_of_an_interface() -> float:
+    """Compute the largest excess of a stress maximum at an interface over that of the adjacent
+    material [1].
+
+    The maximum over the whole layer or base cannot be smaller than that at the interface. The depth
+    of the interface is also compared with the thickness of the layer.
+    """
+    found, excess = _stress_extremes(), [0.0]
+    depth = COATED.body.layers[0].thickness
+    for whole, side in (("layer 1", "above"), ("base", "below")):
+        for (region, measure), extreme in found.items():
+            if region == f"interface 1 {side}" and (whole, measure) in found:
+                largest = found[whole, measure].value
+                excess += [(extreme.value - largest) / abs(largest), abs(extreme.depth / depth - 1)]
+    return worst(*(max(value, 0.0) if np.isfinite(value) else value for value in excess))

@@ -15,13 +15,16 @@ from typing import Any
 
 import numpy as np
 
-from verification.challenge.answer import Answer, Field, Key, Solver
 from verification.challenge.requested_quantities import (
+    Answer,
     AskedField,
     AskedPoints,
     AskedValue,
     Challenge,
+    Field,
     Grade,
+    Key,
+    Solver,
 )
 from verification.convergence.observed_order import ILLEGIBLE, observed_order
 from verification.judging.outcome import Status
@@ -275,7 +278,7 @@ def _judge_claimed_uncertainty(
     yield Row(f"{asked.quantity}: own uncertainty", asked.step, level, status, because)
 
 
-def order_text(order: tuple[float, float]) -> str:
+def fitted_order_text(order: tuple[float, float]) -> str:
     """Format an observed order of convergence with its interval, such as "1.98 ± 0.05".
 
     The text is "not known" if the half-width of the interval is 0.5 or more.
@@ -379,7 +382,7 @@ def _judge_convergence(
     if fit is None:
         return
     order, half = fit
-    told = f"order {order_text(fit)}"
+    told = f"order {fitted_order_text(fit)}"
     if errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
         yield Row(f"{quantity}: stalls", step, WHOLE, Status.FAIL,
                   f"order below {order + half:.2f}: finer is hardly better", order=fit)  # fmt: skip

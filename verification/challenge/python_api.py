@@ -21,12 +21,15 @@ from typing import Any
 import numpy as np
 
 from contact_results.directory.atomic_file import Refused
-from verification.challenge.answer import Answer, Key, Solver, Vector
 from verification.challenge.cases import challenges
 from verification.challenge.judgement import Judgement, judged
 from verification.challenge.requested_quantities import (
+    Answer,
     Challenge,
     Grade,
+    Key,
+    Solver,
+    Vector,
 )
 
 LEVELS = 4

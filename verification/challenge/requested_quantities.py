@@ -1,15 +1,15 @@
-"""Data classes of a challenge: required quantities, their reference solutions, and accuracy
-classes.
+"""Data classes of a challenge: required quantities, references, accuracy classes, and answers.
 
-The other codes get the description of a quantity; the judgement uses its reference.
+The other codes get the description of a quantity; the judgement uses its reference. All values are
+in SI.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from enum import StrEnum
 from math import nan
 from typing import Any, TypeVar
@@ -27,7 +27,7 @@ from contact_scene.stepping.load_path import (
 from verification.problems.paper_scene import HERTZ
 from verification.problems.problem import ROUNDING
 
-Field = NDArray[np.float64]
+Vector = NDArray[np.float64]
 
 NODES = 64
 
@@ -48,7 +48,7 @@ class Half:
     coefficient: float
     series: tuple[float, ...] = (1.0,)
 
-    def __call__(self, x: Field, y: Field) -> Field:
+    def __call__(self, x: Vector, y: Vector) -> Vector:
         """Compute the reference traction at points of the surface; it is zero outside the ellipse.
 
         x, y  coordinates of the points, arrays of one shape [length]
@@ -98,7 +98,7 @@ class HalfEllipsoids:
 
     terms: tuple[Half, ...]
 
-    def at(self, x: Field, y: Field) -> Field:
+    def at(self, x: Vector, y: Vector) -> Vector:
         """Compute the reference traction at points of the surface [force/length²].
 
         x, y  coordinates of the points, arrays of one shape [length]
@@ -143,7 +143,7 @@ def round_halves(*terms: tuple[float, float]) -> HalfEllipsoids:
     return HalfEllipsoids(tuple(Half((b, b), coefficient) for b, coefficient in terms))
 
 
-def fitted(pressure: Callable[[Field], Field], radius: float, terms: int) -> HalfEllipsoids:
+def fitted(pressure: Callable[[Vector], Vector], radius: float, terms: int) -> HalfEllipsoids:
     """Fit a rotationally symmetric pressure by one half-ellipsoid times a Chebyshev series.
 
     The pressure must go to zero like a square root at the contact edge. The series interpolates the
@@ -176,10 +176,10 @@ class RoundTable:
     values  traction at these radii [force/length²]
     """
 
-    radii: Field
-    values: Field
+    radii: Vector
+    values: Vector
 
-    def at(self, x: Field, y: Field) -> Field:
+    def at(self, x: Vector, y: Vector) -> Vector:
         """Compute the reference traction at points of the surface; it is zero beyond the last
         radius.
 
@@ -233,7 +233,7 @@ class RoundTable:
         return {"radii": self.radii.tolist(), "values": self.values.tolist()}
 
 
-def tabulated(traction: Callable[[Field], Field], *kinks: float) -> RoundTable:
+def tabulated(traction: Callable[[Vector], Vector], *kinks: float) -> RoundTable:
     """Create a table of an axisymmetric traction over the radius, with dense radii near its kinks.
 
     traction  traction as a function of the distance from the axis [force/length²]
@@ -563,3 +563,115 @@ def stick_radius(value: float, step: int, uncertainty: float = CLOSED) -> AskedV
         value, HERTZ.contact_radius, "the contact radius", Grade.C, required=False,
         uncertainty=uncertainty,
     )  # fmt: skip
+
+
+Key = tuple[str, int]  # quantity and loading step, from 1
+SAMPLINGS = ("point", "cell")
+
+
+@dataclass(frozen=True)
+class Field:
+    """Traction that another code computed, given at points that this code has chosen.
+
+    x, y   coordinates of the points (points,) [m]
+    value  one traction component at the points (points,) [Pa]
+    area   area of the surface that each point represents (points,) [m²]
+
+    Raises ValueError for arrays of unequal lengths, without points, or areas that are not positive.
+    """
+
+    x: Vector
+    y: Vector
+    value: Vector
+    area: Vector
+
+    def __post_init__(self) -> None:
+        for name in ("x", "y", "value", "area"):
+            flat = np.ravel(np.asarray(getattr(self, name), dtype=np.float64))
+            object.__setattr__(self, name, flat)
+        sizes = {name: getattr(self, name).size for name in ("x", "y", "value", "area")}
+        if len(set(sizes.values())) > 1:
+            told = ", ".join(f"{size} of {name}" for name, size in sizes.items())
+            raise ValueError(f"a field needs as many numbers of each: {told}")
+        if not self.x.size:
+            raise ValueError("no points; leave out a field that has none")
+        if not np.all(self.area > 0):
+            raise ValueError("areas must be positive")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Answer of another code to a challenge, computed on one refinement level.
+
+    Numbers are identified by a key: the pair of quantity name and load step, counted from 1.
+
+    h         side of a cell or element at the contact edge, or √area if its sides differ [m]
+    scalars   numbers by key; a value, or a pair of the value and its standard uncertainty [SI]
+    fields    tractions on the lower body by key [Pa]
+    gave_up   reason for a missing answer, by load step; step 0 stands for all steps
+    unknowns  number of unknowns of the discrete problem; None if it is not given
+    seconds   computing time of this level [s]; None if it is not given
+    label     name of the level
+    points    numbers at the points that the challenge prescribes, in their order, by key [SI]
+    """
+
+    h: float
+    scalars: Mapping[Key, float | tuple[float, float]] = field(default_factory=dict)
+    fields: Mapping[Key, Field] = field(default_factory=dict)
+    gave_up: Mapping[int, str] = field(default_factory=dict)
+    unknowns: int | None = None
+    seconds: float | None = None
+    label: str = ""
+    points: Mapping[Key, Vector] = field(default_factory=dict)
+
+    def value(self, key: Key) -> float | None:
+        """Return the value that the answer gives for a required number; None if the number is
+        missing.
+
+        key  name of the quantity, and load step
+        """
+        found = self.scalars.get(key)
+        return found[0] if isinstance(found, tuple) else found
+
+    def has(self, key: Key) -> bool:
+        """Return True if the answer contains a number, numbers at points, or a field for a
+        quantity.
+
+        key  name of the quantity, and load step
+        """
+        return key in self.scalars or key in self.points or key in self.fields
+
+    def uncertainty(self, key: Key) -> float | None:
+        """Return the standard uncertainty that the other code states for a number.
+
+        The result is None if the code states no uncertainty or the number is missing.
+
+        key  name of the quantity, and load step
+        """
+        found = self.scalars.get(key)
+        return found[1] if isinstance(found, tuple) else None
+
+
+@dataclass(frozen=True)
+class Solver:
+    """Description of a code that answers challenges, and of the accuracy that it claims.
+
+    sampling         meaning of the values of a traction field: "point" for values at points, "cell"
+                     for means over squares around the points
+    claimed_grade    accuracy class "A", "B" or "C" that the code claims; None: no claim
+    claimed_orders   convergence orders that the code claims, by quantity
+    """
+
+    name: str
+    version: str = ""
+    url: str = ""
+    sampling: str = "point"
+    claimed_grade: str | None = None
+    claimed_orders: Mapping[str, float] = field(default_factory=dict)
+
+    def document(self) -> dict[str, Any]:
+        """Return name, version and address of a code that answers challenges, as a JSON record.
+
+        The record is part of a result sheet.
+        """
+        return {"solver": self.name, "version": self.version, "url": self.url}

@@ -2,15 +2,35 @@
 
 Torsion is uncoupled from the normal problem for all materials. In partial slip a central stick disc
 rotates as a rigid body; outside this disc the shear is µ times the Hertz pressure.
+
+Coated bodies in partial slip have a semi-closed solution. Torsion makes only shear waves (SH),
+which are uncoupled from the pressure. The Hankel transform of the circumferential shear is q~(k) =
+∫₀ᵃ h(s) sin ks ds, where h is the Abel transform
+
+    h(s) = (2/π) s ∫ₛᵃ q(r)/√(r²-s²) dr.
+
+For a rigid rotation φ of the disc r < c the equation for s < c is (Lubkin 1951 for h without
+layers)
+
+    h(s) + ∫₀ᵃ K(s, t) h(t) dt = (4/π) G φ s,   K(s, t) = (2/π) ∫₀^∞ (X(k) - 1) sin ks sin kt dk,
+
+and in the slip annulus h is that of the friction limit. X(k) = k G F(k), with F(k) the displacement
+per unit shear across the wavenumber k and G the torsional modulus for short waves. The shear is
+finite at the edge of the stick disc if h is continuous there, which gives φ. The torque is 4π ∫₀ᵃ
+h(s) s ds. Without layers K = 0.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
-from scipy.special import ellipe, elliprd
+from scipy.special import ellipe, elliprd, j1
 
 from verification.closed_forms.quadrature import unit_gauss
 
@@ -85,7 +105,7 @@ class TorsionalPartialSlip:
         peak_pressure: float,
         friction_coefficient: float,
         torsional_modulus: float,
-    ) -> "TorsionalPartialSlip":
+    ) -> TorsionalPartialSlip:
         """Compute the partial slip of a Hertz contact under a torque M [force*length].
 
         moment                torque, 0 <= M < (3π/16) µWa (W: normal load, a: contact radius)
@@ -184,3 +204,255 @@ def _reduced_moment(ratio: float) -> float:
     v, weights = unit_gauss(ORDER)
     s = ratio + (1 - ratio) * v
     return 8 / 3 * (1 - ratio) * float((s**2 * ellipe((1 - s) * (1 + s)) * weights).sum())
+
+
+Array = NDArray[np.float64]
+
+# exp(-2 k h) is below 1e-20 from here on.
+REACH = 24.0
+PANEL_POINTS = 16
+PANEL_PHASE = 6.0
+# Number of halvings of the panel width towards k = 0, sufficient for modulus ratios up to 1e5.
+HALVINGS = 20
+LEAST_ORDER = 80
+
+
+@dataclass(frozen=True)
+class TorsionalSurface:
+    """Represent the torsional compliance of the surfaces of two coated bodies, in wavenumber space.
+
+    compliance         F(k) of both bodies together [length³/force]: circumferential displacement
+                       per unit shear of wavenumber k; a vectorised function
+    torsional_modulus  reciprocal of the sum of 1/G of the outermost materials [force/length²]
+    thickness          thickness of the thinner outermost layer [length]
+    """
+
+    compliance: Callable[[Array], Array]
+    torsional_modulus: float
+    thickness: float
+
+    def excess(self, k: Array) -> Array:
+        """Compute the relative change of the torsional compliance by the layers at wavenumbers k
+        [1].
+
+        The change X(k) - 1 = k G F(k) - 1 is relative to a half-space of the outermost material.
+        """
+        return np.asarray(k * self.torsional_modulus * self.compliance(k) - 1)
+
+
+def one_layer(k: Array, thickness: float, shear_modulus: float, base_modulus: float) -> Array:
+    """Compute the torsional compliance F(k) of one layer that is bonded to a half-space
+    [length³/force].
+
+    F is the circumferential displacement per unit shear: F = 1/(Gk) (1 + χ e^(-2kh))/(1 - χ
+    e^(-2kh)) with χ = (G - G_base)/(G + G_base).
+
+    k              wavenumbers [1/length]
+    thickness      thickness h of the layer [length]
+    shear_modulus  shear modulus G of the layer [force/length²]
+    base_modulus   shear modulus G_base of the half-space [force/length²]
+    """
+    chi = (shear_modulus - base_modulus) / (shear_modulus + base_modulus)
+    reflected = chi * np.exp(-2 * k * thickness)
+    return np.asarray((1 + reflected) / (1 - reflected) / (shear_modulus * k))
+
+
+@dataclass(frozen=True)
+class CoatedTorsion:
+    """Hold the state of a contact of coated bodies in partial slip, under a torque that grew from
+    zero.
+
+    A central disc sticks and rotates as a rigid body. In the annulus around it the shear is the
+    friction limit.
+
+    surface         torsional compliance of the two bodies
+    contact_radius  contact radius a > 0 [length]
+    limit           friction limit µp as a function of the distance from the axis [force/length²],
+                    falling like a square root towards r = a
+    stick_radius    stick radius c, 0.1 a <= c < a [length]
+    """
+
+    surface: TorsionalSurface
+    contact_radius: float
+    limit: Callable[[Array], Array]
+    stick_radius: float
+
+    def __post_init__(self) -> None:
+        if not 0.1 <= self.stick_radius / self.contact_radius < 1:
+            raise ValueError(
+                f"stick radius {self.stick_radius!r} is not between a tenth of the contact radius "
+                f"{self.contact_radius!r} and all of it"
+            )
+
+    @classmethod
+    def under_torque(
+        cls,
+        torque: float,
+        surface: TorsionalSurface,
+        contact_radius: float,
+        limit: Callable[[Array], Array],
+    ) -> CoatedTorsion:
+        """Compute the state of the contact under a given torque.
+
+        torque          torque [force*length]
+        surface         torsional compliance of the two bodies
+        contact_radius  contact radius [length]
+        limit           friction limit µp as a function of the distance from the axis
+                        [force/length²]
+
+        Raises ValueError if the stick radius would be outside its range.
+        """
+
+        def excess(part: float) -> float:
+            state = cls(surface, contact_radius, limit, part * contact_radius)
+            return state.torque / torque - 1
+
+        part = float(brentq(excess, 0.1 + 1e-9, 1 - 1e-9, xtol=1e-14, rtol=1e-14))
+        return cls(surface, contact_radius, limit, part * contact_radius)
+
+    @property
+    def sliding_torque(self) -> float:
+        """Torque 2π ∫ µp r² dr at gross slip, from the friction limit µp [force*length]."""
+        a = self.contact_radius
+        v, weights = unit_gauss(LEAST_ORDER)
+        r, chord = a * np.sin(pi / 2 * v), a * np.cos(pi / 2 * v)
+        return float(pi**2 * np.sum(weights * self.limit(r) * r**2 * chord))
+
+    @property
+    def twist(self) -> float:
+        """Relative rotation φ of the two bodies under the torque [radian]."""
+        return self._solve_fredholm[0]
+
+    @property
+    def torque(self) -> float:
+        """Torque 4π ∫ h s ds of the contact, from the Abel transform h of the shear
+        [force*length].
+        """
+        s, weights = self._quadrature_nodes
+        return float(4 * pi * np.sum(weights * self.transform * s))
+
+    @property
+    def transform(self) -> Array:
+        """Abel transform h of the circumferential shear, which is the unknown of the integral
+        equation.
+
+        The values belong to the nodes in the stick disc, then to those in the slip annulus
+        [force/length].
+        """
+        return self._solve_fredholm[1]
+
+    def displacement(self, r: Array) -> Array:
+        """Compute the circumferential surface displacement at radii r of the stick disc [length].
+
+        The displacement must be twist times r, which checks the solution. The formula uses ∫₀^∞ sin
+        ks J₁(kr) dk = s/(r√(r²-s²)) for s < r, and 0 beyond.
+
+        r  radii between 0 and the stick radius (points,) [length]
+        """
+        k, weight = self._wavenumbers
+        v, weights = unit_gauss(self._quadrature_order)
+        inside = r[:, None] * np.sin(pi / 2 * v)
+        half_space = (
+            pi
+            / 2
+            * np.sum(weights * np.sin(pi / 2 * v) * self._solve_abel_transform(inside), axis=1)
+        )
+        layers = j1(np.outer(r, k)) @ (weight * self._spectrum)
+        return np.asarray((half_space + layers) / self.surface.torsional_modulus)
+
+    def _solve_abel_transform(self, s: Array) -> Array:
+        """Evaluate the Abel transform h of the shear at positions s in the stick disc
+        [force/length].
+
+        Between the nodes h follows from the integral equation.
+        """
+        k, weight = self._wavenumbers
+        G = self.surface.torsional_modulus
+        by_layers = np.sin(np.multiply.outer(s, k)) @ (weight * self._spectrum)
+        return np.asarray(4 / pi * G * self.twist * s - 2 / pi * by_layers)
+
+    @cached_property
+    def _spectrum(self) -> Array:
+        """Effect (X - 1) q~ of the layers on the surface displacement, at the nodes in the
+        wavenumber [force].
+
+        X - 1 is the relative change of the torsional compliance by the layers, and q~ the Hankel
+        transform of the circumferential shear.
+        """
+        k, _ = self._wavenumbers
+        s, weights = self._quadrature_nodes
+        transform = np.sin(np.outer(k, s)) @ (weights * self.transform)
+        return np.asarray(self.surface.excess(k) * transform)
+
+    @cached_property
+    def _solve_fredholm(self) -> tuple[float, Array]:
+        """Twist φ of the contact, and Abel transform h of the shear at the nodes.
+
+        The integral equation is solved once for unit twist and once for the shear of the slip
+        annulus alone. Continuity of h at the edge of the stick disc determines φ.
+        """
+        G, c = self.surface.torsional_modulus, self.stick_radius
+        s, weights = self._quadrature_nodes
+        order = self._quadrature_order
+        stick, slip = slice(order), slice(order, None)
+        annulus = self._sliding_transform(s[slip])
+        kernel = self._fredholm_kernel(np.append(s[stick], c), s) * weights
+        right = np.column_stack([4 / pi * G * np.append(s[stick], c), -kernel[:, slip] @ annulus])
+        h = np.linalg.solve(np.eye(order) + kernel[stick, stick], right[stick])
+        by_twist, by_annulus = right[-1] - kernel[-1, stick] @ h
+        edge = self._sliding_transform(np.array([c]))[0]
+        twist = float((edge - by_annulus) / by_twist)
+        return twist, np.append(twist * h[:, 0] + h[:, 1], annulus)
+
+    def _fredholm_kernel(self, s: Array, t: Array) -> Array:
+        """Compute the kernel K(s, t) of the integral equation for the shear; layers are its only
+        cause.
+
+        s, t  positions between 0 and the contact radius [length]
+        """
+        k, weight = self._wavenumbers
+        weighted = weight * self.surface.excess(k)
+        return np.asarray(2 / pi * (np.sin(np.outer(s, k)) * weighted) @ np.sin(np.outer(k, t)))
+
+    def _sliding_transform(self, s: Array) -> Array:
+        """Compute the Abel transform of the friction limit at positions s [force/length].
+
+        The transform is that of the shear in the slip annulus. The substitution r² = s² + (a²-s²)
+        sin² θ removes the square root of the integrand (a: contact radius).
+        """
+        v, weights = unit_gauss(LEAST_ORDER)
+        chord = np.sqrt(self.contact_radius**2 - s**2)[:, None]
+        r = np.hypot(s[:, None], chord * np.sin(pi / 2 * v))
+        integrand = self.limit(r) * chord * np.cos(pi / 2 * v) / r
+        return np.asarray(s * (integrand @ weights))
+
+    @property
+    def _quadrature_order(self) -> int:
+        """Number of Gauss nodes, for stick disc and slip annulus each, that resolves the layer
+        thickness.
+        """
+        return LEAST_ORDER + int(4 * self.contact_radius / self.surface.thickness)
+
+    @cached_property
+    def _quadrature_nodes(self) -> tuple[Array, Array]:
+        """Gauss nodes and weights over the stick disc, followed by those over the slip annulus
+        [length].
+        """
+        a, c = self.contact_radius, self.stick_radius
+        v, weights = unit_gauss(self._quadrature_order)
+        return np.append(c * v, c + (a - c) * v), np.append(c * weights, (a - c) * weights)
+
+    @cached_property
+    def _wavenumbers(self) -> tuple[Array, Array]:
+        """Nodes and weights of a composite Gauss rule in the wavenumber k [1/length].
+
+        The rule extends to 24 over the layer thickness, where the effect of the layers has
+        vanished.
+        """
+        limit = REACH / self.surface.thickness
+        step = PANEL_PHASE / (2 * self.contact_radius + self.surface.thickness)
+        fine = step * 2.0 ** -np.arange(HALVINGS, 0, -1)
+        bounds = np.concatenate([[0.0], fine, np.arange(step, limit, step), [limit]])
+        v, weights = unit_gauss(PANEL_POINTS)
+        widths = np.diff(bounds)[:, None]
+        return (bounds[:-1, None] + widths * v).ravel(), (widths * weights).ravel()

@@ -15,7 +15,7 @@ from contact_results.files import tables
 from contact_results.stress import stress_maxima
 from verification.convergence import observed_order
 from verification.defects.defect import Defect, Replacement, Replacements, replaces
-from verification.judging import outcome, verdicts
+from verification.judging import judgement, outcome
 from verification.running import case_pool
 
 SIDES = {"above": "below", "below": "above"}
@@ -29,7 +29,7 @@ def _shown_halved(text: str, field: str) -> Replacements:
     return halved
 
 
-@replaces(verdicts, "expanded_uncertainty")
+@replaces(judgement, "expanded_uncertainty")
 def _doubled_uncertainty(whole: Any, *given: Any) -> Any:
     return 2 * whole(*given)
 

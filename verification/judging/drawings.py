@@ -1,5 +1,8 @@
-"""Charts of a verification case: computed and exact tractions over the radius, and errors
-over h.
+"""Charts of a verification case: tractions over the radius or along a row of cells, errors over h.
+
+Charts of tractions show the computed and the exact profile, and their difference in a second panel.
+Charts of errors have logarithmic axes, fitted lines with their confidence bands, and lines of the
+expected orders.
 """
 
 from __future__ import annotations
@@ -11,19 +14,219 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from verification.exhibits.chart import Chart, Look, Panel, curve
-from verification.exhibits.convergence_chart import convergence_chart
-from verification.exhibits.profile_chart import Profile, ProfileLabels, Section, profile_chart
-from verification.judging.declared_case import Drawing, Falls, Observable, Row
-from verification.judging.refinement_levels import RefinementLevels
-from verification.judging.run import Run
+from semi_analytical.grid import SurfaceGrid
+from verification.convergence.observed_order import ErrorLine, ObservedOrder, by_size, error_line
+from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
+from verification.judging.case import Run
+from verification.judging.declared_case import Drawing, Falls, Observable, RefinementLevels, Row
 from verification.observed.ring_errors import SHOWN, at_radii
 
 if TYPE_CHECKING:
     from fem_reference import Increment
 
 
+Errors = Mapping[str, Sequence[float]]
+BELOW = 0.4  # lines of expected slopes run under the data, by this factor
+LEAST, LEAST_JUDGED = 4, 3  # levels that a line is drawn through
+ALONG = 9  # points along a band, which is curved
+LEAST_SHOWN = 0.005  # smallest half-width that two decimals show
+
+
+def convergence_chart(
+    name: str,
+    title: str,
+    caption: str,
+    spacings: Sequence[float],
+    errors: Errors,
+    slopes: Mapping[str, float],
+    x_label: str = "cell side / contact radius",
+    judged: Mapping[str, int] | None = None,
+) -> Chart:
+    """Create a chart of errors against cell size, with fitted lines and lines of the expected
+    orders.
+
+    spacings  cell sides over the contact radius (solves,); errors of equal sides are replaced by
+              their
+              root mean square
+    errors    relative errors (solves,) at these cell sides, of either sign, by name of the quantity
+    slopes    expected convergence order, by name of the quantity
+    judged    number of finest levels to which the line of a quantity is fitted, by name, because
+              the
+              order is judged on these; no line is drawn for fewer than 3 levels. Without an entry,
+    all
+              levels are fitted if there are at least 4
+    """
+    curves: list[Curve] = []
+    for series, (label, values) in enumerate(errors.items()):
+        sizes, root_mean_squares = by_size(spacings, values)
+        count = (judged or {}).get(label)
+        if count is None:
+            count = len(sizes) if len(sizes) >= LEAST else 0
+        curves += _error_curves(label, sizes, root_mean_squares, count, slopes.get(label), series)
+    panel = Panel(x_label=x_label, y_label="relative error", curves=tuple(curves), logarithmic=True)
+    legend = (
+        "Numbers are the slopes of the fitted lines with their 95 % intervals, bands those of the "
+        "lines. Dashed below: the expected slopes."
+    )
+    return Chart(name=name, title=title, caption=f"{caption} {legend}", rows=((panel,),))
+
+
+def _error_curves(
+    label: str, sizes: list[float], errors: list[float], count: int, expected: float | None,
+    series: int,
+) -> list[Curve]:  # fmt: skip
+    """Return the chart curves of one error: points, fitted line with 95 % band, and expected slope.
+
+    label     name of the quantity, for the legend
+    sizes     cell sides over the contact radius
+    errors    magnitudes of the relative error at these sizes
+    count     number of finest levels to which the line is fitted; with fewer than 3, points only
+    expected  expected convergence order; None for no slope line
+    series    number that determines the colour
+    """
+    ends = np.array([max(sizes), min(sizes)])
+    fitted = slice(len(sizes) - count, None)
+    if count < LEAST_JUDGED or min(errors[fitted]) <= 0:
+        curves = [curve(label, sizes, errors, Look.POINTS, series)]
+        start = errors[int(np.argmax(sizes))]
+    else:
+        line = error_line(sizes[fitted], errors[fitted])
+        ends = np.array([max(sizes[fitted]), min(sizes[fitted])])
+        curves = [
+            _confidence_band(line, ends, series),
+            curve("", ends, line.at(ends), Look.FITTED, series),
+            curve(f"{label}: {_order_text(line.observed)}", sizes, errors, Look.LEVELS, series),
+        ]
+        start = float(line.at(ends[:1])[0])
+    if expected is not None:
+        shown = BELOW * start * (ends / ends[0]) ** expected
+        curves.append(curve(f"slope {expected:g}", ends, shown, Look.SLOPE, series))
+    return curves
+
+
+def _order_text(observed: ObservedOrder) -> str:
+    if not observed.is_legible:
+        return "no order can be read"
+    digits = ".2f" if observed.half_width >= LEAST_SHOWN else ".1g"
+    return f"{observed.order:.2f} ± {observed.half_width:{digits}}"
+
+
+def _confidence_band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
+    """Return the outline of the 95 % confidence band of a line that is fitted to errors, as a chart
+    curve.
+
+    line    line fitted to the logarithms of errors and cell sizes
+    ends    largest and smallest cell size
+    series  number that determines the colour
+    """
+    along = np.geomspace(ends[0], ends[1], ALONG)
+    low, high = line.band(along)
+    return curve("", [*along, *along[::-1]], [*low, *high[::-1]], Look.BAND, series)
+
+
 Field = NDArray[np.float64]
+ALONG_X = 1.15  # contact radii to each side of the axis
+
+
+@dataclass(frozen=True)
+class Section:
+    """Row of cells of a surface grid nearest to y = 0, along which a profile chart shows fields.
+
+    The row extends to 1.15 contact radii on both sides of the axis.
+
+    grid    surface grid
+    radius  contact radius [length]
+    """
+
+    grid: SurfaceGrid
+    radius: float
+
+    @property
+    def _section_row(self) -> int:
+        return self.grid.cells[1] // 2
+
+    @property
+    def _plotted_cells(self) -> NDArray[np.bool_]:
+        return np.asarray(np.abs(self.grid.x) <= ALONG_X * self.radius)
+
+    @property
+    def x(self) -> Field:
+        """x coordinates of the cell centres along the row [length]."""
+        return np.asarray(self.grid.x[self._plotted_cells])
+
+    @property
+    def y(self) -> float:
+        """y coordinate of the row of cells [length]: half a cell for an even number of cells, else
+        0."""
+        return float(self.grid.y[self._section_row])
+
+    @property
+    def r(self) -> Field:
+        """Distances of the cell centres of the row from the axis of the contact, √(x² + y²)
+        [length]."""
+        return np.asarray(np.hypot(self.x, self.y))
+
+    def of(self, field: Field) -> Field:
+        """Return the values of a surface field (nx, ny) at the cells of the row."""
+        return np.asarray(field[self._plotted_cells, self._section_row])
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Computed and exact values of one dimensionless quantity at the cells of a section, for a
+    chart.
+
+    label     text of the legend
+    computed  computed values (cells of the row,)
+    exact     values of the closed form at the same cells
+    """
+
+    label: str
+    computed: Field
+    exact: Field
+
+
+@dataclass(frozen=True)
+class ProfileLabels:
+    """Texts of a profile chart: identifier, title, caption and axis labels."""
+
+    name: str
+    title: str
+    caption: str
+    y_label: str
+    x_label: str = "x / a"
+
+    @property
+    def difference_label(self) -> str:
+        """Label of the y axis of the panel of differences: the label of the profile with Δ in
+        front."""
+        return f"Δ{self.y_label}"
+
+
+def profile_chart(
+    labels: ProfileLabels, section: Section, profiles: Sequence[Profile], scale: float | None = None
+) -> Chart:
+    """Create a chart of computed and exact profiles, with computed minus exact values in a panel
+    below.
+
+    section   row of cells at which the profiles are known
+    profiles  computed and exact values of each quantity
+    scale     length by which x is divided; None for the contact radius of the section
+    """
+    x = section.x / (section.radius if scale is None else scale)
+    exact = [
+        curve("closed form" if n == 0 else "", x, p.exact, Look.REFERENCE, 0)
+        for n, p in enumerate(profiles)
+    ]
+    computed = [curve(p.label, x, p.computed, Look.COMPUTED, n) for n, p in enumerate(profiles)]
+    difference = [
+        curve("", x, p.computed - p.exact, Look.COMPUTED, n) for n, p in enumerate(profiles)
+    ]
+    above = Panel(x_label="", y_label=labels.y_label, curves=(*exact, *computed), height=2.6)
+    below = Panel(x_label=labels.x_label, y_label=labels.difference_label, curves=tuple(difference))
+    return Chart(
+        name=labels.name, title=labels.title, caption=labels.caption, rows=((above,), (below,))
+    )
 
 
 def radial_chart(

@@ -16,8 +16,13 @@ from numpy.typing import NDArray
 from verification import norms
 from verification.norms import cell_means
 from verification.observed import ring_errors
-from verification.observed.end_state import is_corrected
-from verification.observed.ring_errors import along_radii, at_radii, judged_within, outward
+from verification.observed.ring_errors import (
+    along_radii,
+    at_radii,
+    is_corrected,
+    judged_within,
+    outward,
+)
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.paper_scene import FRICTION
 from verification.problems.problem import OVER_PEAK, Problem

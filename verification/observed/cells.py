@@ -21,7 +21,7 @@ from verification.observed.contact_state import (
     Balance,
     ContactState,
 )
-from verification.observed.end_state import is_corrected
+from verification.observed.ring_errors import is_corrected
 
 Field = NDArray[np.float64]
 

@@ -1,7 +1,8 @@
-"""Problems of a ball under a constant normal force and a tangential force that changes.
+"""Problems of a ball under a constant normal force and a changing tangential force or torque.
 
-The answers are the closed forms of Cattaneo and Mindlin. In a fretting loop the tangential force
-goes from 0 to T*, to -T* and to T* again, with T* = 0.9 µW.
+The answers are the closed forms of Cattaneo, Mindlin and Lubkin. In a fretting loop the tangential
+force goes from 0 to T*, to -T* and to T* again, with T* = 0.9 µW. A stuck flat punch is twisted as
+well.
 """
 
 from __future__ import annotations
@@ -12,13 +13,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.integrate import quad
 
-from contact_scene import IsotropicMaterial
-from contact_scene.loading import LoadStep
+from contact_scene import Body, CoulombFriction, FlatPunch, IsotropicMaterial, LoadStep, Scene
 from verification.closed_forms.cattaneo_mindlin import CycledContact, TangentialHistory
+from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
 from verification.norms import shear_error
 from verification.problems import paper_scene as paper
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO
+from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO, STEEL
 from verification.problems.problem import Problem
 from verification.quantities import energy_between, force_along_x, shear_of, shift_along_x
 
@@ -73,7 +75,7 @@ LOOP_SOURCE = "Mindlin and Deresiewicz 1953"
 OVER_LARGEST_SHIFT = "the largest shift of the loop"
 OVER_LARGEST_SLIP = "the largest slip amplitude"
 OVER_LARGEST_WAY = "the largest way"
-AMPLITUDE = 0.9  # largest tangential force T* over µW
+AMPLITUDE = 0.9  # largest tangential force T* over µW, and torque over that of gross slip
 LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
 PRESSED = 1
 WINDOW_PER_RADIUS = 2.2  # side of the window over the contact radius
@@ -275,3 +277,120 @@ def largest_f2(result: Result) -> float:
 def largest_imbalance(result: Result) -> float:
     """Return the largest relative energy imbalance that the solver states for any increment [1]."""
     return max(i.energy_imbalance for i in result.increments if i.energy_imbalance is not None)
+
+
+LUBKIN = "Lubkin 1951"
+MODULUS = STEEL.shear_modulus / 2
+OVER_TWIST = "the largest twist"
+
+
+def virgin(torque: float) -> TorsionalPartialSlip:
+    """Compute the partial slip of the standard ball under a torque that has grown from zero.
+
+    The ball has a radius of 18 mm, a normal force of 1 kN and µ = 0.1.
+
+    torque  torque >= 0 [force*length]
+    """
+    return TorsionalPartialSlip.under_moment(
+        torque, HERTZ.contact_radius, HERTZ.peak_pressure, FRICTION, MODULUS
+    )
+
+
+SLIDING_TORQUE = virgin(0.0).sliding_moment
+LARGEST = virgin(AMPLITUDE * SLIDING_TORQUE)
+
+
+def torque_step(part: float) -> LoadStep:
+    """Create a load step to a fraction of the torque at gross slip of the standard ball.
+
+    One increment is exact, because the load path is linear.
+
+    part  torque at the end of the step over the torque at gross slip
+    """
+    return LoadStep(torque=part * SLIDING_TORQUE, increments=1)
+
+
+@dataclass(frozen=True)
+class Twisted:
+    """Hold the exact answer at the end of a load step of a torsion loop.
+
+    twist             rotation of the ball about z [radian]
+    energy_per_cycle  energy dissipated between the first and the second maximum of the torque
+                      [force*length]; 0 for other steps
+    """
+
+    twist: float
+    energy_per_cycle: float = 0.0
+
+
+def _torsion_problem(title: str, ends: tuple[object, ...], *steps: LoadStep) -> Problem:
+    return Problem(
+        paper.frictional(title, paper.paraboloid(STEEL), STEEL, *steps),
+        (HERTZ, *ends),
+        HERTZ.contact_radius,
+        LUBKIN,
+        scales={OVER_LIMIT: FRICTION * HERTZ.peak_pressure, OVER_TWIST: LARGEST.twist},
+        equations=(
+            r"\varphi = \frac{\mu p_0}{2 G^*} \left[\mathbf{K}(k') - \mathbf{E}(k')\right],\quad "
+            r"k'^2 = 1 - c^2/a^2,\quad M = \tfrac{8}{3} \mu p_0 \int_c^a s^2 "
+            r"\mathbf{E}\left(\sqrt{1 - s^2/a^2}\right) ds",
+        ),
+    )
+
+
+PARTS = {1: 0.5, 2: 0.9, 3: 0.99}  # torque over that at gross slip, by load step
+TWISTED = _torsion_problem(
+    "Ball in torsion",
+    tuple(virgin(part * SLIDING_TORQUE) for part in PARTS.values()),
+    *map(torque_step, PARTS.values()),
+)
+LED = _torsion_problem(
+    "Ball in torsion by a given twist", (LARGEST,), LoadStep(twist=LARGEST.twist, increments=1)
+)
+
+
+def _torsion_loop() -> tuple[Twisted, ...]:
+    """Compute the exact states at the ends of the four load steps of a torsion loop.
+
+    The torque goes from 0 to its largest value, to 0, to the opposite value and back. The states
+    follow from the first loading by Masing's rule: after a reversal, the change of the twist is
+    twice the first-loading twist at half the change of the torque.
+    """
+    reached = LARGEST.twist
+    back = reached - 2 * virgin(0.5 * AMPLITUDE * SLIDING_TORQUE).twist
+    # Area of the loop: 4 φ* M* - 8 ∫ φ dM along the virgin curve.
+    area = quad(
+        lambda torque: virgin(torque).twist, 0, AMPLITUDE * SLIDING_TORQUE, epsrel=1e-10, epsabs=0
+    )[0]
+    energy = 4 * reached * AMPLITUDE * SLIDING_TORQUE - 8 * area
+    return Twisted(reached), Twisted(back), Twisted(-reached), Twisted(reached, energy)
+
+
+TORSION_LOOP = _torsion_problem(
+    "Ball in torsion to and fro",
+    _torsion_loop(),
+    *map(torque_step, (AMPLITUDE, 0.0, -AMPLITUDE, AMPLITUDE)),
+)
+
+PUNCH_RADIUS = 0.4e-3
+# q/p is largest at the rim, 3M/(2Wa) = 0.45: nothing slips.
+STUCK_TORQUE = 0.3 * paper.NORMAL_FORCE * PUNCH_RADIUS
+STUCK = Problem(
+    Scene(
+        title="Flat punch in torsion without slip",
+        indenter=FlatPunch(radius=PUNCH_RADIUS, material=STEEL),
+        body=Body(material=STEEL),
+        friction=CoulombFriction(coefficient=1.0),
+        loading=(
+            paper.pressing(1),
+            LoadStep(torque=STUCK_TORQUE, increments=1),
+        ),
+    ),
+    (None, StuckTorsion(PUNCH_RADIUS, MODULUS, STUCK_TORQUE)),
+    PUNCH_RADIUS,
+    "Reissner and Sagoci 1944",
+    equations=(
+        r"\varphi = \frac{3 M}{16 a^3 G^*},\quad "
+        r"q = \frac{3 M r}{4 \pi a^3 \sqrt{a^2 - r^2}}",
+    ),
+)

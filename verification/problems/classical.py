@@ -11,9 +11,8 @@ from math import pi, radians
 from typing import Any
 
 from contact_scene import Cone, Ellipsoid, FlatPunch, LoadStep, Scene
-from verification.closed_forms.cone import ConeContact
-from verification.closed_forms.elliptical_contact import EllipticalContact
-from verification.closed_forms.flat_punch import FlatPunchContact
+from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
+from verification.closed_forms.hertz import EllipticalContact
 from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import (
     CONTACT_MODULUS,

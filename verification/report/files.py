@@ -15,8 +15,7 @@ from pathlib import Path
 
 from contact_results.directory.atomic_file import OutputRefused, atomic_file
 from contact_results.directory.stop_signals import stop_signals_held
-from verification.running.records import EARLIER
-from verification.running.report_record import PACKED_SUFFIX, Report, dump_report
+from verification.running.report_record import EARLIER, PACKED_SUFFIX, Report, dump_report
 from verification.running.study import RECORD as STUDY_RECORD
 from verification.running.study import StudyRecord, dump_study
 

@@ -1,27 +1,377 @@
-"""Texts of a verification report: Markdown summary for a pull request, JUnit table, log lines."""
+"""Texts of a verification report: changes, sections on studies, Markdown summary, JUnit table.
+
+Changes are those of the results since the recorded baseline, the accepted results of an earlier
+version of the program.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
 from xml.etree import ElementTree
 
-from verification.exhibits.chart import value_text
+from verification.exhibits.chart import plain, value_text
 from verification.judging.outcome import (
     SYMBOLS,
     WORDS,
     CaseOutcome,
+    Change,
+    ChangeKind,
+    FindingRecord,
+    Origin,
     Status,
     Verdict,
     clearance_text,
     failure_line,
     judged_errors,
+    moved_text,
 )
 from verification.problems.problem import ReferenceKind
-from verification.regression.comparison import NOISE
-from verification.report.changes import case_rows, change_rows, changes_text, origins
+from verification.regression.baseline import NOISE
+from verification.running.provenance import age_text, is_current
 from verification.running.report_record import Report
-from verification.running.sources import age_text, is_current
-from verification.running.study import measured_text, study_failure_line
+from verification.running.study import StudyRecord, measured_text, study_failure_line
+
+# By the name of its study. A study gets its place on the page in `templates/page.html`.
+TITLES = {
+    "coated-tractions": "Coated contacts: the paper's figures 3 and 4",
+    "work-precision": "What accuracy costs",
+    "error-coverage": "Coverage of stated errors",
+    "stability": "The stability map",
+    "seeded-defects": "Seeded defects",
+    "scoreboard": "Other codes on the same problems",
+}
+PROMISES = {
+    "work-precision": "Know what accuracy costs",
+    "stability": "Stay stable in hard cases",
+    "error-coverage": "State an error for every number, and keep it",
+}
+FORCED = "forced_effects"  # the case that judges the plan
+LEVELS = ("quick", "standard", "full")
+PLACES = (Path("reports/studies"), Path("out"))  # where records are looked for
+
+
+@dataclass(frozen=True)
+class StudySection:
+    """Section of the report page for one study.
+
+    name     name of the study
+    title    heading of the section
+    record   record of the study; None if none was found
+    command  command that makes the record
+    """
+
+    name: str
+    title: str
+    record: StudyRecord | None
+    command: str
+
+
+@dataclass(frozen=True)
+class Feature:
+    """One of the main claims about the program on the report page, with measured figures.
+
+    promise  text of the claim
+    status   outcome of the case or study that judges the claim; None if the report lacks it
+    figures  measured figures in words
+    address  link to the case or study
+    """
+
+    promise: str
+    status: Status | None
+    figures: str
+    address: str
+
+
+def study_section(report: Report, name: str) -> StudySection:
+    """Return the section of a study for the report page; raises KeyError if the page has no such
+    section.
+
+    name  name of the study
+    """
+    command = f"slipstick maintain study {name} --level {report.level}"
+    record = next((record for record in report.studies if record.name == name), None)
+    return StudySection(name, TITLES[name], record, command)
+
+
+def features(report: Report, sheets: str) -> tuple[Feature, ...]:
+    """Return the main claims about the program for the report page, each with measured figures.
+
+    sheets  address of the page with one section per case
+    """
+    return (
+        _plan_feature(report, sheets),
+        *(_study_feature(study_section(report, name), text) for name, text in PROMISES.items()),
+    )
+
+
+def _plan_feature(report: Report, sheets: str) -> Feature:
+    promise = "Simulate only the effects that a scene calls for"
+    case = next((case for case in report.cases if case.name == FORCED), None)
+    if case is None:
+        command = f"slipstick verify {FORCED} --level {report.level}"
+        return Feature(promise, None, f"not in this report; {command} measures it", "#cases")
+    runs = {run.label: run for run in case.runs}
+    ratios = [
+        run.convolutions / max(runs[run.planned].convolutions, 1)
+        for run in case.runs
+        if run.planned is not None
+    ]
+    told = f"{min(ratios):.2g} to {max(ratios):.2g} times the" if ratios else "as many"
+    worst = max((v.error or 0.0 for v in case.verdicts if len(v.runs) > 1), default=0.0)
+    figures = (
+        f"with every effect forced on, {len(ratios)} scenes give the same answer within "
+        f"{plain(worst, 2)} and take {told} convolutions"
+    )
+    return Feature(promise, case.status, figures, f"{sheets}#{FORCED}")
+
+
+def _study_feature(section: StudySection, promise: str) -> Feature:
+    address, record = f"#study-{section.name}", section.record
+    if record is None:
+        return Feature(promise, None, f"not in this report; {section.command} finds it", address)
+    answer = record.conclusion.answer
+    told = f"{answer} (level {record.level})" if answer else claims_line(record)
+    return Feature(promise, record.status, told, address)
+
+
+def claims_line(record: StudyRecord) -> str:
+    """Return a text such as "5 of its 6 judged claims hold (level full)" on the claims of a
+    study."""
+    judged = [s.outcome for s in record.conclusion.statements if s.outcome is not None]
+    good = judged.count(Status.PASS)
+    return f"{good} of its {len(judged)} judged claims hold (level {record.level})"
+
+
+def stored_records(
+    places: Iterable[Path] = PLACES, left_out: Callable[[str], None] | None = None
+) -> tuple[StudyRecord, ...]:
+    """Return one stored record of every study that has a section on the report page, sorted by
+    name.
+
+    Records of the current source code have priority, then the higher level, then the later date.
+    Records with a number of cells that the user chose are left out.
+
+    places    directories that are searched
+    left_out  function called with a message for each record that is damaged or of another version;
+              None raises ValueError instead
+    """
+    from verification.running.study import stored_studies
+
+    best: dict[str, StudyRecord] = {}
+    for place in places:
+        for record in stored_studies(place, left_out):
+            if record.own_cells or record.name not in TITLES:
+                continue
+            if record.name not in best or _record_preference(record) >= _record_preference(
+                best[record.name]
+            ):
+                best[record.name] = record
+    return tuple(best[name] for name in sorted(best))
+
+
+def _record_preference(record: StudyRecord) -> tuple[bool, int, str]:
+    level = LEVELS.index(record.level) if record.level in LEVELS else -1
+    return is_current(record.provenance), level, record.provenance.date
+
+
+OMISSIONS = (
+    "Tilt and torsion are judged by problems of their own: torsion of balls up to sliding, with a "
+    "coating and without, a punch and a ball pressed beside their axes. No case and no reference "
+    "has them together with a tangential push.",
+    "Tangential loads on coated bodies with friction have no closed form: they are judged by the "
+    "other solvers, by an external code and by the study coated-tractions.",
+    "Where both solvers are compared they take the same increments: what finite increments cost is "
+    "judged apart, by refining them.",
+    "The finite elements are axisymmetric: neither tilt nor a load that turns, no height map and "
+    "no friction map is solved by a second solver.",
+    "The paper's own numbers are known from its figures and two printed values only; figure 2 is "
+    "compared with the closed form that the paper compares with.",
+    "Line contact is not solved: the surface grid is finite in both directions.",
+    "For ν > 0 no exact solution of partial slip is known; there the closed form is a companion "
+    "within a stated band.",
+)
+
+
+DIGITS = 9  # enough to see what changed
+CASE, ALL = "case", "all runs"  # in place of a quantity and its run
+# The worst first.
+RANK = {
+    kind: rank
+    for rank, kind in enumerate(
+        (
+            ChangeKind.OUTSIDE,
+            ChangeKind.WORSE,
+            ChangeKind.DEARER,
+            ChangeKind.GONE,
+            ChangeKind.DRIFT,
+            ChangeKind.BETTER,
+            ChangeKind.NEW,
+        )
+    )
+}
+
+
+@dataclass(frozen=True)
+class ChangeRow:
+    """Difference between a result of a verification report and its recorded baseline, as texts of a
+    table.
+
+    case      name of the verification case
+    name      name of the quantity
+    run       name of the run of the case
+    kind      kind of the change, such as worse, better or new
+    was, now  recorded and present value
+    moved     size of the change in words
+    since     name of the origin (commit) of the recorded value
+    remark    explanation of the change
+    size      size of the change, in tolerances or as fraction of a count, for sorting
+    """
+
+    case: str
+    name: str
+    run: str
+    kind: ChangeKind
+    was: str
+    now: str
+    moved: str
+    since: str
+    remark: str
+    size: float = 0.0
+
+    @property
+    def line(self) -> str:
+        """Text of the change of a result since the recorded baseline, as one line of a log."""
+        moved = "" if self.moved == "–" else f" ({self.moved})"
+        remark = f"; {self.remark}" if self.remark else ""
+        return (
+            f"{self.kind} {self.case}/{self.name} [{self.run}]: {self.now}, was {self.was} "
+            f"at {self.since}{moved}{remark}"
+        )
+
+
+def change_rows(report: Report) -> list[ChangeRow]:
+    """Return the changes of results since the recorded baseline that matter to a reader of the
+    report.
+
+    The changes are sorted by severity of their kind, then by size.
+    """
+    rows = [row for row in _all_rows(report) if row.kind.matters]
+    return sorted(rows, key=lambda row: (RANK[row.kind], -row.size))
+
+
+def moved_rows(report: Report) -> list[ChangeRow]:
+    """Return the changes since the baseline that matter to a reader, without results that are new.
+
+    New results have no recorded value to compare with.
+    """
+    return [row for row in change_rows(report) if row.kind is not ChangeKind.NEW]
+
+
+def worse_rows(report: Report) -> list[ChangeRow]:
+    """Return the results that are worse than in the recorded baseline, for instance in error or
+    cost."""
+    return [row for row in change_rows(report) if row.kind.regresses]
+
+
+def _all_rows(report: Report) -> Iterator[ChangeRow]:
+    """Yield all changes of a report since the recorded baseline, including new and removed cases.
+
+    New cases are left out if no case has recorded results, because the report states that
+    separately.
+    """
+    some = report.gone or len(without_baseline(report)) < len(report.cases)
+    for case in report.cases:
+        if case.baseline is None and some:
+            verdicts = f"{len(case.verdicts)} verdicts"
+            yield ChangeRow(case.name, CASE, ALL, ChangeKind.NEW, "–", verdicts, "–", "–", "")
+        yield from case_rows(case)
+    for gone in report.gone:
+        yield ChangeRow(
+            gone.name, CASE, ALL, ChangeKind.GONE, "recorded", "not in the report", "–", gone.since,
+            "accept the removal with a reason",
+        )  # fmt: skip
+
+
+def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
+    """Yield the changes of the numbers and counts of one verification case since its recorded
+    baseline.
+
+    Recorded numbers that the case now lacks are included.
+    """
+    if case.baseline is None:
+        return
+    numbers: tuple[Verdict | FindingRecord, ...] = (*case.verdicts, *case.findings)
+    for number in numbers:
+        change = number.regression
+        if change is not None:
+            now = value_text(number.value, number.unit, DIGITS)
+            yield _change_row(
+                case.name, number.name, number.run, now, number.unit, change, case.baseline
+            )
+    for count in case.counts:
+        yield ChangeRow(
+            case.name, count.name, ALL, count.kind, str(count.was), str(count.now), "–",
+            case.baseline.name, count.remark, abs(count.now / max(count.was, 1) - 1),
+        )  # fmt: skip
+    for gone in case.gone:
+        yield ChangeRow(
+            case.name, gone.name, gone.run, ChangeKind.GONE,
+            "–" if gone.was is None else value_text(gone.was, gone.unit, DIGITS), "–", "–",
+            case.baseline.name, "accept the removal with a reason",
+        )  # fmt: skip
+
+
+def change_counts(report: Report) -> dict[ChangeKind, int]:
+    """Count the changes of a report since the recorded baseline by kind (worse, better, new, …)."""
+    found = Counter(row.kind for row in _all_rows(report))
+    return {kind: found[kind] for kind in ChangeKind if found[kind]}
+
+
+def without_baseline(report: Report) -> list[str]:
+    """Return the names of the cases of a report that have no recorded results at the level of the
+    report."""
+    return [case.name for case in report.cases if case.baseline is None]
+
+
+def origins(report: Report) -> list[tuple[Origin, list[str]]]:
+    """Return the origins (commit and date) of the recorded baselines, with the names of their
+    cases.
+
+    The origin with the most cases comes first.
+    """
+    found: dict[Origin, list[str]] = {}
+    for case in report.cases:
+        if case.baseline is not None:
+            found.setdefault(case.baseline, []).append(case.name)
+    return sorted(found.items(), key=lambda item: -len(item[1]))
+
+
+def changes_text(report: Report) -> str:
+    """Summarise the changes of a report since the recorded baseline in one line of text."""
+    absent = without_baseline(report)
+    parts = [", ".join(f"{number} {kind}" for kind, number in change_counts(report).items())]
+    if report.cases and len(absent) == len(report.cases):
+        parts.append(f"no baseline yet of level {report.level}")
+    elif absent:
+        parts.append(f"no baseline yet of {', '.join(absent)}")
+    if report.chosen:
+        parts.append("chosen cases alone, nothing is said about the others")
+    return "; ".join(part for part in parts if part)
+
+
+def _change_row(
+    case: str, name: str, run: str, now: str, unit: str, change: Change, origin: Origin
+) -> ChangeRow:
+    was = value_text(change.was, unit, DIGITS) if change.recorded else "–"
+    return ChangeRow(
+        case, name, run, change.kind, was, now, moved_text(change), origin.name, change.remark,
+        math.inf if change.moved is None else change.moved,
+    )  # fmt: skip
+
 
 MAX_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
 TIMES = (3.0, 10.0)  # factors of an error that a verdict should detect

@@ -1,18 +1,150 @@
-"""Provenance of a stored record: versions, command, date, machine, and times of its run.
+"""Provenance of a stored record: versions, command, date, machine, times, and source digest.
 
-Only these values differ between repeated runs of the same code.
+Only the provenance differs between repeated runs of the same code. The digest includes the modules
+that made the record and all project modules that they import; it shows if a record is older than
+the code.
 """
 
 from __future__ import annotations
 
+import ast
+import hashlib
+import io
+import re
 import subprocess
-from collections.abc import Sequence
+import tokenize
+from collections.abc import Iterable, Iterator, Sequence
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 
 from contact_results.directory.machine import library_versions, machine, program_version
 from contact_scene.reading.description import Description
-from verification.running.sources import source_digest
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGES = (
+    *("contact_scene", "semi_analytical", "fem_reference", "radial", "contact_errors"),
+    *("contact_results", "verification"),
+)
+# It exports the challenges, on which the other modules do not depend.
+EXPORTS = "verification/__init__.py"
+# A catalogue imports the modules of its package by name.
+BY_NAME = re.compile(r'import_module\(f"([\w.]+)\.\{')
+
+UNREAD = (tokenize.ENCODING, tokenize.COMMENT, tokenize.NL)
+STATEMENT_ENDS = (tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT)
+
+
+@cache
+def source_digest(*modules: str) -> str:
+    """Compute a digest of the source files of modules and of all project modules that they import.
+
+    A stored record of a study or report is current if this digest equals the one stored with it. A
+    package stands for all its modules. The stored reference solutions are included if they are
+    imported.
+
+    modules  dotted names of modules or packages
+    """
+    digest = hashlib.sha256()
+    paths = closure(modules)
+    if "verification/references/__init__.py" in paths:
+        found = (ROOT / "verification/references").glob("*.json")
+        paths |= {path.relative_to(ROOT).as_posix() for path in found}
+    for path in sorted(paths):
+        digest.update(f"{path} {_file_digest(path)}\n".encode())
+    return digest.hexdigest()[:16]
+
+
+def is_current(made: Provenance) -> bool:
+    """Return True if a stored record was computed by the present source code.
+
+    The result is False if the record does not name its source code.
+
+    made  provenance of the record
+    """
+    return bool(made.modules) and made.sources == source_digest(*made.modules)
+
+
+def age_text(made: Provenance) -> str:
+    """Return the note "older than the code" for a record of older source code; empty for a current
+    record.
+
+    made  provenance of the record
+    """
+    return "" if is_current(made) else "older than the code"
+
+
+def closure(modules: Iterable[str]) -> set[str]:
+    """Return the paths of the source files of modules and of all project modules that they import.
+
+    Indirect imports are included. The paths are relative to the repository.
+
+    modules  dotted names of modules or packages
+    """
+    found: set[str] = set()
+    left = [path for module in modules for path in _module_files(module, whole=True)]
+    while left:
+        path = left.pop()
+        if path not in found:
+            found.add(path)
+            left += () if path == EXPORTS else _imported_files(path)
+    return found
+
+
+@cache
+def _imported_files(path: str) -> tuple[str, ...]:
+    text = (ROOT / path).read_text(encoding="utf-8")
+    names = {f for name in BY_NAME.findall(text) for f in _module_files(name, whole=True)}
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            names |= {file for name in node.names for file in _module_files(name.name)}
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            names |= {
+                file for name in node.names for file in _module_files(f"{node.module}.{name.name}")
+            }
+    return tuple(names)
+
+
+def _module_files(module: str, *, whole: bool = False) -> Iterator[str]:
+    """Yield the source files that importing a module executes: its own file and its packages'
+    files.
+
+    The paths are relative to the repository. A module of another project has none.
+
+    module  dotted name
+    whole   if True, also yield all files of a package
+    """
+    parts = module.split(".")
+    if parts[0] not in PACKAGES:
+        return
+    for depth in range(1, len(parts) + 1):
+        base = "/".join(parts[:depth])
+        yield from (f for f in (f"{base}/__init__.py", f"{base}.py") if (ROOT / f).is_file())
+    folder = ROOT / "/".join(parts)
+    if whole and folder.is_dir():
+        yield from (path.relative_to(ROOT).as_posix() for path in folder.rglob("*.py"))
+
+
+@cache
+def _file_digest(path: str) -> str:
+    """Compute a digest of a source file that does not depend on comments, docstrings and spaces.
+
+    Other files than Python modules are read as they are. Repeated braces count as one, because
+    Python 3.12 and later split an f-string into tokens.
+
+    path  path relative to the repository
+    """
+    data = (ROOT / path).read_bytes()
+    if path.endswith(".py"):
+        kept, before = [], tokenize.NEWLINE
+        for token in tokenize.tokenize(io.BytesIO(data).readline):
+            if token.type in UNREAD:
+                continue
+            if token.type != tokenize.STRING or before not in STATEMENT_ENDS:
+                kept.append(token.string)
+            before = token.type
+        data = re.sub(r"([{}])\1+", r"\1", "".join("".join(kept).split())).encode()
+    return hashlib.sha256(data).hexdigest()
 
 
 class Provenance(Description):

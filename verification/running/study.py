@@ -22,8 +22,7 @@ from contact_scene.reading.description import Description
 from verification.exhibits.chart import Chart, Table, plain
 from verification.judging.case import Level
 from verification.judging.outcome import Status, commit_text
-from verification.running.provenance import Provenance
-from verification.running.sources import age_text
+from verification.running.provenance import Provenance, age_text
 
 Value = str | bool | int | float | None
 

@@ -35,8 +35,7 @@ from verification.exhibits.chart import (
     stacked,
     table_of,
 )
-from verification.judging.case import Level
-from verification.judging.run import SOLVER_TOLERANCE
+from verification.judging.case import SOLVER_TOLERANCE, Level
 from verification.problems.paper_scene import (
     FRICTION,
     FRICTION_LIMIT,

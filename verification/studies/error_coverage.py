@@ -36,8 +36,14 @@ from verification.problems.drawn.drawing import (
     Truth,
     logarithmic,
 )
-from verification.problems.drawn.families import CHOOSING, FAMILIES, JUDGING, TRIED, drawn
-from verification.problems.drawn.references import stress_maxima
+from verification.problems.drawn.families import (
+    CHOOSING,
+    FAMILIES,
+    JUDGING,
+    TRIED,
+    drawn,
+    stress_maxima,
+)
 from verification.running.study import (
     CaseRecord,
     Conclusion,

@@ -12,18 +12,22 @@ from math import inf
 
 from contact_results.directory.machine import program_version
 from verification.adapters import own_solvers as own
-from verification.adapters.half_spaces import make_answer_function
-from verification.challenge.answer import Solver
 from verification.challenge.cases import challenges
 from verification.challenge.judgement import Judgement
 from verification.challenge.python_api import (
     CannotDo,
     judge,
 )
+from verification.challenge.requested_quantities import Solver
 from verification.exhibits.chart import NONE, Table, plain
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.peers.environment import PEERS, made_environment, peers_directory
+from verification.peers.environment import (
+    PEERS,
+    made_environment,
+    make_answer_function,
+    peers_directory,
+)
 from verification.running.study import (
     CaseRecord,
     Conclusion,

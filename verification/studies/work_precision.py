@@ -31,7 +31,7 @@ from verification.exhibits.chart import (
     point_curves,
 )
 from verification.judging import field_errors
-from verification.judging.case import Level
+from verification.judging.case import SOLVER_TOLERANCE, Level
 from verification.judging.declared_case import (
     APPROACH,
     ENERGY_PER_CYCLE,
@@ -42,7 +42,6 @@ from verification.judging.declared_case import (
     error_norm,
 )
 from verification.judging.field_errors import pressure_at, shear_at
-from verification.judging.run import SOLVER_TOLERANCE
 from verification.norms import round_means
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (

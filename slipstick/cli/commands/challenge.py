@@ -11,7 +11,7 @@ import typer
 from slipstick.cli.options import directory, refuse_unknown
 from slipstick.cli.terminal import print_table
 from verification.challenge.cases import challenges
-from verification.challenge.export import export
+from verification.challenge.files import export
 
 
 class Action(StrEnum):

@@ -12,12 +12,17 @@ from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional
 from slipstick.cli.terminal import print_table
 from verification.judging.outcome import ChangeKind, failure_line
-from verification.regression.baseline import Baseline, baselines_of, read_baselines
-from verification.regression.comparison import compared, refuse_if_not_whole
-from verification.report.changes import change_rows, changes_text, origins, without_baseline
+from verification.regression.baseline import (
+    Baseline,
+    baselines_of,
+    compared,
+    read_baselines,
+    refuse_if_not_whole,
+)
 from verification.report.files import record_in
+from verification.report.summary_text import change_rows, changes_text, origins, without_baseline
+from verification.running.provenance import age_text
 from verification.running.report_record import Report
-from verification.running.sources import age_text
 
 
 def compare(

@@ -16,7 +16,7 @@ from slipstick.tables.catalogue import TABLES
 from slipstick.tables.table import Dataset, Table
 from verification.challenge.cases import challenges
 from verification.references import load_reference
-from verification.running.sources import source_digest
+from verification.running.provenance import source_digest
 
 LICENCE = "https://creativecommons.org/licenses/by/4.0/"
 TITLE = "Reference numbers for the frictional contact of coated bodies"

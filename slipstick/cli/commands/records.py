@@ -14,8 +14,8 @@ from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional, refuse_unknown
 from slipstick.cli.terminal import print_table
 from verification.judging.outcome import commit_text
-from verification.running.records import stored_records
-from verification.running.sources import age_text
+from verification.running.provenance import age_text
+from verification.running.report_record import stored_records
 
 
 def records(

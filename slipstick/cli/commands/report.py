@@ -9,8 +9,7 @@ import typer
 
 from contact_results.directory.atomic_file import Refused
 from verification.report.files import PAGE, draw_again, record_in, refuse_if_unwritable
-from verification.running.records import EARLIER
-from verification.running.report_record import Report, load_report
+from verification.running.report_record import EARLIER, Report, load_report
 
 
 def report(

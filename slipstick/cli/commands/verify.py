@@ -25,13 +25,19 @@ from verification.cases.catalogue import CaseToJudge, JudgedCase, choose, lost
 from verification.exhibits.chart import Picture
 from verification.judging.case import Case, Level
 from verification.judging.outcome import SYMBOLS, WORDS, CaseOutcome, ChangeKind, Status
-from verification.regression.baseline import read_baselines
-from verification.regression.comparison import compared
+from verification.regression.baseline import compared, read_baselines
 from verification.regression.tolerances import held_to, read_tolerances
-from verification.report.changes import change_rows, changes_text
 from verification.report.files import PAGE, refuse_if_unwritable, set_aside_report, write_report
-from verification.report.sections import OMISSIONS, PLACES, stored_records
-from verification.report.summary_text import counts_text, failure_lines, uncovered_lines
+from verification.report.summary_text import (
+    OMISSIONS,
+    PLACES,
+    change_rows,
+    changes_text,
+    counts_text,
+    failure_lines,
+    stored_records,
+    uncovered_lines,
+)
 from verification.running.case_pool import CaseEnd, CaseStore, ThisProcess, Workers, cores
 from verification.running.provenance import provenance
 from verification.running.report_record import Report, count

@@ -1,43 +1,552 @@
-"""Families of randomly drawn scenes: distributions of bodies, shapes and load histories.
+"""Families of randomly drawn scenes, and functions that compute the answers of the scenes.
 
-Each family also has the function that computes the answers of its scenes.
+A family consists of distributions of bodies, shapes and load histories. The answers come from the
+radial solver, closed forms, and solutions with more cells and increments. A function may replace
+prescribed forces by displacements. No function uses an error estimate, because error estimates are
+judged by these numbers.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from math import pi
-from typing import TypeVar
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import pi, sqrt
+from typing import Any, NamedTuple, TypeVar
 from zlib import crc32
 
 import numpy as np
+from numpy.typing import NDArray
 
-from contact_scene import RIGID, CoulombFriction, Ellipsoid, LoadStep, Paraboloid, Scene
+import radial
+import semi_analytical
+from contact_errors.error_formula import AT_EDGES, Values, prescribed_scalars, values_of
+from contact_errors.stress_errors import stress_errors
+from contact_results.stress.loaded_bodies import state_of_result
+from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_disc import stress_on_disc
+from contact_results.stress.on_section import stress_on_section
+from contact_results.stress.stress_maxima import extremes
+from contact_scene import (
+    RIGID,
+    CoulombFriction,
+    Ellipsoid,
+    LoadStep,
+    Paraboloid,
+    Scene,
+    SurfaceDiscretisation,
+)
 from contact_scene.body_pair import contact_modulus
 from contact_scene.geometry import ShapedBody
+from contact_scene.quantities.increment import SCALARS
+from contact_scene.quantities.stated_error import (
+    StatedError,
+    StatedErrors,
+)
 from contact_scene.solver_errors import ContactAtWindowEdge
-from verification.closed_forms.elliptical_contact import EllipticalContact
+from contact_scene.stepping.increment_error import has_increment_error
+from verification.closed_forms.cattaneo_mindlin import CycledContact, PartialSlip
+from verification.closed_forms.hertz import EllipticalContact
+from verification.closed_forms.huber_stress import (
+    stress_by_hertz_pressure,
+    stress_by_hertz_shear,
+)
 from verification.problems.drawn import drawing as of
 from verification.problems.drawn.drawing import (
+    AMPLITUDE,
+    APPROACH,
     CELLS,
+    CYCLE,
+    ELASTIC,
     ELEMENTS,
+    ENERGY,
+    F1,
+    F2,
+    KIND_OF,
+    MOMENT,
+    NORMAL,
+    PEAK,
+    RADIUS,
+    SHIFT,
+    STICK,
+    STRESSES,
+    TANGENTIAL,
+    TENSION,
+    TILT,
+    TORQUE,
+    TWIST,
+    WORK,
     Bodies,
+    Fineness,
     KnownScene,
     Profile,
     Rng,
+    Truth,
+    closes,
+    known,
     logarithmic,
 )
-from verification.problems.drawn.references import (
-    Posed,
-    beside_the_centre,
-    by_rings,
-    pressed,
-    refined,
-    rings,
-    similar,
-    slid,
-)
+from verification.problems.problem import ROUNDING, Reference, ReferenceKind
+
+WHOLE = "body"  # name of the region of the whole body
+
+
+def stress_maxima(
+    result: Any, step: int, errors: StatedErrors | None = None
+) -> dict[str, tuple[float, StatedError]]:
+    """Compute the largest stresses in the lower body at the end of a load step, with stated errors.
+
+    Returns value and error by stress measure, such as "von_mises" [force/length²].
+
+    result  result of any solver
+    step    number of the load step, from 1
+    errors  stated errors of the result, if they are known
+    """
+    state = state_of_result(result, step, errors)
+    below = stress_on_disc if state.pressed else stress_on_section if state.on_rings else None
+    field = (below or stress_on_cells)(state)
+    found = extremes(field, state.body)
+    of_stress = stress_errors(state, field, found)
+    return {
+        e.measure: (e.value, error)
+        for e, error in zip(found, of_stress, strict=True)
+        if e.region == WHOLE
+    }
+
+
+Array = NDArray[np.float64]
+
+BY_MOTION = 0.3  # fraction of the scenes with prescribed motions
+ROOM = 1.5  # smallest distance of an eccentric contact from the window edge, in cells
+FAR = 50.0  # prescribed shift over the shift at the onset of gross slip
+TURNED = 1e-3  # relative error caused by slip across such a shift
+# Factor on rings, orders, points and increments of the radial solver for the finer solution.
+DOUBLED = 2
+# Factors on the numbers of judged cells per side for the references. The error of the finer solve
+# is 2.5 times the difference of both solves at order 1, and about the difference at order 2.
+FINER, ORDER_ONE = (3.5, 2.5), 2.5
+# Smallest numbers of increments per step; steps with more increments are scaled in proportion. The
+# limit of many increments is extrapolated from the first two numbers. Its error is the difference
+# from the extrapolation of the last two. The effect of increments on the judged cells differs by
+# the fraction `OTHER_CELLS` from that on fine cells.
+MANY, OTHER_CELLS = (32, 16, 8), 0.07
+SIMILAR_ERROR = 1e-9
+# Quantities that do not repeat by symmetry at the reversals of a loop.
+PER_CYCLE = (ENERGY, CYCLE, AMPLITUDE, F1, F2)
+# Quantities that are zero before the first tangential force or torque.
+LED = (SHIFT, TANGENTIAL, TWIST, TORQUE)
+
+
+@dataclass(frozen=True)
+class Posed:
+    """Hold a randomly drawn scene for which the answer is still to be computed.
+
+    scene     bodies and loads
+    fineness  discretisation that is judged
+    forces    tangential forces or torques at the ends of the load steps after the normal loading
+    stressed  True if the largest stresses are judged
+    """
+
+    scene: Scene
+    fineness: Fineness
+    forces: tuple[float, ...] = ()
+    stressed: bool = False
+
+    def known(self, truths: Iterable[Truth], scene: Scene | None = None) -> KnownScene:
+        """Combine the scene with those of its known numbers that are judged.
+
+        Infinite, zero and prescribed numbers are left out. So are numbers that repeat an earlier
+        number by symmetry, or agree with a selected number in unit and two digits, because their
+        errors are equal.
+
+        truths  known numbers
+        scene   scene to judge; default: the drawn scene
+        """
+        scene, sizes, seen = scene or self.scene, [0.0, *map(abs, self.forces)], set()
+        infinite = scene.indenter.rim is not None or scene.indenter.gap_exponent == 1
+        path, kept = scene.load_path(), []
+        for truth in truths:
+            name, step = truth.quantity, truth.step
+            value = f"{abs(truth.reference.value):.2g}", getattr(SCALARS.get(name), "unit", name)
+            repeated = step > 2 and sizes[step - 1] == sizes[1] and name not in PER_CYCLE
+            shared = name == ENERGY and closes(self.forces)
+            endless = name == PEAK and infinite
+            still = name in LED and not any(sizes[:step])
+            given = name in prescribed_scalars(path[step - 1], None)
+            absent = truth.reference.value == 0
+            if not (absent or repeated or shared or endless or still or given or value in seen):
+                kept.append(truth)
+                seen.add(value)
+        return KnownScene(scene, tuple(kept), self.fineness)
+
+
+class Pressed(NamedTuple):
+    """Hold the numbers of a frictionless contact under a normal force.
+
+    load      normal force [force]
+    approach  approach of the bodies [length]
+    radius    contact radius, or √(ab) of an ellipse with semi-axes a and b [length]
+    peak      largest pressure [force/length²]
+    elastic   elastic energy [force*length]
+    """
+
+    load: float
+    approach: float
+    radius: float
+    peak: float
+    elastic: float
+
+    @property
+    def values(self) -> dict[str, float]:
+        return {
+            APPROACH: self.approach, RADIUS: self.radius, PEAK: self.peak,
+            ELASTIC: self.elastic, WORK: self.elastic,
+        }  # fmt: skip
+
+
+def pressed(scene: Scene, load: float) -> Pressed:
+    """Solve the frictionless contact of a scene under a normal force, as reference.
+
+    An ellipsoid is solved in closed form, other shapes by the radial solver.
+
+    scene  bodies of the contact; friction and loads are ignored
+    load   normal force [force]
+    """
+    if isinstance(tip := scene.indenter, Ellipsoid):
+        contact = EllipticalContact.under_load(load, tip.radii, contact_modulus(scene))
+        radius = sqrt(contact.semi_axes[0] * contact.semi_axes[1])
+        elastic = 0.4 * load * contact.approach
+        return Pressed(load, contact.approach, radius, contact.peak_pressure, elastic)
+    end = rings(scene, load)
+    return Pressed(load, end.approach, end.contact_radius, end.peak_pressure, end.elastic_energy)
+
+
+def rings(scene: Scene, load: float) -> Any:
+    """Solve the frictionless contact of a scene by the radial solver, and return its last
+    increment.
+
+    scene  bodies of the contact; friction and loads are ignored
+    load   normal force [force]
+    """
+    alone = {"friction": None, "loading": (LoadStep(normal_force=load),)}
+    return radial.solve(scene.model_copy(update=alone)).steps[-1]
+
+
+# ---- rules --------------------------------------------------------------------------------------
+
+
+def by_rings(rng: Rng, posed: Posed) -> KnownScene:
+    """Compute the known numbers of a randomly drawn scene by the radial solver.
+
+    The difference from a solution with half the rings and increments is the uncertainty. In some
+    scenes with one load step the prescribed force is replaced by the resulting approach.
+
+    rng    random generator, for this choice
+    posed  scene without answer
+    """
+    once = radial.solve(posed.scene)
+    counts = tuple(DOUBLED * n if n > 1 else n for n in once.plan.increments)
+    finer = replace(once.plan, increments=counts, fineness=DOUBLED)
+    twice = radial.solve(posed.scene, plan=finer)
+    known = posed.known(_compared_truths(once, twice, posed.stressed))
+    if rng.random() >= BY_MOTION or len(posed.scene.loading) > 1:
+        return known
+    end, step = (
+        twice.steps[0],
+        Truth(1, NORMAL, _load_reference_value(posed.scene.loading[0].normal_force)),
+    )
+    led = posed.scene.model_copy(update={"loading": (LoadStep(approach=end.approach),)})
+    return posed.known((*known.truths, step), led)
+
+
+def _load_reference_value(value: float | None) -> Reference:
+    assert value is not None
+    return Reference(value, ReferenceKind.OTHER_SOLVER, "the load", ROUNDING * value)
+
+
+def _compared_truths(once: Any, twice: Any, stressed: bool) -> Iterator[Truth]:
+    both = [values_of(result) for result in (once, twice)]
+    for step, (less, more) in enumerate(zip(*both, strict=True), start=1):
+        for name in (name for name in KIND_OF if name in less and name in more):
+            yield _ring_truth(
+                step, name, float(more[name][0]), abs(float((more[name] - less[name])[0]))
+            )
+    if stressed:
+        for name, (value, error) in stress_maxima(twice, 1).items():
+            if isinstance(error.error, float) and name in STRESSES:
+                yield _ring_truth(1, name, value, error.error)
+
+
+def _ring_truth(step: int, name: str, value: float, apart: float) -> Truth:
+    uncertainty = max(apart, ROUNDING * abs(value))
+    reference = Reference(value, ReferenceKind.OTHER_SOLVER, "the ring solver", uncertainty)
+    return Truth(step, name, reference)
+
+
+def beside_the_centre(rng: Rng, posed: Posed) -> KnownScene:
+    """Apply a tilt or a moment to a paraboloid, and compute the known numbers of the tilted
+    contact.
+
+    By x²/2R - φx = (x - Rφ)²/2R - Rφ²/2, a tilt φ only shifts a paraboloid of radius R.
+
+    rng    random generator, for the position of the contact
+    posed  scene without answer, with one load step
+    """
+    tip, grid = posed.scene.indenter, posed.fineness.asked
+    (step,) = posed.scene.loading
+    load = step.normal_force
+    assert isinstance(tip, Paraboloid)
+    assert isinstance(grid, SurfaceDiscretisation)
+    assert load is not None
+    upright = pressed(posed.scene, load)
+    side = np.divide(grid.window or 0.0, grid.cells or 1)
+    room = np.array(grid.window) / 2 - upright.radius - ROOM * side
+    x, y = (float(place) for place in rng.uniform(-1, 1, 2) * np.maximum(room, side / 2))
+    both = {TILT: (y / tip.radius, x / tip.radius), MOMENT: (load * y, load * x)}
+    named = (TILT, MOMENT)[int(rng.integers(2))]
+    values = upright.values | {name: value[0] for name, value in both.items()}
+    values[APPROACH] -= (x**2 + y**2) / (2 * tip.radius)
+    del values[WORK]
+    tilted = LoadStep(normal_force=load, **{named: both[named]})  # type: ignore[arg-type]
+    scene = posed.scene.model_copy(update={"loading": (tilted,)})
+    truths = known(1, "a shifted paraboloid", values, ROUNDING, ReferenceKind.OTHER_SOLVER)
+    return posed.known(truths, scene)
+
+
+@dataclass(frozen=True)
+class Similar:
+    """Compute partial slip of uncoated bodies as the difference of two frictionless contacts.
+
+    The bodies have one material with ν = 0 (Jäger 1998, Ciavarella 1998). The shear is µ times the
+    difference of two pressures. After a reversal the curve of the first loading is doubled
+    (Masing). With S = ∫ shift dT, a first loading dissipates T shift - 2 S, a quarter of the energy
+    of a closed loop.
+
+    scene  scene with the two bodies
+    load   normal force [force]
+    mu     coefficient of friction
+    """
+
+    scene: Scene
+    load: float
+    mu: float
+
+    @cached_property
+    def full(self) -> Pressed:
+        return pressed(self.scene, self.load)
+
+    def first(self, force: float) -> Array:
+        """Compute the state after the tangential force has grown from zero.
+
+        Returns shift, stick radius, dissipated energy, and elastic energy stored by the shear, as
+        an array (4,) in SI units.
+
+        force  tangential force at the end [force]
+        """
+        stick = pressed(self.scene, self.load - force / self.mu)
+        shift = self.mu * (self.full.approach - stick.approach)
+        full, part = (p.load * p.approach - p.elastic for p in (self.full, stick))
+        area = self.mu**2 * (self.full.approach * (self.load - stick.load) - full + part)
+        lost = force * shift - 2 * area
+        return np.array([shift, stick.radius, lost, (force * shift - lost) / 2])
+
+    def along(self, forces: Sequence[float]) -> Iterator[Array]:
+        """Yield the states at the ends of several tangential load steps, by Masing's rule.
+
+        Each state is an array (4,) of shift, stick radius, dissipated energy, and elastic energy
+        stored by the shear, in SI units.
+
+        forces  tangential forces at the ends of the load steps [force]
+        """
+        last, direction, turn = 0.0, 1.0, 0.0
+        reached, base = np.zeros(4), None
+        for force in forces:
+            if np.sign(force - last) != direction:
+                direction, base, turn = -direction, reached, last
+            if base is None:
+                reached = self.first(force)
+            else:
+                half = self.first(abs(turn - force) / 2)
+                slid, stored = 2 * direction * half[0], direction * (turn + force) * half[0]
+                reached = base + np.array([slid, half[1] - base[1], 2 * half[2], stored])
+            last = force
+            yield reached
+
+    def truths(self, forces: Sequence[float]) -> Iterator[Truth]:
+        """Yield the known numbers at the ends of all load steps, including the normal loading.
+
+        forces  tangential forces at the ends of the load steps after the normal loading [force]
+        """
+        states = list(self.along(forces))
+        values = [self.full.values]
+        for force, (shift, stick, lost, stored) in zip(forces, states, strict=True):
+            elastic = self.full.elastic + stored
+            values.append({
+                SHIFT: shift, TANGENTIAL: force, STICK: stick, ENERGY: lost,
+                ELASTIC: elastic, WORK: elastic + lost,
+            })  # fmt: skip
+        if closes(forces):
+            values[-1] |= {CYCLE: states[-1][2] - states[0][2]}
+        for step, found in enumerate(values, start=1):
+            yield from known(step, "Jäger 1998", found, SIMILAR_ERROR, ReferenceKind.CLOSED_FORM)
+
+
+def similar(rng: Rng, posed: Posed) -> KnownScene:
+    """Compute the known numbers of uncoated bodies under tangential forces, in closed form.
+
+    In some scenes the tangential forces are replaced by the corresponding shifts.
+
+    rng    random generator, for this choice
+    posed  scene without answer
+    """
+    made, scene = _similar_of(posed), posed.scene
+    if rng.random() < BY_MOTION:
+        shifts = (LoadStep(tangential_shift=(s[0], 0.0)) for s in made.along(posed.forces))
+        scene = scene.model_copy(update={"loading": (scene.loading[0], *shifts)})
+    truths = [*made.truths(posed.forces)]
+    if isinstance(scene.indenter, Paraboloid):
+        truths += _ball_truths(made, posed)
+    return posed.known(truths, scene)
+
+
+def slid(rng: Rng, posed: Posed) -> KnownScene:
+    """Shift a pressed ball far beyond the onset of gross slip, and compute its known numbers.
+
+    The numbers are those of the normal contact, the tangential force µW, and the tensile stress.
+
+    rng    random generator, which is not used
+    posed  scene without answer, with a ball
+    """
+    made, tip = _similar_of(posed), posed.scene.indenter
+    assert isinstance(tip, Paraboloid)
+    far = FAR * made.mu * made.full.radius**2 / tip.radius
+    scene = posed.scene.model_copy(
+        update={"loading": (posed.scene.loading[0], LoadStep(tangential_shift=(far, 0.0)))}
+    )
+    tension = {TENSION: _edge_tension(made, 0.0), TANGENTIAL: made.mu * made.load}
+    pressing = known(1, "Hertz 1882", made.full.values, ROUNDING, ReferenceKind.CLOSED_FORM)
+    sliding = known(2, "Hamilton 1966", tension, TURNED, ReferenceKind.CLOSED_FORM)
+    return posed.known((*pressing, *sliding), scene)
+
+
+def _similar_of(posed: Posed) -> Similar:
+    load, friction = posed.scene.loading[0].normal_force, posed.scene.friction
+    assert load is not None
+    assert friction is not None
+    assert friction.uniform is not None
+    return Similar(posed.scene, load, friction.uniform)
+
+
+def _edge_tension(made: Similar, stick_radius: float) -> float:
+    """Compute the tensile stress at the trailing edge of a ball under a tangential force
+    [force/length²].
+
+    The shear is that of gross slip less that of the stick disc (Hamilton and Goodman 1966).
+
+    made          contact of the ball
+    stick_radius  radius of the stick disc; 0 for gross slip [length]
+    """
+    material = made.scene.body.elastic_materials[0]
+    a, nu, q0 = made.full.radius, material.poisson_ratio, made.mu * made.full.peak
+    stress = stress_by_hertz_pressure(-a, a, made.full.peak, nu)
+    stress = stress + stress_by_hertz_shear(-a, a, q0, nu)
+    if stick_radius:
+        part = q0 * stick_radius / a
+        stress = stress - stress_by_hertz_shear(-a, stick_radius, part, nu)
+    return float(stress)
+
+
+def _ball_truths(made: Similar, posed: Posed) -> Iterator[Truth]:
+    """Yield known stresses and fretting parameters of a ball under tangential forces.
+
+    These are the tensile stress at the end of the first tangential step, and the largest slip
+    amplitude and Ruiz parameters of a closed cycle.
+
+    made   contact of the ball
+    posed  scene without answer
+    """
+    force, a, full = posed.forces[0], made.full.radius, made.full
+    values = {TENSION: _edge_tension(made, float(made.first(force)[1]))}
+    if posed.fineness.solver == CELLS:
+        yield from known(2, "Hamilton 1966", values, SIMILAR_ERROR, ReferenceKind.CLOSED_FORM)
+    if closes(posed.forces):
+        modulus = contact_modulus(made.scene)
+        cycled = CycledContact(PartialSlip(full.load, a, made.mu, modulus, force), full.peak)
+        values = {AMPLITUDE: float(cycled.slip_amplitude(a)), F1: cycled.largest_f1}
+        if posed.fineness.solver == CELLS and cycled.largest_f2 > 0:
+            values[F2] = cycled.largest_f2
+        last = len(posed.forces) + 1
+        yield from known(last, "Ruiz 1984", values, SIMILAR_ERROR, ReferenceKind.CLOSED_FORM)
+
+
+def refined(rng: Rng, posed: Posed) -> KnownScene:
+    """Compute the known numbers of a randomly drawn scene with the judged solver on finer cells.
+
+    The effect of more increments is added, computed on the cells that are judged.
+
+    rng    random generator, which is not used
+    posed  scene without answer
+    """
+    matters = has_increment_error(posed.scene)
+    counts = semi_analytical.plan(posed.scene).increments
+    fine, less = (_SolvedLevel.of(posed, times, counts) for times in FINER)
+    base, cut = less, [less] * len(MANY)
+    if any(matters):
+        base = _SolvedLevel.of(posed, 1.0, counts)
+        cut = [
+            _SolvedLevel.of(posed, 1.0, tuple(
+                max(least, n * least // MANY[-1]) if m else n
+                for n, m in zip(counts, matters, strict=True)
+            ))
+            for least in MANY
+        ]  # fmt: skip
+    return posed.known(_refined_truths(fine, less, base, *cut))
+
+
+class _SolvedLevel(NamedTuple):
+    """Hold the numbers of one solve at the ends of all load steps, with one number of cells.
+
+    steps  numbers by name for each step; the last step includes the largest stresses if required
+    cell   side of a cell over the final contact radius
+    """
+
+    steps: Sequence[Values]
+    cell: float
+
+    @classmethod
+    def of(cls, posed: Posed, times: float, counts: tuple[int, ...]) -> _SolvedLevel:
+        asked = posed.fineness.asked
+        assert isinstance(asked, SurfaceDiscretisation)
+        cells = tuple(2 * round(times * n / 2) if times > 1 else n for n in asked.cells or ())
+        plan = semi_analytical.plan(posed.scene, edge=asked.edge).cut_into(counts)
+        finer = asked.model_copy(update={"cells": cells})
+        result = semi_analytical.solve_discretised(posed.scene, finer, plan=plan)
+        steps = list(values_of(result))
+        if posed.stressed:
+            found = stress_maxima(result, len(steps))
+            steps[-1] = {**steps[-1], **{n: np.atleast_1d(found[n][0]) for n in STRESSES}}
+        return cls(steps, max(result.grid.spacing) / result.steps[-1].contact_radius)
+
+
+def _refined_truths(
+    fine: _SolvedLevel, less: _SolvedLevel, base: _SolvedLevel, *cut: _SolvedLevel
+) -> Iterator[Truth]:
+    source = (
+        f"the same solver on {FINER[0]:g} and {FINER[1]:g} times the cells, with the effect of at "
+        f"least {MANY[0]} and {MANY[1]} increments a step"
+    )
+    every = [level.steps for level in (fine, less, base, *cut)]
+    for step, values in enumerate(zip(*every, strict=True), start=1):
+        for name in (name for name in KIND_OF if all(name in level for level in values)):
+            best, other, at, much, some, few = (float(v[name][0]) for v in values)
+            effect, open_path = 2 * much - some - at, abs(2 * much - 3 * some + few)
+            value = best + effect
+            apart = ORDER_ONE * abs(best - other) + open_path + OTHER_CELLS * abs(effect)
+            if name in AT_EDGES:  # the edge may lie anywhere in a cell
+                apart = max(apart, fine.cell * abs(best))
+            reference = Reference(value, ReferenceKind.OWN_REFINEMENT, source, apart)
+            yield Truth(step, name, reference)
+
 
 # Seeds of the random numbers. No constant of the error estimate is fitted to scenes. The common
 # factor 0.6 was chosen with the first seeds. Rules and families were tested with the second seeds.

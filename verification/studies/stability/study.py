@@ -19,8 +19,7 @@ from verification.exhibits.chart import (
     stacked,
     table_of,
 )
-from verification.judging.case import Level
-from verification.judging.run import OTHER_NORMS
+from verification.judging.case import OTHER_NORMS, Level
 from verification.running.study import (
     Conclusion,
     Records,
@@ -30,17 +29,17 @@ from verification.running.study import (
     found,
     judged,
 )
-from verification.studies.stability.cell import (
+from verification.studies.stability.contacts import (
     CellRecord,
     Refusal,
     Solver,
     StabilityCell,
+    StabilityRun,
     Verdict,
     View,
     study_cells,
     views,
 )
-from verification.studies.stability.judged import StabilityRun
 
 Found = Mapping[StabilityCell, CellRecord]
 Item = tuple[StabilityCell, CellRecord]
