@@ -34,13 +34,18 @@ from contact_scene.stepping.load_path import (
     ControlKind,
     LoadRamp,
 )
-from verification.challenge.answer import SAMPLINGS, Answer, Field, Key, Solver, Vector
 from verification.challenge.cases import challenges
 from verification.challenge.requested_quantities import (
+    SAMPLINGS,
+    Answer,
     AskedPoints,
     Challenge,
+    Field,
     Grade,
+    Key,
     Patch,
+    Solver,
+    Vector,
 )
 
 

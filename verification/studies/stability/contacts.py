@@ -55,9 +55,8 @@ from verification.closed_forms.coated_indentation import (
     flat_punch,
     paraboloid,
 )
-from verification.judging.case import Level
-from verification.judging.run import OTHER_NORMS
-from verification.observed.laws import observed
+from verification.judging.case import OTHER_NORMS, Level
+from verification.observed.contact_state import observed
 from verification.problems.paper_scene import surface_of
 from verification.running.study import CaseRecord, TypedRow, parameters_of
 
