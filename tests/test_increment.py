@@ -115,6 +115,8 @@ FIRST = PreviousIncrement(
     approach=1.0,
     force=np.array([0.1, 0.2]),
     shift=np.array([1.0, 2.0]),
+    torque=1e-3,
+    twist=1e-6,
 )
 SECOND = replace(
     FIRST,
@@ -122,6 +124,8 @@ SECOND = replace(
     displacement=NOTHING + 50,
     force=np.array([0.3, 0.5]),
     shift=np.array([3.0, 5.0]),
+    torque=2e-3,
+    twist=3e-6,
 )
 WAY = np.array([0.2, 0.3])
 
@@ -131,6 +135,8 @@ def test_where_the_load_goes_straight_on_the_shear_goes_as_much_further(part):
     for target in (
         TangentialTarget(force=SECOND.force + part * WAY),
         TangentialTarget(shift=SECOND.shift + 10 * part * WAY),
+        TangentialTarget(force=SECOND.force + part * WAY, torque=2e-3 + part * 1e-3),
+        TangentialTarget(shift=SECOND.shift + 10 * part * WAY, twist=3e-6 + part * 2e-6),
     ):
         assert further(SECOND, FIRST, target) == pytest.approx(part, rel=1e-12)
         shear, displacement = further_shear(SECOND, FIRST, target)
@@ -142,6 +148,8 @@ def test_where_the_load_goes_straight_on_the_shear_goes_as_much_further(part):
 def test_where_the_load_turns_rests_or_leaps_the_shear_stays(way):
     target = TangentialTarget(force=SECOND.force + way)
     assert further(SECOND, FIRST, target) == 0
+    straight = TangentialTarget(force=SECOND.force + WAY, torque=2e-3 + 2e-3 * way[0] / WAY[0])
+    assert further(SECOND, FIRST, straight) == 0
     assert further_shear(SECOND, FIRST, target) == (SECOND.shear, SECOND.displacement)
 
 

@@ -77,6 +77,8 @@ class State:
             approach=pressing.approach,
             force=sheared.force,
             shift=sheared.shift,
+            torque=sheared.torque,
+            twist=sheared.twist,
         )
 
     @property

@@ -9,7 +9,8 @@ from semi_analytical.increments.normal_solve import NormalTarget
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.tangential.linearised_shear import Point
 
-# Largest sine of a change of direction of the tangential load, for extrapolation.
+# Largest relative deviation of an increment of the tangential load from a multiple of the last
+# increment, for extrapolation.
 STRAIGHT = 1e-6
 # Largest ratio of the new increment to the last one, of the tangential load or of the logarithm of
 # the normal load, for extrapolation.
@@ -26,6 +27,7 @@ class PreviousIncrement:
     displacement         tangential surface displacement (2, nx, ny) [length]
     normal_force, force  normal force and tangential force (2,) [force]
     approach, shift      approach and tangential shift (2,) [length]
+    torque, twist        torque [force length] and twist of the indenter; None without torsion
     """
 
     target: NormalTarget
@@ -36,6 +38,8 @@ class PreviousIncrement:
     approach: float
     force: Vector
     shift: Vector
+    torque: float | None = None
+    twist: float | None = None
 
 
 def further(
@@ -43,26 +47,32 @@ def further(
 ) -> float:
     """Compute the ratio of the next increment of the tangential load to the last increment.
 
-    The predictor extrapolates shear and displacement by this ratio. The result is 0 where no
-    extrapolation applies: the direction of the tangential load or the normal load changes, the
-    ratio exceeds FURTHEST, or torsion acts.
+    The predictor extrapolates shear and displacement by this ratio. The load is force or shift,
+    and torque or twist. The result is 0 where no extrapolation applies: the proportions of the load
+    increment or the normal load change, or the ratio exceeds FURTHEST.
 
     now         data of the last converged state
     behind      data of the converged state before `now`; None if unknown
     tangential  tangential load of the next increment
     """
-    if behind is None or behind.target != now.target or tangential.twists:
+    if behind is None or behind.target != now.target:
         return 0.0
-    if tangential.force is not None:
-        step, last = tangential.force - now.force, now.force - behind.force
-    else:
-        assert tangential.shift is not None
-        step, last = tangential.shift - now.shift, now.shift - behind.shift
-    along, size = float(np.sum(step * last)), float(np.sum(last * last))
-    across = abs(float(step[0] * last[1] - step[1] * last[0]))
-    if not 0 < along <= FURTHEST * size or across > STRAIGHT * along:
+    step, last = np.zeros(3), np.zeros(3)
+    for part, goal, here, there in (
+        (slice(2), tangential.force, now.force, behind.force),
+        (slice(2), tangential.shift, now.shift, behind.shift),
+        (slice(2, 3), tangential.torque, now.torque, behind.torque),
+        (slice(2, 3), tangential.twist, now.twist, behind.twist),
+    ):
+        if goal is not None and here is not None and there is not None:
+            change, before = np.subtract(goal, here), np.subtract(here, there)
+            unit = np.linalg.norm(change) or 1.0  # force and torque have different units
+            step[part], last[part] = change / unit, before / unit
+    if not np.any(last):
         return 0.0
-    return along / size
+    ratio = float(step @ last / (last @ last))
+    straight = np.linalg.norm(step - ratio * last) <= STRAIGHT * np.linalg.norm(step)
+    return ratio if straight and 0 < ratio <= FURTHEST * (1 + STRAIGHT) else 0.0
 
 
 def further_shear(

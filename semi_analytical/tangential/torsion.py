@@ -70,6 +70,14 @@ class ShearMoments:
         return (*(np.broadcast_to(everywhere(e), turn.shape) for e in np.eye(2)), turn)
 
     @cached_property
+    def _gross_slip(self) -> Vector:
+        """Last motion of gross slip, as components (k - 1,) that do no work with the load.
+
+        The method `limit` updates the components and uses them as its initial guess.
+        """
+        return np.zeros(len(self.prescribed_forces) - 1)
+
+    @cached_property
     def prescribed_forces(self) -> Vector:
         """Prescribed tangential force and torque (k,), divided by the cell area.
 
@@ -220,7 +228,7 @@ class ShearMoments:
         def power_at(x: Vector) -> tuple[float, Vector, Field]:
             return _friction_power(start + x @ across, limit, units)
 
-        x = np.zeros(len(across))
+        x = self._gross_slip
         power, slope, curvature = power_at(x)
         for _ in range(MAX_STEPS):
             gradient = across @ slope
@@ -230,6 +238,7 @@ class ShearMoments:
             if fall <= FLAT * power:
                 break
             x, (power, slope, curvature) = _descend(power_at, x, step, power, fall)
+        self._gross_slip[:] = x
         return power, start + x @ across
 
 
