@@ -41,7 +41,9 @@ SHARES = ("2/5 of the {}", 2 / 5, 0), ("half the {} plus 2", 1 / 2, 2)
 # half of a few increments is outside the range of regular convergence.
 FEW, MANY = 8, (32, 8)
 LEAST_TOLERANCE = 1e-13
-
+# Linear elements, and linear interpolation between rings, resolve a feature as twice their number
+# of cells.
+LINEAR = 2.0
 
 # Largest fraction of the difference between two levels that the tolerance of coarse solves may
 # cause: two digits of the difference are correct, as many as a stated error has.
@@ -225,12 +227,25 @@ class DiscretisedSolver(ABC):
         """
 
     @abstractmethod
-    def features(self, result: Any) -> Sequence[Features]:
-        """Measure contact, stick zone and layers in cells at the end of each load step of a result.
+    def measure_features(self, result: Any, end: Any) -> Features:
+        """Measure contact, stick zone and layers in cells, for a load step that ends in contact.
 
         The sizes determine if the cells resolve the contact, and which convergence order the errors
         have.
+
+        result  result of the solver
+        end     state at the end of the load step
         """
+
+    def features(self, result: Any) -> Sequence[Features]:
+        """Return the sizes of contact, stick zone and layers in cells at the end of each load step.
+
+        A load step that ends without contact receives the sizes of the previous load step.
+        """
+        found: list[Features] = []
+        for end in result.steps:
+            found.append(self.measure_features(result, end) if end.contact_area else found[-1])
+        return found
 
     def residuals(self, result: Any) -> Sequence[float]:
         """Return the relative residual of the contact equations at the end of each load step.
@@ -389,7 +404,7 @@ def compare_with_coarse_solves(
     changes: dict[str, Any] | None = None
     for (text, *_), space in zip(solver.shares, spaces, strict=True):
         found = solved(
-            text.format(solver.cells), replace(run, space=change_parameters(space, changes))
+            text.format(solver.cells), replace(run, space=change_settings(space, **(changes or {})))
         )
         if not found:
             continue
@@ -399,7 +414,7 @@ def compare_with_coarse_solves(
             required[coarse.part] = [True] * len(values)
             further = {**(changes or {}), coarse.key: coarse.value}
             if other := solved(
-                coarse.differs, replace(run, space=change_parameters(space, further))
+                coarse.differs, replace(run, space=change_settings(space, **further))
             ):
                 compare(coarse.part, found[1], other[1], coarse.ratio)
                 effects.append((found[1], other[1]))
@@ -429,13 +444,11 @@ def coarse_tolerance(features: Sequence[Features]) -> float:
     return NEGLIGIBLE / PER_TOLERANCE * (2 / most) ** 2
 
 
-def change_parameters(space: Any, changes: Mapping[str, Any] | None) -> Any:
+def change_settings(space: Any, **changes: object) -> Any:
     """Return a copy of the mesh settings of a finite-element solve with some values changed.
 
-    Used for coarse solves.
-
-    space    mesh settings, which are copied
-    changes  new values by name of the setting; None for no change
+    space    mesh settings; a grid or ring factor without changes is returned
+    changes  new values by name of the setting
     """
     return space.model_copy(update=changes) if changes else space
 
@@ -487,20 +500,6 @@ def compare_with_limit(
     # The coarsening factor of a solve without error is 0; 1 leaves the step out.
     factors = [float(r >= 1) for r in ratios(increments, most, matters)]
     return Comparison("increments", values, limit, factors)
-
-
-def features_at_ends(result: Any, resolved: Callable[[Any], Features]) -> Sequence[Features]:
-    """Return the sizes of contact, stick zone and layers in cells at the end of each load step.
-
-    A load step that ends without contact receives the sizes of the previous load step.
-
-    result    result of any of the solvers
-    resolved  function that measures the sizes for a state in contact
-    """
-    found: list[Features] = []
-    for end in result.steps:
-        found.append(resolved(end) if end.contact_area else found[-1])
-    return found
 
 
 def slip_zone(end: Any, per_length: float) -> tuple[float | None, float | None]:

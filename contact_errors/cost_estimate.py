@@ -56,39 +56,6 @@ class Work(NamedTuple):
         return self.repetitions * (share**2 * self.unknowns + self.overhead) ** EXPONENT
 
 
-def work_on_cells(cells: tuple[int, int], increments: Sequence[int], shear: bool) -> Work:
-    """Count the unknowns and repetitions of a semi-analytical solve, to estimate its CPU time.
-
-    cells       number of cells along x and y
-    increments  number of increments of each load step
-    shear       true for three traction components, false for the pressure alone
-    """
-    return Work(cells[0] * cells[1] * (3 if shear else 1), sum(increments), CELL_OVERHEAD)
-
-
-def work_on_elements(per_radius: int, increments: Sequence[int], harmonics: int) -> Work:
-    """Count the unknowns and repetitions of a finite-element solve, to estimate its CPU time.
-
-    The repetitions are those of one harmonic times the number of harmonics. The factorisations of
-    the stiffness matrices count as 50 increments.
-
-    per_radius  number of elements over the contact radius
-    increments  number of increments of each load step
-    harmonics   number of angular harmonics
-    """
-    repetitions = harmonics * (SET_UP_INCREMENTS + sum(increments))
-    return Work(per_radius**2, repetitions, ELEMENT_OVERHEAD)
-
-
-def work_on_rings(increments: Sequence[int], fineness: float = 1.0) -> Work:
-    """Count the unknowns and repetitions of a solve by the radial solver, to estimate its CPU time.
-
-    increments  number of increments of each load step
-    fineness    factor of the default numbers of rings and angles
-    """
-    return Work(fineness**4, sum(increments), 0.0)
-
-
 def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work) -> float:
     """Estimate the CPU time of a run with its error estimate [s], from a measured coarse solve.
 

@@ -17,9 +17,8 @@ from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
     Refinement,
-    features_at_ends,
 )
-from contact_errors.cost_estimate import Work, work_on_cells
+from contact_errors.cost_estimate import CELL_OVERHEAD, Work
 from contact_errors.error_formula import PEAK, Features, has_cusp, is_singular
 from contact_results.result_warnings import unresolved_pressure
 from contact_scene import SurfaceDiscretisation
@@ -32,7 +31,7 @@ from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.edge.film import film_law
 from semi_analytical.edge.fit import WIDE
 from semi_analytical.plan import Coupling
-from semi_analytical.resolution import resolution
+from semi_analytical.resolution import resolution, resolution_at
 from semi_analytical.solve import solve_within
 
 # Cells over the contact radius in the solves for the increment error. The effect of increments on
@@ -145,38 +144,33 @@ class CellSolver(DiscretisedSolver):
     def neglected_errors(self, result: Result) -> Mapping[str, float]:
         return {PEAK: HIGHEST * unresolved_pressure(result)}
 
-    def features(self, result: Result) -> Sequence[Features]:
+    def measure_features(self, result: Result, end: Increment) -> Features:
         indenter, coupled = self.scene.indenter, result.plan.coupling is not Coupling.NONE
-        law = film_law(self.scene.body, indenter, result.grid.spacing)
-        resolved = resolution(result)
-
-        def at(end: Increment) -> Features:
-            cells, report = resolved[end.step - 1], end.edge_report
-            if report is not None and report.cause is not None:
-                report = None
-            # The fit assumes the square-root pressure edge of a half-space, over more cells than
-            # the layer is thick.
-            thin = cells.layer is not None and cells.layer < WIDE.reach
-            ridge = report is not None and report.ridge
-            sliding = end.status is ContactStatus.GROSS_SLIDING
-            hides = sliding and _may_hide_stick(end)
-            return Features(
-                contact=cells.contact,
-                layer=cells.layer,
-                wave=cells.wave,
-                stick=cells.stick,
-                annulus=0.0 if hides else cells.annulus,
-                fitted=report is not None and not (thin and (coupled or law is None)),
-                stick_fitted=report is not None and report.stick is not None and not coupled,
-                sharp=is_singular(indenter),
-                infinite=is_singular(indenter),
-                cusp=coupled or has_cusp(indenter),
-                peak_by_edge=ridge or _distance_of_peak_to_edge(end) < cells.contact / 2,
-                slides=sliding and not hides,
-                left={} if report is None else _remaining_edge_errors(report),
-            )
-
-        return features_at_ends(result, at)
+        cells, report = resolution_at(result, end), end.edge_report
+        if report is not None and report.cause is not None:
+            report = None
+        # The fit assumes the square-root pressure edge of a half-space, over more cells than the
+        # layer is thick.
+        thin = cells.layer is not None and cells.layer < WIDE.reach
+        law = thin and not coupled and film_law(self.scene.body, indenter, result.grid.spacing)
+        sliding = end.status is ContactStatus.GROSS_SLIDING
+        hides = sliding and _may_hide_stick(end)
+        ridge = report is not None and report.ridge
+        return Features(
+            contact=cells.contact,
+            layer=cells.layer,
+            wave=cells.wave,
+            stick=cells.stick,
+            annulus=0.0 if hides else cells.annulus,
+            fitted=report is not None and (not thin or bool(law)),
+            stick_fitted=report is not None and report.stick is not None and not coupled,
+            sharp=is_singular(indenter),
+            infinite=is_singular(indenter),
+            cusp=coupled or has_cusp(indenter),
+            peak_by_edge=ridge or _distance_of_peak_to_edge(end) < cells.contact / 2,
+            slides=sliding and not hides,
+            left={} if report is None else _remaining_edge_errors(report),
+        )
 
     def first_space(self) -> SurfaceGrid:
         grid = semi_analytical.discretise(self.scene, self.discretisation)
@@ -186,7 +180,9 @@ class CellSolver(DiscretisedSolver):
         return SurfaceGrid(scale_cells(space.cells, by.get(self.part, 1.0)), space.window)
 
     def work(self, fineness: Fineness) -> Work:
-        return work_on_cells(fineness.space.cells, fineness.increments, self.plan.shear)
+        nx, ny = fineness.space.cells
+        tractions = 3 if self.plan.shear else 1
+        return Work(nx * ny * tractions, sum(fineness.increments), CELL_OVERHEAD)
 
     def memory(self, fineness: Fineness) -> int:
         run = memory.estimated_bytes(fineness.space, self.plan.cut_into(fineness.increments))

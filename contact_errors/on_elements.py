@@ -11,15 +11,16 @@ from typing import Any, ClassVar, Self
 
 import fem_reference
 from contact_errors.coarse_solves import (
+    LINEAR,
     SHARES,
     CoarseSolve,
     DiscretisedSolver,
     Fineness,
     Refinement,
-    features_at_ends,
+    change_settings,
     slip_zone,
 )
-from contact_errors.cost_estimate import Work, work_on_elements
+from contact_errors.cost_estimate import ELEMENT_OVERHEAD, SET_UP_INCREMENTS, Work
 from contact_errors.error_formula import Features, has_cusp, is_singular
 from contact_scene import FiniteElementDiscretisation
 from contact_scene.quantities.stated_error import (
@@ -35,7 +36,6 @@ from fem_reference.memory import largest_bytes
 # axis.
 CUSPED = (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
 FEWEST_ELEMENTS, SMALLEST_BOX, FEWEST_HARMONICS, LARGEST_OVERLAP = 4, 5.0, 2, 1.0
-LINEAR = 2.0  # linear elements resolve a feature as twice their number of cells do
 FIRST_ELEMENTS, MAX_ELEMENTS, MAX_HARMONICS = 8, 512, 64
 LEAST_OVERLAP, LARGEST_BOX = 1e-8, 1e6
 
@@ -83,11 +83,11 @@ class ElementSolver(DiscretisedSolver):
         store     store of checkpoints from which an interrupted solve resumes, or None
         """
         scene = self.scene.with_increments(fineness.increments)
-        mesh = _replace_settings(fineness.space, tolerance=fineness.tolerance)
+        mesh = change_settings(fineness.space, tolerance=fineness.tolerance)
         try:
             return fem_reference.solve(scene, mesh, self.method, progress, store)
         except SurfacesOverlap:
-            looser = _replace_settings(mesh, overlap=LARGEST_OVERLAP)
+            looser = change_settings(mesh, overlap=LARGEST_OVERLAP)
             return fem_reference.solve(scene, looser, self.method, progress)
 
     def space_of(self, result: Result) -> FiniteElementDiscretisation:
@@ -110,7 +110,7 @@ class ElementSolver(DiscretisedSolver):
             # The edge of the contact lies in the middle of an element.
             largest = max(increment.contact_radius for increment in result.increments)
             radius = largest * count / (count + 0.5)
-        return _replace_settings(mesh, elements_per_radius=count, contact_radius=radius)
+        return change_settings(mesh, elements_per_radius=count, contact_radius=radius)
 
     def mesh_coarse_solves(
         self, base: FiniteElementDiscretisation, result: Result
@@ -142,10 +142,7 @@ class ElementSolver(DiscretisedSolver):
     def record_entry(self, space: FiniteElementDiscretisation) -> Mapping[str, Any]:
         return {"elements_per_radius": space.elements_per_radius}
 
-    def features(self, result: Result) -> Sequence[Features]:
-        return features_at_ends(result, lambda end: self._measure_features(result, end))
-
-    def _measure_features(self, result: Result, end: Increment) -> Features:
+    def measure_features(self, result: Result, end: Increment) -> Features:
         """Measure contact, stick zone and layers in half elements at the end of a load step.
 
         The sizes determine if the mesh resolves the contact. The limits are given in cells. A
@@ -188,12 +185,12 @@ class ElementSolver(DiscretisedSolver):
         return dict.fromkeys(ACROSS, (nu / (4 - 2 * nu)) ** 2 / 2)
 
     def first_space(self) -> FiniteElementDiscretisation:
-        return _replace_settings(self.discretisation, elements_per_radius=FIRST_ELEMENTS)
+        return change_settings(self.discretisation, elements_per_radius=FIRST_ELEMENTS)
 
     def refine_space(
         self, space: FiniteElementDiscretisation, by: Refinement
     ) -> FiniteElementDiscretisation:
-        finer = _replace_settings(
+        finer = change_settings(
             space,
             elements_per_radius=ceil(by.get(self.part, 1.0) * space.elements_per_radius - 1e-9),
             harmonics=min(MAX_HARMONICS, ceil(by.get("harmonics", 1.0) * space.harmonics)),
@@ -202,23 +199,16 @@ class ElementSolver(DiscretisedSolver):
         if "section" not in by:
             return finer
         box = max(section.outline.box for section in sections_of(self.scene, space))
-        return _replace_settings(finer, box=min(LARGEST_BOX, box * by["section"]))
+        return change_settings(finer, box=min(LARGEST_BOX, box * by["section"]))
 
     def work(self, fineness: Fineness) -> Work:
         harmonics = fineness.space.harmonics if self.plan.path is Path.HARMONICS else 1
-        elements = fineness.space.elements_per_radius
-        return work_on_elements(elements, fineness.increments, harmonics)
+        repetitions = harmonics * (SET_UP_INCREMENTS + sum(fineness.increments))
+        return Work(fineness.space.elements_per_radius**2, repetitions, ELEMENT_OVERHEAD)
 
     def memory(self, fineness: Fineness) -> int:
         several = self.plan.path in (Path.TWISTING, Path.SHEARING, Path.HARMONICS)
         count = min(MAX_ELEMENTS, fineness.space.elements_per_radius)
-        mesh = _replace_settings(fineness.space, elements_per_radius=count)
+        mesh = change_settings(fineness.space, elements_per_radius=count)
         elements = max(each.quads.shape[1] for each in sections_of(self.scene, mesh))
         return largest_bytes(elements, several)
-
-
-def _replace_settings(
-    mesh: FiniteElementDiscretisation, **update: object
-) -> FiniteElementDiscretisation:
-    """Return a copy of the mesh settings of a finite-element solve with some values replaced."""
-    return mesh.model_copy(update=update)

@@ -12,13 +12,13 @@ import numpy as np
 
 import radial
 from contact_errors.coarse_solves import (
+    LINEAR,
     DiscretisedSolver,
     Fineness,
     Refinement,
-    features_at_ends,
     slip_zone,
 )
-from contact_errors.cost_estimate import Work, work_on_rings
+from contact_errors.cost_estimate import Work
 from contact_errors.error_formula import Features, is_singular
 from contact_scene import RadialDiscretisation
 from contact_scene.quantities.stated_error import (
@@ -30,8 +30,6 @@ from radial.memory import estimated_bytes
 
 # Relative round-off of double precision, in systems of a few hundred equations.
 PRECISION = 1e-13
-# Linear interpolation between rings resolves a feature as well as twice the number of cells.
-LINEAR = 2.0
 FIRST_FINENESS, MAX_FINENESS = 0.5, 4.0
 
 
@@ -111,10 +109,7 @@ class RingSolver(DiscretisedSolver):
     def residuals(self, result: Result) -> Sequence[float]:
         return [max(step.worst_residual, PRECISION) for step in result.steps]
 
-    def features(self, result: Result) -> Sequence[Features]:
-        return features_at_ends(result, lambda end: self._measure_features(result, end))
-
-    def _measure_features(self, result: Result, end: Increment) -> Features:
+    def measure_features(self, result: Result, end: Increment) -> Features:
         """Measure the sizes of contact and stick zone in half rings at the end of a load step.
 
         The sizes determine if the rings resolve the contact. The contact radius is divided by the
@@ -152,7 +147,7 @@ class RingSolver(DiscretisedSolver):
         return rings if self.depends_on_rings else float(np.ceil(rings))
 
     def work(self, fineness: Fineness) -> Work:
-        return work_on_rings(fineness.increments, fineness.space)
+        return Work(fineness.space**4, sum(fineness.increments), 0.0)
 
     def memory(self, fineness: Fineness) -> int:
         return estimated_bytes(self.scene, self._plan_of(fineness))

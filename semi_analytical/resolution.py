@@ -51,10 +51,10 @@ def resolution(result: Result) -> tuple[Resolution, ...]:
     The sizes are those at the end of the load step. They determine if the grid resolves the
     contact.
     """
-    return tuple(_resolution_at(result, end) for end in result.steps)
+    return tuple(resolution_at(result, end) for end in result.steps)
 
 
-def _resolution_at(result: Result, end: Increment) -> Resolution:
+def resolution_at(result: Result, end: Increment) -> Resolution:
     """Measure contact, stick zone, layers and roughness in cells at the end of a load step.
 
     result  result of the semi-analytical solver

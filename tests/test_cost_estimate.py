@@ -8,11 +8,12 @@ from pathlib import Path
 import pytest
 
 from contact_errors.cost_estimate import (
+    CELL_OVERHEAD,
+    ELEMENT_OVERHEAD,
     MAX_INCREMENTS,
+    Work,
     coarse_increments,
     estimated_run_seconds,
-    work_on_cells,
-    work_on_elements,
 )
 from contact_scene import read_scene_file
 from contact_scene.disk_cache import without_cache
@@ -53,12 +54,12 @@ def test_runs_take_half_to_twice_the_estimate(scene: str, name: SolverName) -> N
 def test_a_worked_example() -> None:
     # (65536 + 16384)/(1024 + 16384) = 4.705882, to the power 1.1: 5.4942; with 1/4 and 4/25 of the
     # cells in the coarse solves 2.00526 and 1.61201; times 10/4 increments.
-    coarse, fine = work_on_cells((32, 32), (4,), False), work_on_cells((256, 256), (10,), False)
+    coarse, fine = (Work(n**2, count, CELL_OVERHEAD) for n, count in ((32, 4), (256, 10)))
     estimate = estimated_run_seconds(2.0, 0.0, coarse, fine)
     assert estimate == pytest.approx(2 * 2.5 * (5.4942 + 2.00526 + 1.61201), rel=1e-4)
     # (576 + 1024)/(64 + 1024) = 1.470588, to the power 1.1: 1.52840; with 1/4 and 4/25 of the
     # unknowns 1.08117 and 1.02851; times 70/60 and 3 harmonics, also for the increment error.
-    coarse, fine = work_on_elements(8, (10,), 1), work_on_elements(24, (20,), 3)
+    coarse, fine = (Work(n**2, count, ELEMENT_OVERHEAD) for n, count in ((8, 60), (24, 210)))
     estimate = estimated_run_seconds(1.0, 0.5, coarse, fine)
     assert estimate == pytest.approx(3.5 * (1.5284 + 1.08117 + 1.02851 + 0.5), rel=1e-4)
 
