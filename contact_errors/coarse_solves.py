@@ -8,7 +8,7 @@ the effect of the increments is known from a separate comparison.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import ceil, log
 from typing import Any, ClassVar, Self, TypeAlias
@@ -16,6 +16,7 @@ from typing import Any, ClassVar, Self, TypeAlias
 from contact_errors.cost_estimate import Work
 from contact_errors.error_formula import (
     BELIEVED,
+    BELIEVED_BY_THREE,
     ORDERS,
     PER_TOLERANCE,
     Comparison,
@@ -34,7 +35,8 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SolverError
 from contact_scene.stepping.increment_error import has_increment_error
 
-# Coarse solves: description, fraction of the cells along a side, and number of additional cells.
+# Coarse solve: description, fraction of the cells along a side, and number of additional cells.
+Share: TypeAlias = tuple[str, float, int]
 # The edges of contact and stick zone lie at other positions within the cells of each.
 SHARES = ("2/5 of the {}", 2 / 5, 0), ("half the {} plus 2", 1 / 2, 2)
 # A load step with fewer than FEW increments is compared with solves of MANY increments, because
@@ -117,7 +119,7 @@ class DiscretisedSolver(ABC):
     part: ClassVar[Part]
     cells: ClassVar[str]
     most: ClassVar[float]
-    shares: ClassVar[Sequence[tuple[str, float, int]]] = SHARES
+    shares: ClassVar[Sequence[Share]] = SHARES
 
     @classmethod
     @abstractmethod
@@ -186,6 +188,13 @@ class DiscretisedSolver(ABC):
         share   fraction of the cells of the result along a side, or of its elements or rings
         more    number of cells or elements that are added to this fraction
         """
+
+    def shares_of(self, run: Fineness) -> Sequence[Share]:
+        """Return the coarse solves of a run that measure the error of its cells, elements or rings.
+
+        run  grid, mesh or ring factor of the run, its increments and its tolerance
+        """
+        return self.shares
 
     def mesh_coarse_solves(self, base: Any, result: Any) -> Iterable[CoarseSolve]:
         """Return the coarse solves that change a mesh parameter other than the number of elements.
@@ -327,7 +336,8 @@ def compare_with_coarse_solves(
     - Increments, if a load step has an increment error: three solves on few cells, with the
       increments of the result and with two other numbers. Load steps of fewer than 8 increments
       are compared with 32 and 8 increments, and with the limit that these extrapolate to.
-    - Cells, elements or rings: two solves with coarser discretisations, compared with the result.
+    - Cells, elements or rings: two solves with coarser discretisations, compared with the result;
+      three for a small run on cells.
     - Other parameters of a mesh: one solve each, compared on the first coarse mesh.
 
     Later coarse solves use the cheaper value of a parameter that has been compared. Its measured
@@ -369,16 +379,8 @@ def compare_with_coarse_solves(
                 made.append(record.model_copy(update={"refused": str(error)}))
         return known[coarse]
 
-    def compare(part: Part, base: Sequence[Values], coarse: Sequence[Values], ratio: float) -> None:
-        """Append a comparison of two solves that differ in one discretisation parameter.
-
-        part          part of the error that the parameter causes
-        base, coarse  scalars of the finer and of the coarser solve at the end of each load step
-        ratio         coarsening factor of the parameter
-        """
-        comparisons.append(Comparison(part, base, coarse, [ratio] * len(values)))
-
-    spaces = [solver.coarser(result, share, more) for _, share, more in solver.shares]
+    shares = solver.shares_of(run)
+    spaces = [solver.coarser(result, share, more) for _, share, more in shares]
     required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
     required["increments"] = matters
     comparisons: list[Comparison] = []
@@ -402,24 +404,30 @@ def compare_with_coarse_solves(
             break
 
     changes: dict[str, Any] | None = None
-    for (text, *_), space in zip(solver.shares, spaces, strict=True):
+    meshes: list[tuple[Sequence[Values], float]] = []
+    for (text, *_), space in zip(shares, spaces, strict=True):
         found = solved(
             text.format(solver.cells), replace(run, space=change_settings(space, **(changes or {})))
         )
         if not found:
             continue
         sides = zip(solver.cell_sides(found[0]), solver.cell_sides(result), strict=True)
-        compare(solver.part, values, add_effects(found[1], effects), min(b / a for b, a in sides))
+        meshes.append((add_effects(found[1], effects), min(b / a for b, a in sides)))
         for coarse in solver.mesh_coarse_solves(space, result) if changes is None else ():
             required[coarse.part] = [True] * len(values)
             further = {**(changes or {}), coarse.key: coarse.value}
             if other := solved(
                 coarse.differs, replace(run, space=change_settings(space, **further))
             ):
-                compare(coarse.part, found[1], other[1], coarse.ratio)
+                factors = (coarse.ratio,) * len(values)
+                comparisons.append(Comparison(coarse.part, found[1], other[1], factors))
                 effects.append((found[1], other[1]))
                 found, changes = other, further
         changes = changes or {}
+    believed = BELIEVED if len(meshes) < 3 else BELIEVED_BY_THREE
+    for coarse_values, ratio in meshes:
+        factors = (ratio,) * len(values)
+        comparisons.append(Comparison(solver.part, values, coarse_values, factors, believed))
     return SolvedRun(
         scene=result.scene,
         values=values,

@@ -14,9 +14,11 @@ from scipy.ndimage import distance_transform_edt
 
 import semi_analytical
 from contact_errors.coarse_solves import (
+    SHARES,
     DiscretisedSolver,
     Fineness,
     Refinement,
+    Share,
 )
 from contact_errors.cost_estimate import CELL_OVERHEAD, Work
 from contact_errors.error_formula import PEAK, Features, has_cusp, is_singular
@@ -34,6 +36,9 @@ from semi_analytical.plan import Coupling
 from semi_analytical.resolution import resolution, resolution_at
 from semi_analytical.solve import solve_within
 
+# Third coarse solve of a small run, and the largest number of unknowns times increments of such a
+# run. It takes about a second or two, which its user waits for start and figures, too.
+THIRD, SMALL = ("2/3 of the {}", 2 / 3, 0), 1e6
 # Cells over the contact radius in the solves for the increment error. The effect of increments on
 # 24² and on 64² cells differs by at most 7 %.
 PER_RADIUS = 11
@@ -120,6 +125,10 @@ class CellSolver(DiscretisedSolver):
         """
         nx, ny = (2 * ceil(share * n / 2) + more for n in result.grid.cells)
         return SurfaceGrid((nx, ny), result.grid.window)
+
+    def shares_of(self, run: Fineness) -> Sequence[Share]:
+        work = self.work(run)
+        return (*SHARES, THIRD) if work.unknowns * work.repetitions <= SMALL else SHARES
 
     def few(self, coarse: Fineness, result: Result) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.

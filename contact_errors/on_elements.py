@@ -4,7 +4,7 @@ The variable parameters are the elements over the contact radius, the increments
 size of the meshed section, the overlap of the penalty method and the angular harmonics.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import ceil
 from typing import Any, ClassVar, Self

@@ -32,7 +32,6 @@ from contact_errors.error_formula import (
     LARGEST_SHARE,
     ROOT,
     SMOOTH,
-    UNKNOWN,
     build_stated_error,
 )
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
@@ -162,7 +161,7 @@ def stress_errors(
     indenter  true for the indenter, false for the lower body
     """
     if state.pressed is not None:
-        return _stress_errors_on_disc(state, found, indenter)
+        return _stress_errors_on_disc(state, field.points, found, indenter)
     depths = np.unique(field.points.depth).tolist()
     sampled = depths[::2] if len(depths) > 2 else depths
     part: Part = "elements" if state.on_rings else "cells"
@@ -333,39 +332,33 @@ def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
 
 
 def _stress_errors_on_disc(
-    state: LoadedBodies, found: Sequence[Extreme], indenter: bool
+    state: LoadedBodies, points: StressPoints, found: Sequence[Extreme], indenter: bool
 ) -> tuple[StatedError, ...]:
     """Estimate the errors of the largest stresses below the tractions of the radial solver.
 
-    The stresses are computed again with twice the numbers of Legendre orders and quadrature points.
-    The differences yield the errors.
+    The stresses at the same points are computed again with twice the numbers of Legendre orders and
+    quadrature points. The differences yield the errors.
 
     state     bodies and surface tractions of the radial solver
-    found     largest stress of each region and measure in the body
+    points    points of the stress field
+    found     largest stress of each region and measure among these points
     indenter  true for the indenter, false for the lower body
     """
-    from contact_results.stress.radial_body import RadialBody, is_sheared
+    from contact_results.stress.radial_body import is_sheared
+    from semi_analytical.frf.depth import Level
 
-    sheared = is_sheared(state)
-    body = RadialBody.from_state(state, indenter, int(COARSE))
-    errors: dict[tuple[str, float, float, float, float], StatedError] = {}
-    for e in reversed(found):  # the largest of the body is the largest of a layer
-        if e.region in body.parts.named:
-            again = float(np.max(body.largest(e).measures[e.measure]))
-            size = abs(again - e.value) / abs(COARSE ** (-BELIEVED * SMOOTH) - 1)
-            parts: dict[Part, Field] = {"quadrature": np.array([size + PRECISION * abs(e.value)])}
-            if sheared and state.by_increments:
-                parts["increments"] = np.array([state.by_increments * abs(e.value)])
-            errors[_maximum_key(e)] = build_stated_error(parts, not e.at_window_edge)
-    return tuple(errors.get(_maximum_key(e), UNKNOWN) for e in found)
-
-
-def _maximum_key(e: Extreme) -> tuple[str, float, float, float, float]:
-    """Return measure, value and position of a largest stress, as the dictionary key of its error.
-
-    The largest stress of a body is also the largest stress of one of its layers or of the
-    substrate. These two entries have equal keys, so that the error is computed once.
-
-    e  largest stress of a region, with its position
-    """
-    return e.measure, e.value, e.x, e.y, e.depth
+    by_increments = state.by_increments if is_sheared(state) else 0.0
+    measures, levels = points.measures, []
+    for e in found:
+        here = (points.depth == e.depth) & (measures[e.measure] == e.value)
+        levels.append(Level(e.depth, int(points.material[np.argmax(here)])))
+    x, y = np.array([(e.x, e.y) for e in found]).T
+    again = stress_at_radii(state, x, y, levels, indenter=indenter, fineness=int(COARSE)).measures
+    errors = []
+    for k, e in enumerate(found):
+        size = abs(again[e.measure][k] - e.value) / abs(COARSE ** (-BELIEVED * SMOOTH) - 1)
+        parts: dict[Part, Field] = {"quadrature": np.array([size + PRECISION * abs(e.value)])}
+        if by_increments:
+            parts["increments"] = np.array([by_increments * abs(e.value)])
+        errors.append(build_stated_error(parts, not e.at_window_edge))
+    return tuple(errors)

@@ -250,7 +250,7 @@ def numbers_in(node: ast.AST) -> set[float]:
 
 CONSTANTS = {
     # of the formula
-    *("BELIEVED", "SMOOTH", "EDGE", "ROOT", "PER_TOLERANCE", "LARGEST_SHARE"),
+    *("BELIEVED", "BELIEVED_BY_THREE", "THIRD", "SMALL", "SMOOTH", "EDGE", "ROOT", "PER_TOLERANCE", "LARGEST_SHARE"),
     *("ORDERS", "LIMITS", "ROUND_OFF", "PRECISION", "HIGHEST"),
     # of the coarse solves
     *("SHARES", "FEW", "MANY", "PER_RADIUS", "NEGLIGIBLE", "ROOM", "MAX_ENLARGEMENTS"),
@@ -660,7 +660,7 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
     stated = stated_errors(result)
     assert "did not converge" in (stated.coarse_solves[0].refused or "")
     assert stated.steps[0]["approach"].error is not None
-    refused |= {10}
+    refused |= {10, 12}
     assert stated_errors(result).steps[0]["approach"].error is None
 
 
@@ -671,7 +671,8 @@ def test_coarse_solves_are_cheap_and_their_tolerance_has_no_effect(
     result = package.solve(posed, "semi-analytical", cells(48))
     stated = stated_errors(result)
     work = [(solve.convolutions or 0) * np.prod(solve.cells) for solve in stated.coarse_solves]
-    assert sum(work) < sum(step.convolutions for step in result.increments) * 48**2
+    # The third coarse solve has (2/3)² of the cells.
+    assert sum(work) < (1 + 4 / 9) * sum(step.convolutions for step in result.increments) * 48**2
     monkeypatch.setattr(coarse_solves, "NEGLIGIBLE", 0.0)
     for errors, of_tight in zip(stated.steps, stated_errors(result).steps, strict=True):
         for name in ("approach", "peak_pressure", "elastic_energy", "dissipated_energy"):
