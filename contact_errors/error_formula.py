@@ -154,13 +154,14 @@ class Features:
 
         name  name of the scalar, such as "stick_radius"
         """
-        sizes = {"contact": self.contact, "layer": self.layer, "wave": self.wave}
-        if name in STICK_EDGE:
-            sizes["stick"] = self.stick
-        elif name == PEAK and self.cusp and not self.slides:
-            sizes["cusp"] = self.stick
-        elif name in OF_SLIP:
-            sizes["annulus"] = self.annulus
+        sizes = {
+            "contact": self.contact,
+            "layer": self.layer,
+            "wave": self.wave,
+            "stick": self.stick if name in STICK_EDGE else None,
+            "cusp": self.stick if name == PEAK and self.cusp and not self.slides else None,
+            "annulus": self.annulus if name in OF_SLIP else None,
+        }
         return all(size is None or size >= LIMITS[feature] for feature, size in sizes.items())
 
 
@@ -230,8 +231,7 @@ def characteristic_size(name: str, values: Values) -> float:
     values  all scalars at the end of a load step, by name
     """
     sizes = {key: float(np.max(np.abs(value))) for key, value in values.items()}
-    length, force = sizes["approach"], sizes["normal_force"]
-    radius = sizes["contact_radius"]
+    length, force, radius = (sizes[key] for key in ("approach", "normal_force", "contact_radius"))
     by_unit = {
         "m": length,
         "m^2": sizes["contact_area"],
@@ -439,14 +439,12 @@ def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
 
     values  scalars at the end of each load step, by name
     """
-    seen: dict[str, Numbers] = {}
-    found = []
+    found: list[Values] = [{}]
     for step in values:
-        for name, value in step.items():
-            size = np.full_like(value, np.max(np.abs(value)))
-            seen[name] = np.maximum(seen.get(name, 0.0), size)
-        found.append(dict(seen))
-    return tuple(found)
+        sizes = {name: np.full_like(x, np.max(np.abs(x))) for name, x in step.items()}
+        seen = {name: np.maximum(x, found[-1].get(name, 0.0)) for name, x in sizes.items()}
+        found.append({**found[-1], **seen})
+    return tuple(found[1:])
 
 
 def build_stated_error(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
