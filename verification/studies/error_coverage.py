@@ -396,9 +396,8 @@ REQUESTS, FALSE, FACTOR = 60, 2, 2.0  # number; allowed false ones; allowed true
 PARTS, LEAST_SHARE = (1e-2, 1e1), 1e-3  # range of x and smallest y of the diagram
 ALL = "all numbers"
 REMARKS = (
-    "Seeds: none for fitting, as no constant is fitted to scenes. The common factor 0.6 of the "
-    f"convergence orders was chosen with seeds {', '.join(map(str, CHOOSING))}; families and "
-    f"repairs were tried with {', '.join(map(str, TRIED))}; the scenes of this record have the "
+    "Seeds: the believed fractions of the convergence orders, 0.6 and 0.7, were chosen with seeds "
+    f"{', '.join(map(str, CHOOSING))}; families and repairs were tried with {', '.join(map(str, TRIED))}; the scenes of this record have the "
     f"seed {JUDGING}.",
     "Covered: the true error is at most the stated one, up to the uncertainty of the reference. "
     f"Tight: the stated error is less than {TIMES:g} times the true one. Undecided: the reference "
