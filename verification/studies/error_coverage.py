@@ -397,8 +397,8 @@ PARTS, LEAST_SHARE = (1e-2, 1e1), 1e-3  # range of x and smallest y of the diagr
 ALL = "all numbers"
 REMARKS = (
     "Seeds: the believed fractions of the convergence orders, 0.6 and 0.7, were chosen with seeds "
-    f"{', '.join(map(str, CHOOSING))}; families and repairs were tried with {', '.join(map(str, TRIED))}; the scenes of this record have the "
-    f"seed {JUDGING}.",
+    f"{', '.join(map(str, CHOOSING))}; families and repairs were tried with "
+    f"{', '.join(map(str, TRIED))}; the scenes of this record have the seed {JUDGING}.",
     "Covered: the true error is at most the stated one, up to the uncertainty of the reference. "
     f"Tight: the stated error is less than {TIMES:g} times the true one. Undecided: the reference "
     f"is less certain than {CERTAIN:g} of the stated error. Intervals are Clopper and Pearson's, "
