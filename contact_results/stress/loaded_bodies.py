@@ -136,18 +136,6 @@ def state_of_result(
     )
 
 
-def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
-    """Yield bodies and tractions at the end of every increment of a result.
-
-    Each item contains load step, increment within the load step, both from 1, and the bodies with
-    their tractions. For separated bodies, the third part is None.
-    """
-    surface = surface_of(result)
-    for increment in result.increments:
-        state = _loaded_bodies(result.scene, surface, result, increment, None)
-        yield increment.step, increment.index, state
-
-
 def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
     """Return bodies and tractions at the end of a load step of a stored run.
 
@@ -168,7 +156,8 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
     """Yield bodies and tractions at the end of every increment of a stored run.
 
-    The items are those of `states_of_result`.
+    Each item contains load step, increment within the load step, both from 1, and the bodies with
+    their tractions. For separated bodies, the third part is None.
 
     directory  directory of the run
 
@@ -197,11 +186,11 @@ def _open_run(directory: Path) -> Iterator[StoredRun]:
     try:
         run = load(directory)
     except (FileNotFoundError, ValueError) as error:
-        raise NoSuchState(f"{error}; give the output of a run, or a scene file") from None
+        raise NoSuchState(f"{error}; give the output of a run") from None
     try:
         yield run
     except FieldsAtEndsOnly as error:
-        raise NoSuchState(f"{error}, or give the scene file") from None
+        raise NoSuchState(str(error)) from None
     except MISREAD as error:
         raise NoSuchState(f"{directory / FIELDS} is not the {FIELDS} of a run: {error}") from None
 
