@@ -22,7 +22,7 @@ READ: dict[Any, tuple[str, ...]] = {
     histories.as_it_is: ("pressure", "shear", "tangential_shift", "approach"),
     histories.after_quarter: ("pressure", "shear", "tangential_shift", "approach"),
     partial(histories.motion_apart, 30.0): ("tangential_shift", "dissipated_energy"),
-    histories.in_mirror: ("pressure", "shear"),
+    histories.in_mirror: ("pressure", "shear", "tangential_shift", "approach"),
     histories.scalars_apart: ("approach", "tangential_shift", "dissipated_energy"),
     indenters._pressure_and_approach: ("pressure", "approach"),
     histories.after_half: ("pressure", "shear", "tangential_shift", "approach"),

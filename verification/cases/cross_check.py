@@ -202,7 +202,11 @@ class Contact:
                 "∫|Δp| dA / ∫p dA on the line of the load", partial(self.apart, "pressure"), 2e-3,
                 HAND,
             ),
-            "approach": ("approach, relative", _approach_apart, 2e-4, HAND),
+            "approach": (
+                "approach, relative",
+                lambda k, one, other: abs(one.steps[k].approach / other.steps[k].approach - 1),
+                2e-4, HAND,
+            ),
         }  # fmt: skip
         if self.friction:
             measures["shear"] = (
@@ -304,10 +308,6 @@ class Contact:
             )
         )
         return pressure, shear
-
-
-def _approach_apart(step: int, one: Any, other: Any) -> float:
-    return float(abs(one.steps[step].approach / other.steps[step].approach - 1))
 
 
 def shift_apart(step: int, one: Any, other: Any) -> float:

@@ -89,7 +89,7 @@ from verification.quantities import (
 )
 
 if TYPE_CHECKING:
-    from semi_analytical import Increment, Result
+    from semi_analytical import Result
     from verification.closed_forms.cattaneo_mindlin import TangentialHistory
 
 
@@ -204,7 +204,12 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
             for n, (_, i) in enumerate(states)
         ]
         colour = [
-            curve(_state_label(name, i), x, section.of(shear_of(i)[0]) / scale, series=n)
+            curve(
+                f"{name}: {force_along_x(i) * NEWTON_TO_LIMIT:+.2f} µW".replace("+0.00", "0"),
+                x,
+                section.of(shear_of(i)[0]) / scale,
+                series=n,
+            )
             for n, (name, i) in enumerate(states)
         ]
         bounds = [curve("± µp / µp₀", x, limit, Look.BOUND), curve("", x, -limit, Look.BOUND)]
@@ -241,10 +246,6 @@ def _increment_number(result: Result, step: int, part: float) -> int:
     return int(np.argmin(distances))
 
 
-def _state_label(name: str, increment: Increment) -> str:
-    return f"{name}: {force_along_x(increment) * NEWTON_TO_LIMIT:+.2f} µW".replace("+0.00", "0")
-
-
 def _closed_form_loop(exact: ExactLoop) -> tuple[np.ndarray, np.ndarray]:
     forces, shifts = [], []
     state: TangentialHistory = exact.virgin
@@ -270,10 +271,6 @@ def shear_allowed(rung: SizedRun) -> float:
     return REQUIRED_SHEAR.get(rung.count, REQUIRED_SHEAR[128] * (128 / rung.count) ** 1.5)
 
 
-def _largest_slip_amplitude(result: Any, *_: Any) -> float:
-    return float(np.max(loop.loop_cycle(result).slip_amplitude))
-
-
 def _cycle_rows() -> tuple[Row, ...]:
     """Return the rows (quantities with tolerances) that are judged for a fretting loop on every
     grid.
@@ -286,13 +283,15 @@ def _cycle_rows() -> tuple[Row, ...]:
         "largest_energy_imbalance",
         "largest fraction of the energy unaccounted for in an increment: input work, less "
         "elastic energy, dissipation and work unresolved by the increment",
-        lambda result, *_: loop.largest_imbalance(result),
+        lambda result, *_: max(
+            i.energy_imbalance for i in result.increments if i.energy_imbalance is not None
+        ),
         "the largest energy so far",
         source="first law",
     )
     amplitude = Observable(
         "slip_amplitude", "half the range of slip in the cycle, maximum over the contact", "m",
-        _largest_slip_amplitude,
+        lambda result, *_: float(np.max(loop.loop_cycle(result).slip_amplitude)),
         lambda exact: float(exact.cycled.slip_amplitude(HERTZ.contact_radius)),
     )  # fmt: skip
     amplitude_error = error_norm(

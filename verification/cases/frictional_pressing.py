@@ -213,7 +213,10 @@ def _profile_drawings(
         "pressure": ("p / p_H", of.problem.scale(OVER_PEAK), DRAWN_PRESSURE),
         "shear": (
             "|q| / µp_H", of.problem.scale(OVER_LIMIT),
-            Drawn(lambda end: np.hypot(*shear_of(end)), lambda exact: exact.size_of_shear),
+            Drawn(
+                lambda end: np.hypot(*shear_of(end)),
+                lambda exact: lambda r: np.abs(exact.shear(r)),
+            ),
         ),
         "outward shear": (
             "q / µp_H", of.problem.scale(OVER_LIMIT),
@@ -387,10 +390,6 @@ def _approach_change(coarse: Any, fine: Any) -> float:
     history.
     """
     return abs(approach(coarse) / approach(fine) - 1)
-
-
-def _radius_change(coarse: Any, fine: Any) -> float:
-    return abs(contact_radius(coarse) / contact_radius(fine) - 1)
 
 
 def _shift_change(coarse: Any, fine: Any) -> float:
@@ -945,7 +944,11 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
         Refinement.INCREMENTS, _increment_size, "1 / increments",
         (
             change(Followed.APPROACH, "approach", _approach_change, 2.0, KEPT_SLIP),
-            change(Followed.CONTACT_RADIUS, "contact radius", _radius_change, 2.0, KEPT_SLIP),
+            change(
+                Followed.CONTACT_RADIUS, "contact radius",
+                lambda coarse, fine: abs(contact_radius(coarse) / contact_radius(fine) - 1), 2.0,
+                KEPT_SLIP,
+            ),
             change(
                 Followed.SHEAR, "shear (L1)", _shear_change_on_rings, 1.5, FIXED_SHEAR, slowly
             ),

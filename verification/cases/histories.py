@@ -155,17 +155,18 @@ def _rotate_field_quarter(field: Field) -> Field:
     return np.asarray(field.T[::-1])
 
 
-def _rotate_shear_quarter(q: Field) -> Field:
-    return np.stack([-_rotate_field_quarter(q[1]), _rotate_field_quarter(q[0])])
-
-
-def _rotate_shift_quarter(shift: Field) -> Field:
-    return np.array([-shift[1], shift[0]])
-
-
 as_it_is = partial(same_fields, np.asarray, np.asarray, np.asarray)
 after_quarter = partial(
-    same_fields, _rotate_field_quarter, _rotate_shear_quarter, _rotate_shift_quarter
+    same_fields,
+    _rotate_field_quarter,
+    lambda q: np.stack([-_rotate_field_quarter(q[1]), _rotate_field_quarter(q[0])]),
+    lambda shift: np.array([-shift[1], shift[0]]),
+)
+in_mirror = partial(  # at the plane x = 0
+    same_fields,
+    lambda field: field[::-1],
+    lambda q: np.stack([-q[0][::-1], q[1][::-1]]),
+    lambda shift: np.array([-shift[0], shift[1]]),
 )
 
 
@@ -556,32 +557,6 @@ def _patchy_friction(grid: SurfaceGrid) -> Field:
     return np.asarray(np.maximum(MU * (1.2 + 0.9 * waves), 0.0))
 
 
-def _mirror_shear(q: Field) -> Field:
-    """Return a shear field (2, nx, ny) mirrored at the plane x = 0.
-
-    The x component changes its sign.
-    """
-    return np.stack([-q[0][::-1], q[1][::-1]])
-
-
-def in_mirror(one: Any, other: Any) -> float:
-    """Compute the largest difference of pressure and shear between a result and a mirrored result
-    [1].
-
-    The second result is that of a scene that is mirrored at the plane x = 0. The result is the
-    larger of Σ|Δp|/Σp and Σ|Δq|/Σp over all increments.
-    """
-
-    def apart(a: Any, b: Any) -> float:
-        total = np.sum(b.pressure)
-        return worst(
-            float(np.sum(np.abs(a.pressure - b.pressure[::-1])) / total),
-            float(np.sum(np.abs(shear_of(a) - _mirror_shear(shear_of(b)))) / total),
-        )
-
-    return worst(*map(apart, one.increments, other.increments))
-
-
 def scalars_apart(one: Any, other: Any) -> float:
     """Compute the largest relative difference of approach, shift and dissipated energy [1].
 
@@ -666,7 +641,7 @@ def same_surface(level: Level = Level.QUICK) -> Case:
          "heights at cell centres equal the gap there, bit for bit", same),
         ("friction", f"constant map of friction: {all_fields}", everywhere, by_numbers,
          as_it_is, EXACT, ANSWERED, same),
-        ("mirror", "mirrored patches of friction: difference of pressure and shear", mirrored,
+        ("mirror", f"mirrored patches of friction: {all_fields}", mirrored,
          patchy, in_mirror, EXACT, ANSWERED, "a reflection at x = 0 maps one to the other"),
         ("turned_by_90", "rectangular cells, rotated with the load: difference of pressure, "
         "shear and shift", wide, narrow, after_quarter, EXACT, ANSWERED, ISOTROPIC),
@@ -791,11 +766,7 @@ class BodyPair:
         return pressed(self.name, ball, self.lower, *loading, friction=MU)
 
 
-def _rotate_shear_half(q: Field) -> Field:
-    return np.asarray(q[:, ::-1, ::-1])
-
-
-after_half = partial(same_fields, lambda p: p[::-1, ::-1], _rotate_shear_half, np.asarray)
+after_half = partial(same_fields, lambda p: p[::-1, ::-1], lambda q: q[:, ::-1, ::-1], np.asarray)
 
 
 def on_rings_apart(one: Any, other: Any) -> float:

@@ -719,10 +719,6 @@ def _vector_component(name: str, axis: int, result: Any, *_: Any) -> float:
     return float("nan") if vector is None else float(vector[axis])
 
 
-def _exact_slope(axis: int, exact: Any) -> float:
-    return float(exact.tilt[axis])
-
-
 def _inner_error(result: Any, step: int, problem: Problem) -> float:
     """Compute the largest relative pressure error of a flat punch within half its radius [1].
 
@@ -750,6 +746,10 @@ def _stiffness_difference(one: Any, other: Any) -> float:
         return np.array([end.normal_force / end.approach, *(end.moment / end.tilt)])
 
     return float(np.max(np.abs(of(one) / of(other) - 1)))
+
+
+def _exact_slope(axis: int, exact: Any) -> float:
+    return float(exact.tilt[axis])
 
 
 def tilted_punch(level: Level = Level.QUICK) -> Case:
@@ -791,7 +791,8 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
                 # The slope along an axis is a rotation about the other one.
                 Observable(
                     f"tilt_{axis}", f"slope along {axis}", "rad",
-                    partial(_vector_component, "tilt", 1 - along), partial(_exact_slope, along),
+                    partial(_vector_component, "tilt", 1 - along),
+                    partial(_exact_slope, along),
                     scalar=("tilt", 1 - along),
                 ),
                 part_of_side(1.5),

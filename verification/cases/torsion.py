@@ -241,14 +241,6 @@ BODY = Body(material=BASE, layers=LAYERS)
 BALL = Paraboloid(radius=paper.RADIUS, material=BASE, layers=LAYERS)
 
 
-def _torsional_compliance(k: Field) -> Field:
-    """Compute the circumferential displacement per unit shear of two coated balls [length³/force].
-
-    k  wavenumbers of the shear [1/length]
-    """
-    return 2 * one_layer(k, LAYERS[0].thickness, COATING.shear_modulus, BASE.shear_modulus)
-
-
 def _friction_limit(r: Field) -> Field:
     """Compute the friction limit µp of two coated balls at radii r from the exact pressure
     [force/length²].
@@ -265,7 +257,9 @@ def twisted_coated() -> Problem:
     """
     normal = exact_contact(BODY, BALL)
     surface = TorsionalSurface(
-        _torsional_compliance, COATING.shear_modulus / 2, LAYERS[0].thickness
+        lambda k: 2 * one_layer(k, LAYERS[0].thickness, COATING.shear_modulus, BASE.shear_modulus),
+        COATING.shear_modulus / 2,
+        LAYERS[0].thickness,
     )
     a = normal.contact_radius
     sliding = CoatedTorsion(surface, a, _friction_limit, 0.5 * a).sliding_torque

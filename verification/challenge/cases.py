@@ -45,7 +45,6 @@ from verification.challenge.requested_quantities import (
     Half,
     HalfEllipsoids,
     Patch,
-    RoundTable,
     approach,
     contact_radius,
     fitted,
@@ -56,7 +55,6 @@ from verification.challenge.requested_quantities import (
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import FlatPunchContact, TiltedPunch
 from verification.closed_forms.huber_stress import hamilton_stress
-from verification.closed_forms.torsion import TorsionalPartialSlip
 from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
     AMPLITUDE,
@@ -143,7 +141,7 @@ def torsion() -> Challenge:
             _required_twist(step, end.twist, end.twist, "itself"),
             stick_radius(end.stick_radius, step),
         ]
-        shear = circumferential_shear(end)
+        shear = tabulated(end.shear, end.stick_radius, end.contact_radius)
         fields.append(
             AskedField(
                 "shear_around", step, "shear traction on the lower body around the z axis, "
@@ -157,14 +155,6 @@ def torsion() -> Challenge:
         f"{TWISTED.scene.title}: twisted by {parts} of the torque at which all slips.",
         TWISTED.scene, TWISTED.source, tuple(values), tuple(fields), SMALL,
     )  # fmt: skip
-
-
-def circumferential_shear(end: TorsionalPartialSlip) -> RoundTable:
-    """Create a table of the exact circumferential shear of a twisted ball over the radius.
-
-    end  exact solution at the end of a load step
-    """
-    return tabulated(end.shear, end.stick_radius, end.contact_radius)
 
 
 def torsion_loop() -> Challenge:

@@ -291,7 +291,7 @@ def require_columns(where: str, found: Sequence[str], expected: Sequence[str]) -
     missing = [name for name in expected if name not in found]
     if not missing:
         return
-    there = _quoted_names(found) or "nothing"
+    there = ", ".join(map(repr, found)) or "nothing"
     if len(found) == 1 and any(mark in found[0] for mark in ";\t"):
         there += " (columns are separated by commas)"
     raise Refused(
@@ -314,10 +314,6 @@ def read_text_file(path: Path) -> str:
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "not text in UTF-8"
         raise Refused(f"{path}: {reason}") from None
-
-
-def _quoted_names(names: Any) -> str:
-    return ", ".join(map(repr, names))
 
 
 # Columns of a field file: numbers by the name of the column.

@@ -46,13 +46,6 @@ class ObservedOrder:
     half_width: float
     margin: float
 
-    @property
-    def is_legible(self) -> bool:
-        """Determine if the 95 % interval of the order is narrow enough (below ± 0.5) to report the
-        order.
-        """
-        return self.half_width < ILLEGIBLE
-
     def may_be_off_by(self, promised: float, allowance: float = 0.0) -> float:
         """Return the largest accepted difference between the observed and the theoretical
         convergence order.

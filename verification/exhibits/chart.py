@@ -221,14 +221,6 @@ def plain(value: float | None, digits: int = 3) -> str:
     return f"{mantissa}e{int(exponent)}" if e else mantissa
 
 
-def percent(part: float) -> str:
-    """Return the text of a fraction of 1 in per cent with two significant digits, as "25 %"."""
-    return f"{plain(100 * part, 2)} %"
-
-
-EXTRAPOLATED = "≈"  # marks an extrapolated cost
-
-
 T = TypeVar("T")
 NONE: Mapping[str, str] = {}  # units: every number is a count or a ratio
 

@@ -574,7 +574,7 @@ class Observable:
         """
         scale = problem.scale(self.over) if self.over else None
         if self.value is None:
-            known = problem.no_error(1.0 if scale is None else scale)
+            known = replace(problem.reference(1.0, scale), value=0.0)
         else:
             known = problem.reference(self.value(problem.ends[self.step]), scale)
         return replace(known, source=self.source or known.source)

@@ -15,7 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semi_analytical.grid import SurfaceGrid
-from verification.convergence.observed_order import ErrorLine, ObservedOrder, by_size, error_line
+from verification.convergence.observed_order import (
+    ILLEGIBLE,
+    ErrorLine,
+    ObservedOrder,
+    by_size,
+    error_line,
+)
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 from verification.judging.case import Run
 from verification.judging.declared_case import Drawing, Falls, Observable, RefinementLevels, Row
@@ -105,7 +111,7 @@ def _error_curves(
 
 
 def _order_text(observed: ObservedOrder) -> str:
-    if not observed.is_legible:
+    if observed.half_width >= ILLEGIBLE:
         return "no order can be read"
     digits = ".2f" if observed.half_width >= LEAST_SHOWN else ".1g"
     return f"{observed.order:.2f} ± {observed.half_width:{digits}}"

@@ -34,7 +34,6 @@ from verification.judging.case import (
     AnyRun,
     Case,
     Derived,
-    Finding,
     Order,
     Quantity,
     RadiiRun,
@@ -396,7 +395,18 @@ def judge(case: Case, solve: Solve = lambda run: run.solve()) -> CaseOutcome:
         scenes=_describe_scenes(case, results),
         runs=tuple(_run_record(r, case, results[r.label]) for r in case.runs if r.label in results),
         verdicts=(*failures, *_judge_case(case, results)),
-        findings=tuple(_measure_finding(f, results) for f in case.findings if f.run in results),
+        findings=tuple(
+            FindingRecord(
+                name=f.name,
+                run=f.run,
+                meaning=f.meaning,
+                unit=f.unit,
+                value=finite(f.measure(results[f.run])),
+                remark=f.remark,
+            )
+            for f in case.findings
+            if f.run in results
+        ),
         charts=case.charts(results) if case.charts and not failures else (),
         limits=case.limits,
         equations=case.equations,
@@ -472,17 +482,6 @@ def _required_runs(quantity: Quantity) -> set[str]:
     """
     levels = quantity.tolerance.levels if isinstance(quantity.tolerance, Derived) else ()
     return {*quantity.labels, *levels}
-
-
-def _measure_finding(finding: Finding, results: Results) -> FindingRecord:
-    return FindingRecord(
-        name=finding.name,
-        run=finding.run,
-        meaning=finding.meaning,
-        unit=finding.unit,
-        value=finite(finding.measure(results[finding.run])),
-        remark=finding.remark,
-    )
 
 
 def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:

@@ -48,7 +48,11 @@ def states_on_cells(result: Result) -> list[ContactState]:
         state = _state_on_cells(now, before, result, undeformed, before_touch)
         if now.shear is not None:
             defined &= now.dissipated_energy is not None
-            grown |= now.halvings > 0 if before is None else _contact_grows(before, now)
+            grown |= bool(
+                now.halvings
+                if before is None
+                else np.any((now.pressure > 0) & (before.pressure == 0))
+            )
         skipped = BISECTED if now.halvings else CORRECTED if is_corrected(now) else ""
         if not defined:
             state = replace(state, passed=None)
@@ -150,7 +154,3 @@ def _motion_before_touch(first: Increment, undeformed: Field) -> Field:
     p = first.pressure
     touching = np.where((p > 0) & (undeformed > 0), (p / np.max(p)) ** 2, 1.0)
     return np.asarray(first.slip * (1 / touching - 1))
-
-
-def _contact_grows(before: Increment, now: Increment) -> bool:
-    return bool(np.any((now.pressure > 0) & (before.pressure == 0)))

@@ -45,15 +45,6 @@ def model_of(result: Result, length: float) -> ContactModel:
     return ContactModel(bodies, scales, result.sections)
 
 
-def section_radii(result: Result) -> Field:
-    """Return the radii of the surface nodes of a finite element section, in the section's unit of
-    length.
-
-    Corner and midside nodes of the elements alternate.
-    """
-    return next(np.asarray(s.radii) for s in result.sections if s is not None)
-
-
 @dataclass(frozen=True)
 class Rings:
     """Represent the points of a contact surface on rings and angles, with the compliance of the
@@ -80,7 +71,10 @@ class Rings:
 
         on_points  True if the tractions are those of a penalty at Gauss points
         """
-        last, nodes = result.increments[-1], section_radii(result)
+        last, nodes = (
+            result.increments[-1],
+            next(np.asarray(s.radii) for s in result.sections if s is not None),
+        )
         if on_points:
             model = model_of(result, float(last.radii[0] + last.radii[2]) / 2 / float(nodes[1]))
             basis: TractionBasis = gauss_points(model.radii, model.rim)

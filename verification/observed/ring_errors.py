@@ -213,7 +213,10 @@ def tractions_at(
     for value, part in zip(values, parts, strict=True):
         if part is not None:
             value[:] = part.reshape(rings, -1)
-    amplitudes = [_between_rings(f, increment.radii, r.ravel()) for f in grid.amplitudes(values)]
+    amplitudes = [
+        np.stack([np.interp(r.ravel(), increment.radii, f, right=0.0) for f in amplitude.T], axis=1)
+        for amplitude in grid.amplitudes(values)
+    ]
     cosines, sines = grid.modes((theta - load).ravel())
     q_r, q_theta, p = (
         np.sum(f * waves.T, axis=1).reshape(r.shape)
@@ -234,18 +237,6 @@ def _grid_of(increment: Increment) -> AngularGrid:
         return axisymmetric_grid()
     points = len(increment.angles)
     return end_grid(points - 1) if increment.angles[0] == 0 else mid_grid(points)
-
-
-def _between_rings(amplitudes: Field, radii: Field, r: Field) -> Field:
-    """Interpolate the angular amplitudes of a traction linearly from the rings to radii r.
-
-    Returns an array of the shape (points, harmonics), which is zero beyond the last ring.
-
-    amplitudes  amplitudes of the harmonics at the rings (rings, harmonics)
-    radii       radii of the rings (rings,) [length]
-    r           radii of the result (points,) [length]
-    """
-    return np.stack([np.interp(r, radii, f, right=0.0) for f in amplitudes.T], axis=1)
 
 
 DIRECTIONS = 16

@@ -274,11 +274,6 @@ def largest_f2(result: Result) -> float:
     return float(np.max(f2))
 
 
-def largest_imbalance(result: Result) -> float:
-    """Return the largest relative energy imbalance that the solver states for any increment [1]."""
-    return max(i.energy_imbalance for i in result.increments if i.energy_imbalance is not None)
-
-
 LUBKIN = "Lubkin 1951"
 MODULUS = STEEL.shear_modulus / 2
 OVER_TWIST = "the largest twist"

@@ -208,19 +208,6 @@ def pressed(
     )
 
 
-def pressed_and_pushed(title: str, body: Body) -> Scene:
-    """Create the scene of a rigid ball that is pressed on a body and then loaded tangentially.
-
-    With µ = 0.1, the normal force grows in 15 increments, then the tangential force grows to 0.95
-    µW in 20 (figures 3 and 4 of the reference paper).
-
-    title  title of the scene
-    body   body below the ball
-    """
-    push = LoadStep(tangential_force=(0.95 * FRICTION_LIMIT, 0.0), increments=20)
-    return pressed(title, rigid_ball(), body, pressing(15), push, friction=FRICTION)
-
-
 @cache
 def surface_of(*bodies: Body) -> LayeredSurface:
     """Create the normal compliance of the surfaces of one or two bodies, in wavenumber space.

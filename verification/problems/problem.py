@@ -120,14 +120,6 @@ class Problem:
         uncertainty = self.uncertainty * abs(value if scale is None else scale)
         return Reference(value, self.kind, self.source, uncertainty)
 
-    def no_error(self, scale: float) -> Reference:
-        """Create the reference for the norm of a field error: zero, with the uncertainty of the
-        exact answer.
-
-        scale  magnitude to which the uncertainty is relative
-        """
-        return Reference(0.0, self.kind, self.source, self.uncertainty * scale)
-
 
 @dataclass(frozen=True, eq=False)
 class TabulatedContact:
@@ -169,9 +161,3 @@ class TabulatedContact:
         """
         limit = self.friction * HERTZ.peak_pressure
         return np.interp(r, self.radii, np.array(self.row["q_over_mu_pH"]) * limit)
-
-    def size_of_shear(self, r: Field) -> Field:
-        """Interpolate the magnitude of the radial shear of the reference table to radii r
-        [force/length²].
-        """
-        return np.abs(self.shear(r))

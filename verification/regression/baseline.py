@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated
@@ -27,7 +27,6 @@ from verification.judging.outcome import (
     Gone,
     GoneCase,
     Origin,
-    RunRecord,
     Status,
     Verdict,
     commit_text,
@@ -195,12 +194,28 @@ def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recordi
     return Recording(
         by=recorded_by(provenance, reason),
         status=case.status,
-        quantities=tuple(_record_quantity(verdict) for verdict in case.verdicts),
+        quantities=tuple(
+            RecordedQuantity(
+                name=v.name,
+                run=v.run,
+                tolerance_kind=v.tolerance_kind,
+                unit=v.unit,
+                value=v.value,
+                reference=v.reference,
+                allowed=v.most_allowed,
+                status=v.status,
+                covered=v.covered,
+            )
+            for v in case.verdicts
+        ),
         findings=tuple(
             RecordedFinding(name=f.name, run=f.run, unit=f.unit, value=f.value)
             for f in case.findings
         ),
-        runs=tuple(_record_run(run) for run in case.runs),
+        runs=tuple(
+            RecordedRun(label=run.label, **{name: getattr(run, name) for name in COUNTERS})
+            for run in case.runs
+        ),
     )
 
 
@@ -222,24 +237,6 @@ def recorded_by(provenance: Provenance, reason: str) -> RecordedBy:
         python=None if python is None else str(python),
         libraries=provenance.libraries,
     )
-
-
-def _record_quantity(verdict: Verdict) -> RecordedQuantity:
-    return RecordedQuantity(
-        name=verdict.name,
-        run=verdict.run,
-        tolerance_kind=verdict.tolerance_kind,
-        unit=verdict.unit,
-        value=verdict.value,
-        reference=verdict.reference,
-        allowed=verdict.most_allowed,
-        status=verdict.status,
-        covered=verdict.covered,
-    )
-
-
-def _record_run(run: RunRecord) -> RecordedRun:
-    return RecordedRun(label=run.label, **{name: getattr(run, name) for name in COUNTERS})
 
 
 BASELINES = Path(__file__).resolve().parents[1] / "baselines"
@@ -294,7 +291,9 @@ def write_baselines(
         levels = {name: one for name, one in levels.items() if name != level}
         if recorded is not None:
             levels[level] = recorded
-        ordered = {name: levels[name] for name in _order_levels(levels)}
+        ordered = {
+            name: levels[name] for name in sorted(levels, key=lambda name: Level[name.upper()])
+        }
         texts[path] = dump_baseline(Baseline(case=case, levels=ordered)) if ordered else ""
     if removed:
         path = directory / REMOVED
@@ -319,10 +318,6 @@ def dump_baseline(baseline: Baseline) -> str:
     digits."""
     content = baseline.model_dump(mode="json")
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-
-
-def _order_levels(levels: Iterable[str]) -> list[str]:
-    return sorted(levels, key=lambda name: Level[name.upper()])
 
 
 def _read_baseline(path: Path) -> Baseline:
@@ -368,7 +363,7 @@ def accept(
     with_changes   if True, accept a report whose source differed from its commit or had none; its
                    results cannot be reproduced from the commit
     """
-    reason = " ".join(reason.split())
+    reason, made = " ".join(reason.split()), report.provenance
     earlier = {
         case: baseline.levels[report.level]
         for case, baseline in read_baselines(directory).items()
@@ -384,7 +379,7 @@ def accept(
             "it --with-failures",
         ),
         (
-            not _is_reproducible(report) and not with_changes,
+            (made.commit is None or made.changed) and not with_changes,
             "the report was made from a source that no commit holds, so nobody could make its "
             "numbers again; commit, verify, then accept, or accept it --with-changes",
         ),
@@ -424,10 +419,6 @@ def _chosen_cases(
             f"the report has no case {', '.join(missing)}; --from names the report"
         )
     return [case for case in report.cases if not names or case.name in names]
-
-
-def _is_reproducible(report: Report) -> bool:
-    return report.provenance.commit is not None and not report.provenance.changed
 
 
 SAME_DIGITS = 1e-8  # relative difference of equal references

@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import io
 import re
-from collections.abc import Sequence
 from html import escape
 from typing import Any
 from urllib.parse import quote
@@ -154,23 +153,20 @@ def look_of(curve: Curve) -> dict[str, Any]:
 
 def _draw_legend(ax: Any, panel: Panel) -> None:
     labelled = [curve for curve in panel.curves if curve.label]
+    longest = max((len(curve.label) for curve in labelled), default=0)
     if len(labelled) == 2 and panel.y_places:  # the names take the width that it would need
         ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, labelcolor=INK)
-    elif _is_long(labelled) and len(ax.figure.axes) == 1 and not panel.y_places:
-        _legend_below(ax, max(len(curve.label) for curve in labelled))
+    elif (
+        len(labelled) > 1
+        and longest > LONGEST_BESIDE
+        and len(ax.figure.axes) == 1
+        and not panel.y_places
+    ):
+        _legend_below(ax, longest)
     elif len(labelled) > 1 or any(curve.look is Look.TILES for curve in labelled):
         top = len(panel.y_places) > MANY_PLACES
         where, height = ("upper left", 1.0) if top else ("center left", 0.5)
         ax.legend(loc=where, bbox_to_anchor=(1.01, height), handlelength=2.4, labelcolor=INK)
-
-
-def _is_long(labelled: Sequence[Curve]) -> bool:
-    """Return True if the legend texts of a panel are too long to be placed on the right of the
-    plot.
-
-    labelled  curves of the panel that have a label
-    """
-    return len(labelled) > 1 and any(len(curve.label) > LONGEST_BESIDE for curve in labelled)
 
 
 def _legend_below(ax: Any, longest: int) -> None:

@@ -142,14 +142,6 @@ def found(cases: Iterable[C], records: Mapping[str, CaseRecord]) -> dict[C, Case
     return {case: records[case.name] for case in cases if case.name in records}
 
 
-def rows_of(cases: Iterable[C], known: Mapping[C, CaseRecord]) -> list[CaseRecord]:
-    """Return the records of the given cases of a study; cases without a record are left out.
-
-    known  available records by case
-    """
-    return [known[case] for case in cases if case in known]
-
-
 def parameters_of(case: Any) -> dict[str, Value]:
     """Return the fields of a case (a dataclass) as plain values by name, with nested dataclasses
     flattened.

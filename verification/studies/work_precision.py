@@ -110,11 +110,6 @@ class PreciseContact:
         """
         return self.posed(1)
 
-    @property
-    def leading(self) -> str:
-        """Name of the first error in the list of errors that are measured on the contact."""
-        return next(iter(self.errors))
-
     def meaning(self, quantity: str) -> str:
         """Return the title of the contact and one of its measured errors in words, for charts and
         tables.
@@ -396,13 +391,6 @@ class PrecisionCase:
         return fem_reference.solve(scene, stiff, of.PENALTY)
 
 
-def all_cases(level: Level) -> tuple[PrecisionCase, ...]:
-    """Return the solves of all contacts by all methods and settings, at a level (quick, standard or
-    full) of the study.
-    """
-    return tuple(case for contact in CONTACTS for case in _cases_of_contact(contact, level))
-
-
 def _cases_of_contact(contact: str, level: Level) -> Iterator[PrecisionCase]:
     upper = min(level, Level.STANDARD)
     for n in CELLS[upper]:
@@ -532,7 +520,9 @@ def cases(settings: Settings) -> tuple[PrecisionCase, ...]:
     """Return the solves of all contacts by all methods and settings, at the level (quick, standard
     or full) of the study.
     """
-    return all_cases(settings.level)
+    return tuple(
+        case for contact in CONTACTS for case in _cases_of_contact(contact, settings.level)
+    )
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:

@@ -67,7 +67,10 @@ def statements(found: Found) -> tuple[Statement, ...]:
     for solver in Solver:
         cells = contacts_of_solver(found, solver)
         about = (nothing_silent, nearly_everything_converges, refusals_are_due, cost)
-        told += (_name_solver(solver, state(cells)) for state in about)
+        told += (
+            one.model_copy(update={"claim": f"{NAMES[solver]}: {one.claim}"})
+            for one in (state(cells) for state in about)
+        )
     return tuple(told)
 
 
@@ -225,10 +228,6 @@ def _duly_refused(refused: Found) -> set[StabilityCell]:
     return {
         cell for cell, r in refused.items() if r.refused_for and r.refused_for is _due_refusal(cell)
     }
-
-
-def _name_solver(solver: Solver, statement: Statement) -> Statement:
-    return statement.model_copy(update={"claim": f"{NAMES[solver]}: {statement.claim}"})
 
 
 def _names_text(cells: Iterable[StabilityCell]) -> str:
@@ -442,7 +441,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
 
     records  available records of the contacts
     """
-    here = _records_by_contact(settings, records)
+    here = {run.cell: CellRecord.of(r) for run, r in found(cases(settings), records).items()}
     by_name = {cell.name: record for cell, record in here.items()}
     maps = views(settings.level, _cells_per_side(settings))
     return Conclusion(
@@ -456,10 +455,6 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
 
 def _cells_per_side(settings: Settings) -> int:
     return settings.cells or CELLS[settings.level]
-
-
-def _records_by_contact(settings: Settings, records: Records) -> dict[StabilityCell, CellRecord]:
-    return {run.cell: CellRecord.of(r) for run, r in found(cases(settings), records).items()}
 
 
 STUDY = Study(
