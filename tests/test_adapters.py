@@ -15,8 +15,8 @@ from contact_scene.solver_errors import NotConverged
 from verification import Answer, CannotDo, Solver, judge
 from verification.adapters import own_solvers as own
 from verification.challenge.cases import challenges
-from verification.challenge.judgement import Judgement
 from verification.challenge.python_api import (
+    Judgement,
     Posed,
     posed,
 )

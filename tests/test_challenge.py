@@ -22,8 +22,7 @@ from verification import Answer, CannotDo, Field, Solver, judge
 from verification.adapters import own_solvers as own
 from verification.challenge.cases import PLACES, challenges
 from verification.challenge.files import read_answers, toml_text
-from verification.challenge.judgement import judged
-from verification.challenge.python_api import Posed
+from verification.challenge.python_api import Posed, judged
 from verification.challenge.requested_quantities import (
     Challenge,
     Grade,
@@ -31,7 +30,7 @@ from verification.challenge.requested_quantities import (
     RoundTable,
 )
 from verification.judging.outcome import Status
-from verification.problems.classical import EXACT as ELLIPSE
+from verification.problems.indentation import EXACT as ELLIPSE
 from verification.problems.paper_scene import HERTZ
 from verification.report.page import render_sheet, row_texts
 

@@ -29,7 +29,7 @@ from verification.judging.declared_case import (
     with_edge_at,
 )
 from verification.problems.cattaneo_mindlin import sheared
-from verification.problems.classical import BALL
+from verification.problems.indentation import BALL
 from verification.problems.paper_scene import HERTZ, hertz_grid
 from verification.problems.problem import Problem
 

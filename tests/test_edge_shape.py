@@ -15,7 +15,7 @@ from semi_analytical.edge.kernels import PARITY
 from semi_analytical.edge.shape import EdgeShape, edge_shape
 from tests.cell_means import ellipse_means, elliptic_radius
 from verification.norms import cell_means, round_means
-from verification.problems.classical import BALL
+from verification.problems.indentation import BALL
 from verification.studies.work_precision import Method, PrecisionCase
 
 EXPONENTS = (0.0, 0.5, 0.51, 1.5, -0.5)

@@ -36,33 +36,31 @@ from verification.judging.outcome import (
     Status,
     Verdict,
 )
-from verification.problems.classical import BALL
+from verification.problems.indentation import BALL
 from verification.regression import baseline as baseline_files
 from verification.regression.baseline import (
     BASELINES,
     COUNTERS,
+    LEAST,
+    MOVED,
     NOISE,
     REMOVED,
+    Acceptance,
     BaselineRefused,
+    Tolerance,
+    Tolerances,
     accept,
+    accept_tolerances,
     baselines_of,
     compared,
     dump_baseline,
+    held_to,
     key_of,
     keys_of,
-    read_baselines,
-    recording,
-)
-from verification.regression.tolerances import (
-    LEAST,
-    MOVED,
-    Acceptance,
-    Tolerance,
-    Tolerances,
-    accept_tolerances,
-    held_to,
     proposed,
+    read_baselines,
     read_tolerances,
+    recording,
     text_of,
 )
 from verification.report.files import RECORD, write_report

@@ -26,7 +26,6 @@ from verification.studies.stability.contacts import (
     SolvedContact,
     Solver,
     StabilityCell,
-    StabilityRun,
     Surface,
     Verdict,
     by_superposition,
@@ -65,10 +64,7 @@ def test_different_cells_have_different_names_and_files(tmp_path: object) -> Non
     ]  # fmt: skip
     assert len({cell.name for cell in cells}) == len(cells)
     store = CaseStore(tmp_path)
-    assert all(
-        store.path(StabilityRun(a)) != store.path(StabilityRun(b))
-        for a, b in combinations(cells, 2)
-    )
+    assert all(store.path(a) != store.path(b) for a, b in combinations(cells, 2))
 
 
 @pytest.mark.parametrize(

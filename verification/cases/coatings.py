@@ -39,9 +39,9 @@ from verification.judging.declared_case import (
     CONTACT_RADIUS,
     EDGE,
     ELEMENT_RADIUS,
+    FORCE,
     IDENTITY,
     JUDGED_BY,
-    NORMAL_FORCE,
     PEAK_PRESSURE,
     PRESSURE_L2,
     PRESSURE_WITHIN,
@@ -71,8 +71,7 @@ from verification.judging.declared_case import (
 from verification.judging.drawings import PRESSURE, convergence, profile
 from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS, frf_matrix, worst_violation
 from verification.observed.ring_errors import normal_force
-from verification.problems import paper_scene as paper
-from verification.problems.classical import (
+from verification.problems.indentation import (
     BARE,
     CONE,
     PUNCH,
@@ -86,12 +85,15 @@ from verification.problems.paper_scene import (
     FREDHOLM,
     FREDHOLM_EQUATION,
     HERTZ,
+    NORMAL_FORCE,
+    RADIUS,
     SEMI_CLOSED_ERROR,
     SUBSTRATE,
     UNLIKE,
     coated,
     exact_contact,
     film,
+    hertz_grid,
     pressed,
     rigid_ball,
     surface_of,
@@ -273,7 +275,7 @@ def unlike_ratios(film: float, substrate: float) -> Problem:
     of_film, of_substrate = (modulus / (2 * (1 + ratio)) for ratio in (film, substrate))
     stack = Stack([Film(of_film, film, thickness)], HalfSpace(of_substrate, substrate))
     surface = LayeredSurface(partial(_normal_response, stack), 2 * of_film / (1 - film), thickness)
-    exact = paraboloid_under(paper.NORMAL_FORCE, surface, paper.RADIUS)
+    exact = paraboloid_under(NORMAL_FORCE, surface, RADIUS)
     scene = pressed(
         f"Rigid ball on a coating, ν = {film:g} on ν = {substrate:g}", rigid_ball(), body
     )
@@ -360,7 +362,7 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
 
     def ball(*layers: Layer, material: IsotropicMaterial) -> Paraboloid:
-        return Paraboloid(radius=paper.RADIUS, material=material, layers=layers)
+        return Paraboloid(radius=RADIUS, material=material, layers=layers)
 
     same = {
         "coated body": (rigid_ball(), coated(coating)),
@@ -395,7 +397,7 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
         for name, (one, body) in pairs.items()
     }
     # All grids have one window, so that fields of equal contacts can be compared.
-    grid = paper.hertz_grid(cells)
+    grid = hertz_grid(cells)
     grids = {
         name: ladder(problem, [SizedRun(Run(name, problem.scene, grid, problem=name), cells)])
         for name, problem in problems.items()
@@ -463,7 +465,7 @@ class ThinLayer:
         """Semi-closed solution of the contact of the ball and the layer, for the given contact
         radius.
         """
-        return paraboloid(surface_of(self.body), paper.RADIUS, self.radius)
+        return paraboloid(surface_of(self.body), RADIUS, self.radius)
 
     @property
     def problem(self) -> Problem:
@@ -481,7 +483,7 @@ class ThinLayer:
         a is the contact radius and h the layer thickness. The incompressible layer (ν = 1/2) has
         another formula than compressible layers.
         """
-        E, nu, a, R = self.modulus, self.poisson_ratio, self.radius, paper.RADIUS
+        E, nu, a, R = self.modulus, self.poisson_ratio, self.radius, RADIUS
         h = a / self.a_over_h
         if nu == 0.5:
             return pi * E / 3 * a**6 / (32 * R * h**3)
@@ -504,7 +506,7 @@ class ThinLayer:
             lambda result, *_: normal_force(result) / self.leading_load,
         )  # fmt: skip
         return (
-            Within(NORMAL_FORCE, 4e-4, why),
+            Within(FORCE, 4e-4, why),
             Within(CENTRAL_PRESSURE, 4e-4, why),
             Within(CONTACT_RADIUS, part_of_side(0.5), "half a cell"),
             Reported(over_leading_term, "the limit itself is 1"),

@@ -41,7 +41,7 @@ from verification.judging.case import (
     compare_runs,
 )
 from verification.judging.declared_case import (
-    NORMAL_FORCE,
+    FORCE,
     Judged,
     Within,
     case,
@@ -51,16 +51,18 @@ from verification.judging.declared_case import (
     on_elements,
 )
 from verification.judging.field_errors import pressure_at, shear_at
-from verification.problems import paper_scene as paper
 from verification.problems.paper_scene import (
     FRICTION,
     HERTZ,
+    NORMAL_FORCE,
     coated,
     exact_contact,
     film,
     pressed,
     pressing,
     rigid_ball,
+    square_grid,
+    tangential_step,
 )
 from verification.problems.problem import Problem, ReferenceKind
 from verification.quantities import shear_of, shift_along_x
@@ -126,7 +128,7 @@ class Contact:
         )
         if self.harmonics:
             mesh = mesh.model_copy(update={"harmonics": self.harmonics})
-        grid = paper.square_grid(self.cells, MARGIN * self.radius)
+        grid = square_grid(self.cells, MARGIN * self.radius)
         return (
             Run(f"{self.name}, {self.cells} x {self.cells} cells", scene, grid),
             SectionRun(f"{self.name}, {self.elements} elements", scene, mesh),
@@ -139,7 +141,7 @@ class Contact:
     def _coated_scene(self) -> Scene:
         push: tuple[LoadStep, ...] = ()
         if self.harmonics:
-            push = tuple(paper.tangential_step(part, 6) for part in PARTS)
+            push = tuple(tangential_step(part, 6) for part in PARTS)
         return pressed(
             f"Rigid ball on a coated half-space, {self.name}",
             rigid_ball(),
@@ -521,10 +523,11 @@ def recorded(name: str) -> Recorded:
 
 FIRST = 0.1  # Hertz radii; nearer to the axis are its bore and, with friction, a cusp
 EDGE = 3 / 16  # Hertz radii, three elements of the coarser mesh; its edge ripples that far
-FORCE, TRACTION = 2e-4, 1e-3
+FORCE_ERROR, TRACTION_ERROR = 2e-4, 1e-3
 OURS = (
     "twice the root sum of squares of the recorded uncertainty and that of this program: "
-    f"{FORCE:g} of the force, {TRACTION:g} of p_H and µp_H, as for the semi-closed references"
+    f"{FORCE_ERROR:g} of the force, {TRACTION_ERROR:g} of p_H and µp_H, as for the semi-closed "
+    "references"
 )
 NAMES = {
     "coated_frictionless": "coated, no friction",
@@ -566,15 +569,15 @@ def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple
     value, uncertainty = of.normal_force
     problem = Problem(
         scene,
-        (Load(value * paper.NORMAL_FORCE),),
+        (Load(value * NORMAL_FORCE),),
         HERTZ.contact_radius,
         "references/external_code_calculix.json: CalculiX 2.20",
         ReferenceKind.EXTERNAL_CODE,
         uncertainty / value,
     )
-    force = replace(NORMAL_FORCE, meaning="force at this approach")
+    force = replace(FORCE, meaning="force at this approach")
     rows = [
-        (problem, Within(force, 2 * math.hypot(problem.uncertainty, FORCE), OURS)),
+        (problem, Within(force, 2 * math.hypot(problem.uncertainty, FORCE_ERROR), OURS)),
         _traction_row(problem, of, "pressure", 1.0, "p_H", pressure_at),
     ]
     if friction:
@@ -614,7 +617,7 @@ def _traction_row(
         name, f"largest difference of the {name} from {FIRST:g} to {last:.2g} a_H, over {unit}",
         largest_difference, unit,
     )  # fmt: skip
-    within = Within(what, 2 * math.hypot(uncertainty, TRACTION), OURS)
+    within = Within(what, 2 * math.hypot(uncertainty, TRACTION_ERROR), OURS)
     return replace(problem, uncertainty=uncertainty), within
 
 

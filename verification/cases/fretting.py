@@ -62,23 +62,36 @@ from verification.judging.declared_case import (
 from verification.judging.drawings import ProfileLabels, Section, convergence, profile, radial_chart
 from verification.judging.field_errors import away_from_edges
 from verification.observed.ring_errors import judged_within
-from verification.problems import cattaneo_mindlin as loop
-from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
     AMPLITUDE,
+    FRETTING_WINDOW,
     LOADED,
+    OVER_LARGEST_SLIP,
+    OVER_LARGEST_WAY,
     OVER_LIMIT,
     OVER_SLIDING_SHIFT,
     PRESSED,
+    TORQUE_PARTS,
     TWISTED,
-    WINDOW_PER_RADIUS,
     ExactLoop,
+    fretting_loop_problem,
+    largest_f2,
+    loop_cycle,
+    loop_steps,
     sheared,
 )
-from verification.problems.cattaneo_mindlin import PARTS as TWISTS
-from verification.problems.cattaneo_mindlin import fretting_loop as loop_problem
 from verification.problems.indentation import COATED
-from verification.problems.paper_scene import FRICTION, HERTZ, NU_ZERO, STEEL
+from verification.problems.paper_scene import (
+    FRICTION,
+    FRICTION_LIMIT,
+    HERTZ,
+    NORMAL_FORCE,
+    NU_ZERO,
+    RADIUS,
+    STEEL,
+    frictional,
+    square_grid,
+)
 from verification.problems.problem import Problem
 from verification.quantities import (
     force_along_x,
@@ -94,7 +107,7 @@ if TYPE_CHECKING:
 
 
 MICROMETRE = 1e-6
-NEWTON_TO_LIMIT = 1 / paper.FRICTION_LIMIT
+NEWTON_TO_LIMIT = 1 / FRICTION_LIMIT
 FINE = 40  # points of the closed form per branch
 
 # Marked states of the loop: name, loading step, T/µW.
@@ -251,7 +264,7 @@ def _closed_form_loop(exact: ExactLoop) -> tuple[np.ndarray, np.ndarray]:
     state: TangentialHistory = exact.virgin
     for start, end in pairwise((0.0, AMPLITUDE, -AMPLITUDE, AMPLITUDE)):
         for part in np.linspace(start, end, FINE):
-            state = state.loaded_to(part * paper.FRICTION_LIMIT)
+            state = state.loaded_to(part * FRICTION_LIMIT)
             forces.append(part)
             shifts.append(state.shift)
     return np.array(forces), np.array(shifts)
@@ -291,7 +304,7 @@ def _cycle_rows() -> tuple[Row, ...]:
     )
     amplitude = Observable(
         "slip_amplitude", "half the range of slip in the cycle, maximum over the contact", "m",
-        lambda result, *_: float(np.max(loop.loop_cycle(result).slip_amplitude)),
+        lambda result, *_: float(np.max(loop_cycle(result).slip_amplitude)),
         lambda exact: float(exact.cycled.slip_amplitude(HERTZ.contact_radius)),
     )  # fmt: skip
     amplitude_error = error_norm(
@@ -299,24 +312,24 @@ def _cycle_rows() -> tuple[Row, ...]:
         "largest difference of half the range of slip in the contact",
         lambda result, _, problem: problem.ends[-1].largest_slip_amplitude_error(result),
         unit="m",
-        over=loop.OVER_LARGEST_SLIP,
+        over=OVER_LARGEST_SLIP,
     )
     distance_error = error_norm(
         "largest_slip_distance_error",
         "largest difference of the accumulated slip in the contact",
         lambda result, _, problem: problem.ends[-1].largest_slip_distance_error(result),
         unit="m",
-        over=loop.OVER_LARGEST_WAY,
+        over=OVER_LARGEST_WAY,
     )
     f1 = Observable(
         "ruiz_f1", "largest shear times slip amplitude", "Pa m",
-        lambda result, *_: float(np.max(loop.loop_cycle(result).ruiz_f1)),
+        lambda result, *_: float(np.max(loop_cycle(result).ruiz_f1)),
         lambda exact: float(exact.cycled.largest_f1), source=ruiz,
     )  # fmt: skip
     f2 = Observable(
         "ruiz_f2", "largest shear times slip amplitude times tensile stress of the surface",
         "Pa^2 m",
-        lambda result, *_: loop.largest_f2(result),
+        lambda result, *_: largest_f2(result),
         lambda exact: float(exact.cycled.largest_f2), source=ruiz,
     )  # fmt: skip
     rows = (
@@ -366,8 +379,8 @@ def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter
     quarter  number of increments from zero to the largest tangential force
     """
     cells = cells or ((128, 256, 512) if level is Level.FULL else (128, 256))
-    problem = loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter)
-    grids, wide = on_cells(problem, cells, WINDOW_PER_RADIUS), on_cells(problem, cells[:1])
+    problem = fretting_loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter)
+    grids, wide = on_cells(problem, cells, FRETTING_WINDOW), on_cells(problem, cells[:1])
     on_wide_window = Reported(
         LARGEST_SHEAR_ERROR,
         "the same number of cells on a window of three contact radii: cells 1.36 times as large, "
@@ -407,20 +420,20 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
         "slip along x; solutions of Coulomb's vector law differ from it by fractions of a per "
         "cent in shift and energy and by a few per cent in the shear"
     )
-    problem = loop_problem("", STEEL, 18)
+    problem = fretting_loop_problem("", STEEL, 18)
     exact = problem.ends[-1]
     problem = replace(
         problem,
-        scene=paper.frictional(
+        scene=frictional(
             "Steel ball on steel, fretting loop (paper, figures 1 and 2)",
-            Sphere(radius=paper.RADIUS, material=STEEL),
+            Sphere(radius=RADIUS, material=STEEL),
             STEEL,
-            *loop.loop_steps(18),
+            *loop_steps(18),
         ),
         source="Mindlin and Deresiewicz 1953, approximate for ν > 0",
         uncertainty=0.005,
     )
-    grid = paper.square_grid(cells, 0.6e-3)
+    grid = square_grid(cells, 0.6e-3)
     run = ladder(problem, [SizedRun(Run(cells_label(cells), problem.scene, grid), cells)])
 
     def reported(
@@ -482,7 +495,9 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
 
 
 STOPPED = {1: 0.3, 2: 0.45, 3: 0.6, 4: 0.75, 5: 0.9}  # parts of µW, by step
-LOOP = loop_problem("Fretting loop of two alike bodies, by finite elements", STEEL, quarter=3)
+LOOP = fretting_loop_problem(
+    "Fretting loop of two alike bodies, by finite elements", STEEL, quarter=3
+)
 # Tolerances of shift, energy and shear at 64 elements per radius; their order of convergence.
 ORDER = 1.5
 OF_SHIFT, OF_ENERGY, OF_SHEAR = (
@@ -679,7 +694,7 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
     )
     of_ball = tuple(
         row
-        for stop in TWISTS.items()
+        for stop in TORQUE_PARTS.items()
         for row in (
             Within(
                 TWIST.at(*stop, SLIDING), lambda rung: 2 * OF_SHIFT(rung),
@@ -700,7 +715,7 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
             _loop_profile(of_loop, LOADED, "fem_penalty_slip_loop", "at 0.9 µW", gauss),
             profile(
                 ball, "fem_penalty_slip_torsion",
-                f"Shear over the radius, at {TWISTS[2]:g} {SLIDING}", gauss, "q / µp₀",
+                f"Shear over the radius, at {TORQUE_PARTS[2]:g} {SLIDING}", gauss, "q / µp₀",
                 TWISTED.scale(OVER_LIMIT), shear_around(2),
             ),
         ),
@@ -782,9 +797,7 @@ def radial_tangential(level: Level = Level.QUICK) -> Case:
     )
     # The normal loading is solved on the points for a tangential force.
     pressed = COATED.problem(20)
-    push = LoadStep(
-        tangential_force=(0.05 * COATED.friction * paper.NORMAL_FORCE, 0.0), increments=1
-    )
+    push = LoadStep(tangential_force=(0.05 * COATED.friction * NORMAL_FORCE, 0.0), increments=1)
     scene = pressed.scene.model_copy(update={"loading": (*pressed.scene.loading, push)})
     coated = replace(pressed, scene=scene, ends=(COATED, None))
     of_pressing = Within(
@@ -794,7 +807,7 @@ def radial_tangential(level: Level = Level.QUICK) -> Case:
     at_last = Within(
         shear.at(3, stops[3], "µW"), 5e-3, "accuracy target of the radial solver, for the mean"
     )
-    to_and_fro = on_radii(loop_problem("Ball to and fro", NU_ZERO, 9), "to and fro")
+    to_and_fro = on_radii(fretting_loop_problem("Ball to and fro", NU_ZERO, 9), "to and fro")
     return case(
         "radial_tangential",
         "Tangential loads on rings and angles",

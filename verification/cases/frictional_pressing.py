@@ -82,7 +82,6 @@ from verification.observed.ring_errors import (
     peak_pressure,
     stick_radius,
 )
-from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.indentation import (
     COATED,
@@ -94,7 +93,17 @@ from verification.problems.indentation import (
     WEAK,
     Indentation,
 )
-from verification.problems.paper_scene import HERTZ, half_space, pressed, pressing, rigid_ball
+from verification.problems.paper_scene import (
+    CONTACT_MODULUS,
+    HERTZ,
+    NORMAL_FORCE,
+    WINDOW_PER_RADIUS,
+    half_space,
+    pressed,
+    pressing,
+    rigid_ball,
+    square_grid,
+)
 from verification.problems.problem import (
     OVER_PEAK,
     ROUNDING,
@@ -444,7 +453,7 @@ HALF = Indentation(
     "ν = 0, µ = 0.2986",
     "half",
     Body(
-        material=IsotropicMaterial(young_modulus=paper.CONTACT_MODULUS, poisson_ratio=0.0)
+        material=IsotropicMaterial(young_modulus=CONTACT_MODULUS, poisson_ratio=0.0)
     ),
     "self-similar (Spence 1975), to five digits",
 )  # fmt: skip
@@ -468,7 +477,7 @@ def _half_on_cells(cells: int, increments: int) -> Run:
     return Run(
         f"{cells}x{cells}, {increments} increments",
         HALF.problem(20).scene,
-        paper.square_grid(cells, paper.WINDOW_PER_RADIUS / 2 * HALF.contact_radius),
+        square_grid(cells, WINDOW_PER_RADIUS / 2 * HALF.contact_radius),
         effects=lambda plan: plan.cut_into((increments,)),
     )
 
@@ -558,7 +567,7 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
                 "stick_radius", "relative error of the stick radius, extrapolated from 8 and 16 "
                 "increments", (few.label, many.label), _stick_error,
                 # Half a cell of the quick grid, over the stick radius.
-                0.5 * paper.WINDOW_PER_RADIUS / 64 / HALF.stick_part,
+                0.5 * WINDOW_PER_RADIUS / 64 / HALF.stick_part,
                 "half a cell: the stick edge moves by cells from increment to increment",
                 HALF.source, ReferenceKind.SEMI_CLOSED, FIVE_DIGITS,
             ),
@@ -602,13 +611,13 @@ def sheared_increments(
         increments
         or {
             Level.QUICK: (4, 8),
-            Level.STANDARD: (4, 8, 16, 32, 64),
+            Level.STANDARD: (4, 8, 16, 32, 64, 128),
             Level.FULL: (4, 8, 16, 32, 64, 128, 256),
         }[level]
     )
     part = 0.5  # of µW
-    push = (part * HALF.friction * paper.NORMAL_FORCE, 0.0)
-    grid = paper.square_grid(cells, paper.WINDOW_PER_RADIUS / 2 * HALF.contact_radius)
+    push = (part * HALF.friction * NORMAL_FORCE, 0.0)
+    grid = square_grid(cells, WINDOW_PER_RADIUS / 2 * HALF.contact_radius)
     scene = HALF.problem(1).scene
     # Orders of the increments are judged without edge correction, whose changes are up to 1e-6.
     several = len(counts) >= 5
@@ -714,7 +723,7 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
     level  amount of computation: quick, standard or full
     """
     few, many = 20, 40
-    grid = paper.square_grid(96, 1.2 * HERTZ.contact_radius)
+    grid = square_grid(96, 1.2 * HERTZ.contact_radius)
     punch = FlatPunch(radius=HERTZ.contact_radius, material=RIGID)
 
     def run(

@@ -51,7 +51,6 @@ from verification.judging.case import (
 )
 from verification.judging.declared_case import IDENTITY, case
 from verification.observed.contact_state import observed
-from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
     LARGEST,
     PUNCH_RADIUS,
@@ -61,16 +60,23 @@ from verification.problems.cattaneo_mindlin import (
 )
 from verification.problems.paper_scene import (
     FRICTION,
+    FRICTION_LIMIT,
     HERTZ,
     NORMAL_FORCE,
     NU_ZERO,
+    RADIUS,
     STEEL,
     SUBSTRATE,
     coated,
     film,
+    frictional,
+    hertz_grid,
+    paraboloid,
     pressed,
     pressing,
     rigid_ball,
+    square_grid,
+    tangential_step,
 )
 from verification.problems.problem import (
     ROUNDING,
@@ -225,8 +231,8 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
     level  amount of computation: quick, standard or full
     cells  number of cells per side; 0: that of the level
     """
-    grid = paper.hertz_grid(cells or (64 if level is Level.QUICK else 128))
-    half = 0.5 * paper.FRICTION_LIMIT
+    grid = hertz_grid(cells or (64 if level is Level.QUICK else 128))
+    half = 0.5 * FRICTION_LIMIT
     along = LoadStep(tangential_force=(half, 0.0), increments=2)
     turning = (
         along,
@@ -235,7 +241,7 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
     )
 
     def run(label: str, title: str, *loading: LoadStep) -> Run:
-        scene = paper.frictional(title, paper.paraboloid(STEEL), STEEL, *loading)
+        scene = frictional(title, paraboloid(STEEL), STEEL, *loading)
         return Run(label, scene, grid)
 
     changes = (
@@ -326,7 +332,7 @@ class CoupledContact:
         degrees  angle of the rotation, from x towards y
         """
         way = "" if degrees == 0 else f", turned by {degrees:g}°"
-        grid = paper.square_grid(cells, 1.2 * HERTZ.contact_radius)
+        grid = square_grid(cells, 1.2 * HERTZ.contact_radius)
         scene = self.scene(turned(self.history, degrees), way)
         # The load history continues from uncorrected states, so that the identities hold for these.
         return Run(f"{self.name}{way}", scene, grid, edge="off")
@@ -687,10 +693,10 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
     level  amount of computation: quick, standard or full
     """
     cells = 48 if level is Level.QUICK else 96
-    grid = paper.square_grid(cells, 1.3 * HERTZ.contact_radius)
+    grid = square_grid(cells, 1.3 * HERTZ.contact_radius)
     one_film = film(2.0, 1.0)
-    coated_ball = Paraboloid(radius=paper.RADIUS, material=SUBSTRATE, layers=(one_film,))
-    way = (pressing(), *(paper.tangential_step(part, increments=2) for part in (0.9, -0.9)))
+    coated_ball = Paraboloid(radius=RADIUS, material=SUBSTRATE, layers=(one_film,))
+    way = (pressing(), *(tangential_step(part, increments=2) for part in (0.9, -0.9)))
     scenes = {
         "frictionless": pressed(
             "The paper's ball without friction", rigid_ball(), Body(material=SUBSTRATE)
@@ -701,7 +707,7 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
         **{
             f"{name} sheared": pressed(title, ball, body, *way, friction=FRICTION)
             for name, title, ball, body in (
-                ("alike bodies", "Two alike bodies", paper.paraboloid(STEEL), Body(material=STEEL)),
+                ("alike bodies", "Two alike bodies", paraboloid(STEEL), Body(material=STEEL)),
                 ("alike coated bodies", "Two alike coated bodies", coated_ball, FILMED),
                 ("rigid ball on coating", "The paper's ball on a coating", rigid_ball(), FILMED),
             )
@@ -760,9 +766,7 @@ class BodyPair:
         """Create the scene of the ball on the lower body, with friction, under the given load
         steps.
         """
-        ball = Paraboloid(
-            radius=paper.RADIUS, material=self.upper.material, layers=self.upper.layers
-        )
+        ball = Paraboloid(radius=RADIUS, material=self.upper.material, layers=self.upper.layers)
         return pressed(self.name, ball, self.lower, *loading, friction=MU)
 
 
@@ -808,7 +812,7 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
     )
     same = "largest difference of pressure, shear, approach and shift, after half a turn"
     cells = {Level.QUICK: 32, Level.STANDARD: 64, Level.FULL: 128}[level]
-    grid = paper.square_grid(cells, 1.3 * HERTZ.contact_radius)
+    grid = square_grid(cells, 1.3 * HERTZ.contact_radius)
     elements = per_radius(
         {Level.QUICK: 12, Level.STANDARD: 24, Level.FULL: 48}[level], 1.3 * HERTZ.contact_radius
     )
@@ -916,14 +920,14 @@ def led_histories(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation: quick, standard or full
     """
-    ball, limit = paper.paraboloid(NU_ZERO), FRICTION * NORMAL_FORCE
+    ball, limit = paraboloid(NU_ZERO), FRICTION * NORMAL_FORCE
     punch = FlatPunch(radius=HERTZ.contact_radius, material=NU_ZERO)
     arm = 0.1 * HERTZ.contact_radius  # the whole face is in contact for up to a third of the radius
     slope = 0.1 * HERTZ.approach / HERTZ.contact_radius
     held = LoadStep(normal_force=NORMAL_FORCE, increments=1)
 
     def scene(title: str, indenter: Paraboloid | FlatPunch, *loading: LoadStep) -> Scene:
-        return paper.frictional(title, indenter, NU_ZERO).model_copy(update={"loading": loading})
+        return frictional(title, indenter, NU_ZERO).model_copy(update={"loading": loading})
 
     scenes = {
         "pressed": scene(
@@ -951,7 +955,7 @@ def led_histories(level: Level = Level.QUICK) -> Case:
             LoadStep(moment=(-arm * NORMAL_FORCE, 0.0), increments=3),
         ),
     }  # fmt: skip
-    grid = paper.square_grid(48 * 2**level, 1.3 * HERTZ.contact_radius)
+    grid = square_grid(48 * 2**level, 1.3 * HERTZ.contact_radius)
     mesh = per_radius(16 * 2**level, HERTZ.contact_radius)
     upright = ("pressed", "pushed", "twisted")  # finite elements keep the indenter upright
     runs: tuple[Run | SectionRun, ...] = (

@@ -36,10 +36,10 @@ from verification.judging.declared_case import (
     CONTACT_RADIUS,
     DERIVED,
     EDGE,
+    FORCE,
     IDENTITY,
     JUDGED_BY,
     MIDDLE,
-    NORMAL_FORCE,
     PEAK_PRESSURE,
     PENALTY,
     PRESSURE_L1,
@@ -71,8 +71,7 @@ from verification.judging.declared_case import (
     with_edge_at,
 )
 from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.problems import paper_scene as paper
-from verification.problems.classical import (
+from verification.problems.indentation import (
     BALL,
     BARREL,
     CONE,
@@ -85,14 +84,22 @@ from verification.problems.classical import (
     mean_pressure,
 )
 from verification.problems.paper_scene import (
+    CONTACT_MODULUS,
+    FRICTION,
     HERTZ,
+    NORMAL_FORCE,
+    RADIUS,
     STEEL,
     SUBSTRATE,
     UNLIKE,
     coated,
     film,
+    frictionless,
+    paraboloid,
     pressed,
+    pressing,
     rigid_ball,
+    square_grid,
 )
 from verification.problems.problem import ROUNDING, Problem, Reference, ReferenceKind
 
@@ -176,7 +183,7 @@ def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
     )  # fmt: skip
 
 
-ARC = SphereContact.under_load(paper.NORMAL_FORCE, paper.RADIUS, paper.CONTACT_MODULUS)
+ARC = SphereContact.under_load(NORMAL_FORCE, RADIUS, CONTACT_MODULUS)
 
 
 def _beyond_hertz_row(
@@ -211,9 +218,9 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation: quick, standard or full
     """
-    ball, load = Sphere(radius=paper.RADIUS, material=STEEL), paper.pressing()
+    ball, load = Sphere(radius=RADIUS, material=STEEL), pressing()
     problem = Problem(
-        paper.frictionless("Ball with its exact arc on a half-space", ball, STEEL, load),
+        frictionless("Ball with its exact arc on a half-space", ball, STEEL, load),
         (ARC,),
         HERTZ.contact_radius,
         "Sneddon 1965, arc of a circle, by Gauss quadrature",
@@ -261,7 +268,7 @@ def hertz_approach_control(level: Level = Level.QUICK) -> Case:
     """
     rows = (
         Refined(
-            NORMAL_FORCE, 2.0, 7.5e-5,
+            FORCE, 2.0, 7.5e-5,
             "order 2, as the approach under force; the cap is its 5e-5 times 3/2, the exponent of "
             "Hertz's law",
         ),
@@ -278,7 +285,7 @@ def hertz_approach_control(level: Level = Level.QUICK) -> Case:
 
 
 PART = (27.5 / 32.5) ** 3  # about 0.6; the edge is then in the middle of one of 32 elements
-UNLOADED = PointContact.under_load(PART * paper.NORMAL_FORCE, HERTZ.radius, HERTZ.contact_modulus)
+UNLOADED = PointContact.under_load(PART * NORMAL_FORCE, HERTZ.radius, HERTZ.contact_modulus)
 SMALLER = UNLOADED.contact_radius / HERTZ.contact_radius
 
 
@@ -323,13 +330,13 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
     cells, elements = {
         Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 128),
     }[level]  # fmt: skip
-    down = LoadStep(normal_force=PART * paper.NORMAL_FORCE)
+    down = LoadStep(normal_force=PART * NORMAL_FORCE)
     # Grids and meshes are laid out for the larger contact.
     problem = replace(
         BALL,
         scene=pressed(
             "Ball on a half-space, pressed and unloaded",
-            paper.paraboloid(STEEL), BALL.scene.body, paper.pressing(), down,
+            paraboloid(STEEL), BALL.scene.body, pressing(), down,
         ),
         ends=(HERTZ, UNLOADED),
     )  # fmt: skip
@@ -369,7 +376,7 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
             ),
         )
         for way, steps in {
-            "pressed and unloaded": (paper.pressing(), down),
+            "pressed and unloaded": (pressing(), down),
             "pressed by the smaller force": (down,),
         }.items()
     }  # fmt: skip
@@ -414,12 +421,12 @@ def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
     hard = IsotropicMaterial(young_modulus=300e9, poisson_ratio=0.25)
     # 1/E* = (1 - 0.25²)/300 GPa + the rest, so that E* is that of the standard ball
     soft = IsotropicMaterial(
-        young_modulus=0.75 / (1 / paper.CONTACT_MODULUS - (1 - 0.25**2) / 300e9), poisson_ratio=0.5
+        young_modulus=0.75 / (1 / CONTACT_MODULUS - (1 - 0.25**2) / 300e9), poisson_ratio=0.5
     )
     steel = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
     pairs = {
-        "rigid ball on 210 GPa": (Paraboloid(radius=paper.RADIUS, material=RIGID), steel),
-        "ball of 300 GPa on a softer body": (paper.paraboloid(hard), soft),
+        "rigid ball on 210 GPa": (Paraboloid(radius=RADIUS, material=RIGID), steel),
+        "ball of 300 GPa on a softer body": (paraboloid(hard), soft),
     }
     rows = (Within(APPROACH, 5e-5, ASKED), Within(PEAK_PRESSURE, 1.5e-4, ASKED))
     scenes = {
@@ -703,7 +710,7 @@ def flat_punch(level: Level = Level.QUICK) -> Case:
 
 # Oblique to the grid, and a little less than the third of the radius at which the punch lifts off.
 ECCENTRICITY = (0.18 * PUNCH_RADIUS, 0.24 * PUNCH_RADIUS)
-TILTED = TiltedPunch(PUNCH_RADIUS, paper.CONTACT_MODULUS, paper.NORMAL_FORCE, ECCENTRICITY)
+TILTED = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, ECCENTRICITY)
 
 
 def _vector_component(name: str, axis: int, result: Any, *_: Any) -> float:
@@ -763,11 +770,11 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
     """
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
     forced, tilted = (
-        paper.frictionless(title, punch, STEEL, step)
+        frictionless(title, punch, STEEL, step)
         for title, step in {
             "Flat punch pressed beside its axis": LoadStep(
-                normal_force=paper.NORMAL_FORCE,
-                moment=(paper.NORMAL_FORCE * ECCENTRICITY[1], paper.NORMAL_FORCE * ECCENTRICITY[0]),
+                normal_force=NORMAL_FORCE,
+                moment=(NORMAL_FORCE * ECCENTRICITY[1], NORMAL_FORCE * ECCENTRICITY[0]),
             ),
             "Flat punch tilted as it is pressed": LoadStep(
                 approach=TILTED.approach, tilt=(TILTED.tilt[1], TILTED.tilt[0])
@@ -855,7 +862,7 @@ def _shifted_field_difference(beside: Result, centred: Result) -> float:
     if one.shear is None or other.shear is None:
         return float(worst)
     shear = np.roll(other.shear, MOVED, axis=(1, 2))
-    limit = paper.FRICTION * other.peak_pressure
+    limit = FRICTION * other.peak_pressure
     return float(np.maximum(worst, np.max(np.abs(one.shear - shear)) / limit))
 
 
@@ -869,25 +876,25 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
     """
     cells, increments = 64 if level is Level.QUICK else 128, 5
     source = "x²/2R - φx = (x - Rφ)²/2R - Rφ²/2: a tilted paraboloid is a shifted paraboloid"
-    grid = paper.square_grid(cells, 2 * HERTZ.contact_radius)
+    grid = square_grid(cells, 2 * HERTZ.contact_radius)
     e = tuple(number * side for number, side in zip(MOVED, grid.spacing, strict=True))
-    roll = tuple(length / paper.RADIUS for length in e)
-    drop = 0.5 * paper.RADIUS * (roll[0] ** 2 + roll[1] ** 2)
+    roll = tuple(length / RADIUS for length in e)
+    drop = 0.5 * RADIUS * (roll[0] ** 2 + roll[1] ** 2)
     forced = LoadStep(
-        normal_force=paper.NORMAL_FORCE,
-        moment=(paper.NORMAL_FORCE * e[1], paper.NORMAL_FORCE * e[0]),
+        normal_force=NORMAL_FORCE,
+        moment=(NORMAL_FORCE * e[1], NORMAL_FORCE * e[0]),
         increments=increments,
     )
-    tilted = LoadStep(normal_force=paper.NORMAL_FORCE, tilt=(roll[1], roll[0]), increments=1)
-    steel = (paper.paraboloid(STEEL), Body(material=STEEL))
+    tilted = LoadStep(normal_force=NORMAL_FORCE, tilt=(roll[1], roll[0]), increments=1)
+    steel = (paraboloid(STEEL), Body(material=STEEL))
     unlike = (rigid_ball(), Body(material=SUBSTRATE))
     runs = tuple(
-        Run(label, pressed(title, *bodies, step, friction=paper.FRICTION), grid)
+        Run(label, pressed(title, *bodies, step, friction=FRICTION), grid)
         for label, title, bodies, step in (
-            ("centred", "Ball pressed at its tip", steel, paper.pressing(increments)),
+            ("centred", "Ball pressed at its tip", steel, pressing(increments)),
             ("beside", "Ball pressed beside its tip", steel, forced),
             ("given tilt", "Tilted ball", steel, tilted),
-            ("centred, unlike bodies", "Rigid ball", unlike, paper.pressing(increments)),
+            ("centred, unlike bodies", "Rigid ball", unlike, pressing(increments)),
             ("beside, unlike bodies", "Rigid ball beside its tip", unlike, forced),
         )
     )
@@ -919,7 +926,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
             ),
             rolled(
                 "moment_of_given_tilt", "moment M_y at the prescribed tilt", "N m",
-                "given tilt", ("moment", 1), paper.NORMAL_FORCE * e[0],
+                "given tilt", ("moment", 1), NORMAL_FORCE * e[0],
             ),
             *(
                 compare_runs(

@@ -67,21 +67,26 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import Drawn, convergence, profile
 from verification.observed.ring_errors import tractions_at
-from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
     OVER_LIMIT,
     OVER_SLIDING_SHIFT,
     sheared,
 )
-from verification.problems.classical import CONE, SLOPE, UNDER_CONE, mean_pressure
+from verification.problems.indentation import CONE, SLOPE, UNDER_CONE, mean_pressure
 from verification.problems.paper_scene import (
+    CONTACT_MODULUS,
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,
+    NORMAL_FORCE,
     NU_ZERO,
     OFFSETS,
     STEEL,
     UNLIKE,
+    frictional,
+    paraboloid,
+    partial_slip,
+    tangential_step,
 )
 from verification.problems.problem import Problem, ReferenceKind
 from verification.quantities import force_along_x, shear_of, shift_along_x
@@ -294,18 +299,17 @@ def _under_cone(*parts: float) -> Problem:
     """
 
     def pressed(load: float) -> ConeContact:
-        return ConeContact.under_load(load, SLOPE, paper.CONTACT_MODULUS)
+        return ConeContact.under_load(load, SLOPE, CONTACT_MODULUS)
 
     ratio = 1.0  # E*/G* of two identical bodies with ν = 0
     ends = (
-        superpose(pressed, paper.NORMAL_FORCE, part * FRICTION_LIMIT, FRICTION, ratio)
-        for part in parts
+        superpose(pressed, NORMAL_FORCE, part * FRICTION_LIMIT, FRICTION, ratio) for part in parts
     )
-    scene = paper.frictional(
+    scene = frictional(
         "Cone on a half-space, sheared, ν = 0",
         Cone(slope_angle=SLOPE, material=NU_ZERO),
         NU_ZERO,
-        *(paper.tangential_step(part, increments=1) for part in parts),
+        *(tangential_step(part, increments=1) for part in parts),
     )
     return Problem(
         scene,
@@ -441,10 +445,10 @@ def _sliding_problem(material: IsotropicMaterial) -> Problem:
 
     material  material of both bodies
     """
-    beyond, at_sliding = 5.0, paper.partial_slip(material, 0.0).sliding_shift
-    scene = paper.frictional(
+    beyond, at_sliding = 5.0, partial_slip(material, 0.0).sliding_shift
+    scene = frictional(
         f"Dragged to {beyond:g} sliding shifts, ν = {material.poisson_ratio:g}",
-        paper.paraboloid(material),
+        paraboloid(material),
         material,
         LoadStep(tangential_shift=(0.8 * at_sliding, 0.0), increments=2),
         LoadStep(tangential_shift=(beyond * at_sliding, 0.0), increments=6),

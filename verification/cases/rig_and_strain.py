@@ -44,12 +44,25 @@ from verification.judging.declared_case import (
     refinement,
 )
 from verification.judging.drawings import Drawn, profile
-from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
     OVER_SLIDING_SHIFT,
     SLIDING_SHIFT,
 )
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO, UNLIKE
+from verification.problems.paper_scene import (
+    CONTACT_MODULUS,
+    FRICTION,
+    FRICTION_LIMIT,
+    HERTZ,
+    NORMAL_FORCE,
+    NU_ZERO,
+    STEEL,
+    UNLIKE,
+    frictional,
+    frictionless,
+    paraboloid,
+    partial_slip,
+    pressing,
+)
 from verification.problems.problem import Problem, ReferenceKind
 from verification.quantities import shear_of
 from verification.references import load_reference
@@ -188,14 +201,14 @@ class Sprung:
 
 
 def _spring_loop_problem() -> Problem:
-    states = [Sprung(TangentialHistory(paper.partial_slip(NU_ZERO, 0.0)))]
+    states = [Sprung(TangentialHistory(partial_slip(NU_ZERO, 0.0)))]
     steps = []
     for step, part in AT_ENDS.items():
         states.append(states[-1].moved_to(part * ACTUATED))
         shift = (part * ACTUATED, 0.0)
         steps.append(LoadStep(tangential_shift=shift, increments=4 if step == 1 else 8))
     title = "Loop through a spring, ν = 0"
-    scene = paper.frictional(title, paper.paraboloid(NU_ZERO), NU_ZERO, *steps)
+    scene = frictional(title, paraboloid(NU_ZERO), NU_ZERO, *steps)
     return Problem(
         scene.model_copy(update={"rig": Rig(tangential_stiffness=STIFFNESS)}),
         (HERTZ, *states[1:]),
@@ -281,7 +294,7 @@ def _loop_observable(name: str) -> Observable:
         numbers = {
             "loop_opening": abs(opening),
             "energy_ratio": lost / (4 * force * ACTUATED),
-            "energy_friction": lost / (4 * paper.NORMAL_FORCE * abs(opening)),
+            "energy_friction": lost / (4 * NORMAL_FORCE * abs(opening)),
             "gross_slip_share": 5 * lost / (4 * force * end.shift),
         }
         return float(numbers[name])
@@ -347,14 +360,14 @@ def eccentric(name: str) -> Problem:
     name  shape of the indenter: "ball", "barrel across" or "barrel along"
     """
     radii = SHAPES[name]
-    contact = EllipticalContact.under_load(paper.NORMAL_FORCE, radii, paper.CONTACT_MODULUS)
+    contact = EllipticalContact.under_load(NORMAL_FORCE, radii, CONTACT_MODULUS)
     a, b = contact.semi_axes
     force, strain = SHEARED * FRICTION_LIMIT, ECCENTRICITY * a * FRICTION / radii[0]
     exact = EccentricContact(contact, FRICTION, force, strain)
     step = LoadStep(tangential_force=(force, 0.0), bulk_strain=(strain, 0.0, 0.0), increments=1)
     title = f"Sheared and strained {name}, ν = 0"
     return Problem(
-        paper.frictional(title, Ellipsoid(radii=radii, material=NU_ZERO), NU_ZERO, step),
+        frictional(title, Ellipsoid(radii=radii, material=NU_ZERO), NU_ZERO, step),
         (contact, exact),
         a,
         "Hertz, Cattaneo; derived in verification.cases.rig_and_strain",
@@ -434,7 +447,7 @@ def eccentric_contact(level: Level = Level.QUICK) -> Case:
 
 
 STRAIN = 3e-4
-HARD = IsotropicMaterial(young_modulus=2 * paper.STEEL.young_modulus, poisson_ratio=0.2)
+HARD = IsotropicMaterial(young_modulus=2 * STEEL.young_modulus, poisson_ratio=0.2)
 
 
 @dataclass(frozen=True)
@@ -457,15 +470,11 @@ def _coated_strain_problem() -> Problem:
     and base.
     """
     layer = Layer(thickness=0.2e-3, material=HARD)
-    scene = paper.frictionless(
-        "Coated body, strained", paper.paraboloid(NU_ZERO), paper.STEEL, paper.pressing(1)
-    )
+    scene = frictionless("Coated body, strained", paraboloid(NU_ZERO), STEEL, pressing(1))
     body = scene.body.model_copy(update={"layers": (layer,)})
     step = LoadStep(bulk_strain=(STRAIN, 0.0, 0.0), increments=1)
     changed = {"body": body, "loading": (*scene.loading, step)}
-    end = {
-        layer: one.plane_strain_modulus * STRAIN for layer, one in enumerate((HARD, paper.STEEL))
-    }
+    end = {layer: one.plane_strain_modulus * STRAIN for layer, one in enumerate((HARD, STEEL))}
     return Problem(
         scene.model_copy(update=changed),
         (HERTZ, end),
@@ -509,7 +518,7 @@ def strained_ball(level: Level = Level.QUICK) -> Case:
     exact = Strained(known["stick_radius"] * HERTZ.contact_radius, known["dissipated_energy"])
     step = LoadStep(bulk_strain=(STRAIN, STRAIN, 0.0), increments=1)
     problem = Problem(
-        paper.frictional("Ball on a strained body", paper.paraboloid(NU_ZERO), NU_ZERO, step),
+        frictional("Ball on a strained body", paraboloid(NU_ZERO), NU_ZERO, step),
         (HERTZ, exact),
         HERTZ.contact_radius,
         known["source"],

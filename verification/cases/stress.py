@@ -48,16 +48,18 @@ from verification.judging.declared_case import (
     judged,
     on_radii,
 )
-from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import TWISTED, sheared
 from verification.problems.paper_scene import (
     FRICTION,
+    FRICTION_LIMIT,
     HERTZ,
     STEEL,
     ShiftedGrid,
     coated,
     film,
     hertz_grid,
+    paraboloid,
+    partial_slip,
     pressed,
     rigid_ball,
 )
@@ -424,7 +426,7 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
                     f"{cells}x{cells}",
                     partial(
                         _trailing_edge_tension_on_cells, Body(material=STEEL),
-                        paper.paraboloid(STEEL), cells,
+                        paraboloid(STEEL), cells,
                     ),
                     closed_form(exact, hamilton), Required(allowed, required), exact, "its value",
                     runs=(),
@@ -461,7 +463,7 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
     )  # fmt: skip
 
 
-STUCK = paper.partial_slip(STEEL, 0.6 * paper.FRICTION_LIMIT).stick_radius / A
+STUCK = partial_slip(STEEL, 0.6 * FRICTION_LIMIT).stick_radius / A
 CARRIED = 0.4  # in contact radii: the depth of the plane that carries the torque
 
 

@@ -57,13 +57,12 @@ from verification.judging.declared_case import (
 )
 from verification.judging.drawings import Drawn, convergence, profile
 from verification.norms import shear_error
-from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
     LED,
     OVER_LIMIT,
     OVER_TWIST,
-    PARTS,
     STUCK,
+    TORQUE_PARTS,
     TORSION_LOOP,
     TWISTED,
 )
@@ -71,6 +70,8 @@ from verification.problems.paper_scene import (
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,
+    NORMAL_FORCE,
+    RADIUS,
     coated,
     exact_contact,
     film,
@@ -159,11 +160,11 @@ def torsion(level: Level = Level.QUICK) -> Case:
     shear = error_norm(
         "shear", "Σ|q - q_exact| / Σµp{when}", _shear_on_cells, "Σµp", of=Followed.SHEAR
     )
-    shears = {step: shear.at(step, part, SLIDING) for step, part in PARTS.items()}
+    shears = {step: shear.at(step, part, SLIDING) for step, part in TORQUE_PARTS.items()}
     of_ball = (
         *(
             row
-            for stop in PARTS.items()
+            for stop in TORQUE_PARTS.items()
             for row in (
                 Refined(
                     TWIST.at(*stop, SLIDING), 1.5, 5e-3,
@@ -238,7 +239,7 @@ BASE = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
 COATING = IsotropicMaterial(young_modulus=840e9, poisson_ratio=0.3)
 LAYERS = (Layer(thickness=HERTZ.contact_radius, material=COATING),)
 BODY = Body(material=BASE, layers=LAYERS)
-BALL = Paraboloid(radius=paper.RADIUS, material=BASE, layers=LAYERS)
+BALL = Paraboloid(radius=RADIUS, material=BASE, layers=LAYERS)
 
 
 def _friction_limit(r: Field) -> Field:
@@ -344,7 +345,7 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
     balls = with_edge_at(TWISTED, levels(level)[-1:], order_levels(level), "ball")
     of_ball = tuple(
         row
-        for stop in PARTS.items()
+        for stop in TORQUE_PARTS.items()
         for row in (
             Within(TWIST.at(*stop, SLIDING), scaled_tolerance(2e-3, 1.5), cusp),
             Within(
@@ -376,7 +377,7 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
                 "difference: a cusp at the stick edge.",
                 "q / µp₀", TWISTED.scale(OVER_LIMIT), shear_around(step),
             )
-            for step, part in PARTS.items()
+            for step, part in TORQUE_PARTS.items()
         ),
     )  # fmt: skip
 
@@ -407,7 +408,7 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
     )
     # The area under the virgin curve has a relative uncertainty of 1e-10, the energy twice that.
     of_loop = (*_exact_rows(*LOOP_TWISTS), *_exact_rows(ENERGY_PER_CYCLE, error=2e-10))
-    parts = ", ".join(f"{part:g}" for part in PARTS.values())
+    parts = ", ".join(f"{part:g}" for part in TORQUE_PARTS.values())
     return case(
         "radial_torsion",
         "Radial solver: torsion",
@@ -417,7 +418,7 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
         "energies without increments.",
         judged(
             on_radii(TWISTED, "ball"),
-            [*_exact_rows(*_observables_at_parts(PARTS, TWIST, stick, shear))],
+            [*_exact_rows(*_observables_at_parts(TORQUE_PARTS, TWIST, stick, shear))],
         ),
         judged(on_radii(LED, "given twist"), [*_exact_rows(TORQUE)]),
         judged(on_radii(STUCK, "stuck punch"), [*_exact_rows(TWIST, shear)]),
@@ -457,7 +458,7 @@ def _coated_ball_scene(title: str, *steps: LoadStep) -> Scene:
     steps  load steps after the normal loading
     """
     body = coated(film(2.0, 1.0))
-    return pressed(title, rigid_ball(), body, paper.pressing(8), *steps, friction=FRICTION)
+    return pressed(title, rigid_ball(), body, pressing(8), *steps, friction=FRICTION)
 
 
 @cache
@@ -564,7 +565,7 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
     scenes = {
         "torsion": _coated_ball_scene(
             "Ball twisted on a coating", _torque_step(0.5, 6), _torque_step(-0.2, 6),
-            _torque_step(0.2, 4, normal_force=1.2 * paper.NORMAL_FORCE),
+            _torque_step(0.2, 4, normal_force=1.2 * NORMAL_FORCE),
         ),
         "beside": _coated_ball_scene(
             "Ball twisted and pushed on a coating",
@@ -581,7 +582,7 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
     )
     of_ball = tuple(
         row
-        for stop in PARTS.items()
+        for stop in TORQUE_PARTS.items()
         for row in (
             Within(replace(TWIST, over=OVER_TWIST).at(*stop, SLIDING), 5e-4, of_twist),
             Within(

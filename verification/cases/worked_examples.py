@@ -45,8 +45,17 @@ from verification.convergence.observed_order import error_line, observed_order, 
 from verification.judging.case import SOLVER_TOLERANCE, Case, Derived, Level, Quantity, Required
 from verification.judging.judgement import judge_quantity
 from verification.judging.outcome import Verdict, failure_text, uncertainty_text
-from verification.problems import paper_scene as paper
-from verification.problems.paper_scene import HERTZ, NORMAL_FORCE, STEEL, coated, film, pressed
+from verification.problems.paper_scene import (
+    HERTZ,
+    NORMAL_FORCE,
+    STEEL,
+    coated,
+    film,
+    frictional,
+    paraboloid,
+    pressed,
+    square_grid,
+)
 from verification.problems.problem import Reference, ReferenceKind, closed_form, identity
 
 LEVELS = (1.0, 2.0, 4.0)
@@ -191,9 +200,9 @@ def _push_step(along: float) -> LoadStep:
 
 SCENE = Scene(
     title="Ball pressed beside its tip, pushed, twisted and pushed to and fro",
-    indenter=paper.paraboloid(STEEL),
+    indenter=paraboloid(STEEL),
     body=Body(material=STEEL),
-    friction=paper.frictional("", paper.paraboloid(STEEL), STEEL).friction,
+    friction=frictional("", paraboloid(STEEL), STEEL).friction,
     loading=(
         LoadStep(
             normal_force=NORMAL_FORCE,
@@ -207,7 +216,7 @@ SCENE = Scene(
     ),
 )
 # A stiff layer bends, so that the stress at its lower side differs much from that in the base.
-COATED = pressed("Ball on a stiff coating", paper.paraboloid(STEEL), coated(film(4.0, 0.25)))
+COATED = pressed("Ball on a stiff coating", paraboloid(STEEL), coated(film(4.0, 0.25)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -291,7 +300,7 @@ def _file_check(
 
 @cache
 def _written_result() -> _Written:
-    grid = paper.square_grid(CELLS, MARGIN * HERTZ.contact_radius)
+    grid = square_grid(CELLS, MARGIN * HERTZ.contact_radius)
     result = semi_analytical.solve(SCENE, grid, SOLVER_TOLERANCE)
     with TemporaryDirectory() as name:
         directory = Path(name)
@@ -386,7 +395,7 @@ def place_of_f1() -> float:
 
 @cache
 def _stress_extremes() -> dict[tuple[str, str], Extreme]:
-    grid = paper.square_grid(COARSE, MARGIN * HERTZ.contact_radius)
+    grid = square_grid(COARSE, MARGIN * HERTZ.contact_radius)
     state = state_of_result(semi_analytical.solve(COATED, grid, SOLVER_TOLERANCE), 1)
     depth = COATED.body.layers[0].thickness
     field = stress_on_cells(state, depths=(0.5 * depth, 1.5 * depth), see_edge=False)

@@ -61,28 +61,26 @@ from verification.problems.cattaneo_mindlin import (
     LARGEST,
     OVER_LIMIT,
     OVER_TWIST,
-    PARTS,
+    TORQUE_PARTS,
     TORSION_LOOP,
     TWISTED,
     sheared,
 )
-from verification.problems.classical import (
+from verification.problems.indentation import (
     BALL,
     BARREL,
+    COATED,
     CONE,
+    NU_ZERO,
     PUNCH,
     PUNCH_RADIUS,
-    ROWS,
-    coated_ball,
-    solved_here,
-)
-from verification.problems.indentation import (
-    COATED,
-    NU_ZERO,
     REFERENCE_ERROR,
+    ROWS,
     STRONG,
     WEAK,
     Indentation,
+    coated_ball,
+    solved_here,
 )
 from verification.problems.paper_scene import (
     CONTACT_MODULUS,
@@ -149,7 +147,7 @@ def torsion() -> Challenge:
                 uncertainty=TABLE_ERROR,
             )
         )  # fmt: skip
-    parts = ", ".join(f"{part:g}" for part in PARTS.values())
+    parts = ", ".join(f"{part:g}" for part in TORQUE_PARTS.values())
     return Challenge(
         "torsion", "Lubkin: pressed, then twisted",
         f"{TWISTED.scene.title}: twisted by {parts} of the torque at which all slips.",

@@ -1,19 +1,23 @@
-"""Python interface of the challenge, for a solver that is a function and needs no files.
+"""Judgement of a code on a challenge, and its Python interface for a solver without files.
 
-The function receives a challenge and a refinement level, and returns an `Answer`.
+A solver is a function of a challenge and a refinement level that returns an `Answer`. Each number
+and traction field gets a verdict: errors are compared with the bounds of accuracy classes A, B and
+C. Convergence, stated uncertainties, and the areas of field points are judged, too.
 """
 
 from __future__ import annotations
 
 import importlib
 import importlib.util
+import json
 import math
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
+from math import pi
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -22,15 +26,513 @@ import numpy as np
 
 from contact_results.directory.atomic_file import Refused
 from verification.challenge.cases import challenges
-from verification.challenge.judgement import Judgement, judged
 from verification.challenge.requested_quantities import (
     Answer,
+    AskedField,
+    AskedPoints,
+    AskedValue,
     Challenge,
+    Field,
     Grade,
     Key,
     Solver,
     Vector,
 )
+from verification.convergence.observed_order import ILLEGIBLE, observed_order
+from verification.judging.outcome import Status
+from verification.norms import cell_means
+
+# Factor on N^(-3/4) π^(-1/4), the √radius over the area of a disc of N cells. The product bounds
+# the relative error of the number of cell centres in the disc (Gauss circle problem).
+# Our grids, which are centred on the disc, reach twice this scale.
+SCATTER = 3.0
+
+
+def field_sums(
+    asked: AskedField, field: Field
+) -> Iterator[tuple[str, str, float, float, float, float]]:
+    """Yield sums over the points of an answered traction field that must agree with the exact
+    traction.
+
+    The sums are the force, its second moment, and the covered contact area. Each item has a name, a
+    description, the value, the expected value, the scale of the difference, and the largest
+    deviation (dimensionless) that the discrete points make unavoidable.
+    """
+    forces, exact = field.value * field.area, asked.traction
+    yield "load carried", "Σ value·area", float(np.sum(forces)), asked.total, asked.scale, 0.0
+    spread = float(np.sum(forces * (field.x**2 + field.y**2)))
+    reach = asked.scale * max(exact.semi_axes) ** 2
+    yield "spread of the load", "Σ value·area·r²", spread, exact.spread, reach, 0.0
+    area, scatter = _covered_area(field, exact.semi_axes)
+    yield "contact covered", "Σ area in the contact, over its own", area, 1.0, 1.0, scatter
+
+
+def _covered_area(field: Field, semi_axes: tuple[float, float]) -> tuple[float, float]:
+    """Compute the fraction of the contact area that the points of a field cover, and its tolerance.
+
+    The areas of the points are summed outwards, each area centred at its point, and interpolated to
+    the contact edge. Points on one ray represent rings; their sum may end half a ring before the
+    edge. For cell centres the sum scatters. The second result is this unavoidable deviation of the
+    fraction from 1.
+
+    semi_axes  semi-axes of the contact ellipse around the origin, along x and y [length]
+    """
+    whole = pi * semi_axes[0] * semi_axes[1]
+    out = (field.x / semi_axes[0]) ** 2 + (field.y / semi_axes[1]) ** 2
+    order = np.argsort(out)
+    out, area = out[order], field.area[order] / whole
+    middles = np.cumsum(area) - area / 2
+    within = float(np.interp(1.0, out, middles, right=np.nan))
+    if np.isnan(within):
+        within = float(np.sum(area))
+    if not np.any(field.y):
+        return within, float(area[max(int(np.searchsorted(out, 1.0, "right")) - 1, 0)]) / 2
+    cells = 1 / float(np.median(area))
+    return within, SCATTER * cells**-0.75 * pi**-0.25
+
+
+AskedQuantity = AskedValue | AskedField | AskedPoints
+
+# Errors stall if the upper end of the interval of the order is below this value.
+STALLS_BELOW = 0.5
+ORDER_OFF = 0.1
+FEWEST_LEVELS = 3
+# A standard uncertainty that exceeds the error by this factor on every level is not informative.
+IDLE = 25.0
+WHOLE = "–"  # in place of a loading step
+
+
+@dataclass(frozen=True)
+class Row:
+    """Verdict on one number, one field or one property of an answer to a challenge.
+
+    quantity   name of the quantity, or "quantity: property"
+    step       number of the load step; None for the whole history
+    level      name of the refinement level
+    status     pass, fail or inconclusive
+    because    reason for the status
+    value      answered value in the required unit; None if there is no number
+    reference  reference value in the required unit
+    error      error divided by its scale
+    bound      largest accepted error; None if a property other than the error is judged
+    grade      best accuracy class whose bound the error meets; None for no class
+    order      observed order of convergence and half-width of its 95 % interval
+    errors     pairs of size h and error of all levels
+    """
+
+    quantity: str
+    step: int | None
+    level: str
+    status: Status
+    because: str
+    value: float | None = None
+    reference: float | None = None
+    error: float | None = None
+    bound: float | None = None
+    grade: Grade | None = None
+    order: tuple[float, float] | None = None
+    errors: tuple[tuple[float, float], ...] = ()  # by h, of all levels
+
+
+def rows_of(
+    challenge: Challenge, solver: Solver, answers: Sequence[Answer], asked: Grade | None
+) -> Iterator[Row]:
+    """Yield all verdicts on the answers of a code: errors on its finest level, and convergence.
+
+    answers  one answer per refinement level, in any order
+    asked    accuracy class that all errors must meet; None: the class that the code claims, else
+             the default class of each quantity
+    """
+    levels = sorted(answers, key=lambda one: -one.h)
+    demanded = asked or (Grade(solver.claimed_grade) if solver.claimed_grade else None)
+    for level in levels:
+        for step, reason in level.gave_up.items():
+            yield Row("solved", step or None, level.label, Status.FAIL, f"gave up: {reason}")
+    required: tuple[AskedQuantity, ...] = (*challenge.values, *challenge.fields, *challenge.points)
+    for quantity in required:
+        yield from _judge_quantity(quantity, solver, levels, demanded or quantity.par)
+
+
+def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
+    """List the quantities of a challenge that the finest level of an answer does not contain.
+
+    Each item has the quantity, the load step, and True if the quantity is required. Load steps that
+    the solver gave up are not listed.
+
+    answers  one answer per refinement level
+    """
+    finest = min(answers, key=lambda one: one.h)
+    if 0 in finest.gave_up:
+        return []
+    asked = [(v.quantity, v.step, v.required) for v in challenge.numbers]
+    asked += [(f.quantity, f.step, False) for f in challenge.fields]
+    return [
+        (quantity, step, required)
+        for quantity, step, required in asked
+        if not finest.has((quantity, step)) and step not in finest.gave_up
+    ]
+
+
+def _judge_quantity(
+    asked: AskedQuantity, solver: Solver, levels: Sequence[Answer], grade: Grade
+) -> Iterator[Row]:
+    """Yield the verdicts on one quantity of an answer: its error, convergence, and other
+    properties.
+
+    Other properties are the stated uncertainty of a number and the areas of the points of a field.
+
+    asked   required quantity
+    levels  answers of the code, from coarse to fine
+    grade   accuracy class that the error must meet
+    """
+    key = asked.quantity, asked.step
+    found = [(one, given) for one in levels if (given := _given_value(asked, one)) is not None]
+    if not found:
+        return
+    finest, given = found[-1]
+    yield from _missing_on_finest(key, finest, levels[-1])
+    errors = [(one.h, _relative_error(asked, value, solver.sampling)) for one, value in found]
+    value = reference = None
+    hint = ""
+    if isinstance(asked, AskedValue):
+        value, reference, hint = given, asked.value, _slip_hint(given, asked)
+    yield _judge_error(key, finest.label, value, reference, errors, grade, asked.uncertainty, hint)
+    yield from _judge_convergence(key, solver, errors, asked.uncertainty)
+    if isinstance(asked, AskedValue):
+        claims = [(one.uncertainty(key), e) for (one, _), (_, e) in zip(found, errors, strict=True)]
+        yield from _judge_claimed_uncertainty(asked, finest.label, claims, grade)
+    elif isinstance(asked, AskedField):
+        yield from _judge_point_areas(asked, given, finest.label, max(grade.bound, Grade.B.bound))
+
+
+def _given_value(asked: AskedQuantity, answer: Answer) -> Any:
+    """Return the number, field or numbers at points that an answer gives for a required quantity.
+
+    The result is None if the quantity is missing.
+    """
+    key = asked.quantity, asked.step
+    if isinstance(asked, AskedValue):
+        return answer.value(key)
+    return (answer.fields if isinstance(asked, AskedField) else answer.points).get(key)
+
+
+def _relative_error(asked: AskedQuantity, given: Any, sampling: str) -> float:
+    """Compute the relative error of an answered quantity.
+
+    The error of a number is divided by the error scale of the challenge; of numbers at points, the
+    largest error counts. The error of a field is that of `_field_error`.
+
+    asked     required quantity with its reference
+    given     answered number, field or numbers at points
+    sampling  meaning of the values of a field: "point", or "cell" for means over squares
+    """
+    if isinstance(asked, AskedField):
+        return _field_error(asked, given, sampling)
+    if isinstance(asked, AskedValue):
+        return float(abs(given - asked.value) / asked.scale)
+    values = np.asarray(given)
+    if values.shape != asked.values.shape:
+        raise ValueError(
+            f"{asked.quantity} of step {asked.step}: {values.size} numbers, expected one at "
+            f"each of the {len(asked.places)} places"
+        )
+    return float(np.max(np.abs(values - asked.values)) / asked.scale)
+
+
+def _field_error(asked: AskedField, field: Field, sampling: str) -> float:
+    """Compute the relative L2 or L1 error of an answered traction field over its points.
+
+    The L2 error is divided by the L2 norm of the exact traction, the L1 error by the force scale of
+    the challenge. With sampling "cell", the field is compared with means of the exact traction over
+    squares around the points.
+    """
+    side = np.sqrt(field.area)
+    if sampling == "cell":
+        exact = cell_means(asked.traction.at, field.x, field.y, (side, side))
+    else:
+        exact = asked.traction.at(field.x, field.y)
+    off = np.abs(field.value - exact)
+    if asked.norm == "L1":
+        return float(np.sum(field.area * off) / asked.scale)
+    own = np.linalg.norm(side * exact)
+    return float(np.linalg.norm(side * off) / own) if own > 0 else math.inf
+
+
+def _judge_claimed_uncertainty(
+    asked: AskedValue,
+    level: str,
+    claims: Sequence[tuple[float | None, float]],
+    grade: Grade,
+) -> Iterator[Row]:
+    """Judge the standard uncertainty that a code states for a number: twice its value must cover
+    the error.
+
+    The verdict is inconclusive if the stated uncertainty exceeds the bound of the accuracy class
+    and is far above the error on every level.
+
+    level   name of the finest level
+    claims  stated standard uncertainty in the required unit (None: none), and error divided by its
+            scale, for each level from coarse to fine
+    """
+    claimed, error = claims[-1]
+    if claimed is None:
+        return
+    scale = asked.scale
+    honest = error * scale <= 2 * math.hypot(claimed, asked.uncertainty * scale)
+    least = IDLE * 2 * asked.uncertainty
+    idle = 2 * claimed > grade.bound * scale and all(
+        u is not None and u > max(IDLE * e, least) * scale for u, e in claims
+    )
+    status = Status.INCONCLUSIVE if idle else Status.PASS if honest else Status.FAIL
+    because = f"error {error * scale:.3g}, claimed 2u = {2 * claimed:.3g} {asked.unit}"
+    if idle:
+        because += ": so wide that it says nothing"
+    yield Row(f"{asked.quantity}: own uncertainty", asked.step, level, status, because)
+
+
+def fitted_order_text(order: tuple[float, float]) -> str:
+    """Format an observed order of convergence with its interval, such as "1.98 ± 0.05".
+
+    The text is "not known" if the half-width of the interval is 0.5 or more.
+
+    order  observed order and half-width of its 95 % interval
+    """
+    value, half = order
+    # Zero has no sign.
+    return f"{round(value, 2) + 0.0:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
+
+
+def _judge_point_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
+    """Judge the areas of the points of an answered field by sums that the exact traction
+    determines.
+
+    The force, its second moment and the covered contact area must be correct. Without this check an
+    answer could omit the points with the largest errors.
+
+    level  name of the refinement level
+    bound  largest accepted relative difference of a sum
+    """
+    for name, sums, has, should, scale, least in field_sums(asked, field):
+        missed, allowed = abs(has - should) / scale, max(bound, least)
+        if missed <= allowed:
+            status, because = Status.PASS, sums
+        else:
+            of = f"{has / should:.4g} of what it should be" if should else f"{has:.3g}, not 0"
+            status, because = Status.FAIL, f"{sums}: {of}"
+        yield Row(
+            f"{asked.quantity}: {name}", asked.step, level, status, because,
+            has, should, missed, allowed,
+        )  # fmt: skip
+
+
+def _missing_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
+    """Yield an inconclusive verdict if the finest level of an answer lacks a quantity that coarser
+    levels have.
+
+    Without this verdict a code could hide its worst numbers by omitting them.
+
+    key     quantity and load step
+    judged  finest level that contains the quantity
+    finest  finest level of the answer
+    """
+    quantity, step = key
+    if not finest.has(key) and not {0, step} & finest.gave_up.keys():
+        yield Row(f"{quantity}: finest level", step, finest.label, Status.INCONCLUSIVE,
+                  f"not answered there; judged on level {judged.label}")  # fmt: skip
+
+
+def _judge_error(
+    key: Key,
+    level: str,
+    value: float | None,
+    reference: float | None,
+    errors: Sequence[tuple[float, float]],
+    grade: Grade,
+    uncertainty: float,
+    hint: str,
+) -> Row:
+    """Judge the error of a quantity on the finest level against the bound of an accuracy class.
+
+    The verdict is inconclusive where twice the uncertainty of the reference decides.
+
+    key          quantity and load step
+    level        name of the finest level
+    value        answered number; None for fields and points
+    reference    reference value; None for fields and points
+    errors       pairs of size h and relative error, from coarse to fine
+    grade        accuracy class that the error must meet
+    uncertainty  standard uncertainty of the reference, divided by the error scale
+    hint         explanation that is added to a failure
+    """
+    error, wide = errors[-1][1], 2 * uncertainty
+    if error + wide <= grade.bound:
+        status, because = Status.PASS, f"within class {grade}"
+    elif math.isfinite(error) and error - wide <= grade.bound:
+        status, because = Status.INCONCLUSIVE, "the reference is not certain enough to tell"
+    else:
+        status, because = Status.FAIL, f"beyond class {grade}{hint}"
+        because = because if math.isfinite(error) else "no finite number"
+    met = next((one for one in Grade if error + wide <= one.bound), None)
+    fit = _fitted_order(errors, wide)
+    return Row(
+        *key, level, status, because, value, reference, error, grade.bound, met, fit, tuple(errors)
+    )
+
+
+def _judge_convergence(
+    key: Key, solver: Solver, errors: Sequence[tuple[float, float]], uncertainty: float
+) -> Iterator[Row]:
+    """Yield verdicts on the convergence of a quantity: errors must decrease, and a claimed order
+    must hold.
+
+    key          quantity and load step
+    errors       pairs of size h and relative error, from coarse to fine
+    uncertainty  standard uncertainty of the reference, divided by the error scale
+    """
+    quantity, step = key
+    fit = _fitted_order(errors, 2 * uncertainty)
+    if fit is None:
+        return
+    order, half = fit
+    told = f"order {fitted_order_text(fit)}"
+    if errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
+        yield Row(f"{quantity}: stalls", step, WHOLE, Status.FAIL,
+                  f"order below {order + half:.2f}: finer is hardly better", order=fit)  # fmt: skip
+    claimed = solver.claimed_orders.get(quantity)
+    if claimed is None:
+        return
+    least = claimed - ORDER_OFF
+    if order - half >= least:
+        status = Status.PASS
+    else:
+        status = Status.FAIL if order + half < least else Status.INCONCLUSIVE
+    yield Row(f"{quantity}: order", step, WHOLE, status, f"{told}, claimed {claimed:g}", order=fit)
+
+
+def _fitted_order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, float] | None:
+    """Fit the order of convergence to those errors that are well above the uncertainty of the
+    reference.
+
+    Returns the order and the half-width of its 95 % interval; None if fewer than 3 sizes remain.
+
+    errors  pairs of size h and relative error
+    wide    twice the standard uncertainty of the reference, divided by the error scale
+    """
+    told = [(h, e) for h, e in errors if e > 1.5 * wide and e > 0 and math.isfinite(e)]
+    if len({h for h, _ in told}) < FEWEST_LEVELS:
+        return None
+    fit = observed_order(*zip(*told, strict=True))
+    return fit.order, fit.half_width
+
+
+def _slip_hint(value: float, asked: AskedValue) -> str:
+    """Return a hint that another sign, a factor of 2 or another unit would explain a wrong number.
+
+    The hint is added to the message of a failed verdict. It is empty if no such mistake explains
+    the number.
+    """
+    slips = {"with the other sign": -1.0, "halved": 0.5, "doubled": 2.0}
+    slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
+    for words, factor in slips.items():
+        if abs(factor * value - asked.value) <= Grade.C.bound * asked.scale:
+            return f"; {words} it would be within class C"
+    return ""
+
+
+PASSED, ACCURACY, GAVE_UP, INCONCLUSIVE = 0, 1, 3, 6  # exit codes
+COLOURS = {"A": "brightgreen", "B": "green", "C": "yellowgreen"}
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """Result of the judgement of one code on one challenge.
+
+    answers  judged answers, one per refinement level
+    rows     verdicts
+    omitted  missing quantities: name, load step, True if required
+    """
+
+    challenge: Challenge
+    solver: Solver
+    answers: tuple[Answer, ...]
+    rows: tuple[Row, ...]
+    omitted: tuple[tuple[str, int, bool], ...]
+
+    def count(self, status: Status) -> int:
+        """Return the number of verdicts on the answer that have the given status: pass, fail or
+        inconclusive."""
+        return sum(row.status is status for row in self.rows)
+
+    @property
+    def grade(self) -> str:
+        """Accuracy class of the worst error of an answer to a challenge: "A", "B", "C", "none" or
+        "partial".
+
+        "partial": a required quantity is missing. "none": an error meets no class, or the areas of
+        a field do not give its load or its contact area.
+        """
+        if any(required for *_, required in self.omitted):
+            return "partial"
+        judged = [row for row in self.rows if row.error is not None and row.bound is not None]
+        errors = [row for row in judged if ":" not in row.quantity]
+        unsound = any(":" in r.quantity and r.status is Status.FAIL for r in judged)
+        if unsound or not errors or any(row.grade is None for row in errors):
+            return "none"
+        return max(row.grade for row in errors if row.grade is not None)
+
+    @property
+    def line(self) -> str:
+        """Text of the judgement in one line of a log: problem, code, accuracy class and numbers of
+        verdicts."""
+        counts = ", ".join(
+            f"{self.count(status)} {status}"
+            for status in (Status.PASS, Status.FAIL, Status.INCONCLUSIVE)
+        )
+        grade = self.grade if self.grade in ("none", "partial") else f"class {self.grade}"
+        asked = len(self.challenge.numbers) + len(self.challenge.fields)
+        left_out = f"{len(self.omitted)} of {asked} omitted"
+        return f"{self.challenge.name} | {self.solver.name} | {grade} | {counts}, {left_out}"
+
+    def exit_code(self, *, strict: bool = False, partial: bool = False) -> int:
+        """Return the exit code of the command that judges an answer.
+
+        0: all verdicts passed. 1: a verdict failed, or a required quantity is missing. 3: the
+        solver gave up, and nothing else failed. 6: with `strict`, a verdict is inconclusive.
+
+        strict   True if inconclusive verdicts are reported as code 6
+        partial  True if missing quantities are accepted
+        """
+        failed = [row for row in self.rows if row.status is Status.FAIL]
+        if failed and all(row.quantity == "solved" for row in failed):
+            return GAVE_UP
+        if failed or (not partial and any(required for *_, required in self.omitted)):
+            return ACCURACY
+        return INCONCLUSIVE if strict and self.count(Status.INCONCLUSIVE) else PASSED
+
+    def badge(self) -> str:
+        """Return the JSON text of a status badge of the judgement, in the endpoint format of
+        shields.io."""
+        passed, all_rows = self.count(Status.PASS), len(self.rows)
+        colour = "red" if self.count(Status.FAIL) else COLOURS.get(self.grade, "lightgrey")
+        content: dict[str, Any] = {
+            "schemaVersion": 1, "label": self.challenge.name,
+            "message": f"{self.grade} · {passed}/{all_rows}", "color": colour,
+        }  # fmt: skip
+        return json.dumps(content, ensure_ascii=False) + "\n"
+
+
+def judged(
+    challenge: Challenge, solver: Solver, answers: Sequence[Answer], grade: Grade | None = None
+) -> Judgement:
+    """Judge the answers of a code to a challenge and return the verdicts.
+
+    answers  one answer for each refinement level
+    grade    accuracy class that all errors must meet; None: the class that the code claims, else
+             the default class of each quantity
+    """
+    rows = tuple(rows_of(challenge, solver, answers, grade))
+    return Judgement(challenge, solver, tuple(answers), rows, tuple(omitted(challenge, answers)))
+
 
 LEVELS = 4
 

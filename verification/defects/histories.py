@@ -15,7 +15,6 @@ import numpy as np
 import fem_reference.energy
 from contact_results import cycles, loop
 from contact_scene import CoulombFriction, HeightMap, Scene, bulk_strain, rig
-from contact_scene.stepping import load_stepping
 from contact_scene.stepping.load_path import (
     Control,
     ControlKind,
@@ -303,11 +302,6 @@ def _inaccurate_shear(whole: Any, *given: Any) -> Any:
     return whole(*given[:-1], max(given[-1], 3e-2))
 
 
-@replaces(load_stepping, "fractions")
-def _few_increments(whole: Any, *given: Any) -> Any:
-    return whole(*given)[-1:]
-
-
 @replaces(ContactModel, "arms")
 def _arms_exchanged(_: Any, self: Any) -> Any:
     return np.stack(self.grid.coordinates())
@@ -357,6 +351,22 @@ def _in_plane_halved(stress: Any) -> Any:
     return np.concatenate([stress[:, :5], 0.5 * stress[:, 5:]], axis=1)
 
 
+def _wrong_increments(change: Callable[[int], int]) -> Replacements:
+    """Return a seeded defect: load steps have another number of increments than prescribed.
+
+    change  function of the prescribed number of increments that returns the wrong number
+    """
+
+    @replaces(Scene, "load_path")
+    def load_path(whole: Any, self: Scene) -> Any:
+        return tuple(
+            replace(ramp, increments=ramp.increments and change(ramp.increments))
+            for ramp in whole(self)
+        )
+
+    return load_path
+
+
 LOOP = ("fretting_loop",)
 
 CONTACT_AND_FRICTION = (
@@ -393,7 +403,7 @@ CONTACT_AND_FRICTION = (
     ),
     Defect(
         "one-increment", "A load step has one increment, instead of the requested number.",
-        ("led_histories",), _few_increments,
+        ("led_histories",), _wrong_increments(lambda n: 1),
     ),
     Defect(
         "slip-reversed", "Slip is added up with the wrong sign.",
@@ -497,14 +507,6 @@ def _half_a_cell_off(whole: Any, self: HeightMap, x: Any, y: Any) -> Any:
     return whole(self, np.minimum(np.asarray(x) + 0.5 * self.spacing[0], reach), y)
 
 
-@replaces(Scene, "load_path")
-def _fewer_increments(whole: Any, self: Scene) -> Any:
-    return tuple(
-        replace(ramp, increments=ramp.increments and -(-ramp.increments // 2))
-        for ramp in whole(self)
-    )
-
-
 CONTROLS_AND_BODIES = (
     Defect(
         "coupling-of-the-indenter", "A deformable indenter on a rigid body has the coupling of a "
@@ -542,6 +544,6 @@ CONTROLS_AND_BODIES = (
     ),
     Defect(
         "increments-halved", "A step has half of its prescribed increments.",
-        ("led_histories",), _fewer_increments,
+        ("led_histories",), _wrong_increments(lambda n: -(-n // 2)),
     ),
 )  # fmt: skip

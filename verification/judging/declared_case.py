@@ -689,7 +689,7 @@ PEAK_PRESSURE = number(
     "peak_pressure", "largest pressure of any {point}", of=Followed.PEAK_PRESSURE
 )
 CONTACT_RADIUS = number("contact_radius", "{edge}", of=Followed.CONTACT_RADIUS)
-NORMAL_FORCE = number("normal_force", "force that the approach takes", exact="load")
+FORCE = number("normal_force", "force that the approach takes", exact="load")
 CENTRAL_PRESSURE = Observable(
     "central_pressure", "pressure {axis}", "Pa",
     lambda result, step, _: central_pressure(result, step),

@@ -19,8 +19,19 @@ from contact_scene import Body, CoulombFriction, FlatPunch, IsotropicMaterial, L
 from verification.closed_forms.cattaneo_mindlin import CycledContact, TangentialHistory
 from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
 from verification.norms import shear_error
-from verification.problems import paper_scene as paper
-from verification.problems.paper_scene import FRICTION, FRICTION_LIMIT, HERTZ, NU_ZERO, STEEL
+from verification.problems.paper_scene import (
+    FRICTION,
+    FRICTION_LIMIT,
+    HERTZ,
+    NORMAL_FORCE,
+    NU_ZERO,
+    STEEL,
+    frictional,
+    paraboloid,
+    partial_slip,
+    pressing,
+    tangential_step,
+)
 from verification.problems.problem import Problem
 from verification.quantities import energy_between, force_along_x, shear_of, shift_along_x
 
@@ -33,7 +44,7 @@ SOURCE = "Cattaneo 1938; Mindlin 1949"
 OVER_SLIDING_SHIFT = "the shift at gross sliding"
 OVER_SLIDING_WORK = "the work of µW over the shift at gross sliding"
 OVER_LIMIT = "µp_H"
-SLIDING_SHIFT = paper.partial_slip(NU_ZERO, 0.0).sliding_shift
+SLIDING_SHIFT = partial_slip(NU_ZERO, 0.0).sliding_shift
 
 
 def sheared(
@@ -50,11 +61,11 @@ def sheared(
     material    material of both bodies
     increments  number of increments of each tangential step
     """
-    steps = (paper.tangential_step(part, increments) for part in parts)
-    stops = tuple(paper.partial_slip(material, part * FRICTION_LIMIT) for part in parts)
+    steps = (tangential_step(part, increments) for part in parts)
+    stops = tuple(partial_slip(material, part * FRICTION_LIMIT) for part in parts)
     sliding = stops[0].sliding_shift
     return Problem(
-        paper.frictional(title, paper.paraboloid(material), material, *steps),
+        frictional(title, paraboloid(material), material, *steps),
         (HERTZ, *stops),
         HERTZ.contact_radius,
         SOURCE,
@@ -78,7 +89,7 @@ OVER_LARGEST_WAY = "the largest way"
 AMPLITUDE = 0.9  # largest tangential force T* over µW, and torque over that of gross slip
 LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
 PRESSED = 1
-WINDOW_PER_RADIUS = 2.2  # side of the window over the contact radius
+FRETTING_WINDOW = 2.2  # side of the window over the contact radius
 
 
 def loop_steps(quarter: int) -> tuple[LoadStep, ...]:
@@ -87,9 +98,9 @@ def loop_steps(quarter: int) -> tuple[LoadStep, ...]:
     quarter  number of increments per change of the force by T*
     """
     return (
-        paper.tangential_step(AMPLITUDE, quarter),
-        paper.tangential_step(-AMPLITUDE, 2 * quarter),
-        paper.tangential_step(AMPLITUDE, 2 * quarter),
+        tangential_step(AMPLITUDE, quarter),
+        tangential_step(-AMPLITUDE, 2 * quarter),
+        tangential_step(AMPLITUDE, 2 * quarter),
     )
 
 
@@ -109,7 +120,7 @@ class ExactLoop:
         """State of the pressed contact before any tangential force, from which the history
         starts.
         """
-        return TangentialHistory(paper.partial_slip(self.material, 0.0))
+        return TangentialHistory(partial_slip(self.material, 0.0))
 
     @property
     def sliding_shift(self) -> float:
@@ -121,7 +132,7 @@ class ExactLoop:
         """State of the contact at the end of the first loading, where the tangential force is 0.9
         µW.
         """
-        return self.virgin.loaded_to(AMPLITUDE * paper.FRICTION_LIMIT)
+        return self.virgin.loaded_to(AMPLITUDE * FRICTION_LIMIT)
 
     @property
     def energy_per_cycle(self) -> float:
@@ -169,8 +180,8 @@ class ExactLoop:
         """Steady fretting cycle between the tangential forces 0.9 µW and -0.9 µW, exact
         for ν = 0.
         """
-        force = AMPLITUDE * paper.FRICTION_LIMIT
-        return CycledContact(paper.partial_slip(self.material, force), paper.HERTZ.peak_pressure)
+        force = AMPLITUDE * FRICTION_LIMIT
+        return CycledContact(partial_slip(self.material, force), HERTZ.peak_pressure)
 
     def largest_slip_amplitude_error(self, result: Result) -> float:
         """Compute the largest error of the slip amplitude in the contact area of a fretting loop
@@ -180,7 +191,7 @@ class ExactLoop:
 
         result  result on cells of the fretting loop
         """
-        a = paper.HERTZ.contact_radius
+        a = HERTZ.contact_radius
         r = np.hypot(*result.grid.coordinates())
         expected = self.cycled.slip_amplitude(np.minimum(r, a))
         error = np.abs(loop_cycle(result).slip_amplitude - expected)
@@ -195,7 +206,7 @@ class ExactLoop:
 
         result  result on cells of the fretting loop
         """
-        a, way = paper.HERTZ.contact_radius, result.steps[-1].slip_distance
+        a, way = HERTZ.contact_radius, result.steps[-1].slip_distance
         assert way is not None
         r = np.hypot(*result.grid.coordinates())
         expected = 5 * self.cycled.slip_amplitude(np.minimum(r, a))
@@ -212,7 +223,7 @@ class ExactLoop:
         ]))  # fmt: skip
 
 
-def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Problem:
+def fretting_loop_problem(title: str, material: IsotropicMaterial, quarter: int) -> Problem:
     """Create the problem of the fretting loop of the standard ball (radius 18 mm, 1 kN).
 
     The tangential force goes from 0 to T*, to -T* and to T* again, with T* = 0.9 µW. The answer
@@ -225,7 +236,7 @@ def fretting_loop(title: str, material: IsotropicMaterial, quarter: int) -> Prob
     exact = ExactLoop(material)
     slip = float(exact.cycled.slip_amplitude(HERTZ.contact_radius))
     return Problem(
-        paper.frictional(title, paper.paraboloid(material), material, *loop_steps(quarter)),
+        frictional(title, paraboloid(material), material, *loop_steps(quarter)),
         (exact,),
         HERTZ.contact_radius,
         LOOP_SOURCE,
@@ -320,7 +331,7 @@ class Twisted:
 
 def _torsion_problem(title: str, ends: tuple[object, ...], *steps: LoadStep) -> Problem:
     return Problem(
-        paper.frictional(title, paper.paraboloid(STEEL), STEEL, *steps),
+        frictional(title, paraboloid(STEEL), STEEL, *steps),
         (HERTZ, *ends),
         HERTZ.contact_radius,
         LUBKIN,
@@ -333,11 +344,11 @@ def _torsion_problem(title: str, ends: tuple[object, ...], *steps: LoadStep) -> 
     )
 
 
-PARTS = {1: 0.5, 2: 0.9, 3: 0.99}  # torque over that at gross slip, by load step
+TORQUE_PARTS = {1: 0.5, 2: 0.9, 3: 0.99}  # torque over that at gross slip, by load step
 TWISTED = _torsion_problem(
     "Ball in torsion",
-    tuple(virgin(part * SLIDING_TORQUE) for part in PARTS.values()),
-    *map(torque_step, PARTS.values()),
+    tuple(virgin(part * SLIDING_TORQUE) for part in TORQUE_PARTS.values()),
+    *map(torque_step, TORQUE_PARTS.values()),
 )
 LED = _torsion_problem(
     "Ball in torsion by a given twist", (LARGEST,), LoadStep(twist=LARGEST.twist, increments=1)
@@ -369,7 +380,7 @@ TORSION_LOOP = _torsion_problem(
 
 PUNCH_RADIUS = 0.4e-3
 # q/p is largest at the rim, 3M/(2Wa) = 0.45: nothing slips.
-STUCK_TORQUE = 0.3 * paper.NORMAL_FORCE * PUNCH_RADIUS
+STUCK_TORQUE = 0.3 * NORMAL_FORCE * PUNCH_RADIUS
 STUCK = Problem(
     Scene(
         title="Flat punch in torsion without slip",
@@ -377,7 +388,7 @@ STUCK = Problem(
         body=Body(material=STEEL),
         friction=CoulombFriction(coefficient=1.0),
         loading=(
-            paper.pressing(1),
+            pressing(1),
             LoadStep(torque=STUCK_TORQUE, increments=1),
         ),
     ),

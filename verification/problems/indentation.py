@@ -1,24 +1,176 @@
-"""Problems of a rigid ball that is pressed on a body with friction, with tabulated solutions."""
+"""Problems of a body pressed by 1 kN: ball, cone, flat punch, barrel, and balls with friction.
+
+Some bodies are coated. The pressure is infinite at the apex of the cone and at the rim of the
+punch. Solutions with friction are tabulated.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import pi, radians
 from typing import Any
 
-from contact_scene import Body
+from contact_scene import Body, Cone, Ellipsoid, FlatPunch, LoadStep, Scene
+from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
+from verification.closed_forms.hertz import EllipticalContact
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
 from verification.problems.paper_scene import (
+    CONTACT_MODULUS,
+    FREDHOLM,
+    FREDHOLM_EQUATION,
     HERTZ,
+    NORMAL_FORCE,
+    SEMI_CLOSED_ERROR,
+    STEEL,
     coated,
+    exact_contact,
     film,
+    frictionless,
     half_space,
+    paraboloid,
     pressed,
     pressing,
     rigid_ball,
 )
 from verification.problems.problem import OVER_PEAK, Problem, ReferenceKind, TabulatedContact
 from verification.references import load_reference
+
+SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
+
+
+def hertzian(scene: Scene) -> Problem:
+    """Create the problem of a scene whose contact is the Hertz contact of the standard ball.
+
+    The only load step must end at a normal force of 1 kN or the corresponding approach, for a
+    radius of 18 mm and the standard contact modulus.
+
+    scene  scene with any bodies of this contact modulus
+    """
+    return Problem(
+        scene,
+        (HERTZ,),
+        HERTZ.contact_radius,
+        SOURCE,
+        scales={OVER_PEAK: HERTZ.peak_pressure},
+        equations=(
+            r"a^3 = \frac{3 W R}{4 E^*},\quad \delta = \frac{a^2}{R},\quad "
+            r"p = \frac{3 W}{2 \pi a^2} \sqrt{1 - r^2/a^2}",
+        ),
+    )
+
+
+def _pressed_ball(title: str, load: LoadStep) -> Problem:
+    ball = paraboloid(STEEL)
+    return hertzian(frictionless(title, ball, STEEL, load))
+
+
+BALL = _pressed_ball("Ball on a half-space (paper's data, paraboloid)", pressing())
+LED_BALL = _pressed_ball(
+    "Ball on a half-space, approach prescribed", LoadStep(approach=HERTZ.approach)
+)
+
+
+SLOPE = radians(1.0)  # angle of the cone's flank to the surface
+PUNCH_RADIUS = 0.4e-3
+PUNCH_WINDOW = 2.2  # side of the window over the punch radius
+PRESS = pressing()
+
+UNDER_CONE = ConeContact.under_load(NORMAL_FORCE, SLOPE, CONTACT_MODULUS)
+CONE = Problem(
+    frictionless(
+        "Cone on a half-space (flank at 1°)", Cone(slope_angle=SLOPE, material=STEEL), STEEL, PRESS
+    ),
+    (UNDER_CONE,),
+    UNDER_CONE.contact_radius,
+    "Love 1939; Sneddon 1965",
+    equations=(
+        r"W = \tfrac{\pi}{2} E^* a^2 \tan\beta,\quad \delta = \tfrac{\pi}{2} a \tan\beta,\quad "
+        r"p = \tfrac{1}{2} E^* \tan\beta \, \mathrm{arcosh}(a/r)",
+    ),
+)
+PUNCH = Problem(
+    frictionless(
+        "Flat punch on a half-space", FlatPunch(radius=PUNCH_RADIUS, material=STEEL), STEEL, PRESS
+    ),
+    (FlatPunchContact(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE),),
+    PUNCH_RADIUS,
+    "Boussinesq 1885; Johnson 1985, ch. 3.4",
+    equations=(r"W = 2 E^* a \delta,\quad p = \frac{W}{2 \pi a^2} \frac{1}{\sqrt{1 - r^2/a^2}}",),
+)
+
+
+def mean_pressure(of: Problem) -> float:
+    """Compute the mean pressure of a round contact under a force of 1 kN [force/length²].
+
+    of  problem with the contact radius
+    """
+    return NORMAL_FORCE / (pi * of.radius**2)
+
+
+RADII = (90e-3, 18e-3)
+EXACT = EllipticalContact.under_load(NORMAL_FORCE, RADII, CONTACT_MODULUS)
+BARREL = Problem(
+    frictionless(
+        "Barrel on a half-space (radii 90 mm and 18 mm)",
+        Ellipsoid(radii=RADII, material=STEEL),
+        STEEL,
+        pressing(),
+    ),
+    (EXACT,),
+    EXACT.semi_axes[0],
+    "Hertz 1882, by Carlson's elliptic integrals",
+    across=EXACT.semi_axes[1],
+    equations=(
+        r"\frac{R_x}{R_y} = \frac{(a/b)^2 \mathbf{E}(e) - \mathbf{K}(e)}"
+        r"{\mathbf{K}(e) - \mathbf{E}(e)},\quad "
+        r"p = \frac{3 W}{2 \pi a b} \sqrt{1 - x^2/a^2 - y^2/b^2}",
+    ),
+)
+
+
+TABLE_SOURCE = (
+    "references/coated_frictionless_paraboloid.json: Fredholm equation, two settings agree"
+)
+ROWS = load_reference("coated_frictionless_paraboloid")["rows"]
+BARE = hertzian(pressed("Rigid ball on the uncoated half-space", rigid_ball(), coated()))
+
+
+def coated_ball(row: Mapping[str, Any]) -> Problem:
+    """Create the problem of a rigid ball on a coated body, with a tabulated solution.
+
+    row  row of the reference table: modulus ratio E1/E2 of coating over substrate, coating
+         thickness over Hertz contact radius, and results relative to the Hertz contact of the
+         substrate
+    """
+    contact = TabulatedContact(row)
+    ratio, thickness = row["E1_over_E2"], row["h_over_aH"]
+    title = f"Rigid ball on a coating, E1/E2 = {ratio:g}, h = {thickness:g} a_H"
+    return Problem(
+        pressed(title, rigid_ball(), coated(film(ratio, thickness))),
+        (contact,),
+        contact.contact_radius,
+        TABLE_SOURCE,
+        ReferenceKind.SEMI_CLOSED,
+        row["est_rel_error"],
+        {OVER_PEAK: HERTZ.peak_pressure},
+        equations=(FREDHOLM_EQUATION,),
+    )
+
+
+def solved_here(problem: Problem) -> Problem:
+    """Replace the tabulated answer of a coated problem by the semi-closed solution of its contact.
+
+    The semi-closed solution is computed when needed, and contains the pressure at every radius.
+
+    problem  problem of a coated body below the standard ball
+    """
+    exact = exact_contact(problem.scene.body)
+    return replace(
+        problem, ends=(exact,), radius=exact.contact_radius, source=FREDHOLM,
+        uncertainty=SEMI_CLOSED_ERROR,
+    )  # fmt: skip
+
 
 OVER_HERTZ_RADIUS = "a_H"
 FEW, MANY = 20, 40  # numbers of increments, uniform in contact radius

@@ -13,7 +13,7 @@ from functools import cache
 import jinja2
 from markupsafe import Markup
 
-from verification.challenge.judgement import WHOLE, Judgement, Row, fitted_order_text
+from verification.challenge.python_api import WHOLE, Judgement, Row, fitted_order_text
 from verification.convergence.observed_order import ILLEGIBLE
 from verification.exhibits.chart import (
     NONE,

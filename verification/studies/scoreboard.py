@@ -13,9 +13,9 @@ from math import inf
 from contact_results.directory.machine import program_version
 from verification.adapters import own_solvers as own
 from verification.challenge.cases import challenges
-from verification.challenge.judgement import Judgement
 from verification.challenge.python_api import (
     CannotDo,
+    Judgement,
     judge,
 )
 from verification.challenge.requested_quantities import Solver

@@ -43,17 +43,15 @@ from verification.judging.declared_case import (
 )
 from verification.judging.field_errors import pressure_at, shear_at
 from verification.norms import round_means
-from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
+    FRETTING_WINDOW,
     OVER_LIMIT,
-    WINDOW_PER_RADIUS,
     ExactLoop,
-    fretting_loop,
+    fretting_loop_problem,
     sheared,
 )
-from verification.problems.classical import BALL
-from verification.problems.indentation import COATED
-from verification.problems.paper_scene import FRICTION, NU_ZERO
+from verification.problems.indentation import BALL, COATED
+from verification.problems.paper_scene import FRICTION, NU_ZERO, WINDOW_PER_RADIUS, square_grid
 from verification.problems.problem import OVER_PEAK, Problem
 from verification.quantities import shear_of
 from verification.running.cold_cache import timed
@@ -99,7 +97,7 @@ class PreciseContact:
     errors: Mapping[str, str]
     observables: tuple[Observable, ...]
     posed: Callable[[int], Problem]
-    window: float = paper.WINDOW_PER_RADIUS
+    window: float = WINDOW_PER_RADIUS
     increments: int | None = None
 
     @property
@@ -130,7 +128,7 @@ class PreciseContact:
     def grid(self, cells: int) -> SurfaceGrid:
         """Return a square surface grid around the contact with the given number of cells per
         side."""
-        return paper.square_grid(cells, self.window / 2 * self.problem.radius)
+        return square_grid(cells, self.window / 2 * self.problem.radius)
 
 
 def _pressure_l2(result: Any, step: int, problem: Problem) -> float:
@@ -255,8 +253,8 @@ LOOP = PreciseContact(
     "Fretting loop, ν = 0",
     {"energy": "energy of a cycle", "shift": "largest error of the shift"},
     (ENERGY_PER_CYCLE, LARGEST_SHIFT_ERROR),
-    lambda quarter: fretting_loop("Fretting loop, ν = 0", NU_ZERO, quarter),
-    window=WINDOW_PER_RADIUS,
+    lambda quarter: fretting_loop_problem("Fretting loop, ν = 0", NU_ZERO, quarter),
+    window=FRETTING_WINDOW,
     increments=QUARTER,
 )
 CONTACTS = {c.name: c for c in (HERTZIAN, CATTANEO, COATING, INDENTATION, LOOP)}

@@ -15,8 +15,13 @@ from slipstick.cli.options import optional, refuse_unknown
 from slipstick.cli.terminal import print_table
 from verification.challenge.cases import challenges
 from verification.challenge.files import read_answers
-from verification.challenge.judgement import Judgement, judged
-from verification.challenge.python_api import CannotDo, named_solver, names_a_solver
+from verification.challenge.python_api import (
+    CannotDo,
+    Judgement,
+    judged,
+    named_solver,
+    names_a_solver,
+)
 from verification.challenge.python_api import judge as judge_solver
 from verification.challenge.requested_quantities import Grade, Solver
 from verification.report.page import COLUMNS, render_sheet, row_texts

@@ -25,8 +25,7 @@ from verification.cases.catalogue import CaseToJudge, JudgedCase, choose, lost
 from verification.exhibits.chart import Picture
 from verification.judging.case import Case, Level
 from verification.judging.outcome import SYMBOLS, WORDS, CaseOutcome, ChangeKind, Status
-from verification.regression.baseline import compared, read_baselines
-from verification.regression.tolerances import held_to, read_tolerances
+from verification.regression.baseline import compared, held_to, read_baselines, read_tolerances
 from verification.report.files import PAGE, refuse_if_unwritable, set_aside_report, write_report
 from verification.report.summary_text import (
     OMISSIONS,

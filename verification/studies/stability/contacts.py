@@ -149,6 +149,10 @@ class StabilityCell:
         uneven = self.surface in NOT_OF_REVOLUTION or self.path is LoadingPath.CIRCLE
         return not (self.solver.by_elements and uneven)
 
+    def compute(self) -> CaseRecord:
+        """Solve the contact and record its outcome; an error of the solver is an outcome, too."""
+        return judge_contact(self).of_cell(self)
+
     @property
     def coordinates(self) -> dict[str, Any]:
         """Values that define the contact in the stability map (friction, load, coating, …), by
@@ -919,25 +923,6 @@ def _method_text(decided: Plan) -> str:
 
 # Errors that refuse a scene for its load, its kind or its size.
 REFUSALS = (GrossSliding, UnsupportedScene, ResourceRefused)
-
-
-@dataclass(frozen=True)
-class StabilityRun:
-    """Solve of one contact of the stability map, as a case of the study.
-
-    The stability map shows which contacts the solvers can solve.
-
-    An error of the solver is stored in the record of the contact as its outcome.
-    """
-
-    cell: StabilityCell
-
-    @property
-    def name(self) -> str:
-        return self.cell.name
-
-    def compute(self) -> CaseRecord:
-        return judge_contact(self.cell).of_cell(self.cell)
 
 
 def judge_contact(cell: StabilityCell) -> CellRecord:

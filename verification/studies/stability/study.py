@@ -34,7 +34,6 @@ from verification.studies.stability.contacts import (
     Refusal,
     Solver,
     StabilityCell,
-    StabilityRun,
     Verdict,
     View,
     study_cells,
@@ -429,11 +428,11 @@ REMARKS = (
 )
 
 
-def cases(settings: Settings) -> tuple[StabilityRun, ...]:
+def cases(settings: Settings) -> tuple[StabilityCell, ...]:
     """Return the cases of the stability study: all contacts of its maps at the level (quick,
     standard or full) of the study.
     """
-    return tuple(map(StabilityRun, study_cells(settings.level, _cells_per_side(settings))))
+    return study_cells(settings.level, _cells_per_side(settings))
 
 
 def conclude(settings: Settings, records: Records) -> Conclusion:
@@ -441,7 +440,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
 
     records  available records of the contacts
     """
-    here = {run.cell: CellRecord.of(r) for run, r in found(cases(settings), records).items()}
+    here = {cell: CellRecord.of(r) for cell, r in found(cases(settings), records).items()}
     by_name = {cell.name: record for cell, record in here.items()}
     maps = views(settings.level, _cells_per_side(settings))
     return Conclusion(
