@@ -13,7 +13,7 @@ from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import COMPONENTS, StressField, StressIncrement
 from contact_results.stress.stress_maxima import Extreme, maxima_columns
 from contact_scene import Body
-from contact_scene.quantities.stated_error import StatedError
+from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
 TABLE, MEANINGS, FIGURE = "stress_history.csv", "stress_history_columns.csv", "stress_history.png"
 COLUMNS = (
@@ -39,6 +39,7 @@ def write_stress(
     *,
     with_figures: bool,
     errors: Sequence[StatedError] | None = None,
+    accuracy: AccuracyReached | None = None,
 ) -> None:
     """Write all files of the stress below a contact.
 
@@ -52,9 +53,10 @@ def write_stress(
     directory     output directory
     with_figures  also write figures and page
     errors        stated errors of `found`; None if they were not computed
+    accuracy      requested and reached accuracy; None if none was requested
     """
     with files_at_once(directory, STRESS, (VOLUME, STRESS_PAGE)) as staging:
-        write_files(state, which, field, found, staging, errors)
+        write_files(state, which, field, found, staging, errors, accuracy)
         if with_figures:
             from contact_results.figures.run_page import write_stress_page
             from contact_results.figures.stress_plot import write_stress_figures

@@ -394,16 +394,17 @@ def test_a_run_that_reaches_less_leaves_with_4_and_its_best_result(tmp_path: Pat
     assert json.loads((out / "summary.json").read_text())["accuracy"]["stopped"]
 
 
-def test_run_meets_the_largest_tension_that_stress_states(tmp_path: Path) -> None:
+def test_stress_meets_the_table_of_its_scene_and_says_so(tmp_path: Path) -> None:
     path, out = written(tmp_path, "[accuracy]\nmax_principal = '40 %'\n"), tmp_path / "new" / "out"
-    assert slipstick("run", path, "-o", out, "--figures", "none") == 0
-    assert slipstick("stress", out, "-o", tmp_path / "stress", "--figures", "none") == 0
-    record = json.loads((tmp_path / "stress" / "stress.json").read_text())
+    assert slipstick("stress", path, "-o", out, "--figures", "none") == 0
+    record = json.loads((out / "stress.json").read_text())
     tension = next(e for e in record["maxima"] if e["measure"] == "max_principal")
-    accuracy = summary(out).accuracy
-    assert accuracy.met
-    reached = accuracy.reached["max_principal"]
+    assert record["accuracy"]["met"]
+    reached = record["accuracy"]["reached"]["max_principal"]
     assert reached == pytest.approx(tension["error"]["error"] / tension["value"])
+    path = written(tmp_path, "[accuracy]\nmax_principal = '0.1 %'\n")
+    assert slipstick("stress", path, "-o", out, "--figures", "none", "--most-seconds", 0) == 4
+    assert not json.loads((out / "stress.json").read_text())["accuracy"]["met"]
 
 
 @pytest.mark.parametrize(
@@ -413,7 +414,12 @@ def test_run_meets_the_largest_tension_that_stress_states(tmp_path: Path) -> Non
         ("run", "--accuracy", "contact_radius 1e-12"),
         ("run", "--accuracy", "nonsense"),
         ("run", "--most-seconds", "3"),
-        ("run", "--accuracy", "max_principal 1e-6"),
+        ("stress", "--accuracy", "max_principal 1e-6"),
+        ("stress", "--accuracy", TENSION, "--indenter"),
+        ("stress", "--accuracy", TENSION, "--depths", "0.1 mm"),
+        ("stress", "--accuracy", TENSION, "--no-error"),
+        ("stress", "--accuracy", TENSION, "--step", "2"),
+        ("stress", "--most-seconds", "3"),
     ],
     ids=" ".join,
 )

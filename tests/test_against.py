@@ -59,10 +59,10 @@ def column(path: Path, name: str, steps: tuple[str, ...]) -> np.ndarray:
     return np.array([float(row[name]) for row in rows(path) if row["step"] in steps])
 
 
-def against(place: Path, measured: Path, *arguments) -> dict[str, list[str]]:
+def against(place: Path, measured: Path, *arguments, run: str = "run") -> dict[str, list[str]]:
     """Cells of the printed table by the name of its row: measured, computed, ratio, difference,
     and our part."""
-    ended = outcome("against", measured, "run", *arguments, cwd=place)
+    ended = outcome("against", measured, run, *arguments, cwd=place)
     assert ended.returncode == 0, ended.stderr
     lines = (re.split(r"\s{2,}", line.strip()) for line in ended.stdout.splitlines())
     return {cells[0].split(" (")[0]: cells[1:] for cells in lines if len(cells) == 6}
@@ -147,6 +147,12 @@ def test_a_profile_is_compared_at_its_places(place: Path) -> None:
     for name in ("tangential_shift", "tangential_force"):
         error += steps[1]["errors"][name]["error"][0] / steps[1][name][0]
     assert shear[1] / shear[0] == pytest.approx(error, rel=0.05)
+
+
+def test_a_scene_is_solved_first(place: Path) -> None:
+    _, shift, force = loop(place)
+    measured = table(place / "loop.csv", **{"shift [m]": 1.1 * shift, "T [N]": force})
+    assert against(place, measured, run="scene.toml") == against(place, measured)
 
 
 @pytest.mark.parametrize(

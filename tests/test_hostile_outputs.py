@@ -27,7 +27,7 @@ COMMANDS = {
     "run": ("run", "scene.toml", *QUICK, "-o"),
     "run, elements": ("run", "scene.toml", *QUICK, "--solver", "fem", "-o"),
     "run, radial": ("run", "scene.toml", *QUICK, "--solver", "radial", "-o"),
-    "stress": ("stress", "run", "--figures", "none", "--no-error", "-o"),
+    "stress": ("stress", "scene.toml", "--figures", "none", "--no-error", "-o"),
     "challenge": ("challenge", "export", "hertz_point", "-o"),
     "judge": ("judge", "answered", "--page"),
     "export": ("export", "run", "-o"),

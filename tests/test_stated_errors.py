@@ -800,9 +800,14 @@ def test_stress_counts_what_increments_leave_wrong_in_the_tractions(tmp_path: Pa
     path.write_text(coupled.split("[[loading]]\ntangential_force", 1)[0] + TWENTY, encoding="utf-8")
     common = ("--figures", "none", "-o")
     assert slipstick("run", path, *common, tmp_path / "run") == 0
+    assert slipstick("stress", path, *common, tmp_path / "of_scene") == 0
     assert slipstick("stress", tmp_path / "run", *common, tmp_path / "of_run") == 0
-    record = json.loads((tmp_path / "of_run" / "stress.json").read_text(encoding="utf-8"))
-    for maximum in record["maxima"]:
+    of_scene, of_run = (
+        json.loads((tmp_path / name / "stress.json").read_text(encoding="utf-8"))["maxima"]
+        for name in ("of_scene", "of_run")
+    )
+    assert of_scene == of_run
+    for maximum in of_run:
         parts = maximum["error"]["parts"]
         assert 0 < parts["increments"] < 0.1 * maximum["value"]
         assert maximum["error"]["error"] == pytest.approx(sum(parts.values()))

@@ -1,4 +1,4 @@
-"""Tests of `slipstick stress` from end to end: from a run, and refusals."""
+"""Tests of `slipstick stress` from end to end: from a scene, from a run, and refusals."""
 
 import json
 from pathlib import Path
@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command import outcome, rows
+from scene_texts import STEEL_BALL_PRESSED
 from stored_mesh import read_mesh
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -33,14 +34,13 @@ window = ["1.2 mm", "1.2 mm"]
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A scene, its runs in `run` and `radial`, and the stress of the first in `out`."""
+    """A scene, its run in `run`, and the stress of the scene in `out`."""
     directory = tmp_path_factory.mktemp("stress")
     scene = directory / "scene.toml"
     scene.write_text(SCENE, encoding="utf-8")
     for arguments in (
         ("run", scene, "-o", directory / "run", "--figures", "none", "--no-error"),
-        ("run", scene, "-o", directory / "radial", "--solver", "radial", "--figures", "none"),
-        ("stress", directory / "run", "-o", directory / "out"),
+        ("stress", scene, "-o", directory / "out"),
     ):
         ended = outcome(*arguments, cwd=ROOT)
         assert ended.returncode == 0, ended.stderr
@@ -92,7 +92,7 @@ def test_stress_at_a_point_is_that_of_the_table_on_both_sides(place: Path) -> No
 def test_cells_and_rings_have_the_same_stress_at_points_within_their_errors(place: Path) -> None:
     points = ("--at", "0.3 mm,0,0.25 mm", "--at", "0,0.3 mm,0.25 mm", "--at", "-.3mm,.2mm,.15mm")
     cells = at_points(place, "run", "cells", *points)
-    rings = at_points(place, "radial", "rings", *points)
+    rings = at_points(place, "scene.toml", "rings", *points, "--solver", "radial")
     for one, other in zip(cells, rings, strict=True):
         allowed = float(one["error [Pa]"]) + float(other["error [Pa]"])
         assert allowed < 2e7
@@ -104,7 +104,7 @@ def test_cells_and_rings_have_the_same_stress_at_points_within_their_errors(plac
 
 def test_a_history_of_points_needs_the_fields_of_all_increments(place: Path) -> None:
     point = ("--at", "0.2 mm,0,interface 1", "--history")
-    shown = at_points(place, "run", "steps", *point)
+    shown = at_points(place, "scene.toml", "steps", *point)
     assert [(row["point"], row["step"], row["increment"]) for row in shown] == [
         (point, step, "1") for point in "12" for step in "12"
     ]
@@ -124,6 +124,28 @@ def test_a_history_of_points_needs_the_fields_of_all_increments(place: Path) -> 
         (of_step,) = at_points(place, "run", f"step {step}", *point[:2], "--step", step)[:1]
         assert of_step == shown[step - 1] | {"increment": ""}
     assert (place / "history/stress_history.png").is_file()
+
+
+def test_run_and_scene_give_the_same(place: Path) -> None:
+    ended = outcome("stress", place / "run", "-o", place / "of_run", "--figures", "none", cwd=ROOT)
+    assert ended.returncode == 0, ended.stderr
+    for name in ("stress_maxima.csv", "stress_axis.csv"):
+        one, other = rows(place / "out" / name), rows(place / "of_run" / name)
+        for a, b in zip(one, other, strict=True):
+            for key in a:
+                try:
+                    expected = float(a[key])
+                except ValueError:
+                    assert a[key] == b[key]
+                    continue
+                scale = 1e10 if "Pa" in key else 1.0
+                assert float(b[key]) == pytest.approx(expected, rel=1e-9, abs=1e-12 * scale)
+
+
+def test_the_last_step_of_a_scene_may_be_asked_for(tmp_path: Path) -> None:
+    (tmp_path / "ball.toml").write_text(STEEL_BALL_PRESSED, encoding="utf-8")
+    options = ("--solver", "radial", "--no-error", "--figures", "none", "-o", "out", "--step", 1)
+    assert outcome("stress", "ball.toml", *options, cwd=tmp_path).returncode == 0
 
 
 def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:
@@ -172,8 +194,9 @@ def test_indenter_has_its_own_stress(place: Path) -> None:
         (["{}/run", "--at", "0,0,0", "--volume"], "--volume excludes --at"),
         (["{}/run", "--depths", "-1"], "expected a finite length"),
         (["{}/run", "--depths", "1 kN"], "expected a length"),
-        (["{}/scene.toml"], "is not the output of a run: it has no"),
-        (["{}/radial", "--volume"], "one plane: omit --volume"),
+        (["{}/run", "--set", "title=a"], "--set applies to a scene"),
+        (["{}/run", "--solver", "fem"], "--solver applies to a scene, got the output of a run"),
+        (["{}/run", "--solver", "semi-analytical"], "omit it, or give the scene file"),
         (["{}/run", "-o", "{}/scene.toml/out"], "is a file"),
     ],
 )

@@ -28,7 +28,7 @@ from contact_scene.quantities.field_metadata import (
     CONVENTION,
     OF_THE_INDENTER,
 )
-from contact_scene.quantities.stated_error import StatedError
+from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
 SECTION, VOLUME = "stress_section.vtu", "stress_volume.vtu"
 
@@ -81,6 +81,7 @@ def write_files(
     found: Sequence[Extreme],
     directory: Path,
     errors: Sequence[StatedError] | None,
+    accuracy: AccuracyReached | None,
 ) -> None:
     """Write tables, column descriptions, meshes and summary of the stress in one body.
 
@@ -90,6 +91,7 @@ def write_files(
     found      largest stresses
     directory  output directory
     errors     stated errors of `found`; None if they were not computed
+    accuracy   requested and reached accuracy; None if none was requested
     """
     of_indenter = which == "indenter"
     body = state.indenter if of_indenter else state.body
@@ -126,6 +128,7 @@ def write_files(
         "body": which,
         "step": state.step,
         "peak_pressure": state.peak_pressure,
+        "accuracy": None if accuracy is None else accuracy.model_dump(mode="json"),
         **field.how,
         "measures": MEASURES,
         "maxima": [

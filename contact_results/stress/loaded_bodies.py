@@ -136,6 +136,18 @@ def state_of_result(
     )
 
 
+def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
+    """Yield bodies and tractions at the end of every increment of a result.
+
+    Each item contains load step, increment within the load step, both from 1, and the bodies with
+    their tractions. For separated bodies, the third part is None.
+    """
+    surface = surface_of(result)
+    for increment in result.increments:
+        state = _loaded_bodies(result.scene, surface, result, increment, None)
+        yield increment.step, increment.index, state
+
+
 def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
     """Return bodies and tractions at the end of a load step of a stored run.
 
@@ -156,8 +168,7 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
     """Yield bodies and tractions at the end of every increment of a stored run.
 
-    Each item contains load step, increment within the load step, both from 1, and the bodies with
-    their tractions. For separated bodies, the third part is None.
+    The items are those of `states_of_result`.
 
     directory  directory of the run
 
@@ -186,11 +197,11 @@ def _open_run(directory: Path) -> Iterator[StoredRun]:
     try:
         run = load(directory)
     except (FileNotFoundError, ValueError) as error:
-        raise NoSuchState(f"{error}; give the output of a run") from None
+        raise NoSuchState(f"{error}; give the output of a run, or a scene file") from None
     try:
         yield run
     except FieldsAtEndsOnly as error:
-        raise NoSuchState(str(error)) from None
+        raise NoSuchState(f"{error}, or give the scene file") from None
     except MISREAD as error:
         raise NoSuchState(f"{directory / FIELDS} is not the {FIELDS} of a run: {error}") from None
 

@@ -113,6 +113,8 @@ def solve_to_accuracy(
     contents: SceneFile,
     output: Path,
     most_seconds: float | None,
+    *,
+    step: int | None = None,
 ) -> Iterator[Refined]:
     """Solve a scene with refined discretisations, and yield the outcome of the refinement.
 
@@ -123,6 +125,7 @@ def solve_to_accuracy(
     request       requested relative errors
     output        output directory
     most_seconds  limit of the total time [s]; None for no limit
+    step          load step at whose end the stress is required, from 1; None for the last
     """
     from contact_errors.adaptive_refinement import refine
 
@@ -150,7 +153,8 @@ def solve_to_accuracy(
 
     fineness = solver.fineness(contents)
     most = inf if most_seconds is None else most_seconds
-    stress = request.binds_stress
-    levels = solver.levels(contents.scene, fineness, stress, show_level, store_level)
+    levels = solver.levels(
+        contents.scene, fineness, request.binds_stress, show_level, store_level, step=step
+    )
     with ExitStack() as of_level:
         yield refine(levels, request, most, print_level)

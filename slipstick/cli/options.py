@@ -45,11 +45,6 @@ SceneArgument: TypeAlias = Annotated[
     Path, typer.Argument(metavar="SCENE", help="Scene file (TOML).", show_default=False)
 ]
 
-RunArgument: TypeAlias = Annotated[
-    Path,
-    typer.Argument(metavar="RUN_DIR", help="Output of 'slipstick run'.", show_default=False),
-]
-
 SetOption: TypeAlias = Annotated[
     list[str] | None,
     optional(
@@ -79,18 +74,19 @@ def print_input_warnings(contents: SceneFile) -> tuple[str, ...]:
     return warnings
 
 
-SolverOption: TypeAlias = Annotated[
-    SolverName,
-    typer.Option(
-        "--solver",
-        metavar="NAME",
-        help="'semi-analytical'; 'fem', finite elements with a penalty; 'fem-complementarity', "
-        "without a penalty; or 'radial', for bodies of revolution: nearly exact, in milliseconds "
-        "without friction and seconds with friction. Each reads its own table of the scene: "
-        "semi_analytical, fem_reference or radial.",
-        show_default=SolverName.SEMI_ANALYTICAL.value,
-    ),
-]
+_OPTION = typer.Option(
+    "--solver",
+    metavar="NAME",
+    help="'semi-analytical'; 'fem', finite elements with a penalty; 'fem-complementarity', without "
+    "a penalty; or 'radial', for bodies of revolution: nearly exact, in milliseconds without "
+    "friction and seconds with friction. Each reads its own table of the scene: semi_analytical, "
+    "fem_reference or radial.",
+    show_default=SolverName.SEMI_ANALYTICAL.value,
+)
+
+SolverOption: TypeAlias = Annotated[SolverName, _OPTION]
+# The option without a default, for commands that distinguish an absent option.
+OptionalSolver: TypeAlias = Annotated[SolverName | None, _OPTION]
 
 
 SchedulerOption: TypeAlias = Annotated[
@@ -158,3 +154,14 @@ def refuse_unknown(kind: str, given: Iterable[str], known: Collection[str], list
             messages.append(f"no {kind} is called '{name}'{meant}")
     if messages:
         raise typer.BadParameter("; ".join([*messages, f"'{listing}' lists all"]))
+
+
+def refuse_with_run(given: dict[str, object]) -> None:
+    """Refuse options of a solve when a command is given the output directory of a run.
+
+    Raises BadParameter for the first option that has a value.
+
+    given  values of the options by name
+    """
+    text = "applies to a scene, got the output of a run: omit it, or give the scene file"
+    refuse_if((value, f"{option} {text}") for option, value in given.items())

@@ -92,16 +92,19 @@ class Solver(ABC):
         stress    true if a requested accuracy applies to a stress in the body
         """
 
-    def levels(self, scene: Scene, fineness: Any, stress: bool, *hooks: Any) -> Levels:
+    def levels(
+        self, scene: Scene, fineness: Any, stress: bool, *hooks: Any, step: int | None = None
+    ) -> Levels:
         """Return the sequence of refinement levels of a scene, for a requested accuracy.
 
-        stress  true if the accuracy applies to the largest tensile stress in the body at the end
+        stress  true if the accuracy applies to the largest tensile stress in the body
         hooks   further arguments of `Levels`: contexts for progress and checkpoints of each solve
+        step    load step at whose end this stress is computed, from 1; None for the last
         """
         from contact_errors.adaptive_refinement import Levels
 
-        last = len(scene.loading) if stress else None
-        return Levels(self.refined(scene, fineness, stress), last, *hooks)
+        stress_at = (step or len(scene.loading)) if stress else None
+        return Levels(self.refined(scene, fineness, stress), stress_at, *hooks)
 
     def time(self, scene: Scene, fineness: Any, space: Any, plan: Any) -> tuple[str, str]:
         """Estimate the CPU time of a run with its error estimate, from the first refinement level.

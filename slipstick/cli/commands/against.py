@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from tempfile import TemporaryDirectory
+from typing import Annotated, Any
 
 import typer
 
 from contact_results.files.measured_table import read_measured
 from contact_results.files.stored_run import load
 from contact_results.number_text import Uncertainty, number_text
+from contact_scene import read_scene_file
 from contact_scene.reading.engineering_units import engineering_unit
 from slipstick.against import NothingToCompare, comparison
-from slipstick.cli.options import RunArgument, optional
+from slipstick.cli.options import OptionalSolver, SetOption, optional, refuse_with_run
 from slipstick.cli.terminal import print_table
+from slipstick.solvers.names import SolverName
+from slipstick.solving import save, solve, stated_errors
 
 
 def against(
@@ -25,7 +29,14 @@ def against(
             help="CSV with a header of names and units: name [unit].",
         ),
     ],
-    source: RunArgument,
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RUN_DIR|SCENE",
+            show_default=False,
+            help="Output of 'slipstick run', or a scene file to solve first.",
+        ),
+    ],
     step: Annotated[
         int | None,
         optional(
@@ -35,6 +46,8 @@ def against(
             help="Load step at whose end profiles are compared. Default: the last.",
         ),
     ] = None,
+    overrides: SetOption = None,
+    solver: OptionalSolver = None,
 ) -> None:
     """Compare a run with a measured loop or profile.
 
@@ -43,12 +56,21 @@ def against(
     The last column of the output is the largest part of the difference that the stated error
     explains.
     """
+    if source.is_dir():
+        refuse_with_run({"--set": overrides, "--solver": solver})
+    chosen = solver or SolverName.SEMI_ANALYTICAL
     try:
         measured = read_measured(table)
-        run = load(source)
-        if step is not None and step > len(run.summary.steps):
-            raise NothingToCompare(f"got step {step}, expected 1 to {len(run.summary.steps)}")
-        compared = comparison(measured, run, step)
+        with TemporaryDirectory() as solved:
+            directory = source
+            if not source.is_dir():
+                result: Any = solve(read_scene_file(source, overrides or ()), chosen.value)
+                directory = Path(solved) / "run"
+                save(result, directory, figures="none", errors=stated_errors(result))
+            run = load(directory)
+            if step is not None and step > len(run.summary.steps):
+                raise NothingToCompare(f"got step {step}, expected 1 to {len(run.summary.steps)}")
+            compared = comparison(measured, run, step)
     except ValueError as error:
         raise typer.BadParameter(str(error)) from None
     rows = []

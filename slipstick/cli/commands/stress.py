@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
@@ -14,25 +15,48 @@ from contact_errors.stress_errors import stress_at, stress_errors
 from contact_results.directory.run_directory import refuse_files_above
 from contact_results.stress.loaded_bodies import (
     LoadedBodies,
+    state_of_result,
     state_of_run,
+    states_of_result,
     states_of_run,
 )
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.on_disc import stress_on_disc
 from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField, StressIncrement
-from contact_results.stress.radial_body import is_sheared
+from contact_results.stress.radial_body import is_sheared, refuse_infinite, refuse_turned
 from contact_results.stress.stress_maxima import extremes, maxima_columns
 from contact_results.stress_result import write_history, write_stress
-from contact_scene import Body
+from contact_scene import Body, SceneFile, read_scene_file
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
+from contact_scene.quantities.stated_error import StatedErrors
 from contact_scene.reading.quantity import Length
 from contact_scene.solver_errors import ContactNotResolved, SolverError, UnsupportedScene
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.stress import interfaces
 from semi_analytical.stress.depths import levels_of
-from slipstick.cli.options import OutputOption, RunArgument, optional, refuse_if
-from slipstick.cli.terminal import print_message, print_table
+from slipstick.cli.accuracy_option import (
+    AccuracyOption,
+    MostSecondsOption,
+    exit_unless_met,
+    read_requested_accuracy,
+    solve_to_accuracy,
+)
+from slipstick.cli.options import (
+    OptionalSolver,
+    OutputOption,
+    SetOption,
+    optional,
+    print_input_warnings,
+    refuse_if,
+    refuse_with_run,
+)
+from slipstick.cli.progress import accuracy_lines, show_coarse_solves, solve_progress
+from slipstick.cli.terminal import print_message, print_pairs, print_table
+from slipstick.solvers.names import SolverName
+
+if TYPE_CHECKING:
+    from contact_results.surface import Result
 
 
 class Figures(StrEnum):
@@ -43,7 +67,14 @@ class Figures(StrEnum):
 
 
 def stress(
-    source: RunArgument,
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RUN_DIR|SCENE",
+            help="Output of 'slipstick run', or a scene file to solve first.",
+            show_default=False,
+        ),
+    ],
     output: OutputOption,
     step: Annotated[
         int | None,
@@ -76,7 +107,7 @@ def stress(
         bool,
         typer.Option(
             "--history",
-            help="With --at: compute all increments of a run with --all-fields.",
+            help="With --at: compute all increments of a scene, or of a run with --all-fields.",
         ),
     ] = False,
     indenter: Annotated[
@@ -95,37 +126,104 @@ def stress(
             "--error/--no-error", help="State an error for every maximum, or omit the errors."
         ),
     ] = True,
+    accuracy: AccuracyOption = None,
+    most_seconds: MostSecondsOption = None,
+    overrides: SetOption = None,
+    solver: OptionalSolver = None,
 ) -> None:
-    """Compute the stress in layers and substrate under the tractions of a run.
+    """Compute the stress in layers and substrate.
 
     DIR receives stress.json, tables (CSV) of maxima, of the z axis and of both sides of interfaces,
     the section y = 0 for ParaView (VTU), figures, and the page stress.html.
+
+    With --accuracy, or a table [accuracy] in the scene, the scene is refined as by 'run';
+    "max_principal 1%" requests the accuracy of the largest tensile stress in the body.
 
     With --at, DIR receives stress_history.csv and .png instead.
     """
     refuse_files_above(output)
     chosen_depths = None if depths is None else [_parse_length(text) for text in depths.split(",")]
+    chosen = solver or SolverName.SEMI_ANALYTICAL
+    contents = request = reached = None
+    if source.is_dir():
+        given: dict[str, object] = {"--set": overrides, "--solver": solver}
+        refuse_with_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
+    else:
+        _refuse_beside_section(chosen, chosen_depths, volume)
+    without_points = {"--depths": depths, "--volume": volume, "--accuracy": accuracy}
     refuse_if(
         (
-            (history and step is not None, "--history is of all load steps; leave --step out"),
+            (
+                history and step is not None,
+                "--history is of all load steps; leave --step out",
+            ),
             (history and not at, "--history needs points; add --at X,Y,Z"),
-            (at and depths, "--depths excludes --at; omit one of them"),
-            (at and volume, "--volume excludes --at; omit one of them"),
+            *(
+                (at and value, f"{option} excludes --at; omit one of them")
+                for option, value in without_points.items()
+            ),
         )
     )
-    if at:
-        _write_points(source, at, step, output, history, indenter)
+    if not source.is_dir():
+        contents = read_scene_file(source, overrides or ())
+    if at or history:
+        _write_points(source, contents, at or [], step, chosen, output, history, indenter)
         return
-    state = state_of_run(source, step)
-    which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
-    if not body.deforms:
-        raise typer.BadParameter(f"the {which} is rigid and has no stress")
-    field = _stress_field(state, chosen_depths, indenter=indenter, volume=volume)
-    found = extremes(field, body)
-    errors = stress_errors(state, field, found, indenter=indenter) if error else None
-    write_stress(
-        state, which, field, found, output, with_figures=figures is Figures.ALL, errors=errors
-    )
+    with ExitStack() as until_written:
+        if contents is None:
+            state = state_of_run(source, step)
+        else:
+            print_input_warnings(contents)
+            request = read_requested_accuracy(contents, accuracy, most_seconds, error=error)
+            of_stress, steps = request and request.binds_stress, len(contents.scene.loading)
+            refuse_if(
+                (
+                    (
+                        of_stress and indenter,
+                        "an accuracy of max_principal applies to the body; omit --indenter",
+                    ),
+                    (
+                        of_stress and chosen_depths is not None,
+                        "an accuracy of max_principal needs all depths: omit --depths, or request "
+                        "other quantities",
+                    ),
+                    (
+                        step is not None and step > steps,
+                        f"there is no step {step}; the scene has steps 1 to {steps}",
+                    ),
+                )
+            )
+            stated: StatedErrors | None
+            if request is None:
+                result, stated = _solve_scene(contents, chosen, error)
+            else:
+                output.parent.mkdir(parents=True, exist_ok=True)
+                refined = until_written.enter_context(
+                    solve_to_accuracy(
+                        request, chosen.solver, contents, output, most_seconds, step=step
+                    )
+                )
+                result, stated = refined.level.result, refined.level.stated
+                reached = refined.accuracy
+            state = state_of_result(result, step, stated)
+        which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
+        if not body.deforms:
+            raise typer.BadParameter(f"the {which} is rigid and has no stress")
+        field = _stress_field(state, chosen_depths, indenter=indenter, volume=volume)
+        found = extremes(field, body)
+        errors = stress_errors(state, field, found, indenter=indenter) if error else None
+        write_stress(
+            state,
+            which,
+            field,
+            found,
+            output,
+            with_figures=figures is Figures.ALL,
+            errors=errors,
+            accuracy=reached,
+        )
+    if reached is not None:
+        print_pairs(accuracy_lines(reached))
     columns = maxima_columns(found, errors)
     print_table(columns, list(zip(*columns.values(), strict=True)), numbers=True)
     edge: Any = field.how.get("edge")
@@ -138,26 +236,40 @@ def stress(
     elif not on_disc and state.by_increments is None:
         typer.echo("  errors without that of increments, which the run does not state")
     typer.echo(f"results in {output}")
+    exit_unless_met(reached)
 
 
 def _write_points(
-    source: Path, at: list[str], step: int | None, output: Path, history: bool, indenter: bool
+    source: Path,
+    contents: SceneFile | None,
+    at: list[str],
+    step: int | None,
+    chosen: SolverName,
+    output: Path,
+    history: bool,
+    indenter: bool,
 ) -> None:
     """Compute the stress at points in a body, and write it as table and figure.
 
     The stress is computed at the end of one load step, or for all increments. A state that the
     solver cannot evaluate is omitted with a message.
 
-    source    output directory of a run
+    source    output directory of a run, or scene file
+    contents  contents of the scene file, which is solved first; None for a run
     at        arguments of `--at`
     step      load step, from 1; None for the last
+    chosen    solver of the scene
     output    output directory
     history   true for all increments
     indenter  true for points in the indenter, false for points in the lower body
     """
     made = []
     left_out: SolverError = ContactNotResolved("the bodies are separated and have no stress")
-    states: Any = states_of_run(source) if history else [state_of_run(source, step)]
+    if contents is None:
+        states: Any = states_of_run(source) if history else [state_of_run(source, step)]
+    else:
+        result, _ = _solve_scene(contents, chosen, error=False)
+        states = states_of_result(result) if history else [state_of_result(result, step)]
     for state in states:
         number, index, state = state if history else (state.step, None, state)
         if state is None:
@@ -206,6 +318,58 @@ def _parse_points(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
     return np.array([p[0] for p in found]), np.array([p[1] for p in found]), [p[2] for p in found]
 
 
+def _solve_scene(
+    contents: SceneFile, name: SolverName, error: bool
+) -> tuple[Result, StatedErrors | None]:
+    """Solve the scene of a scene file, and estimate the errors of its scalars.
+
+    error  false to omit the error estimates; the second return value is then None
+    """
+    chosen = name.solver
+    fineness = chosen.fineness(contents)
+    decided: Any = chosen.plan(contents.scene, fineness)
+    if name is SolverName.RADIAL:
+        from radial.angular_grid import RingAngles
+        from radial.largest_contact import expected_radius
+
+        if decided.has_shear:
+            refuse_infinite(contents.scene.indenter, expected_radius(contents.scene))
+        if decided.circle is RingAngles.WHOLE:
+            refuse_turned()
+    with solve_progress(decided.increments) as observe:
+        result = chosen.solve(contents.scene, fineness, decided, observe)
+    if not error:
+        return result, None
+    with show_coarse_solves():
+        return result, chosen.errors(result)
+
+
+def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volume: bool) -> None:
+    """Refuse `--depths` and `--volume` for solvers that compute the stress in one plane only.
+
+    Finite elements allow neither option. The radial solver does not allow `--volume`. Raises
+    BadParameter.
+
+    solver  name of the solver
+    depths  values of the option `--depths`, or None
+    volume  value of the option `--volume`
+    """
+    refuse_if(
+        (
+            (
+                solver.is_fem and (depths is not None or volume),
+                "finite elements compute the stress at their nodes in one plane: omit --depths "
+                "and --volume",
+            ),
+            (
+                solver is SolverName.RADIAL and volume,
+                "the radial solver computes the stress in one plane through the axis: omit "
+                "--volume",
+            ),
+        )
+    )
+
+
 def _stress_field(
     state: LoadedBodies, depths: list[float] | None, *, indenter: bool, volume: bool
 ) -> StressField:
@@ -218,19 +382,11 @@ def _stress_field(
     indenter  true for the indenter, false for the lower body
     volume    true for the field in the volume as well
     """
-    if state.on_rings:
-        on_disc = state.pressed is not None
-        refuse_if(
-            (
-                (volume, "on rings the stress is computed in one plane: omit --volume"),
-                (
-                    depths is not None and not on_disc,
-                    "finite elements compute the stress at their nodes: omit --depths",
-                ),
-            )
-        )
-        if not on_disc:
-            return stress_on_section(state, indenter=indenter)
+    if state.pressed is not None:
+        _refuse_beside_section(SolverName.RADIAL, depths, volume)
+    elif state.on_rings:
+        _refuse_beside_section(SolverName.FEM, depths, volume)
+        return stress_on_section(state, indenter=indenter)
     try:
         if state.pressed is not None:
             return stress_on_disc(state, indenter=indenter, depths=depths)
