@@ -30,6 +30,7 @@ from contact_errors.cost_estimate import Work, coarse_increments, estimated_run_
 from contact_errors.error_formula import (
     BELIEVED,
     ORDERS,
+    PEAK,
     UNKNOWN,
     SolvedRun,
     Values,
@@ -158,7 +159,7 @@ class RefinementLevel:
         """
         factors: dict[Part, float] = {}
         for name, share in shares.items():
-            of_cells = self.run.convergence_order(name)
+            of_cells = min(step.convergence_order(name) for step in self.run.features)
             for error in self.errors(name):
                 parts = {p: float(np.max(s)) / self.largest(name) for p, s in error.parts.items()}
                 allowed = share / SPARE / max(1, sum(size > 0 for size in parts.values()))
@@ -359,22 +360,6 @@ class Refined:
     accuracy: AccuracyReached
 
 
-@dataclass(frozen=True)
-class Price:
-    """Estimated cost of a run with a requested accuracy.
-
-    settings  discretisation of the last and finest level of the refinement
-    seconds   CPU time of the first and the last level, with their coarse solves [s]
-    memory    peak memory of the solve of the last level [byte]
-    fits      true if the last level is within the solver's limit of cells, elements or rings
-    """
-
-    settings: AccuracySettings
-    seconds: float
-    memory: int
-    fits: bool
-
-
 def refine(
     levels: Levels,
     request: AccuracyRequest,
@@ -432,25 +417,6 @@ def refine(
     return Refined(level, accuracy)
 
 
-def price(levels: Levels, first: RefinementLevel, request: AccuracyRequest) -> Price:
-    """Estimate CPU time and memory of a run with a requested accuracy, before the run.
-
-    The discretisation that meets the request is extrapolated from the errors of the first and
-    coarsest level. Finer levels are not solved. Raises AccuracyOutOfReach for a request that cannot
-    be met.
-
-    levels   scene and solver
-    first    solved first level, with its errors
-    request  requested relative errors by name
-    """
-    *_, last = targets_of(request, first, levels)
-    seconds = first.processor_seconds
-    if last != first.fineness:
-        seconds += levels.estimated_seconds(first, levels.solver.work(last))
-    fits = levels.beyond_limit(last) is None
-    return Price(levels.settings(last), seconds, levels.solver.memory(last), fits)
-
-
 def targets_of(
     request: AccuracyRequest, level: RefinementLevel, levels: Levels
 ) -> tuple[dict[str, float], dict[str, str], Fineness]:
@@ -495,7 +461,7 @@ def _why_left_out(name: str, level: RefinementLevel) -> str:
     """
     if not any(name in step for step in level.stated.steps):
         return "the results of this scene by this solver do not contain it"
-    if name == "peak_pressure" and any(features.infinite for features in level.run.features):
+    if name == PEAK and any(features.infinite for features in level.run.features):
         return "its exact value is infinite"
     natural = max(characteristic_size(name, step) for step in level.run.values)
     return "it is zero throughout" if level.largest(name) <= ROUND_OFF * natural else ""

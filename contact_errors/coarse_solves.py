@@ -389,16 +389,17 @@ def compare_with_coarse_solves(
     recuts = dict.fromkeys(coarse_increment_counts(run.increments, matters)) if any(matters) else ()
     for few in (solver.few(replace(run, space=space), result) for space in spaces if recuts):
         if first := solved(f"few {solver.cells}", few):
-            others: list[tuple[Sequence[int], Sequence[Values]]] = []
-            for counts in recuts:
-                differs = f"few {solver.cells}, other increments"
-                other = solved(differs, replace(few, increments=counts))
-                if other:
-                    others.append((counts, other[1]))
-                    factors = ratios(few.increments, counts, matters)
-                    comparisons.append(Comparison("increments", first[1], other[1], factors))
-                    if sum(counts) < sum(run.increments):
-                        run, effects = replace(run, increments=counts), [(first[1], other[1])]
+            differs = f"few {solver.cells}, other increments"
+            others = [
+                (counts, other[1])
+                for counts in recuts
+                if (other := solved(differs, replace(few, increments=counts)))
+            ]
+            for counts, other_values in others:
+                factors = ratios(few.increments, counts, matters)
+                comparisons.append(Comparison("increments", first[1], other_values, factors))
+                if sum(counts) < sum(run.increments):
+                    run, effects = replace(run, increments=counts), [(first[1], other_values)]
             if len(others) > 1:
                 comparisons.append(compare_with_limit(first[1], few.increments, others, matters))
             break
@@ -547,17 +548,23 @@ def coarse_increment_counts(
 ) -> list[tuple[int, ...]]:
     """Choose the numbers of increments of the two coarse solves that measure the increment error.
 
-    Each of the two solves has one number of increments per load step. Load steps without an
+    Each of the two solves has one number of increments per load step. The numbers are smaller than
+    those of the result if it has many increments (at least 8). They are larger if it has few,
+    because the error of even fewer increments would not converge regularly. Load steps without an
     increment error keep their number, because their result does not depend on the increments.
 
     counts   number of increments of each load step of the result
     matters  for each load step, true if it has an increment error
     """
     both = [
-        _other_increment_counts(count) if matter else (count, count)
+        (count, count)
+        if not matter
+        else MANY
+        if count < FEW
+        else (count // 2, max(FEW // 2, count // 4))
         for count, matter in zip(counts, matters, strict=True)
     ]
-    return [tuple(pair[level] for pair in both) for level in (0, 1)]
+    return list(zip(*both, strict=True))
 
 
 def ratios(
@@ -580,15 +587,3 @@ def ratios(
             nearest = ratio
         found.append(nearest)
     return tuple(found)
-
-
-def _other_increment_counts(count: int) -> tuple[int, int]:
-    """Choose two other numbers of increments of a load step, to measure its increment error.
-
-    The numbers are smaller than the number in the result if the result has many increments (at
-    least 8). They are larger if it has few, because the error of even fewer increments would not
-    converge regularly.
-
-    count  number of increments of the load step in the result
-    """
-    return MANY if count < FEW else (count // 2, max(FEW // 2, count // 4))

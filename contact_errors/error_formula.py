@@ -393,15 +393,6 @@ class SolvedRun:
         """
         return near_gross_slip(self.scene)
 
-    def convergence_order(self, name: str) -> float:
-        """Return the smallest convergence order of a scalar in the cell size over all load steps.
-
-        Used to compute the refinement factor of the cells that a requested accuracy requires.
-
-        name  name of the scalar
-        """
-        return min(features.convergence_order(name) for features in self.features)
-
     def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
         """Compute the parts of the error of a scalar at the end of a load step, by their cause.
 

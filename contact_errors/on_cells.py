@@ -211,10 +211,14 @@ def _remaining_edge_errors(report: EdgeReport) -> Mapping[str, float]:
 
     report  outcome of the edge correction at the end of a load step
     """
-    motions = dict.fromkeys(MOTIONS, report.response)
-    radii = {"contact_radius": report.radius, "contact_area": 2 * report.radius}
-    stick = {"stick_radius": report.stick or 0.0, "stick_area": 2 * (report.stick or 0.0)}
-    return {**motions, **radii, **stick, PEAK: report.peak}
+    return {
+        **dict.fromkeys(MOTIONS, report.response),
+        "contact_radius": report.radius,
+        "contact_area": 2 * report.radius,
+        "stick_radius": report.stick or 0.0,
+        "stick_area": 2 * (report.stick or 0.0),
+        PEAK: report.peak,
+    }
 
 
 def _distance_of_peak_to_edge(end: Increment) -> float:

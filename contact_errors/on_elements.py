@@ -179,9 +179,8 @@ class ElementSolver(DiscretisedSolver):
         if result.plan.path is not Path.SHEARING:
             return {}
         bodies = self.scene.body, self.scene.indenter
-        layered = any(body.layers for body in bodies)
-        ratios = [m.poisson_ratio for body in bodies for m in body.elastic_materials]
-        nu = 0.5 if layered else max(ratios)
+        ratios = (m.poisson_ratio for body in bodies for m in body.elastic_materials)
+        nu = 0.5 if any(body.layers for body in bodies) else max(ratios)
         return dict.fromkeys(ACROSS, (nu / (4 - 2 * nu)) ** 2 / 2)
 
     def first_space(self) -> FiniteElementDiscretisation:

@@ -251,9 +251,7 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
         return 0.0
     three = levels[k - 1 : k + 2]
     largest = [float(np.max(values[inside & (points.depth == z)])) for z in three]
-    (below, above), fall = np.diff(three), np.diff(largest)
-    bend = (fall[1] / above - fall[0] / below) / (below + above)
-    slope = fall[0] / below + bend * below
+    bend, slope, _ = np.polyfit(three - levels[k], largest, 2)
     return float(slope**2 / (-2 * bend)) if bend < 0 else 0.0
 
 

@@ -41,8 +41,8 @@ from contact_errors.adaptive_refinement import (
     Refined,
     RefinementLevel,
     limit_factors,
-    price,
     refine,
+    targets_of,
 )
 from contact_errors.coarse_solves import Fineness
 from contact_errors.error_formula import BELIEVED, Features, SolvedRun
@@ -285,19 +285,20 @@ def test_a_limit_of_memory_keeps_the_best_result(monkeypatch: pytest.MonkeyPatch
 
 
 @pytest.mark.parametrize(
-    "judge", [refine, lambda levels, asked: price(levels, levels.solve_first_level(), asked)]
+    "judge", [refine, lambda levels, asked: targets_of(asked, levels.solve_first_level(), levels)]
 )
 def test_a_last_level_beyond_the_memory_is_refused_by_run_and_plan(
     judge: Callable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The last level needs little more memory than the first, and one byte less is available."""
     levels, asked = on_cells(scene(PRESS), edge="off"), request("approach 0.05%")
-    needed = price(levels, first := levels.solve_first_level(), asked)
-    assert first.fineness.space.cells < needed.settings.cells
-    monkeypatch.setattr(adaptive_refinement, "available_bytes", lambda: needed.memory - 1)
+    *_, last = targets_of(asked, first := levels.solve_first_level(), levels)
+    assert first.fineness.space.cells < last.space.cells
+    needed = levels.solver.memory(last)
+    monkeypatch.setattr(adaptive_refinement, "available_bytes", lambda: needed - 1)
     with pytest.raises(AccuracyOutOfReach, match=r"no grid can meet the request.*GiB"):
         judge(levels, asked)
-    monkeypatch.setattr(adaptive_refinement, "available_bytes", lambda: needed.memory)
+    monkeypatch.setattr(adaptive_refinement, "available_bytes", lambda: needed)
     judge(levels, asked)
 
 
@@ -489,17 +490,18 @@ def test_a_run_without_accuracy_leaves_nothing_of_a_killed_one_with_it(tmp_path:
 def test_the_price_of_less_error_is_more_of_everything() -> None:
     levels = on_cells(scene(PRESS, push(0.6)))
     first = levels.solve_first_level()
-    found = [price(levels, first, request(share)) for share in ("0.2%", "0.03%", FINER)]
-    for low, high in pairwise(found):
-        assert low.settings.cells < high.settings.cells
-        assert low.seconds < high.seconds
-        assert low.memory < high.memory
-    assert all(cost.fits for cost in found)
-    met = price(levels, first, request("50%"))
-    assert met.settings == levels.settings(first.fineness)
-    assert met.seconds == first.processor_seconds  # no second solve of the same level
+    last = [
+        targets_of(request(share), first, levels)[2] for share in ("0.2%", "0.03%", FINER, "50%")
+    ]
+    works = [levels.estimated_seconds(first, levels.solver.work(each)) for each in last]
+    for low, high in pairwise(range(3)):
+        assert last[low].space.cells < last[high].space.cells
+        assert works[low] < works[high]
+        assert levels.solver.memory(last[low]) < levels.solver.memory(last[high])
+    assert not any(levels.beyond_limit(each) for each in last)
+    assert last[3] == first.fineness
     with pytest.raises(AccuracyOutOfReach, match="no grid can meet"):
-        price(levels, first, request("1e-12"))
+        targets_of(request("1e-12"), first, levels)
 
 
 def test_plan_prints_prices_and_what_cannot_be_had(

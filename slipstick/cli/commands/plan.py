@@ -18,7 +18,8 @@ from slipstick.solvers.names import SolverName
 from slipstick.solvers.solver import Solver, increments_text, time_text
 
 if TYPE_CHECKING:
-    from contact_errors.adaptive_refinement import Price
+    from contact_errors.adaptive_refinement import Levels
+    from contact_errors.coarse_solves import Fineness
 
 HEADINGS = ("accuracy", "cells, elements, rings", "increments", "time", "memory")
 
@@ -86,7 +87,7 @@ def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None
 
     items  arguments of `--accuracy`
     """
-    from contact_errors.adaptive_refinement import price
+    from contact_errors.adaptive_refinement import targets_of
 
     requests = [read_accuracy(item, "--accuracy") for item in items]
     stress = any(request.binds_stress for request in requests)
@@ -96,7 +97,11 @@ def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None
     rows, refused = [], []
     for item, request in zip(items, requests, strict=True):
         try:
-            rows.append((item, *_price_texts(price(levels, first, request))))
+            *_, last = targets_of(request, first, levels)
+            seconds = first.processor_seconds
+            if last != first.fineness:
+                seconds += levels.estimated_seconds(first, levels.solver.work(last))
+            rows.append((item, *_price_texts(levels, last, seconds)))
         except AccuracyOutOfReach as error:
             refused.append((item, str(error)))
     if rows:
@@ -105,18 +110,22 @@ def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None
         print_pairs(refused)
 
 
-def _price_texts(found: "Price") -> tuple[str, ...]:
+def _price_texts(levels: "Levels", last: "Fineness", seconds: float) -> tuple[str, ...]:
     """Return the texts of the estimated cost of one accuracy, for a table.
 
     The texts are cells, increments, time and memory.
+
+    last     discretisation of the last and finest level
+    seconds  CPU time of the first and the last level, with their coarse solves [s]
     """
-    cells, rings = found.settings.cells, found.settings.ring_factor
+    settings = levels.settings(last)
+    cells, rings = settings.cells, settings.ring_factor
     fineness = f"{rings:.2g} times the rings" if rings else ""
-    fineness = fineness or f"{found.settings.elements_per_radius} per radius"
+    fineness = fineness or f"{settings.elements_per_radius} per radius"
     return (
         (f"{cells[0]} x {cells[1]}" if cells else fineness)
-        + ("" if found.fits else ", above the limit"),
-        increments_text(found.settings.increments),
-        time_text(found.seconds),
-        f"about {found.memory / 2**20:.0f} MiB",
+        + (", above the limit" if levels.beyond_limit(last) else ""),
+        increments_text(settings.increments),
+        time_text(seconds),
+        f"about {levels.solver.memory(last) / 2**20:.0f} MiB",
     )
