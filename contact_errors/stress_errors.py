@@ -34,10 +34,10 @@ from contact_errors.error_formula import (
     SMOOTH,
     build_stated_error,
 )
+from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
-from contact_results.stress.on_cells import stress_at_cells, stress_on_cells
-from contact_results.stress.on_disc import stress_at_radii, stress_on_disc
-from contact_results.stress.on_section import stress_on_section
+from contact_results.stress.on_cells import stress_at_cells
+from contact_results.stress.on_disc import stress_at_radii
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.stress_maxima import (
     SURFACE,
@@ -82,7 +82,7 @@ def largest_stresses(
     state = state_of_result(result, step, errors)  # type: ignore[arg-type]
     if not state.body.deforms:
         return {}
-    field = _compute_stress_field(state)
+    field = stress_below_contact(state)
     largest: dict[str, Extreme] = {}
     for each in sorted(extremes(field, state.body), key=lambda extreme: extreme.value):
         words = each.region.split()
@@ -130,22 +130,6 @@ def stress_at(
     return here, np.max(apart, axis=0) / growth
 
 
-def _compute_stress_field(
-    state: LoadedBodies, *, indenter: bool = False, depths: Any = None
-) -> StressField:
-    """Compute the stress below the contact in a body from the surface tractions of any solver.
-
-    state     bodies and surface tractions of a contact result
-    indenter  true for the indenter, false for the lower body
-    depths    depths at which the stress is computed [length]; None for those of the solver
-    """
-    if state.pressed is not None:
-        return stress_on_disc(state, indenter=indenter, depths=depths)
-    if state.on_rings:
-        return stress_on_section(state, indenter=indenter)
-    return stress_on_cells(state, indenter=indenter, depths=depths)
-
-
 def stress_errors(
     state: LoadedBodies, field: StressField, found: Sequence[Extreme], *, indenter: bool = False
 ) -> tuple[StatedError, ...]:
@@ -172,7 +156,7 @@ def stress_errors(
     body, near = state.indenter if indenter else state.body, NEAR * _traction_cell_width(state)
     here = _largest_by_place(field, body, near)
     there = [
-        _largest_by_place(_compute_stress_field(one, indenter=indenter, depths=sampled), body, near)
+        _largest_by_place(stress_below_contact(one, indenter=indenter, depths=sampled), body, near)
         for one in two
     ]
     # The largest stress adjacent to a fitted contact edge converges with a higher order.

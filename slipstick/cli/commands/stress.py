@@ -13,6 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from contact_errors.stress_errors import stress_at, stress_errors
 from contact_results.directory.run_directory import refuse_files_above
+from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import (
     LoadedBodies,
     state_of_result,
@@ -20,9 +21,6 @@ from contact_results.stress.loaded_bodies import (
     states_of_result,
     states_of_run,
 )
-from contact_results.stress.on_cells import stress_on_cells
-from contact_results.stress.on_disc import stress_on_disc
-from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField, StressIncrement
 from contact_results.stress.radial_body import is_sheared, refuse_infinite, refuse_turned
 from contact_results.stress.stress_maxima import extremes, maxima_columns
@@ -386,11 +384,8 @@ def _stress_field(
         _refuse_beside_section(SolverName.RADIAL, depths, volume)
     elif state.on_rings:
         _refuse_beside_section(SolverName.FEM, depths, volume)
-        return stress_on_section(state, indenter=indenter)
     try:
-        if state.pressed is not None:
-            return stress_on_disc(state, indenter=indenter, depths=depths)
-        return stress_on_cells(state, indenter=indenter, depths=depths, volume=volume)
+        return stress_below_contact(state, indenter=indenter, depths=depths, volume=volume)
     except ValueError as error:
         if depths is None:
             raise

@@ -22,10 +22,8 @@ import radial
 import semi_analytical
 from contact_errors.error_formula import AT_EDGES, Values, prescribed_scalars, values_of
 from contact_errors.stress_errors import stress_errors
+from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import state_of_result
-from contact_results.stress.on_cells import stress_on_cells
-from contact_results.stress.on_disc import stress_on_disc
-from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
     RIGID,
@@ -103,8 +101,7 @@ def stress_maxima(
     errors  stated errors of the result, if they are known
     """
     state = state_of_result(result, step, errors)
-    below = stress_on_disc if state.pressed else stress_on_section if state.on_rings else None
-    field = (below or stress_on_cells)(state)
+    field = stress_below_contact(state)
     found = extremes(field, state.body)
     of_stress = stress_errors(state, field, found)
     return {
