@@ -153,10 +153,11 @@ def fit_window(scene: Scene) -> Pair:
 
 
 def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
-    """Raise ContactAtWindowEdge if the contact under the largest load reaches the window border.
+    """Raise ContactAtWindowEdge if the contact under a load of the history reaches the border.
 
-    Used before a long solution. The frictionless contact under `SURELY` of the load is tested,
-    because it is smaller than the contact with friction under the full load.
+    Used before a long solution. The loads are those of `_largest_loads`. The frictionless contact
+    under `SURELY` of a load is tested, because it is smaller than the contact with friction under
+    the full load.
     """
     decided = plan(scene)
     model = ContactModel.from_scene(scene, grid, decided.symmetry)
@@ -165,7 +166,10 @@ def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
         try:
             press(model, replace(load, force=force, approach=approach), SCOUT_TOLERANCE)
         except ContactAtWindowEdge as error:
-            raise ContactAtWindowEdge(f"under the largest load of the history, {error}") from None
+            prescribed = f"normal_force {load.force:.4g} N"
+            if load.approach is not None:
+                prescribed = f"approach {load.approach:.4g} m"
+            raise ContactAtWindowEdge(f"under {prescribed}, {error}") from None
         except SolverError:  # on too few cells; left to the solution of the history
             return
 
