@@ -27,8 +27,7 @@ from semi_analytical.normal.normal_load import (
 )
 from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
 from semi_analytical.tangential.admissible_shear import (
-    FixedShift,
-    ShearSum,
+    TangentialLoad,
     magnitude,
     project_on_discs,
 )
@@ -150,7 +149,7 @@ BOTH_WAYS = pytest.mark.parametrize("solver", [solve_coupled, solve_together])
 def test_under_forces_all_laws_hold_and_the_loads_are_carried(solver, seed, friction, part, angle):
     contact, total = DenseContact(seed, friction), 7.0
     force = part * friction * total * np.array([np.cos(angle), np.sin(angle)])
-    solution = contact.solved(PressureSum(total), ShearSum(force), solver=solver)
+    solution = contact.solved(PressureSum(total), TangentialLoad(force), solver=solver)
     assert_lawful(contact, solution)
     assert np.sum(solution.pressure) == pytest.approx(total, rel=1e-12)
     np.testing.assert_allclose(np.sum(solution.shear, axis=(1, 2)), force, atol=1e-11 * total)
@@ -161,7 +160,7 @@ def test_under_forces_all_laws_hold_and_the_loads_are_carried(solver, seed, fric
 def test_under_prescribed_motions_all_laws_hold(solver, seed, friction, size, angle):
     contact = DenseContact(seed, friction, coupling=0.5)
     shift = size * np.array([np.cos(angle), np.sin(angle)])
-    solution = contact.solved(FixedApproach(2.0), FixedShift(shift), solver=solver)
+    solution = contact.solved(FixedApproach(2.0), TangentialLoad(shift=shift), solver=solver)
     assert solution.approach == 2.0
     np.testing.assert_array_equal(solution.shift, shift)
     assert_lawful(contact, solution)
@@ -173,14 +172,14 @@ def test_strong_coupling_converges():
     assert_lawful(contact, contact.solved(*LOADS))
 
 
-LOADS = PressureSum(7.0), ShearSum(np.array([0.5, 0.3]))
+LOADS = PressureSum(7.0), TangentialLoad(np.array([0.5, 0.3]))
 
 
 def test_a_start_in_equilibrium_with_the_wrong_shear_is_not_taken_for_the_answer():
     """The pressure fits the first shear, the shear does not fit the load: only a look at both
     residuals tells."""
     contact = DenseContact(10, 0.3)
-    before = contact.solved(PressureSum(7.0), ShearSum(np.zeros(2)))
+    before = contact.solved(PressureSum(7.0), TangentialLoad(np.zeros(2)))
     after = solve_coupled(
         contact.problem(*LOADS), before.pressure, before.shear, before.shift, TOLERANCE
     )
@@ -191,7 +190,7 @@ def test_a_start_in_equilibrium_with_the_wrong_shear_is_not_taken_for_the_answer
 @pytest.mark.parametrize("excess", [1.0, 1.5])
 def test_at_and_beyond_the_friction_limit_all_slips_along_the_force(excess):
     contact, direction = DenseContact(11, 0.2), np.array([0.6, 0.8])
-    solution = contact.solved(PressureSum(7.0), ShearSum(excess * 0.2 * 7.0 * direction))
+    solution = contact.solved(PressureSum(7.0), TangentialLoad(excess * 0.2 * 7.0 * direction))
     assert solution.at_limit
     assert np.all(solution.in_slip == (solution.pressure > 0))
     expected = 0.2 * solution.pressure * direction[:, None, None]

@@ -14,10 +14,8 @@ from semi_analytical.normal.normal_load import (
 )
 from semi_analytical.normal.normal_problem import solve_normal
 from semi_analytical.tangential.admissible_shear import (
-    FixedShift,
-    ShearSum,
+    TangentialLoad,
     magnitude,
-    project,
     project_on_discs,
 )
 from semi_analytical.tangential.linearised_shear import Point
@@ -149,7 +147,7 @@ ANGLES = st.floats(0, 2 * np.pi)
 @given(problems(), st.sampled_from([0.0, 1e-6, 0.3, 0.9, 0.999]), ANGLES)
 def test_shear_under_a_force_sticks_or_slips_and_carries_it(problem, part, angle):
     total = part * np.sum(problem[1]) * np.array([np.cos(angle), np.sin(angle)])
-    solution = shear_solved(problem, ShearSum(total))
+    solution = shear_solved(problem, TangentialLoad(total))
     assert_sticks_or_slips(problem, solution)
     np.testing.assert_allclose(
         np.sum(solution.shear, axis=(1, 2)), total, atol=1e-12 * np.sum(problem[1])
@@ -159,7 +157,7 @@ def test_shear_under_a_force_sticks_or_slips_and_carries_it(problem, part, angle
 @given(problems(), st.sampled_from([0.0, 1e-3, 1.0, 1e3]), ANGLES)
 def test_shear_under_a_shift_sticks_or_slips(problem, size, angle):
     shift = size * np.array([np.cos(angle), np.sin(angle)])
-    solution = shear_solved(problem, FixedShift(shift))
+    solution = shear_solved(problem, TangentialLoad(shift=shift))
     np.testing.assert_array_equal(solution.motion, shift)
     assert_sticks_or_slips(problem, solution)
 
@@ -177,7 +175,7 @@ def test_a_displacement_that_is_no_number_ends_as_not_converged(value, call, rng
             u[0, 0, 0] = value
         return u
 
-    load, target = ShearSum(np.array([0.5, 0.1]) * np.sum(bound)), np.zeros((2, *SHEAR_SHAPE))
+    load, target = TangentialLoad(np.array([0.5, 0.1]) * np.sum(bound)), np.zeros((2, *SHEAR_SHAPE))
     with np.errstate(all="ignore"), pytest.raises(NotConverged):
         solve_tangential(
             displace, graded_inverse(A), bound, target, load, AT_REST, np.zeros(2), 1.0, TOLERANCE
@@ -220,7 +218,7 @@ def assert_feasible(q, problem):
 def test_projection_is_feasible_and_a_shift_cut_off_at_the_discs(problem):
     """q = P(y + λ) with one vector λ for all cells, the optimality conditions of the projection."""
     y, bound, total = problem
-    q, multiplier = project(y, bound, total)
+    q, multiplier = TangentialLoad(total).project_trial(y, bound, 1.0, np.zeros(2))
     assert_feasible(q, problem)
     expected = project_on_discs(y + multiplier[:, None, None], bound)
     np.testing.assert_allclose(q, expected, rtol=0, atol=10 * round_off(problem))
@@ -230,7 +228,7 @@ def test_projection_is_feasible_and_a_shift_cut_off_at_the_discs(problem):
 def test_a_tiny_sum_is_carried_to_its_own_precision(part, rng):
     bound = rng.random((9, 9))
     total = part * np.sum(bound) * np.array([0.6, -0.8])
-    q, _ = project(part * rng.standard_normal((2, 9, 9)), bound, total)
+    q = TangentialLoad(total).admissible(part * rng.standard_normal((2, 9, 9)), bound)
     assert np.max(np.abs(np.sum(q, axis=(1, 2)) - total)) < 1e-13 * part * np.sum(bound)
 
 
@@ -249,8 +247,8 @@ def test_without_a_sum_every_cell_is_projected_alone(problem):
 def test_a_force_and_the_shift_that_it_leads_to_have_the_same_shear(rng):
     y, bound = rng.standard_normal((2, 5, 4)), rng.random((5, 4))
     total, gamma, unknown = np.sum(bound) * np.array([0.4, -0.5]), 3.0, np.zeros(2)
-    q, shift = ShearSum(total).project_trial(y, bound, gamma, unknown)
-    led, same = FixedShift(shift).project_trial(y, bound, gamma, unknown)
+    q, shift = TangentialLoad(total).project_trial(y, bound, gamma, unknown)
+    led, same = TangentialLoad(shift=shift).project_trial(y, bound, gamma, unknown)
     np.testing.assert_allclose(led, q, rtol=0, atol=100 * ROUND_OFF)
     np.testing.assert_array_equal(same, shift)
 
@@ -258,9 +256,9 @@ def test_a_force_and_the_shift_that_it_leads_to_have_the_same_shear(rng):
 def test_a_force_is_exhausted_by_the_sum_of_the_limits_and_then_all_slips_along_it(rng):
     bound, motion, along = rng.random((5, 4)), np.array([1.0, 2.0]), np.array([0.6, -0.8])
     carried = np.sum(bound)
-    assert not ShearSum(0.9 * carried * along).exhausts(bound)
-    assert ShearSum(carried * along).exhausts(bound)
-    assert ShearSum(1.1 * carried * along).exhausts(bound)
-    q, kept = ShearSum(carried * along).full_slip(bound, motion)
+    assert not TangentialLoad(0.9 * carried * along).exhausts(bound)
+    assert TangentialLoad(carried * along).exhausts(bound)
+    assert TangentialLoad(1.1 * carried * along).exhausts(bound)
+    q, kept = TangentialLoad(carried * along).full_slip(bound, motion)
     np.testing.assert_allclose(q, bound * along[:, None, None], rtol=ROUND_OFF)
     np.testing.assert_array_equal(kept, motion)

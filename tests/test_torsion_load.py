@@ -9,8 +9,7 @@ from random_compliance import as_map, compliance, rough_inverse
 
 from semi_analytical.normal.normal_problem import solve_normal
 from semi_analytical.normal.tilting import PressureMoments
-from semi_analytical.tangential.admissible_shear import magnitude
-from semi_analytical.tangential.torsion import ShearMoments
+from semi_analytical.tangential.admissible_shear import TangentialLoad, magnitude
 
 SHAPE = (4, 5)
 Y, X = np.meshgrid(np.arange(5) - 2.0, np.arange(4) - 1.5)
@@ -22,7 +21,7 @@ def forces(q):
 
 
 def load_of(target):
-    return ShearMoments(ROTATION, float(target[2]), total=target[:2])
+    return TangentialLoad(target[:2], torque=float(target[2]), rotation=ROTATION)
 
 
 def discs(bound, rng):
@@ -72,7 +71,9 @@ def test_at_its_limit_a_load_is_carried_by_full_slip_alone(problem):
     load = load_of(forces(discs(bound, rng)))
     times, velocity = load.limit(bound)
     q, _ = load.full_slip(bound, np.zeros(3))
-    moves = magnitude(sum(v * u for v, u in zip(velocity, load.units, strict=True)))
+    moves = magnitude(
+        sum(v * u for v, u in zip(velocity, load.free_motions(ROTATION.shape), strict=True))
+    )
     # Smoothing at the pole of the motion, 1e-8 of the largest speed, reduces the shear by less than
     # 1e-8 of itself in these cells. Shear in other cells hardly changes the power.
     slips = moves > 1e-4 * np.max(moves)
@@ -81,7 +82,9 @@ def test_at_its_limit_a_load_is_carried_by_full_slip_alone(problem):
     assert np.all(magnitude(q) <= bound * (1 + 1e-12))
     np.testing.assert_allclose(magnitude(q)[slips], bound[slips])
     # The power of friction in that motion bounds the work of every admissible shear.
-    speed = sum(v * unit for v, unit in zip(velocity, load.units, strict=True))
+    speed = sum(
+        v * unit for v, unit in zip(velocity, load.free_motions(ROTATION.shape), strict=True)
+    )
     other = discs(bound, rng)
     assert np.sum(other * speed) <= times * (1 + 1e-9)
     assert load_of(0.999 * times * forces_of(load)).exhausts(bound) is False
@@ -92,7 +95,7 @@ def test_the_limit_of_torque_alone_is_friction_times_arm():
     bound = np.ones(SHAPE)
     times, _ = load_of(np.array([0.0, 0.0, 2.0])).limit(bound)
     assert 2 * times == pytest.approx(np.sum(np.hypot(X, Y)), rel=1e-12)
-    held = ShearMoments(ROTATION, 2.0, shift=np.array([1.0, 2.0]))
+    held = TangentialLoad(shift=np.array([1.0, 2.0]), torque=2.0, rotation=ROTATION)
     assert held.limit(bound)[0] == pytest.approx(times, rel=1e-12)
 
 

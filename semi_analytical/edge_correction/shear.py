@@ -36,7 +36,7 @@ from semi_analytical.edge_correction.pressure import (
 from semi_analytical.edge_correction.shear_at_edge import direction_of_slip
 from semi_analytical.increments.tangential_state import TangentialState
 from semi_analytical.tangential.admissible_shear import (
-    ShearSum,
+    TangentialLoad,
     magnitude,
 )
 from semi_analytical.tangential.linearised_shear import Point
@@ -233,7 +233,7 @@ class ShearProblem:
                 np.where(deficit.edge.outer, np.minimum(outer, self.bound), self.bound)
             ),
             target,
-            ShearSum(self.force / model.grid.cell_area, domain.summed),
+            TangentialLoad(self.force / model.grid.cell_area, summed=domain.summed),
             Point(q, operator.tangential(q)),
             motion,
             model.self_compliance,

@@ -53,10 +53,7 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
         return
     if not np.any(bound):
         raise GrossSliding(f"torque {torque:.6g} N m on a contact without friction")
-    from semi_analytical.tangential.torsion import ShearMoments
-
     held = load.as_load(model.grid.cell_area, model.rotation, model.domain)
-    assert isinstance(held, ShearMoments)
     if not held.exhausts(bound):
         return
     times = held.limit(bound)[0]

@@ -9,12 +9,7 @@ from contact_scene.bulk_strain import Strain
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.box import box_around
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
-from semi_analytical.tangential.admissible_shear import (
-    FixedShift,
-    ShearSum,
-    SprungShift,
-    TangentialLoad,
-)
+from semi_analytical.tangential.admissible_shear import TangentialLoad
 from semi_analytical.tangential.linearised_shear import Point
 from semi_analytical.tangential.tangential_problem import TangentialSolution, solve_tangential
 
@@ -50,29 +45,21 @@ class TangentialTarget:
     ) -> TangentialLoad:
         """Convert the prescribed tangential load to the load object of the tangential solver.
 
-        The object projects shears on the prescribed forces. Its class depends on the prescribed
-        quantities.
+        The object projects shears on the prescribed forces.
 
         cell_area  area of a cell and its mirror images [length^2]
         rotation   (-y, x) of the cells (2, nx, ny) [length]; None without torsion
         domain     domain of the cells: full window or reduced by symmetry
         spring     displacement of a test rig's spring per sum of the shear [length^3/force]
         """
-        total = None if self.force is None else self.force / cell_area
-        if self.torque is not None:
-            assert rotation is not None
-            from semi_analytical.tangential.torsion import ShearMoments
-
-            shift = self.shift
-            if not any(domain.summed):  # without resultants nothing shifts
-                total, shift = None, np.zeros(2)
-            return ShearMoments(rotation, self.torque / cell_area, total, shift)
-        if total is not None:
-            return ShearSum(total, domain.summed)
-        assert self.shift is not None
-        if spring and any(domain.summed):
-            return SprungShift(self.shift, spring, domain.summed)
-        return FixedShift(self.shift)
+        return TangentialLoad(
+            total=None if self.force is None else self.force / cell_area,
+            shift=self.shift,
+            torque=(self.torque or 0.0) / cell_area,
+            rotation=None if self.torque is None else rotation,
+            compliance=spring if self.force is None and self.torque is None else 0.0,
+            summed=domain.summed,
+        )
 
 
 def shear(

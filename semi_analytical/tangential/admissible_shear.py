@@ -1,16 +1,21 @@
 """Tangential loads, and projection on the shears that Coulomb's friction law admits.
 
-A shear is admissible if |q| <= bound (friction limit) in every cell and, under force control, if it
-has the prescribed sum. Every iterate is projected exactly on this convex set. The multiplier of the
-sum is the rigid shift (see multipliers.py).
+A shear is admissible if |q| <= bound (friction limit) in every cell and if it has the prescribed
+force Σq Δ and torque Σ(q_y x - q_x y) Δ. Every iterate is projected exactly on this convex set. The
+rigid motions of the indenter, shift and twist, are the multipliers (see multipliers.py). The forces
+and torques that friction can carry form a convex set, too. A load reaches its boundary when all
+cells slip about one pole, which minimises the power of friction (upper-bound theorem of limit
+analysis).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
-from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.array_types import Field, Indices, Mask, Vector, VectorField
 from semi_analytical.multipliers import find_multiplier
 
 # Rounding error of a sum of shears, relative to the sum of their magnitudes.
@@ -20,263 +25,101 @@ ROUND_OFF = 1e-14
 AT_LIMIT = 1e-9
 # Relative rounding error of the multiplier, which shifts the shear of all sticking cells.
 MULTIPLIER_ROUND_OFF = 5e-16
+MAX_STEPS = 100
+# Smoothing of |speed| at the pole, relative to the largest speed.
+BLUNT = 1e-8
+# Relative decrease of the power of friction at which the iteration stops.
+FLAT = 1e-15
 
 
-class TangentialLoad(Protocol):
-    """Interface of the prescribed load of the tangential problem.
+@dataclass(frozen=True)
+class TangentialLoad:
+    """Prescribed tangential load: force or shift, and a torque where torsion is force-controlled.
 
-    The load is a force or shift, and a torque or twist. The tangential problem determines the shear
-    and the rigid motion of the indenter under this load. The rigid motion is the shift (2,), or
-    shift and twist (3,).
+    A prescribed twist is not part of the load. It changes the displacement that stick requires. The
+    rigid motion of the indenter is the shift, or (shift x, shift y, twist) under a torque. Its free
+    components are the multipliers of the prescribed forces. Forces are divided by the cell area.
+
+    total       Σq (2,): tangential force; None where the shift is prescribed
+    shift       shift of the indenter (2,) [length], or of the actuator of a test rig with a spring;
+                None where the force is prescribed
+    torque      Σ(q_y x - q_x y), if `rotation` is given
+    rotation    (-y, x) of the cells (2, nx, ny) [length]; None where no torque is prescribed
+    compliance  extension of the rig's spring per Σq [length^3/force]; 0 without a spring. Under a
+                torque it is 0, and only the displacement operator contains the spring
+    summed      for x and y: true if the shear along this axis has a resultant. On a reduced domain,
+                a component that is odd about a mirror plane has the sum zero, and the indenter does
+                not move along it
     """
+
+    total: Vector | None = None
+    shift: Vector | None = None
+    torque: float = 0.0
+    rotation: VectorField | None = None
+    compliance: float = 0.0
+    summed: tuple[bool, bool] = (True, True)
+
+    @cached_property
+    def reach(self) -> float:
+        """Length that makes a twist comparable with a shift [length].
+
+        It is the largest distance of a cell from the origin, or 1 without a prescribed torque.
+        """
+        return 1.0 if self.rotation is None else float(np.max(magnitude(self.rotation)))
+
+    @cached_property
+    def _free(self) -> Indices:
+        """Indices of the components of the rigid motion (shift x, shift y, twist) that are free.
+
+        A shift is free under a prescribed force, or if a spring connects the indenter with the
+        actuator. The twist is free under a prescribed torque.
+        """
+        shifts = self.total is not None or self.compliance > 0
+        free = [shifts and one for one in self.summed]
+        return np.flatnonzero([*free, self.rotation is not None])
+
+    @cached_property
+    def prescribed_forces(self) -> Vector:
+        """Prescribed tangential force and torque (k,), in the order of `free_motions`.
+
+        The torque is divided by the largest distance of a cell from the origin.
+        """
+        forces = [] if self.total is None else [*self.total[[*self.summed]]]
+        return np.array(forces if self.rotation is None else [*forces, self.torque / self.reach])
+
+    def forces(self, q: VectorField) -> Vector:
+        """Compute those forces (k,) of a shear that the load prescribes.
+
+        q  shear (2, nx, ny) [force/length^2]
+        """
+        forces = [] if self.total is None else [*np.sum(q, axis=(1, 2))[[*self.summed]]]
+        if self.rotation is not None:
+            forces.append(np.sum(q * self.rotation) / self.reach)
+        return np.array(forces)
+
+    def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
+        """Return the unit rigid motions conjugate to the prescribed forces, as fields (2, nx, ny).
+
+        The motions are shifts along x and y, and the rotation divided by the largest distance of a
+        cell from the origin.
+
+        shape  shape of a field, (2, nx, ny)
+        """
+        shifts = np.zeros((0, 2)) if self.total is None else np.eye(2)[[*self.summed]]
+        units = [np.broadcast_to(everywhere(shift), shape) for shift in shifts]
+        if self.rotation is not None:
+            units.append(self.rotation / self.reach)
+        return tuple(units)
 
     def rigid(self, motion: Vector) -> VectorField:
-        """Compute the displacement of the indenter's surface points by shift and twist [length].
+        """Compute the displacement of surface points by a rigid motion of the indenter [length].
 
-        The result broadcasts with (2, nx, ny). By default the rigid motion is a shift.
+        The result broadcasts with (2, nx, ny).
 
-        motion  shift (2,) [length], or shift and twist (3,)
+        motion  shift (2,), or (shift x, shift y, twist) under a torque
         """
-        return everywhere(motion)
-
-    def project_trial(
-        self, y: VectorField, bound: Field, gamma: float, motion: Vector
-    ) -> tuple[VectorField, Vector]:
-        """Compute the admissible shear nearest to a trial shear, and the indenter's rigid motion.
-
-        A shear is admissible if |q| <= bound in all cells and its forces have the prescribed
-        values. The shear y + γ rigid(motion) is projected on the admissible shears. The motion is
-        chosen so that the projection has the prescribed forces. Return the admissible shear and
-        this motion.
-
-        y       trial shear without the rigid motion (2, nx, ny) [force/length^2]
-        bound   friction limit µp (nx, ny)
-        gamma   γ, traction per displacement [force/length^3]
-        motion  initial guess of the rigid motion
-        """
-
-    def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Return the shear nearest to a given one that has the prescribed forces, within friction.
-
-        Friction limits the shear of each cell to |q| <= bound.
-
-        q      given shear (2, nx, ny) [force/length^2]
-        bound  friction limit µp (nx, ny)
-        """
-
-    def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return the unit rigid motions of the indenter that the load leaves free.
-
-        A rigid motion (shift along x or y, twist) is free if its conjugate force or torque is
-        prescribed. The motions are displacement fields (2, nx, ny). By default there is none.
-
-        shape  shape of a field, (2, nx, ny)
-        """
-        return ()
-
-    @property
-    def prescribed_forces(self) -> Vector:
-        """Prescribed tangential forces and torque, divided by the cell area (k,).
-
-        The order is that of `free_motions`: one force per rigid motion that is free.
-        """
-        return np.zeros(0)
-
-    def forces(self, q: VectorField) -> Vector:
-        """Compute the forces and the torque of a shear (2, nx, ny), divided by the cell area (k,).
-
-        Only prescribed forces are computed. The order is that of `free_motions`: each entry is
-        conjugate to one of these rigid motions.
-
-        q  shear (2, nx, ny) [force/length^2]
-        """
-        return np.zeros(0)
-
-    def exhausts(self, bound: Field) -> bool:
-        """Return True if the prescribed load reaches or exceeds the friction limit (gross slip).
-
-        All cells slip then, and the rigid motion is undefined under force control.
-
-        bound  friction limit µp (nx, ny); may be zero everywhere
-        """
-
-    def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the shear (2, nx, ny) and the rigid motion of the indenter in gross slip.
-
-        In gross slip the shear of all cells is at the friction limit.
-
-        bound   friction limit µp (nx, ny)
-        motion  rigid motion that is returned where gross slip does not determine it
-        """
-
-
-@dataclass(frozen=True)
-class ShearSum(TangentialLoad):
-    """Force control of the tangential problem: the tangential force is prescribed.
-
-    The force is the sum Σq of the shear over all cells times the cell area.
-
-    total   tangential force over cell area (2,) [force/length^2]
-    summed  for x and y: true if the shear along this axis has a resultant. On a reduced domain, a
-            component that is odd about a mirror plane has the sum zero, and the indenter does not
-            move along it
-    """
-
-    total: Vector
-    summed: tuple[bool, bool] = (True, True)
-
-    def project_trial(
-        self, y: VectorField, bound: Field, gamma: float, motion: Vector
-    ) -> tuple[VectorField, Vector]:
-        """Compute the shear with the prescribed force nearest to a trial shear, within friction.
-
-        The shear y + γ shift is projected on |q| <= bound. The shift is chosen so that the sum of
-        the projection is the prescribed sum. Return the projected shear and the shift.
-
-        y       trial shear without the shift (2, nx, ny) [force/length^2]
-        bound   friction limit µp (nx, ny)
-        gamma   γ, traction per displacement [force/length^3]
-        motion  initial guess of the shift (2,) [length]
-        """
-        q, multiplier = project(y, bound, self.total, gamma * motion, self.summed)
-        return q, multiplier / gamma
-
-    def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Return the shear with the prescribed force nearest to a given one, within friction.
-
-        Friction limits the shear of each cell to |q| <= bound.
-
-        q      given shear (2, nx, ny) [force/length^2]
-        bound  friction limit µp (nx, ny)
-        """
-        return project(q, bound, self.total, summed=self.summed)[0]
-
-    def free_motions(self, shape: tuple[int, ...]) -> tuple[VectorField, ...]:
-        """Return the unit shifts of the indenter along x and y as fields (2, nx, ny).
-
-        The shifts are free under a prescribed tangential force. On a reduced domain, a shift is
-        omitted if the shear along it has no resultant by symmetry.
-
-        shape  shape of a field, (2, nx, ny)
-        """
-        return tuple(np.broadcast_to(everywhere(e), shape) for e in np.eye(2)[list(self.summed)])
-
-    @property
-    def prescribed_forces(self) -> Vector:
-        """Prescribed tangential force divided by the cell area: up to two components (k,).
-
-        On a reduced domain, a component of the shear that is odd about a mirror plane has no
-        resultant and is omitted.
-        """
-        return self.total[list(self.summed)]
-
-    def forces(self, q: VectorField) -> Vector:
-        """Compute the tangential force of a shear, divided by the cell area: the sum over all
-        cells.
-
-        On a reduced domain, a component of the shear that is odd about a mirror plane has no
-        resultant and is omitted.
-
-        q  shear (2, nx, ny) [force/length^2]
-        """
-        return np.array([np.sum(one) for one, summed in zip(q, self.summed, strict=True) if summed])
-
-    def exhausts(self, bound: Field) -> bool:
-        """Return True if the prescribed tangential force is at or above the friction limit Σµp.
-
-        Force and limit are compared after division by the cell area.
-
-        bound  friction limit µp of each cell (nx, ny)
-        """
-        return float(np.hypot(*self.total)) >= float(np.sum(bound)) * (1 - AT_LIMIT)
-
-    def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return the shear in gross slip: the friction limit in the direction of the force.
-
-        The second result is the given rigid motion, because gross slip under force control does not
-        determine the motion. Without friction the shear is zero.
-
-        bound   friction limit µp (nx, ny)
-        motion  rigid motion to return
-        """
-        if not np.any(bound):
-            return np.zeros((2, *bound.shape)), motion
-        return bound * everywhere(self.total / np.hypot(*self.total)), motion
-
-
-@dataclass(frozen=True)
-class FixedShift(TangentialLoad):
-    """Displacement control of the tangential problem: the shift of the indenter is prescribed.
-
-    The tangential force follows from the solution.
-
-    shift  tangential shift (2,) [length]
-    """
-
-    shift: Vector
-
-    def project_trial(
-        self, y: VectorField, bound: Field, gamma: float, motion: Vector
-    ) -> tuple[VectorField, Vector]:
-        """Scale the trial shear of each cell to the friction limit where the limit is exceeded.
-
-        The trial shear is y + γ shift. Return the scaled shear and the prescribed shift of the
-        indenter.
-
-        y       trial shear without the shift (2, nx, ny) [force/length^2]
-        bound   friction limit µp (nx, ny)
-        gamma   γ, traction per displacement [force/length^3]
-        motion  not used, because the shift is prescribed
-        """
-        return project_on_discs(y + everywhere(gamma * self.shift), bound), self.shift
-
-    def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Scale the shear of each cell to the friction limit where the shear exceeds this limit.
-
-        No tangential force is prescribed.
-
-        q      shear (2, nx, ny) [force/length^2]
-        bound  friction limit µp (nx, ny)
-        """
-        return project_on_discs(q, bound)
-
-    def exhausts(self, bound: Field) -> bool:
-        """Return True if friction is zero in all cells.
-
-        Under a prescribed shift, gross slip is certain before the solution only without friction.
-
-        bound  friction limit µp (nx, ny)
-        """
-        return not np.any(bound)
-
-    def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
-        """Return zero shear and the prescribed shift: the state of a contact without friction.
-
-        Under a prescribed shift only zero friction counts as gross slip.
-
-        bound   friction limit µp (nx, ny), zero everywhere
-        motion  not used, because the shift is prescribed
-        """
-        return np.zeros((2, *bound.shape)), self.shift
-
-
-@dataclass(frozen=True)
-class SprungShift(FixedShift):
-    """Tangential displacement control through a spring of the test rig.
-
-    The shift of the actuator is prescribed. The shift of the contact is the shift of the actuator
-    minus the extension of the spring. `project_trial` uses the spring force of the projected shear.
-    With the force of the previous iterate, a soft spring would convert every change of the shift
-    into slip of all cells.
-
-    shift       shift of the actuator (2,) [length]
-    compliance  extension of the spring per sum of the shear over the cells [length^3/force]
-    summed      for x and y: true if the shear along this axis has a resultant; on a reduced domain,
-                a component that is odd about a mirror plane has the sum zero
-    """
-
-    compliance: float
-    summed: tuple[bool, bool] = (True, True)
+        shift = everywhere(motion[:2])
+        return shift if self.rotation is None else shift + motion[2] * self.rotation
 
     def extension(self, q: VectorField) -> Vector:
         """Compute the extension of the test rig's spring under the tangential force of a shear.
@@ -290,38 +133,248 @@ class SprungShift(FixedShift):
     def project_trial(
         self, y: VectorField, bound: Field, gamma: float, motion: Vector
     ) -> tuple[VectorField, Vector]:
-        """Compute the shear near a trial shear that is in equilibrium with the rig's spring.
+        """Compute the admissible shear nearest to a trial shear, and the rigid motion.
 
-        The spring of the test rig connects actuator and indenter. The projected shear is q = P(y +
-        λ), with P the projection on |q| <= bound and λ = γ times the shift of the contact.
-        Equilibrium requires Σq + λ/(γ c) = δ/c, with the actuator shift δ and the spring compliance
-        c. Return q and λ/γ, the shift of the contact.
+        The shear is q = P(y + γ rigid(motion)), with P the projection on |q| <= bound. The free
+        components of the motion are chosen so that q has the prescribed forces. With a spring, the
+        motion is that of the contact in equilibrium with the spring: the force of the previous
+        iterate would convert every change of the shift into slip. Equilibrium requires Σq + λ/(γ c)
+        = δ/c, with λ = γ times the shift, the actuator shift δ and the spring compliance c.
 
-        y       trial shear without the shift (2, nx, ny) [force/length^2]
+        y       trial shear without the rigid motion (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny)
         gamma   γ, traction per displacement [force/length^3]
-        motion  initial guess of the shift of the contact (2,) [length]
+        motion  initial guess of the rigid motion
         """
-        c = self.compliance
-        total = self.shift * self.summed / c
-        stiffness = 1 / (gamma * c)
-        q, multiplier = project(y, bound, total, gamma * motion, self.summed, stiffness)
-        return q, multiplier / gamma
+        forces, stiffness, found = self.prescribed_forces, 0.0, np.zeros(len(motion))
+        if self.shift is not None and self.compliance:
+            forces = self.shift[[*self.summed]] / self.compliance
+            stiffness = 1 / (gamma * self.compliance)
+        elif self.shift is not None:
+            y, found[:2] = y + everywhere(gamma * self.shift), self.shift
+        scale = gamma * np.array([1.0, 1.0, self.reach])[self._free]
+        guess = scale * motion[self._free]
+        q, multiplier = self._project(y, bound, forces, guess, stiffness)
+        found[self._free] = multiplier / scale
+        return q, found
 
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
-        """Return the shear within friction nearest to a given one, if possible with equal sum.
+        """Return the shear nearest to a given one that has the prescribed forces, within friction.
 
-        The sum determines the extension of the test rig's spring. With a soft spring a change of
-        the sum would mean a large change of the shift. If friction cannot carry the sum, the shear
-        of each cell is scaled to the friction limit.
+        With a spring the sum of the shear is kept if friction can carry it: under a soft spring its
+        change would mean a large change of the shift.
 
         q      given shear (2, nx, ny) [force/length^2]
         bound  friction limit µp (nx, ny)
         """
-        total = np.sum(q, axis=(1, 2)) * self.summed
-        if np.hypot(*total) >= np.sum(bound) * (1 - AT_LIMIT):
-            return project_on_discs(q, bound)
-        return project(q, bound, total, summed=self.summed)[0]
+        forces = self.prescribed_forces
+        if self.compliance:
+            forces = np.sum(q, axis=(1, 2))[[*self.summed]]
+            if np.linalg.norm(forces) >= np.sum(bound) * (1 - AT_LIMIT):
+                return project_on_discs(q, bound)
+        return self._project(q, bound, forces)[0]
+
+    def _project(
+        self,
+        y: VectorField,
+        bound: Field,
+        forces: Vector,
+        guess: Vector | None = None,
+        stiffness: float = 0.0,
+    ) -> tuple[VectorField, Vector]:
+        """Compute the shear with prescribed forces nearest to a given one, and the multipliers.
+
+        The multipliers (k,) are tractions per unit motion that are added before the projection on
+        the friction limit.
+
+        y          given shear (2, nx, ny) [force/length^2]
+        bound      friction limit µp (nx, ny)
+        forces     prescribed forces (k,)
+        guess      initial guess of the multipliers (k,); None for an estimate without friction
+        stiffness  stiffness of a test rig's spring, over γ
+        """
+        loaded, units = self._loaded_cells(bound)
+        of_loaded, limit = y[:, loaded], bound[loaded]
+        if guess is None:
+            missing = forces - _resultant_forces(units, of_loaded)
+            guess = missing / np.sum(units * units, axis=(1, 2))
+        shifted, multiplier = find_multiplier(
+            lambda m: _ProjectedShear(m, of_loaded, limit, units, forces, stiffness), guess
+        )
+        q = np.zeros_like(y)
+        q[:, loaded] = shifted.q
+        return q, multiplier
+
+    def _loaded_cells(self, bound: Field) -> tuple[Mask, Field]:
+        """Select the cells that can carry shear, because their friction limit is positive.
+
+        Return their mask (nx, ny) and the free unit motions in these n cells (k, 2, n).
+
+        bound  friction limit µp (nx, ny)
+        """
+        loaded = bound > 0
+        units = np.repeat(np.eye(3, 2)[self._free, :, None], np.count_nonzero(loaded), axis=2)
+        if self.rotation is not None:
+            units[-1] = self.rotation[:, loaded] / self.reach
+        return loaded, units
+
+    def exhausts(self, bound: Field) -> bool:
+        """Return True if the prescribed forces together are at or above the friction limit.
+
+        All cells slip then (gross slip), and the rigid motion is undefined. Without friction the
+        result is True.
+
+        bound  friction limit µp (nx, ny)
+        """
+        if not np.any(bound):
+            return True
+        return bool(np.any(self.prescribed_forces)) and self.limit(bound)[0] <= 1 + AT_LIMIT
+
+    def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
+        """Return the shear (2, nx, ny) and the rigid motion of the indenter in gross slip.
+
+        Each cell carries the friction limit in the direction of the motion of gross slip. Without
+        friction or without prescribed forces the shear is zero.
+
+        bound   friction limit µp (nx, ny)
+        motion  rigid motion, whose free components are returned: gross slip does not determine them
+        """
+        q = np.zeros((2, *bound.shape))
+        if self.shift is not None:
+            motion = np.array([*self.shift, *motion[2:]])
+        if np.any(bound) and np.any(self.prescribed_forces):
+            loaded, units = self._loaded_cells(bound)
+            speed = np.tensordot(self.limit(bound)[1], units, 1)
+            q[:, loaded] = bound[loaded] * speed / _blunt_size(speed)
+        return q, motion
+
+    @cached_property
+    def _gross_slip(self) -> Vector:
+        """Last motion of gross slip, as components (k - 1,) that do no work with the load.
+
+        The method `limit` updates the components and uses them as its initial guess.
+        """
+        return np.zeros(len(self.prescribed_forces) - 1)
+
+    def limit(self, bound: Field) -> tuple[float, Vector]:
+        """Compute the ratio of the limit load to the prescribed load, and the motion of gross slip.
+
+        At the limit load all cells slip. Force and torque are increased by one common factor.
+        Newton's method minimises the power of friction over all rigid motions on which the load
+        does unit work. The minimum is the ratio (upper-bound theorem of limit analysis). The motion
+        (k,) is given in components along `free_motions`.
+
+        bound  friction limit µp (nx, ny)
+        """
+        start = self.prescribed_forces / np.sum(self.prescribed_forces**2)
+        if self.rotation is None:
+            return float(np.sum(bound) * np.linalg.norm(start)), start
+        loaded, units = self._loaded_cells(bound)
+        limit = bound[loaded]
+        across = np.linalg.svd(self.prescribed_forces[None, :])[2][1:]
+        if len(across) == 0:
+            return float(limit @ magnitude(np.tensordot(start, units, 1))), start
+
+        def power_at(x: Vector) -> tuple[float, Vector, Field]:
+            return _friction_power(start + x @ across, limit, units)
+
+        x = self._gross_slip
+        power, slope, curvature = power_at(x)
+        for _ in range(MAX_STEPS):
+            gradient = across @ slope
+            inverse = np.linalg.pinv(across @ curvature @ across.T, rcond=1e-14, hermitian=True)
+            step = -inverse @ gradient
+            fall = -float(gradient @ step)
+            if fall <= FLAT * power:
+                break
+            x, (power, slope, curvature) = _descend(power_at, x, step, power, fall)
+        self._gross_slip[:] = x
+        return power, start + x @ across
+
+
+def _friction_power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector, Field]:
+    """Compute the power of friction in gross slip, with its gradient and Hessian.
+
+    The power is the sum over the cells of friction limit times sliding speed. The limit load
+    minimises this power over the rigid motions of the indenter.
+
+    velocity  rigid motion, as components along the unit motions (k,)
+    limit     friction limit of the loaded cells (n,)
+    units     unit motions in the loaded cells (k, 2, n)
+    """
+    speed = np.tensordot(velocity, units, 1)
+    size = _blunt_size(speed)
+    weight = limit / size
+    along = _unit_projections(units, speed) / size
+    curvature = _unit_products(units, weight) - (along * weight) @ along.T
+    return float(limit @ size), _resultant_forces(units, weight * speed), curvature
+
+
+def _resultant_forces(units: Field, q: Field) -> Vector:
+    """Compute tangential force and torque (k,) of a shear, divided by the cell area.
+
+    units  unit rigid motions of the indenter in n cells (k, 2, n), to which the forces are
+           conjugate
+    q      shear of these cells (2, n)
+    """
+    return np.asarray(np.einsum("kan,an->k", units, q))
+
+
+def _unit_projections(units: Field, vector: Field) -> Field:
+    """Compute the scalar product of each unit rigid motion with a vector in each cell (k, n).
+
+    units   unit rigid motions of the indenter in n cells (k, 2, n)
+    vector  vector of each cell (2, n), such as the shear
+    """
+    return np.asarray(units[:, 0] * vector[0] + units[:, 1] * vector[1])
+
+
+def _unit_products(units: Field, weight: Vector) -> Field:
+    """Compute the matrix (k, k) of weighted scalar products of the unit rigid motions.
+
+    The products are summed over cells. Used for the derivatives of force and torque with respect to
+    the rigid motion.
+
+    units   unit rigid motions of the indenter in n cells (k, 2, n)
+    weight  weight of each cell (n,)
+    """
+    flat = units.reshape(len(units), -1)
+    return np.asarray((units * weight).reshape(flat.shape) @ flat.T)
+
+
+def _blunt_size(speed: VectorField) -> Field:
+    """Compute the sliding speed of each cell (n,), smoothed near the centre of rotation.
+
+    At this centre, the pole of the rigid motion, the speed is zero and its derivative does not
+    exist.
+
+    speed  sliding velocity of each cell (2, n)
+    """
+    size = magnitude(speed)
+    return np.hypot(size, BLUNT * np.max(size))
+
+
+Power = tuple[float, Vector, Field]
+
+
+def _descend(
+    power_at: Callable[[Vector], Power], x: Vector, step: Vector, power: float, fall: float
+) -> tuple[Vector, Power]:
+    """Apply a Newton step, bisected until the power of friction decreases sufficiently (Armijo).
+
+    The steps minimise the power of friction to find the limit load of gross slip. Return the
+    accepted position and its power with gradient and Hessian.
+
+    power_at     function from a position to the power of friction, its gradient and its Hessian
+    x, step      position (free components of the rigid motion) and Newton step
+    power, fall  power at x, and its decrease predicted by the gradient
+    """
+    part = 1.0
+    while True:
+        there = power_at(x + part * step)
+        if there[0] <= power - 0.1 * part * fall or part < 1e-9:
+            return x + part * step, there
+        part *= 0.5
 
 
 class NaturalShear(NamedTuple):
@@ -367,7 +420,7 @@ def natural_shear(
     gamma   γ, inverse self-compliance of a cell or a patch of cells [force/length^3]
     motion  initial guess of the rigid motion
     """
-    if isinstance(load, SprungShift):
+    if load.shift is not None and load.compliance:
         extension = load.extension(q)
         y = q + gamma * (apart + everywhere(extension))
         projected, reached = load.project_trial(y, bound, gamma, load.shift - extension)
@@ -407,59 +460,37 @@ def project_on_discs(y: VectorField, bound: Field) -> VectorField:
     return np.asarray(y * np.where(length > bound, bound / np.where(length > 0, length, 1.0), 1.0))
 
 
-def project(
-    y: VectorField,
-    bound: Field,
-    total: Vector,
-    guess: Vector | None = None,
-    summed: tuple[bool, bool] = (True, True),
-    stiffness: float = 0.0,
-) -> tuple[VectorField, Vector]:
-    """Compute the shear with a prescribed sum nearest to a given one, within friction.
+class _ProjectedShear:
+    """Projection of a shear z = y + Σ λ unit on the friction limit of loaded cells, for given λ.
 
-    The result is q = P(y + λ), with P the projection on |q| <= bound of each cell. The multiplier λ
-    of the sum is a uniform traction (2,). Return q and λ.
+    The multipliers λ are those of the prescribed forces. `TangentialLoad` solves for the λ whose
+    projected shear q has these forces (see multipliers.py).
 
-    y          given shear (2, nx, ny) [force/length^2]
-    bound      friction limit µp (nx, ny); |total| must be less than its sum
-    total      prescribed sum of the shear over the cells (2,)
-    guess      initial guess of λ (2,); None for an estimate
-    summed     components with a prescribed sum; λ is zero along the others
-    stiffness  stiffness of a test rig's spring, over γ: the sum then obeys Σq + stiffness λ = total
-    """
-    if guess is None:
-        open_cells = bound > 0
-        excess = np.sum(y, axis=(1, 2), where=open_cells) - total
-        guess = -excess / np.count_nonzero(open_cells) * summed
-    shifted, multiplier = find_multiplier(
-        lambda m: _ShiftedSum(m, y, bound, total, summed, stiffness), guess
-    )
-    return shifted.q, multiplier
-
-
-class ProjectedShear:
-    """Projection of a shear z on the friction discs |q| <= bound, for one value of a multiplier.
-
-    The shear z contains the multiplier of the prescribed forces, such as a uniform traction.
-    `multipliers.py` solves for the multiplier whose projected shear q has the prescribed forces.
-
-    defect     forces of the projected shear minus prescribed forces
-    z, length  shear (2, ...) and its magnitude (...)
-    outside    cells where the magnitude exceeds the friction limit
-    scale, q   factor of the projection (...), and q = scale z
-    capacity   sum of the friction limit over the cells
+    multiplier  multipliers λ (k,) of the prescribed forces
+    y           shear of the loaded cells before the shift (2, n)
+    bound       friction limit of these cells (n,)
+    units       unit rigid motions in these cells (k, 2, n)
+    given       prescribed forces conjugate to the unit motions (k,)
+    stiffness   stiffness of a test rig's spring, over γ: the forces then include stiffness λ
     """
 
-    defect: Vector
-    stiffness = 0.0
-
-    def __init__(self, z: VectorField, bound: Field) -> None:
-        self.z, self.length = z, magnitude(z)
-        self.outside = self.length > bound
-        cut = bound / np.where(self.outside, self.length, 1.0)
-        self.scale = np.where(self.outside, cut, 1.0) * (bound > 0)
-        self.q = z * self.scale
-        self.capacity = float(np.sum(bound))
+    def __init__(
+        self,
+        multiplier: Vector,
+        y: Field,
+        bound: Vector,
+        units: Field,
+        given: Vector,
+        stiffness: float,
+    ) -> None:
+        self._units, self._stiffness = units, stiffness
+        self._z = y + np.tensordot(multiplier, units, 1)
+        self._length = magnitude(self._z)
+        self._outside = self._length > bound
+        self._scale = np.where(self._outside, bound / np.maximum(self._length, bound), 1.0)
+        self._capacity = float(np.sum(bound))
+        self.q = self._z * self._scale
+        self.defect = _resultant_forces(units, self.q) + stiffness * multiplier - given
 
     def has_prescribed_forces(self, multiplier: Vector) -> bool:
         """Return True if the projected shear has the prescribed forces up to rounding errors.
@@ -468,53 +499,22 @@ class ProjectedShear:
 
         multiplier  multiplier for which the projection was computed
         """
-        response = np.sum(self.scale) + self.stiffness
+        response = np.sum(self._scale) + self._stiffness
         blur = MULTIPLIER_ROUND_OFF * response * np.sum(np.abs(multiplier))
-        strength = np.sum(self.length * self.scale)
+        strength = np.sum(self._length * self._scale)
         return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * strength + blur)
 
-    @property
-    def radial(self) -> Field:
-        """Weight w (…) of the radial part of the derivative of the projection z -> q in each cell.
-
-        z is the shear before and q the shear after the projection on the friction limit. The
-        derivative is the matrix scale - w z zᵀ. The weight is zero where |z| is within the friction
-        limit, because q = z there.
-        """
-        return np.where(self.outside, self.scale / np.where(self.outside, self.length**2, 1.0), 0.0)
-
-
-class _ShiftedSum(ProjectedShear):
-    """Projection of a shear y + λ on the friction discs |q| <= bound, for one uniform traction λ.
-
-    The defect is Σq + stiffness λ - total, with the prescribed sum `total` of the shear. It is zero
-    along components without a prescribed sum. `project` solves for the λ with zero defect.
-    """
-
-    def __init__(
-        self,
-        multiplier: Vector,
-        y: VectorField,
-        bound: Field,
-        total: Vector,
-        summed: tuple[bool, bool],
-        stiffness: float,
-    ) -> None:
-        super().__init__(y + everywhere(multiplier), bound)
-        self.summed, self.stiffness = summed, stiffness
-        self.defect = (np.sum(self.q, axis=(1, 2)) + stiffness * multiplier - total) * summed
-
     def newton_step(self) -> Vector:
-        """Compute the damped Newton step of the uniform traction λ that reduces the defect of Σq.
+        """Compute the damped Newton step of the multipliers λ (k,) of the prescribed forces.
 
-        The derivative of the sum is singular if all cells slip in one direction, because a slipping
-        cell changes only perpendicular to its shear. A multiple of the identity keeps the matrix
-        regular. It vanishes with the defect.
+        The derivative of the projection in a cell is the matrix scale - w z zᵀ, with w = 0 within
+        the friction limit. The derivative of the forces is singular if all cells slip along their
+        motion. The damping is relative to its part by `scale`, which does not vanish then.
         """
-        (x, y), w = self.z, self.radial
-        xx, yy = np.sum(self.scale - w * x * x), np.sum(self.scale - w * y * y)
-        xy = -np.sum(w * x * y) if all(self.summed) else 0.0
-        damping = 1e-3 * (xx + yy) * np.sum(np.abs(self.defect)) / self.capacity
-        damping += self.stiffness
-        matrix = np.array([[xx + damping, xy], [xy, yy + damping]])
-        return -np.linalg.solve(matrix, self.defect)
+        along = _unit_projections(self._units, self._z)
+        products = _unit_products(self._units, self._scale)
+        radial = self._outside * self._scale / np.where(self._outside, self._length**2, 1.0)
+        matrix = products - (along * radial) @ along.T
+        damping = np.trace(products) * (np.sum(np.abs(self.defect)) / self._capacity) ** 2
+        damping = 1e-3 * damping + self._stiffness
+        return -np.linalg.solve(matrix + damping * np.eye(len(matrix)), self.defect)
