@@ -17,8 +17,8 @@ MAX_STEPS = 40
 MAX_IDLE = 3
 # Largest reduction factor of a linear solve; used while the zones change.
 ROUGH_REDUCTION = 0.05
-# Smallest residual of a linear solve over the tolerance.
-FINE = 0.1
+# Smallest residual of a linear solve over the tolerance: the rest is left to its non-linear terms.
+FINE = 0.3
 
 
 def solve_by_newton(
