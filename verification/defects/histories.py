@@ -86,9 +86,9 @@ NO_FRICTION_RESIDUALS = _zero_residuals("friction_cone", "slip_direction")
 
 
 @replaces(history, "_reported_increment")
-def _approach_when_unloading(whole: Any, model: Any, before: Any, state: Any, *place: Any) -> Any:
-    increment = whole(model, before, state, *place)
-    falls = before is not None and state.normal_force < LESS * before.normal_force
+def _approach_when_unloading(whole: Any, model: Any, before: Any, *rest: Any, **named: Any) -> Any:
+    increment = whole(model, before, *rest, **named)
+    falls = before is not None and increment.normal_force < LESS * before.normal_force
     return replace(increment, approach=0.95 * increment.approach) if falls else increment
 
 

@@ -95,20 +95,20 @@ def _kappa_for_chi(whole: Any, body: stack.Stack, alpha: Any) -> Any:
     χ = (k-1)/(k+1) and κ = (k-1)/(k+3-4ν), where k is the stiffness below the layer over that of
     the layer, and ν Poisson's ratio of the layer.
     """
-    y, k = whole(body, alpha)
+    right = whole(body, alpha)
     if not body.layers:
-        return y, k
-    kappa = (k - 1) / (k + 3 - 4 * body.layers[0].poisson_ratio)
-    return y, (1 + kappa) / (1 - kappa)
+        return right
+    kappa = (right.shear - 1) / (right.shear + 3 - 4 * body.layers[0].poisson_ratio)
+    return right._replace(shear=(1 + kappa) / (1 - kappa))
 
 
 @replaces(surface, "_compliance_below_layer")
 def _plane_stress(whole: Any, body: stack.Stack, alpha: Any) -> Any:
-    y, k = whole(body, alpha)
+    right = whole(body, alpha)
     if body.base is None or len(body.layers) != 1:
-        return y, k
-    nu = body.base.poisson_ratio
-    return (y[0] * (3 - nu) / (1 + nu) / (3 - 4 * nu), *y[1:]), k
+        return right
+    nu, (kolosov, *rows) = body.base.poisson_ratio, right.rows
+    return right._replace(rows=(kolosov * (3 - nu) / (1 + nu) / (3 - 4 * nu), *rows))
 
 
 @replaces(stack, "stack_of")

@@ -117,7 +117,8 @@ def judge_case(name: str) -> CaseOutcome:
     defect.
 
     The record is written to a file and read back, so that defects of files count. An exception
-    becomes an outcome without results that names the exception.
+    becomes an outcome without results that names the exception. An AttributeError or a TypeError is
+    raised.
 
     name  name of the case in the quick catalogue
     """
@@ -127,6 +128,8 @@ def judge_case(name: str) -> CaseOutcome:
             store = CaseStore(Path(directory), JudgedCase)
             store.save(case, case.compute())
             record = store.load(case)
+    except (AttributeError, TypeError):
+        raise  # the replacement does not fit the program, and plants no wrong result
     except Exception as error:  # reported by name, as in the pool of `verify`
         return lost(case_of(name, Level.QUICK), f"{type(error).__name__}: {error}")
     assert isinstance(record, JudgedCase)
