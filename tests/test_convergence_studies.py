@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 from command import outcome
@@ -10,6 +11,7 @@ from command import outcome
 import radial
 from contact_errors.error_formula import PER_TOLERANCE
 from contact_scene import read_scene_file
+from contact_scene.quantities.increment import numbers
 from semi_analytical.edge_correction.pressure import SETTLED
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
@@ -17,7 +19,6 @@ from verification.closed_forms.hertz import EllipticalContact, PointContact, tan
 from verification.closed_forms.torsion import TorsionalPartialSlip
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.quantities import named_values
 from verification.references import load_reference
 from verification.running.study import Conclusion, Settings
 from verification.studies.refinement import FLOOR, SceneStudyOf, increments_study, mesh_study
@@ -72,11 +73,11 @@ def pushed(part: float) -> PartialSlip:
     return PartialSlip(W, A, MU, modulus, part * MU * W)
 
 
-def by_radial(tmp_path: Path, scene: str) -> Mapping[str, float]:
+def by_radial(tmp_path: Path, scene: str) -> Mapping[str, Any]:
     path = tmp_path / "radial.toml"
     path.write_text(scene)
     contents = read_scene_file(path)
-    return named_values(radial.solve(contents.scene, contents.radial).steps[-1])
+    return numbers(radial.solve(contents.scene, contents.radial).steps[-1])
 
 
 @dataclass(frozen=True)

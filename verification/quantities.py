@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.increment import (
     SCALARS,
     State,
     components,
-    numbers,
 )
 
 if TYPE_CHECKING:
@@ -33,23 +31,6 @@ def largest_residual(result: Result) -> float:
     The result is NaN if any residual is NaN.
     """
     return float(np.max([increment.residuals.worst for increment in result.increments]))
-
-
-def named_values(increment: State) -> dict[str, float]:
-    """Return the key results of an increment (force, approach, radius and others) by name in SI
-    units.
-
-    Scalars come first, then components of vectors, whose names end in _x or _y. Results that the
-    increment lacks are left out.
-    """
-    values = numbers(increment)
-    keys = [name for name, mark in SCALARS.items() if mark.key]
-    return {
-        part: float(value)
-        for name in sorted(keys, key=lambda name: SCALARS[name].kind is Kind.VECTOR)
-        for part in components(name)
-        if (value := values[part]) is not None
-    }
 
 
 def unit_of(name: str) -> str:

@@ -758,9 +758,6 @@ def radial_pressing(level: Level = Level.QUICK) -> Case:
     )
 
 
-Coefficients = tuple[Field, Field]
-
-
 COEFFICIENT_SOURCE = "references/influence_coefficients.json: inverse transform, 1e-12"
 FRF_ROWS: list[dict[str, Any]] = load_reference("frf")["rows"]
 COEFFICIENT_ROWS: list[dict[str, Any]] = load_reference("influence_coefficients")["rows"]

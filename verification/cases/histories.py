@@ -361,7 +361,8 @@ class MotionControlled:
     The repeated solve prescribes the computed approach and tangential shift of each increment of
     the first result. Both solves must agree. The first result is needed to state the second
     problem, so that the repeated solve is no run of the case; it is stored here for all measures.
-    If the repeated solve fails, the measures are infinite.
+    If the repeated solve fails, the measures are infinite. Each measure is a function of the result
+    of the first solve, under prescribed forces.
     """
 
     def __init__(self) -> None:
@@ -371,47 +372,40 @@ class MotionControlled:
         """Compute the largest difference of the tractions between first and repeated solve [1].
 
         The result is the larger of Σ|Δp|/Σp and Σ|Δq|/Σp over all increments.
-
-        result  result of the first solve, under prescribed forces
         """
-        repeated = self._repeated_solve(result)
-        if repeated is None:
-            return math.inf
-        return worst(
-            *(
-                float(np.sum(np.abs(one - other)) / np.sum(b.pressure))
-                for a, b in zip(repeated.increments, result.increments, strict=True)
-                for one, other in ((a.pressure, b.pressure), (shear_of(a), shear_of(b)))
-            )
+        return self._measure(
+            result,
+            lambda repeated: worst(
+                *(
+                    float(np.sum(np.abs(one - other)) / np.sum(b.pressure))
+                    for a, b in zip(repeated.increments, result.increments, strict=True)
+                    for one, other in ((a.pressure, b.pressure), (shear_of(a), shear_of(b)))
+                )
+            ),
         )
 
     def violation(self, result: semi_analytical.Result) -> float:
         """Compute the largest violation of a contact or friction law in the repeated solve [1].
 
         The imbalance of the energies is included.
-
-        result  result of the first solve, under prescribed forces
         """
-        repeated = self._repeated_solve(result)
-        if repeated is None:
-            return math.inf
-        violation, imbalance, *_ = observed(repeated)
-        return worst(violation, imbalance)
+        return self._measure(result, lambda repeated: worst(*observed(repeated)[:2]))
 
     def iterations(self, result: semi_analytical.Result) -> float:
-        """Return the number of iterations of the repeated solve over all increments.
-
-        result  result of the first solve, under prescribed forces
-        """
-        repeated = self._repeated_solve(result)
-        return (
-            math.inf if repeated is None else float(sum(i.iterations for i in repeated.increments))
+        """Return the number of iterations of the repeated solve over all increments."""
+        return self._measure(
+            result, lambda repeated: float(sum(i.iterations for i in repeated.increments))
         )
 
-    def _repeated_solve(self, result: semi_analytical.Result) -> semi_analytical.Result | None:
+    def _measure(
+        self,
+        result: semi_analytical.Result,
+        measure: Callable[[semi_analytical.Result], float],
+    ) -> float:
         if self._solved is None or self._solved[0] is not result:
             self._solved = result, solved_by_motion(result)
-        return self._solved[1]
+        repeated = self._solved[1]
+        return math.inf if repeated is None else measure(repeated)
 
 
 def _as_pair(vector: Field) -> tuple[float, float]:

@@ -112,21 +112,6 @@ STICK_ERROR = 1e-6
 PROFILE_ERROR = 3e-4
 
 
-def frictional() -> Iterator[Challenge]:
-    """Yield the benchmark problems (challenges) of torsion, of indentation with friction, and of
-    full stick.
-
-    None of these has a tangential force.
-    """
-    yield torsion()
-    yield torsion_loop()
-    for one in (WEAK, STRONG, NU_ZERO, COATED):
-        yield pressed_with_friction(one)
-    for nu in NO_SLIP_RATIOS:
-        yield stuck_punch(nu)
-        yield stuck_ball(nu)
-
-
 def torsion() -> Challenge:
     """Create the benchmark problem (challenge) of a pressed ball that is twisted to increasing
     torques (Lubkin).
@@ -301,14 +286,6 @@ MOVED = {
 }
 
 
-def at_places() -> Iterator[Challenge]:
-    """Yield the benchmark problems (challenges) that require numbers at given points: stresses and
-    surface displacements.
-    """
-    yield sliding_stress()
-    yield from layered_patches()
-
-
 def sliding_stress() -> Challenge:
     """Create the benchmark problem (challenge) of the stress below a ball in gross slip along x
     (Hamilton).
@@ -384,12 +361,6 @@ WORDS = (
     "The tilt (φ_x, φ_y) is given: slopes that close the gap at positive y and at positive x, so "
     "that h = h_i + u_z - approach - φ_x y - φ_y x. Approach is that of the origin."
 )
-
-
-def tilted_indenters() -> Iterator[Challenge]:
-    """Yield the benchmark problems (challenges) of a tilted flat punch and a tilted ball."""
-    yield tilted_punch()
-    yield tilted_ball()
 
 
 def tilted_punch() -> Challenge:
@@ -574,23 +545,27 @@ SERIES = 24
 
 @cache
 def challenges() -> dict[str, Challenge]:
-    """Return all benchmark problems (challenges) for other codes, by name."""
-    classical = (hertz_point(), hertz_elliptical(), cone(), punch(), cattaneo_mindlin(), loop())
-    return {
-        one.name: one
-        for one in (
-            *(*classical, *tilted_indenters(), *coated_balls(), *frictional()),
-            *(paper_figure(), *at_places(), *changing_loads()),
-        )
-    }
+    """Return all benchmark problems (challenges) for other codes, by name.
 
-
-def hertz_point() -> Challenge:
-    """Create the benchmark problem (challenge) of a frictionless ball on a half-space, with the
-    Hertz solution.
+    The peak pressure of a cone is infinite, and a punch prescribes the contact radius: these are
+    not required.
     """
-    pressure = round_halves((HERTZ.contact_radius, HERTZ.peak_pressure))
-    return _pressed_challenge("hertz_point", "Hertz: a ball on a half-space", BALL, pressure)
+    round_pressure = round_halves((HERTZ.contact_radius, HERTZ.peak_pressure))
+    every = (
+        _pressed_challenge("hertz_point", "Hertz: a ball on a half-space", BALL, round_pressure),
+        hertz_elliptical(),
+        _pressed_challenge("cone_contact", "A cone on a half-space", CONE, None),
+        Challenge(
+            "flat_punch", "A flat punch on a half-space", _problem_text(PUNCH), PUNCH.scene,
+            PUNCH.source, (approach(PUNCH.ends[0].approach),), (), SMALL,
+        ),
+        *(cattaneo_mindlin(), loop(), tilted_punch(), tilted_ball(), *coated_balls()),
+        *(torsion(), torsion_loop()),
+        *map(pressed_with_friction, (WEAK, STRONG, NU_ZERO, COATED)),
+        *(stuck(nu) for nu in NO_SLIP_RATIOS for stuck in (stuck_punch, stuck_ball)),
+        *(paper_figure(), sliding_stress(), *layered_patches(), *changing_loads()),
+    )  # fmt: skip
+    return {one.name: one for one in every}
 
 
 def hertz_elliptical() -> Challenge:
@@ -609,26 +584,6 @@ def hertz_elliptical() -> Challenge:
     return _pressed_challenge(
         "hertz_elliptical", "Hertz: a barrel on a half-space", BARREL, pressure, axes
     )
-
-
-def cone() -> Challenge:
-    """Create the benchmark problem (challenge) of a frictionless cone on a half-space. No pressure
-    is required, because the peak pressure is infinite.
-    """
-    return _pressed_challenge("cone_contact", "A cone on a half-space", CONE, None)
-
-
-def punch() -> Challenge:
-    """Create the benchmark problem (challenge) of a frictionless flat punch on a half-space.
-
-    Only the approach is required, because the punch prescribes the contact radius.
-    """
-    exact = PUNCH.ends[0]
-    return Challenge(
-        "flat_punch", "A flat punch on a half-space", _problem_text(PUNCH), PUNCH.scene,
-        PUNCH.source,
-        (approach(exact.approach),), (), SMALL,
-    )  # fmt: skip
 
 
 def coated_balls() -> Iterator[Challenge]:

@@ -123,14 +123,23 @@ class TypedRow(Description):
         return cls.model_validate({name: known[name] for name in cls.model_fields if name in known})
 
 
-class Named(Protocol):
-    """Interface of a case of a study whose record is found by the name of the case."""
+class StudyCase(Protocol):
+    """Interface of one case of a study: a frozen dataclass of plain values, which can be sent to a
+    worker process.
+    """
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Name of the case, unique in its study, of letters, digits and hyphens; used for files."""
+
+    def compute(self) -> Description:
+        """Compute the case and return its record, which is a `CaseRecord` in studies.
+
+        Raises the errors of solvers.
+        """
 
 
-C = TypeVar("C", bound=Named)
+C = TypeVar("C", bound=StudyCase)
 
 
 def found(cases: Iterable[C], records: Mapping[str, CaseRecord]) -> dict[C, CaseRecord]:
@@ -228,22 +237,6 @@ def _csv_text(lines: Iterable[Cells]) -> str:
 
 
 STUDY_VERSION = 1
-
-
-class StudyCase(Protocol):
-    """Interface of one case of a study: a frozen dataclass of plain values, which can be sent to a
-    worker process.
-    """
-
-    @property
-    def name(self) -> str:
-        """Name of the case, unique in its study, of letters, digits and hyphens; used for files."""
-
-    def compute(self) -> Description:
-        """Compute the case and return its record, which is a `CaseRecord` in studies.
-
-        Raises the errors of solvers.
-        """
 
 
 @dataclass(frozen=True)
