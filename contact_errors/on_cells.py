@@ -79,7 +79,7 @@ class CellSolver(DiscretisedSolver):
 
     @classmethod
     def of(cls, result: Result) -> Self:
-        return cls(result.scene, SurfaceDiscretisation(), result.plan)
+        return cls(result.scene, SurfaceDiscretisation(), replace(result.plan, areas="last"))
 
     @property
     def plan(self) -> Plan:

@@ -206,7 +206,9 @@ class _Solver:
         before, after = reached.before, reached.state
         held = before is not None and before.target == after.target
         spreads = self.plan.coupling is not Coupling.NONE or not held
-        increment = _reported_increment(self.model, last, reached, spreads=spreads)
+        ends = reached.place.index == reached.place.increments_in_step
+        fits = self.plan.areas == "all" or ends or after.corrected is not None
+        increment = _reported_increment(self.model, last, reached, spreads=spreads, fits=fits)
         return add_contact_displacements(increment, self.model.scene.rig)
 
 
@@ -216,6 +218,7 @@ def _reported_increment(
     reached: ConvergedIncrement[State],
     *,
     spreads: bool,
+    fits: bool,
 ) -> Increment:
     """Convert a converged state to an increment of the results, with all fields on the full window.
 
@@ -226,6 +229,7 @@ def _reported_increment(
     reached  converged state with its place in the load history
     spreads  True if the stick zone may have grown; determines the power laws of the shear that are
              fitted at the border of the stick zone
+    fits     False to count whole cells as the areas of contact and stick zone
     """
     state, extend, before = reached.state, model.domain.extend_fields, reached.before
     pressing, sheared = extend(state.pressing), extend(state.sheared) if state.sheared else None
@@ -240,7 +244,7 @@ def _reported_increment(
         approach=pressing.approach,
         moment=None if state.moment is None else np.array(state.moment),
         tilt=None if tilt is None else np.array(tilt),
-        contact_area=_contact_cells(model, state) * cell,
+        contact_area=(_contact_cells(model, state) if fits else np.count_nonzero(p)) * cell,
         peak_pressure=float(np.max(p)),
         elastic_energy=state.energy.elastic,
         input_work=state.energy.stored_and_dissipated,
@@ -257,9 +261,11 @@ def _reported_increment(
         pressed = _apply_edge_correction(pressed, state, state.corrected, model)
     if sheared is None:
         return pressed
-    stuck, sheared, pressed = _stick_zone(
-        model, p, sheared, state.corrected, pressed, spreads=spreads
-    )
+    stuck = float(np.count_nonzero(sheared.in_stick))
+    if fits:
+        stuck, sheared, pressed = _stick_zone(
+            model, p, sheared, state.corrected, pressed, spreads=spreads
+        )
     increment = replace(
         pressed,
         status=sheared.status if model.scene.friction else pressed.status,

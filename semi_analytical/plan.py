@@ -6,6 +6,7 @@ An effect is, for example, friction, tilt or the coupling of normal and tangenti
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Literal
 
 from contact_scene import Scene, effect
 from contact_scene.body_pair import (
@@ -65,6 +66,8 @@ class Plan:
     symmetry  symmetry reduction: domain of the solution
     couples   True if the edge correction is that of coupled bodies; False for uncoupled bodies with
               forced coupling
+    areas     increments at whose end the areas of contact and stick zone are resolved below the
+              cell size; "last" increments of the load steps suffice for error estimates
     """
 
     shear: bool
@@ -76,6 +79,7 @@ class Plan:
     edge: EdgeCorrection = "off"
     symmetry: ReducedDomain = WINDOW
     couples: bool = False
+    areas: Literal["all", "last"] = "all"
 
     @property
     def increments(self) -> tuple[int, ...]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from contact_scenes import LOAD, PRESS, RIGID_BALL, grid, push, scene
 
-from semi_analytical import SurfaceGrid, solve
+from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.increments.increment_history import (
     PreviousIncrement,
     further,
@@ -81,6 +81,19 @@ def test_convolutions_count_what_was_convolved(calls):
         (result.increments[1], "tangential", 2),
     ]:
         assert increment.convolutions == price * calls.count(kind)
+
+
+def test_areas_within_a_load_step_change_nothing_at_its_end():
+    described = scene(PRESS, push(0.7, increments=3), push(-0.7, increments=3))
+    whole, last = (
+        solve(described, grid(), TOLERANCE, plan=replace(plan(described), areas=areas))
+        for areas in ("all", "last")
+    )
+    for one, other in zip(whole.increments, last.increments, strict=True):
+        ends = one.index == one.increments_in_step
+        assert (one.stick_area == other.stick_area) is ends
+        assert other.stick_area <= other.contact_area
+        np.testing.assert_array_equal(one.slip, other.slip)
 
 
 # ---- The surface grid.
