@@ -182,7 +182,7 @@ ORDERS = {
         "judging",
         *("running", "regression"),
         *("cases", "defects", "challenge", "peers", "adapters", "studies"),
-        *("showcase", "report", "judged_by_pytest"),
+        *("report", "judged_by_pytest"),
     ),
     "verification.studies.stability": ("contacts", "study"),
 }

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 from report_examples import case, report_of, run_record, study, verdict
 
-from verification.exhibits.chart import Picture
 from verification.judging.outcome import (
     RESIDUAL,
     CaseOutcome,
@@ -57,17 +56,6 @@ def test_every_sheet_and_study_is_folded_under_one_line_and_its_anchor_is_inside
     assert not re.search(r"<details [^>]*open", front)
     alone = render_sheets(report.model_copy(update={"cases": report.cases[:1]}))
     assert '<details class="sheet" open>\n<summary>' in alone
-
-
-def test_a_picture_is_an_image_and_no_part_of_the_page() -> None:
-    script = "<svg onload='x()'><script>x()</script><image href='http://example.invalid'/></svg>"
-    for svg in (script, f"<!DOCTYPE x>{script}", '"><script>x()</script>'):
-        picture = Picture(name="p", title="t", caption='c"><b>', svg=svg)
-        page = render_page(report_of(()).model_copy(update={"pictures": (picture,)}))
-        (image,) = re.findall(r"<img [^>]*>", page)
-        assert re.fullmatch(r'<img src="data:[^"<>]*" alt="[^"<>]*">', image)
-        assert "<script" not in page
-        assert "onload" not in page.replace(image, "")
 
 
 def test_a_line_names_the_quantity_nearest_to_its_limit() -> None:

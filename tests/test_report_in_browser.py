@@ -6,7 +6,6 @@ import pytest
 from browser import ACT, PAYLOADS, RAN, chromium, opened
 from report_examples import case, report_of, run_record, study
 
-from verification.exhibits.chart import Picture
 from verification.report.page import render_page, render_sheets
 from verification.running.report_record import Report
 
@@ -44,12 +43,6 @@ def test_page_forbids_scripts_and_so_works_without_them(full: Report, tmp_path: 
     assert any("Content Security Policy" in line for line in seen.console)
 
 
-def drawn(payloads: tuple[str, ...]) -> list[str]:
-    """Pictures that hold them, and one that is nothing else."""
-    root = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">'
-    return [payloads[0], *(f"{root}{payload}</svg>" for payload in payloads[1:])]
-
-
 def test_nothing_in_a_record_is_run(tmp_path: Path) -> None:
     outcomes = tuple(
         case(f"case_{n}", {payload: (1e-6, 1e-6)}, run_record(64, None), payload, drawn=n % 4 == 0)
@@ -57,11 +50,7 @@ def test_nothing_in_a_record_is_run(tmp_path: Path) -> None:
     )
     assert len(PAYLOADS) >= 30
     studies = (study("coated-tractions", PAYLOADS[0], text=PAYLOADS[1]),)
-    pictures = tuple(
-        Picture(name=f"p{n}", title=payload, caption=payload, svg=svg)
-        for n, (payload, svg) in enumerate(zip(PAYLOADS, drawn(PAYLOADS), strict=True))
-    )
-    report = report_of(outcomes, studies).model_copy(update={"pictures": pictures})
+    report = report_of(outcomes, studies)
     for render in (render_page, render_sheets):
         seen = opened(render(report), tmp_path)
         assert f"<title>{RAN}" not in seen.document

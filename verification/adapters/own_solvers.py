@@ -147,8 +147,7 @@ def ring_traction(steps: Any, key: Key) -> Vector | None:
     steps  states at the ends of all load steps
     key    name of the traction, and number of the load step from 1
     """
-    end = steps[key[1] - 1]
-    found = getattr(end, TRACTIONS.get(key[0], ""), None)
+    found = getattr(steps[key[1] - 1], TRACTIONS.get(key[0], ""), None)
     return None if found is None or np.ndim(found) != 1 else found
 
 

@@ -186,8 +186,7 @@ class CaseToJudge:
         case, started = case_of(self.name, Level[self.level]), time.perf_counter()
         with cache_directory(os.devnull):
             outcome = judge(case)
-        seconds = time.perf_counter() - started
-        return JudgedCase(outcome=outcome, seconds=seconds)
+        return JudgedCase(outcome=outcome, seconds=time.perf_counter() - started)
 
 
 def lost(case: Case, reason: str) -> CaseOutcome:

@@ -517,8 +517,7 @@ def recorded(name: str) -> Recorded:
 
     name  name of the scene in references/external_code_calculix.json
     """
-    scenes = {each["name"]: each for each in load_reference(NAME)["scenes"]}
-    return Recorded(scenes[name])
+    return Recorded({each["name"]: each for each in load_reference(NAME)["scenes"]}[name])
 
 
 FIRST = 0.1  # Hertz radii; nearer to the axis are its bore and, with friction, a cusp

@@ -241,8 +241,7 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
     )
 
     def run(label: str, title: str, *loading: LoadStep) -> Run:
-        scene = frictional(title, paraboloid(STEEL), STEEL, *loading)
-        return Run(label, scene, grid)
+        return Run(label, frictional(title, paraboloid(STEEL), STEEL, *loading), grid)
 
     changes = (
         run(

@@ -207,8 +207,7 @@ def _spring_loop_problem() -> Problem:
         states.append(states[-1].moved_to(part * ACTUATED))
         shift = (part * ACTUATED, 0.0)
         steps.append(LoadStep(tangential_shift=shift, increments=4 if step == 1 else 8))
-    title = "Loop through a spring, ν = 0"
-    scene = frictional(title, paraboloid(NU_ZERO), NU_ZERO, *steps)
+    scene = frictional("Loop through a spring, ν = 0", paraboloid(NU_ZERO), NU_ZERO, *steps)
     return Problem(
         scene.model_copy(update={"rig": Rig(tangential_stiffness=STIFFNESS)}),
         (HERTZ, *states[1:]),

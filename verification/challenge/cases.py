@@ -637,8 +637,7 @@ def loop() -> Challenge:
         state = state.loaded_to(AMPLITUDE * part * FRICTION_LIMIT)
         if step == 1 + len(QUARTERS):
             lost = state.dissipated_energy
-        scale = state.virgin.sliding_shift
-        values += _shift_and_stick_radius(step, state, scale)
+        values += _shift_and_stick_radius(step, state, state.virgin.sliding_shift)
         fields.append(_required_shear(step, _loop_shear(state), state.tangential_force))
     energy = state.dissipated_energy - lost
     first = 1 + len(QUARTERS)

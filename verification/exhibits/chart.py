@@ -173,20 +173,6 @@ def slope_line(points: Points, order: float) -> list[Curve]:
     return [curve(f"slope {order:g}", along, line, Look.SLOPE, 0)]
 
 
-class Picture(Description):
-    """Drawing that a page shows as an image, so that nothing in it can run.
-
-    svg  text of the complete SVG file, with its own colours on white
-    """
-
-    name: str
-    title: str
-    caption: str
-    """Description of the drawing in words, also for screen readers."""
-
-    svg: str
-
-
 NOT_FINITE = "not finite"
 
 

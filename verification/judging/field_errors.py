@@ -112,8 +112,7 @@ def shear_error(result: Any, step: int, problem: Problem) -> float:
     if hasattr(result, "grid"):
         known = _exact_on_cells(result, end, exact, problem)
         return norms.shear_error(shear_of(end), known, FRICTION * end.pressure)
-    along = end.shear_along_load
-    return ring_errors.relative_l1(end, along, exact, problem.radius) / FRICTION
+    return ring_errors.relative_l1(end, end.shear_along_load, exact, problem.radius) / FRICTION
 
 
 def away_from_edges(r: Field, judged: float, edges: Sequence[float], radius: float) -> NDArray[Any]:

@@ -61,8 +61,7 @@ def hertzian(scene: Scene) -> Problem:
 
 
 def _pressed_ball(title: str, load: LoadStep) -> Problem:
-    ball = paraboloid(STEEL)
-    return hertzian(frictionless(title, ball, STEEL, load))
+    return hertzian(frictionless(title, paraboloid(STEEL), STEEL, load))
 
 
 BALL = _pressed_ball("Ball on a half-space (paper's data, paraboloid)", pressing())

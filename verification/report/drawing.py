@@ -11,7 +11,6 @@ import io
 import re
 from html import escape
 from typing import Any
-from urllib.parse import quote
 
 import matplotlib
 import numpy as np
@@ -19,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from contact_results.figures import style
-from verification.exhibits.chart import Chart, Curve, Look, Panel, Picture, plain
+from verification.exhibits.chart import Chart, Curve, Look, Panel, plain
 
 WIDTH = 6.6
 HEIGHT_PER_UNIT = 1.5
@@ -191,8 +190,6 @@ VARIABLES = {
     GRID_COLOUR: "--line",
     **{colour: f"--series-{n}" for n, colour in enumerate(style.LINE_COLOURS, 1)},
 }
-ROOT = '<svg xmlns="http://www.w3.org/2000/svg" font-family="DejaVu Sans,Verdana,sans-serif"'
-KEPT_AS_IT_IS = " =:/;,+()!*@$?[]"  # of an address within quotes
 NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 NUMBER = re.compile(r"-?\d+\.\d+")
 DIGITS = 6  # of the digest that stands for the name of a diagram
@@ -221,18 +218,6 @@ def inline_svg(chart: Chart, prefix: str = "") -> str:
     opening = re.sub(r'\s(width|height)="[^"]*"', "", opening)
     title = f'<title id="{name}-name">{escape(chart.title)}</title>'
     return f'{opening} role="img" aria-labelledby="{name}-name">{title}{rest}'
-
-
-def image_address(picture: Picture) -> str:
-    """Return a data address that contains a picture as an SVG image.
-
-    A page shows the picture as an image, so that nothing in the picture can run, refer to the page
-    or load data.
-    """
-    svg = compact(picture.svg, picture.name)
-    if not svg.startswith("<svg "):  # no drawing: a browser shows the text of the image
-        return "data:,"
-    return f"data:image/svg+xml,{quote(ROOT + svg.removeprefix('<svg'), safe=KEPT_AS_IT_IS)}"
 
 
 def compact(svg: str, name: str) -> str:

@@ -37,7 +37,7 @@ from verification.judging.outcome import (
     order_text,
     uncertainty_text,
 )
-from verification.report.drawing import image_address, inline_svg
+from verification.report.drawing import inline_svg
 from verification.report.files import PAGE, SHEETS
 from verification.report.summary_text import (
     change_counts,
@@ -95,7 +95,7 @@ def environment() -> jinja2.Environment:
     )
     made.filters.update(
         value=value_text, plain=plain, clearance=clearance_text, order=order_text,
-        uncertainty=uncertainty_text, failure=failure_text, address=image_address,
+        uncertainty=uncertainty_text, failure=failure_text,
         svg=lambda chart, prefix="": Markup(inline_svg(chart, prefix)),  # nosec B704: escaped there
     )  # fmt: skip
     shared = (

@@ -15,7 +15,6 @@ from typing import Any
 from pydantic import ValidationError, model_validator
 
 from contact_scene.reading.description import Description
-from verification.exhibits.chart import Picture
 from verification.judging.case import Level
 from verification.judging.outcome import (
     LEAST_SHARE,
@@ -54,9 +53,6 @@ class Report(Description):
 
     gone: tuple[GoneCase, ...] = ()
     """Cases with recorded results that a report of all cases lacks."""
-
-    pictures: tuple[Picture, ...] = ()
-    """Drawings of the fields of one contact, for the first page."""
 
     @model_validator(mode="after")
     def _counts_what_it_lists(self) -> Report:

@@ -144,8 +144,7 @@ def _solve_with_errors(known: KnownScene) -> tuple[Any, StatedErrors]:
     if known.fineness.solver == CELLS:
         result = semi_analytical.solve_discretised(known.scene, asked)
         return result, CellSolver.stated_errors(result)
-    method = fem_reference.Method.COMPLEMENTARITY
-    on_sections = fem_reference.solve(known.scene, asked, method)
+    on_sections = fem_reference.solve(known.scene, asked, fem_reference.Method.COMPLEMENTARITY)
     return on_sections, ElementSolver.stated_errors(on_sections)
 
 
@@ -416,8 +415,7 @@ def cases(settings: Settings) -> tuple[CoverageCase | RequestCase, ...]:
     The standard level has a third of those of the full level. The quick level has one request and
     one scene of each family.
     """
-    parts = {Level.QUICK: 0, Level.STANDARD: 3, Level.FULL: 1}
-    part = parts[settings.level]
+    part = {Level.QUICK: 0, Level.STANDARD: 3, Level.FULL: 1}[settings.level]
 
     def numbers(count: int) -> range:
         return range(ceil(count / part) if part else 1)

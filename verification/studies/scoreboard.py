@@ -67,8 +67,7 @@ class ScoredRun:
     def name(self) -> str:
         """File name of the record of the judgement: the code and the benchmark problem
         (challenge)."""
-        words = f"{self.code}-{self.challenge}"
-        return "".join(c if c.isalnum() else "-" for c in words)
+        return "".join(c if c.isalnum() else "-" for c in f"{self.code}-{self.challenge}")
 
     def compute(self) -> CaseRecord:
         """Solve the challenge by the code on all refinement levels and record the judgement of the

@@ -171,8 +171,7 @@ def cases(settings: Settings) -> tuple[DefectRun, ...]:
         for defect in DEFECTS.values()
         for case in cases_under(settings, defect)
     ]
-    healthy = dict.fromkeys(DefectRun(HEALTHY, run.case) for run in runs)
-    return (*runs, *healthy)
+    return (*runs, *dict.fromkeys(DefectRun(HEALTHY, run.case) for run in runs))
 
 
 @dataclass(frozen=True)

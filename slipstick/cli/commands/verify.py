@@ -22,7 +22,6 @@ from slipstick.cli.progress import outcome_text, run_with_progress
 from slipstick.cli.terminal import print_table
 from verification.cases.catalogue import CASES as KNOWN
 from verification.cases.catalogue import CaseToJudge, JudgedCase, choose, lost
-from verification.exhibits.chart import Picture
 from verification.judging.case import Case, Level
 from verification.judging.outcome import SYMBOLS, WORDS, CaseOutcome, ChangeKind, Status
 from verification.regression.baseline import compared, held_to, read_baselines, read_tolerances
@@ -147,11 +146,6 @@ def _run_and_report(
             raise typer.Exit(ExitCode.INVALID) from None
         set_aside_report(directory)
         outcomes, seconds = judge_cases(cases, level.name, directory, workers, fresh=fresh)
-        pictures: tuple[Picture, ...] = ()
-        if not names:
-            from verification.showcase import showcase  # imports matplotlib
-
-            pictures = showcase()
         command = " ".join(["slipstick verify", *names, f"--level {level}"])
         measured = Report(
             level=level,
@@ -161,7 +155,6 @@ def _run_and_report(
             provenance=provenance(command, seconds, modules=MODULES),
             studies=studies,
             chosen=bool(names),
-            pictures=pictures,
         )
         report = compared(measured, baselines)
         write_report(report, directory)

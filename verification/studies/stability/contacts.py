@@ -7,7 +7,7 @@ a cell.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
 from itertools import product
@@ -154,19 +154,13 @@ class StabilityCell:
         return judge_contact(self).of_cell(self)
 
     @property
-    def coordinates(self) -> dict[str, Any]:
-        """Values that define the contact in the stability map (friction, load, coating, …), by
-        name."""
-        return {f.name: getattr(self, f.name) for f in fields(self)}
-
-    @property
     def name(self) -> str:
         """File name of the record of the contact: those of its values that differ from the default
         values."""
         ordinary = StabilityCell()
         parts = [
             f"{SHORT[key]}{value:g}" if isinstance(value, float | int) else str(value)
-            for key, value in self.coordinates.items()
+            for key, value in vars(self).items()
             if value != getattr(ordinary, key)
         ]
         return "-".join(parts).replace(".", "p").replace("+", "") or "ordinary"
@@ -256,8 +250,7 @@ class CellRecord(TypedRow):
 
         The value is None if both are missing.
         """
-        known = [r for r in (self.residual, self.observed) if r is not None]
-        return max(known, default=None)
+        return max((r for r in (self.residual, self.observed) if r is not None), default=None)
 
 
 ORDINARY = StabilityCell()
