@@ -74,7 +74,7 @@ def surface(ax, x, end, friction) -> None:
 def body(ax, section, interface):
     """Draw σxx on the section y = 0 of each material separately, as it jumps at the interface."""
     x, z = section.x[..., 0] / MM, section.depth[..., 0] / MM
-    stress = section.along_x["xx"][..., 0] / GPA
+    stress = section.components["xx"][..., 0] / GPA
     for material in np.unique(section.material):
         rows = section.material[:, 0, 0] == material
         field = (x[rows], z[rows], stress[rows])
