@@ -22,6 +22,7 @@ from scipy.ndimage import distance_transform_edt, gaussian_filter
 
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Field, Mask, VectorField
+from semi_analytical.edge.contact_area import near
 from semi_analytical.tangential.admissible_shear import magnitude
 
 # Layers of cells next to slipping cells to which their direction of slip is extended.
@@ -43,30 +44,24 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
     q      shear of the cells (2, nx, ny)
     slips  slipping cells (nx, ny)
     """
-    nx, ny = slips.shape
-    framed = np.zeros((nx + 2, ny + 2), bool)  # all neighbours of cells are in the frame
-    window = framed.copy()
-    window[1:-1, 1:-1] = True
     size = magnitude(q)
-    framed[1:-1, 1:-1] = slips & (size > 0)
-    n, known, window = np.zeros((2, framed.size)), framed.ravel(), window.ravel()
-    new = np.flatnonzero(known)
-    n[:, new] = q[:, framed[1:-1, 1:-1]] / size[framed[1:-1, 1:-1]]
-    steps = np.array([i * (ny + 2) + j for i in (-1, 0, 1) for j in (-1, 0, 1)])
+    new = np.pad(slips & (size > 0), 1)  # all neighbours of cells are in the frame
+    known, n = new.copy(), np.zeros((2, *new.shape))
+    n[:, known] = q[:, known[1:-1, 1:-1]] / size[known[1:-1, 1:-1]]
     for _ in range(LAYERS):
-        adjacent = np.zeros_like(known)
-        adjacent[new[:, None] + steps] = True
-        next_layer = np.flatnonzero(adjacent & window & ~known)
-        about = np.sum(n[:, next_layer[:, None] + steps], axis=-1)
+        i, j = np.nonzero(near(new) & ~known[1:-1, 1:-1])
+        about = np.sum([n[:, i + row, j + column] for row, column in np.ndindex(3, 3)], axis=0)
         size = magnitude(about)
         agree = size > LEAST_COMMON
-        new = next_layer[agree]
-        n[:, new] = about[:, agree] / size[agree]
-        known[new] = True
+        i, j = i[agree] + 1, j[agree] + 1
+        n[:, i, j] = about[:, agree] / size[agree]
+        new[:] = False
+        new[i, j] = True
+        known |= new
     nearest = distance_transform_edt(
-        ~framed[1:-1, 1:-1], return_distances=False, return_indices=True
+        ~known[1:-1, 1:-1], return_distances=False, return_indices=True
     )
-    return np.asarray(n.reshape(2, nx + 2, ny + 2)[:, nearest[0] + 1, nearest[1] + 1])
+    return n[:, nearest[0] + 1, nearest[1] + 1]
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,9 @@ border and is therefore excluded from d.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
 
 from contact_scene.array_types import Field, Mask, VectorField
-from semi_analytical.edge.contact_area import stuck_cells
+from semi_analytical.edge.contact_area import near, stuck_cells
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil
 from semi_analytical.edge.shape import LARGEST_RMS, AdjacentCells, depth_of, edge_shape
 from semi_analytical.edge_correction.shear_at_edge import LAYERS, direction_of_slip
@@ -26,7 +25,7 @@ from semi_analytical.operator.box import box_around
 LAWS = ((0.5, NARROW, 1.0), (1.5, WIDE, 2.0))
 # Least radius in cells of a zone that can be fitted.
 THICK = 3.0
-# Distance in cells from the border, inside and outside, of cells that it may cut.
+# Distance in cells from the border, inside, of cells that it may cut.
 CUT = 1.5
 
 
@@ -59,16 +58,15 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask, *, spreads: bool =
     """
     if not np.any(stick):
         return 0.0
-    near = box_around(stick, LAYERS + 1).slices  # cells that determine the direction of slip
-    shear, bound, stick = shear[:, *near], bound[near], stick[near]
+    box = box_around(stick, LAYERS + 1).slices  # cells that determine the direction of slip
+    shear, bound, stick = shear[:, *box], bound[box], stick[box]
     slips = (bound > 0) & ~stick
     depth = depth_of(stick)
     if not np.any(slips) or np.max(depth) < THICK:
         return stuck_cells(shear, bound, stick)
     along = np.sum(shear * direction_of_slip(shear, slips), axis=0)
     deficit = np.where(stick, np.maximum(bound - along, 0.0), 0.0)
-    outside = distance_transform_edt(~stick)
-    i, j = np.nonzero((depth <= CUT) & (outside <= CUT))
+    i, j = np.nonzero((depth <= CUT) & near(np.pad(stick, 1)))
     laws = LAWS if spreads else LAWS[:1]
     cells, deficit = AdjacentCells(depth, i, j), deficit / np.max(deficit)
     fits = [_fit_power_law(deficit, stick, depth, cells, *law) for law in laws]
