@@ -62,6 +62,7 @@ def loop_numbers(
     assert shifts is not None
     actuated = _components_along(path, "actuator_shift", along)
     Q, shift, opening = _half_range(forces), _half_range(shifts), _half_opening(forces, shifts)
+    opened = opening > ROUND_OFF * shift
     moved = shift if actuated is None else _half_range(actuated)
     limit = friction.largest_tangential_force(end.normal_force) if friction else None
     if dissipated <= NO_SLIP * Q * shift:
@@ -72,7 +73,7 @@ def loop_numbers(
         "actuator_amplitude": None if actuated is None else moved,
         "loop_opening": opening,
         "energy_ratio": dissipated / (4 * Q * moved),
-        "energy_friction": dissipated / (4 * end.normal_force * opening) if opening else None,
+        "energy_friction": dissipated / (4 * end.normal_force * opening) if opened else None,
         "limit_share": Q / limit if limit else None,
         "gross_slip_share": dissipated / (4 * Q * shift * AT_GROSS_SLIP),
     }

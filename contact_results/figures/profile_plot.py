@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 
 from contact_results.figures import style
 from contact_results.figures.shown_steps import SAME, select_steps
-from contact_scene.friction import FRICTIONLESS
+from contact_results.surface import Cells
+from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from contact_scene.reading.engineering_units import (
     EngineeringUnit,
     engineering_unit,
@@ -48,7 +49,7 @@ def profile_plot(result: Result, surface: Surface) -> Figure:
     axes = figure.subplots(1 + len(shears), 1, sharex=True, squeeze=False)[:, 0]
     length = _line_axis(axes[-1], result, surface)
     x = surface.profile_line.places / length.size
-    limit = (result.scene.friction or FRICTIONLESS).limit(_pressure_field(steps[-1], surface))
+    limit = _friction_limit(result.scene.friction or FRICTIONLESS, steps[-1], surface)
     for ax, curves in zip(axes, (_pressure_curves(surface, steps), *shears), strict=True):
         if ax is not axes[0]:
             bound = surface.along(limit) / curves.unit.size
@@ -61,6 +62,14 @@ def profile_plot(result: Result, surface: Surface) -> Figure:
         style.legend_beside(ax)
     axes[0].set_ylim(bottom=0.0)
     return figure
+
+
+def _friction_limit(friction: CoulombFriction, end: Increment, surface: Surface) -> Field:
+    """Compute the friction limit µp on the surface at the end of a load step [force/length^2]."""
+    if isinstance(surface, Cells):
+        x, y = surface.x, surface.y
+        friction = friction.on_grid((len(x), len(y)), (float(x[1] - x[0]), float(y[1] - y[0])))
+    return friction.limit(_pressure_field(end, surface))
 
 
 def draw_end(ax: Any, result: Result, surface: Surface) -> None:
