@@ -31,7 +31,7 @@ from verification.challenge.requested_quantities import (
 )
 from verification.judging.outcome import Status
 from verification.problems.indentation import EXACT as ELLIPSE
-from verification.problems.paper_scene import HERTZ
+from verification.problems.problem import HERTZ
 from verification.report.page import render_sheet, row_texts
 
 POINT = challenges()["hertz_point"]

@@ -30,8 +30,7 @@ from verification.judging.declared_case import (
 )
 from verification.problems.cattaneo_mindlin import sheared
 from verification.problems.indentation import BALL
-from verification.problems.paper_scene import HERTZ, hertz_grid
-from verification.problems.problem import Problem
+from verification.problems.problem import HERTZ, Problem, hertz_grid
 
 CELLS = (32, 64, 128)
 SHEARED = sheared("sheared", (0.3, 0.9))

@@ -34,7 +34,7 @@ from contact_scene import (
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
 from verification.closed_forms.hertz import PointContact
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     FRICTION_LIMIT,
     ShiftedGrid,
     coated,

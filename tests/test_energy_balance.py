@@ -31,7 +31,7 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.stepping.load_path import load_path
 from semi_analytical import NotConverged, history, plan, solve
 from semi_analytical.increments.increment import solve_increment
-from verification.problems import paper_scene as paper
+from verification.problems import problem as paper
 
 TOLERANCE = 1e-8
 # Balance of the first law asked for; the equations are solved to the tolerance above.

@@ -11,7 +11,7 @@ from slipstick.cli import main
 
 FILE = """
 from verification import Answer, CannotDo
-from verification.problems.paper_scene import HERTZ
+from verification.problems.problem import HERTZ
 
 def right(problem, level):
     values = {("approach", 1): HERTZ.approach, ("contact_radius", 1): HERTZ.contact_radius}

@@ -14,7 +14,7 @@ ACTION = Path(__file__).resolve().parents[1] / ".github" / "actions" / "judge"
 SLIPSTICK = Path(sys.executable).with_name("slipstick")
 FILE = """
 from verification import Answer
-from verification.problems.paper_scene import HERTZ
+from verification.problems.problem import HERTZ
 
 def right(problem, level):
     values = {("approach", 1): HERTZ.approach, ("contact_radius", 1): HERTZ.contact_radius}

@@ -6,7 +6,7 @@ import pytest
 
 from verification.challenge.cases import challenges
 from verification.challenge.python_api import named_solver
-from verification.problems.paper_scene import HERTZ
+from verification.problems.problem import HERTZ
 
 # pytester forgets what an inner run imports: what is imported here need not be made again.
 assert challenges()

@@ -28,7 +28,7 @@ from semi_analytical import (
     solve_discretised,
 )
 from verification.closed_forms.coated_indentation import paraboloid
-from verification.problems.paper_scene import surface_of
+from verification.problems.problem import surface_of
 
 RADIUS = 100.0
 GRID = SurfaceGrid((64, 64), (3.0, 3.0))

@@ -18,9 +18,9 @@ from verification.judging.case import (
 from verification.observed.cells import states_on_cells
 from verification.observed.contact_state import imbalances, missed, observed, violations
 from verification.observed.elements import states_on_elements
-from verification.problems import paper_scene as paper
+from verification.problems import problem as paper
 from verification.problems.cattaneo_mindlin import torque_step
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     FRICTION_LIMIT,
     NORMAL_FORCE,
     NU_ZERO,

@@ -44,7 +44,7 @@ from semi_analytical.operator.operator import BINS, DisplacementOperator, invers
 from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
 from semi_analytical.operator.transforms import MAX_BY_MATRIX, Convolutions, offsets_for
 from semi_analytical.plan import MIRROR_PLANES
-from verification.problems.paper_scene import ShiftedGrid
+from verification.problems.problem import ShiftedGrid
 
 SHAPES = [(6, 5), (2, 7), (7, 11), (16, 8), (13, 17), (31, 3)]
 SPACINGS = [(1.0, 1.0), (0.3, 1.7)]

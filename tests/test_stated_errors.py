@@ -92,7 +92,7 @@ from verification.closed_forms.flat_punch import ConeContact
 from verification.closed_forms.hertz import EllipticalContact, contact_modulus, tangential_modulus
 from verification.problems.drawn.drawing import Profile
 from verification.problems.drawn.families import Similar
-from verification.problems.paper_scene import surface_of
+from verification.problems.problem import surface_of
 
 SLOW = pytest.mark.slow
 SCENES = Path(__file__).parents[1] / "scenes"

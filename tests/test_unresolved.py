@@ -41,7 +41,7 @@ from contact_scene.checks.expected_contact import (
 from contact_scene.checks.plausibility import implausible_input
 from semi_analytical import ContactNotResolved, Result, SurfaceGrid, solve, solve_discretised
 from semi_analytical.resolution import resolution
-from verification.problems import paper_scene as paper
+from verification.problems import problem as paper
 
 SETTING = r"--set semi_analytical\.(cells|window)=(\[[^\]]*\])"
 

@@ -81,30 +81,28 @@ from verification.problems.indentation import (
     mean_pressure,
     solved_here,
 )
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     FREDHOLM,
     FREDHOLM_EQUATION,
     HERTZ,
     NORMAL_FORCE,
+    OVER_PEAK,
     RADIUS,
     SEMI_CLOSED_ERROR,
     SUBSTRATE,
     UNLIKE,
-    coated,
-    exact_contact,
-    film,
-    hertz_grid,
-    pressed,
-    rigid_ball,
-    surface_of,
-)
-from verification.problems.problem import (
-    OVER_PEAK,
     Problem,
     Reference,
     ReferenceKind,
     closed_form,
+    coated,
+    exact_contact,
+    film,
+    hertz_grid,
     identity,
+    pressed,
+    rigid_ball,
+    surface_of,
 )
 from verification.references import load_reference
 

@@ -51,10 +51,12 @@ from verification.judging.declared_case import (
     on_elements,
 )
 from verification.judging.field_errors import pressure_at, shear_at
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     FRICTION,
     HERTZ,
     NORMAL_FORCE,
+    Problem,
+    ReferenceKind,
     coated,
     exact_contact,
     film,
@@ -64,7 +66,6 @@ from verification.problems.paper_scene import (
     square_grid,
     tangential_step,
 )
-from verification.problems.problem import Problem, ReferenceKind
 from verification.quantities import shear_of, shift_along_x
 from verification.references import load_reference
 

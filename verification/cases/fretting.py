@@ -81,7 +81,7 @@ from verification.problems.cattaneo_mindlin import (
     sheared,
 )
 from verification.problems.indentation import COATED
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,
@@ -89,10 +89,10 @@ from verification.problems.paper_scene import (
     NU_ZERO,
     RADIUS,
     STEEL,
+    Problem,
     frictional,
     square_grid,
 )
-from verification.problems.problem import Problem
 from verification.quantities import (
     force_along_x,
     shear_of,

@@ -87,29 +87,27 @@ from verification.problems.indentation import (
     COATED,
     FEW,
     MANY,
-    NU_ZERO,
+    NO_POISSON_BALL,
     OVER_HERTZ_RADIUS,
     STRONG,
     WEAK,
     Indentation,
 )
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     CONTACT_MODULUS,
     HERTZ,
     NORMAL_FORCE,
+    OVER_PEAK,
+    ROUNDING,
     WINDOW_PER_RADIUS,
+    Problem,
+    Reference,
+    ReferenceKind,
     half_space,
     pressed,
     pressing,
     rigid_ball,
     square_grid,
-)
-from verification.problems.problem import (
-    OVER_PEAK,
-    ROUNDING,
-    Problem,
-    Reference,
-    ReferenceKind,
 )
 from verification.quantities import shear_of, shift_along_x
 
@@ -256,7 +254,7 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
     level  amount of computation: quick, standard or full
     """
     why = "accuracy target of the coupled solver on 256 x 256 cells"
-    cells, contacts = 256, [WEAK, STRONG, NU_ZERO, COATED]
+    cells, contacts = 256, [WEAK, STRONG, NO_POISSON_BALL, COATED]
     if level is Level.QUICK:
         cells, contacts = 96, [WEAK, STRONG, COATED]
     rows = (
@@ -1161,7 +1159,7 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
                 on_radii(one.problem(increments * one.increments // FEW), one.name, rings=rings),
                 of_contacts,
             )
-            for one in (WEAK, STRONG, NU_ZERO, COATED)
+            for one in (WEAK, STRONG, NO_POISSON_BALL, COATED)
         ),
         *(
             judged(

@@ -58,32 +58,30 @@ from verification.problems.cattaneo_mindlin import (
     SLIDING_TORQUE,
     STUCK,
 )
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,
     NORMAL_FORCE,
     NU_ZERO,
     RADIUS,
+    ROUNDING,
     STEEL,
     SUBSTRATE,
+    Reference,
+    ReferenceKind,
+    closed_form,
     coated,
     film,
     frictional,
     hertz_grid,
+    identity,
     paraboloid,
     pressed,
     pressing,
     rigid_ball,
     square_grid,
     tangential_step,
-)
-from verification.problems.problem import (
-    ROUNDING,
-    Reference,
-    ReferenceKind,
-    closed_form,
-    identity,
 )
 from verification.quantities import shear_of, shift_along_x
 

@@ -83,15 +83,19 @@ from verification.problems.indentation import (
     hertzian,
     mean_pressure,
 )
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     CONTACT_MODULUS,
     FRICTION,
     HERTZ,
     NORMAL_FORCE,
     RADIUS,
+    ROUNDING,
     STEEL,
     SUBSTRATE,
     UNLIKE,
+    Problem,
+    Reference,
+    ReferenceKind,
     coated,
     film,
     frictionless,
@@ -101,7 +105,6 @@ from verification.problems.paper_scene import (
     rigid_ball,
     square_grid,
 )
-from verification.problems.problem import ROUNDING, Problem, Reference, ReferenceKind
 
 if TYPE_CHECKING:
     from semi_analytical import Result

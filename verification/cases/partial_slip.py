@@ -73,7 +73,7 @@ from verification.problems.cattaneo_mindlin import (
     sheared,
 )
 from verification.problems.indentation import CONE, SLOPE, UNDER_CONE, mean_pressure
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     CONTACT_MODULUS,
     FRICTION,
     FRICTION_LIMIT,
@@ -83,12 +83,13 @@ from verification.problems.paper_scene import (
     OFFSETS,
     STEEL,
     UNLIKE,
+    Problem,
+    ReferenceKind,
     frictional,
     paraboloid,
     partial_slip,
     tangential_step,
 )
-from verification.problems.problem import Problem, ReferenceKind
 from verification.quantities import force_along_x, shear_of, shift_along_x
 
 ACROSS = "slip across the load"

@@ -48,7 +48,7 @@ from verification.problems.cattaneo_mindlin import (
     OVER_SLIDING_SHIFT,
     SLIDING_SHIFT,
 )
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     CONTACT_MODULUS,
     FRICTION,
     FRICTION_LIMIT,
@@ -57,13 +57,14 @@ from verification.problems.paper_scene import (
     NU_ZERO,
     STEEL,
     UNLIKE,
+    Problem,
+    ReferenceKind,
     frictional,
     frictionless,
     paraboloid,
     partial_slip,
     pressing,
 )
-from verification.problems.problem import Problem, ReferenceKind
 from verification.quantities import shear_of
 from verification.references import load_reference
 

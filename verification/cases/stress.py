@@ -49,21 +49,25 @@ from verification.judging.declared_case import (
     on_radii,
 )
 from verification.problems.cattaneo_mindlin import TWISTED, sheared
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,
     STEEL,
+    Problem,
+    Reference,
+    ReferenceKind,
     ShiftedGrid,
+    closed_form,
     coated,
     film,
     hertz_grid,
+    identity,
     paraboloid,
     partial_slip,
     pressed,
     rigid_ball,
 )
-from verification.problems.problem import Problem, Reference, ReferenceKind, closed_form, identity
 
 Field = NDArray[np.float64]
 

@@ -66,20 +66,23 @@ from verification.problems.cattaneo_mindlin import (
     TORSION_LOOP,
     TWISTED,
 )
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,
     NORMAL_FORCE,
     RADIUS,
+    ROUNDING,
+    Problem,
+    ReferenceKind,
     coated,
     exact_contact,
     film,
+    identity,
     pressed,
     pressing,
     rigid_ball,
 )
-from verification.problems.problem import ROUNDING, Problem, ReferenceKind, identity
 from verification.quantities import energy_between, shear_of
 
 Field = NDArray[np.float64]

@@ -45,18 +45,21 @@ from verification.convergence.observed_order import error_line, observed_order, 
 from verification.judging.case import SOLVER_TOLERANCE, Case, Derived, Level, Quantity, Required
 from verification.judging.judgement import judge_quantity
 from verification.judging.outcome import Verdict, failure_text, uncertainty_text
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     HERTZ,
     NORMAL_FORCE,
     STEEL,
+    Reference,
+    ReferenceKind,
+    closed_form,
     coated,
     film,
     frictional,
+    identity,
     paraboloid,
     pressed,
     square_grid,
 )
-from verification.problems.problem import Reference, ReferenceKind, closed_form, identity
 
 LEVELS = (1.0, 2.0, 4.0)
 BESIDE = (1.0, -6.0, 8.0)

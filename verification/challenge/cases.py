@@ -55,7 +55,6 @@ from verification.challenge.requested_quantities import (
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import FlatPunchContact, TiltedPunch
 from verification.closed_forms.huber_stress import hamilton_stress
-from verification.problems import paper_scene as paper
 from verification.problems.cattaneo_mindlin import (
     AMPLITUDE,
     LARGEST,
@@ -71,7 +70,7 @@ from verification.problems.indentation import (
     BARREL,
     COATED,
     CONE,
-    NU_ZERO,
+    NO_POISSON_BALL,
     PUNCH,
     PUNCH_RADIUS,
     REFERENCE_ERROR,
@@ -82,20 +81,25 @@ from verification.problems.indentation import (
     coated_ball,
     solved_here,
 )
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     CONTACT_MODULUS,
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,
     NORMAL_FORCE,
+    NU_ZERO,
     RADIUS,
     STEEL,
+    Problem,
+    frictional,
+    frictionless,
     half_space,
+    paraboloid,
+    partial_slip,
     pressed,
     pressing,
     rigid_ball,
 )
-from verification.problems.problem import Problem
 from verification.references import load_reference
 
 # Radii at which tractions are required. Fractions of the contact radius would reveal it [length].
@@ -294,7 +298,7 @@ def sliding_stress() -> Challenge:
     """
     scene = Scene(
         title="Ball that slides on a half-space",
-        indenter=paper.paraboloid(STEEL),
+        indenter=paraboloid(STEEL),
         body=Body(material=STEEL),
         friction=CoulombFriction(coefficient=SLIDING),
         loading=(pressing(1), LoadStep(tangential_shift=(SLID, 0.0), increments=1)),
@@ -390,7 +394,7 @@ def tilted_ball() -> Challenge:
     """
     drop = 0.5 * RADIUS * (BALL_TILT[0] ** 2 + BALL_TILT[1] ** 2)
     return _tilted_challenge(
-        "tilted_ball", "A ball pressed and tilted", paper.paraboloid(STEEL), BALL_TILT,
+        "tilted_ball", "A ball pressed and tilted", paraboloid(STEEL), BALL_TILT,
         "Hertz 1882, below the place where the slope is zero",
         (RADIUS * BALL_TILT[1], RADIUS * BALL_TILT[0]),
         (approach(HERTZ.approach - drop), contact_radius(HERTZ.contact_radius)),
@@ -407,7 +411,7 @@ def _tilted_challenge(
     values: tuple[AskedValue, ...],
 ) -> Challenge:
     step = LoadStep(normal_force=NORMAL_FORCE, tilt=tilt)
-    scene = paper.frictionless(title, indenter, STEEL, step)
+    scene = frictionless(title, indenter, STEEL, step)
     arm = max(force_at)
     moments = (
         AskedValue(
@@ -446,8 +450,8 @@ def scene_of(poisson_ratio: float) -> Scene:
     """
     modulus = 2 * CONTACT_MODULUS * (1 - poisson_ratio**2)
     material = IsotropicMaterial(young_modulus=modulus, poisson_ratio=poisson_ratio)
-    scene = paper.frictional(
-        f"Ball under changing loads, ν = {poisson_ratio:g}", paper.paraboloid(material), material
+    scene = frictional(
+        f"Ball under changing loads, ν = {poisson_ratio:g}", paraboloid(material), material
     )
     return scene.model_copy(update={"loading": STEPS})
 
@@ -561,7 +565,7 @@ def challenges() -> dict[str, Challenge]:
         ),
         *(cattaneo_mindlin(), loop(), tilted_punch(), tilted_ball(), *coated_balls()),
         *(torsion(), torsion_loop()),
-        *map(pressed_with_friction, (WEAK, STRONG, NU_ZERO, COATED)),
+        *map(pressed_with_friction, (WEAK, STRONG, NO_POISSON_BALL, COATED)),
         *(stuck(nu) for nu in NO_SLIP_RATIOS for stuck in (stuck_punch, stuck_ball)),
         *(paper_figure(), sliding_stress(), *layered_patches(), *changing_loads()),
     )  # fmt: skip
@@ -629,7 +633,7 @@ def loop() -> Challenge:
     turns = (*QUARTERS, *reversed(QUARTERS[:-1]), 0.0, *(-q for q in QUARTERS))
     turns += (*(-q for q in reversed(QUARTERS[:-1])), 0.0, *QUARTERS)
     problem = sheared("Fretting loop, ν = 0", tuple(AMPLITUDE * part for part in turns))
-    state = TangentialHistory(paper.partial_slip(paper.NU_ZERO, 0.0))
+    state = TangentialHistory(partial_slip(NU_ZERO, 0.0))
     values: list[AskedValue] = []
     fields: list[AskedField] = []
     lost = 0.0
@@ -686,7 +690,7 @@ def _pressed_challenge(
         )  # fmt: skip
         fields.append(
             AskedField("pressure", 1, "pressure, zero outside the contact", pressure, "L2",
-                       paper.NORMAL_FORCE, paper.NORMAL_FORCE, uncertainty=u)
+                       NORMAL_FORCE, NORMAL_FORCE, uncertainty=u)
         )  # fmt: skip
     return Challenge(
         name, title, _problem_text(problem), problem.scene, problem.source, tuple(values),

@@ -24,8 +24,7 @@ from contact_scene.stepping.load_path import (
     ControlKind,
     LoadRamp,
 )
-from verification.problems.paper_scene import HERTZ
-from verification.problems.problem import ROUNDING
+from verification.problems.problem import HERTZ, ROUNDING
 
 Vector = NDArray[np.float64]
 

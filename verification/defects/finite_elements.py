@@ -63,21 +63,6 @@ def _hoop_strain(whole: Any, u: Any, component: int, n: int) -> Any:
     return {k: e for k, e in right.items() if (component, k) != (1, "tt")}
 
 
-@replaces(FactoredSection, "_far_displacements")
-def _no_far_field(_: Any, self: Any, basis: Any) -> Any:
-    return np.zeros(self._numbering.size)
-
-
-@replaces(ContactModel, "gap")
-def _gap_at_deformed_radius(whole: Any, self: Any, r: Any) -> Any:
-    return whole(self, (1 - DRAWN_IN) * r)
-
-
-@replaces(compliance, "composite")
-def _upper_body_rigid(whole: Any, lower: Any, upper: Any, motion: Any) -> Any:
-    return whole(lower, None if lower else upper, motion)
-
-
 def _weak_coupling(factor: float) -> Replacements:
     @replaces(ring_compliance, "ring_compliance")
     def compliance(whole: Any, *given: Any, **more: Any) -> Any:
@@ -88,11 +73,6 @@ def _weak_coupling(factor: float) -> Replacements:
         return right
 
     return compliance
-
-
-@replaces(ContactModel, "friction")
-def _high_friction(whole: Any, self: ContactModel) -> CoulombFriction:
-    return CoulombFriction(coefficient=np.sqrt(2) * whole(self).largest)
 
 
 @replaces(increment, "advance")
@@ -111,16 +91,6 @@ def _history_dropped(whole: Any, contact: Any, before: Any, *more: Any) -> Any:
 def _slip_reversed(whole: Any, self: Any, passes: Any) -> Any:
     after, energy = whole(self, passes), self.before.dissipated_energy
     return replace(after, dissipated_energy=2 * energy - after.dissipated_energy)
-
-
-@replaces(Penalty, "stiffness")
-def _soft_penalty(whole: Any, self: Any, *given: Any) -> Any:
-    return 0.1 * whole(self, *given)
-
-
-@replaces(increment._Increment, "next_pass")
-def _no_augmentation(_: Any, self: Any, last: Any) -> Any:
-    return last
 
 
 FINITE_ELEMENTS = (
@@ -142,15 +112,22 @@ FINITE_ELEMENTS = (
     ),
     Defect(
         "fe-far-field", "The far field is omitted: the outer boundary of the section is fixed.",
-        ("fem_hertz",), _no_far_field,
+        ("fem_hertz",),
+        replaces(FactoredSection, "_far_displacements")(
+            lambda _, self, basis: np.zeros(self._numbering.size)
+        ),
     ),
     Defect(
         "fe-deformed-radius", "The gap is taken at the deformed radius.", ("fem_hertz",),
-        _gap_at_deformed_radius,
+        replaces(ContactModel, "gap")(
+            lambda whole, self, r: whole(self, (1 - DRAWN_IN) * r)
+        ),
     ),
     Defect(
         "fe-upper-body", "The compliance of the indenter is omitted.", ("fem_hertz",),
-        _upper_body_rigid,
+        replaces(compliance, "composite")(
+            lambda whole, lower, upper, motion: whole(lower, None if lower else upper, motion)
+        ),
     ),
     Defect(
         "fe-coupling-sign", "Pressure moves the surface away from the axis.", ("fem_indentation",),
@@ -162,7 +139,10 @@ FINITE_ELEMENTS = (
     ),
     Defect(
         "fe-friction-root-two", "The friction coefficient is too large by √2.",
-        ("fem_partial_slip",), _high_friction,
+        ("fem_partial_slip",),
+        replaces(ContactModel, "friction")(
+            lambda whole, self: CoulombFriction(coefficient=np.sqrt(2) * whole(self).largest)
+        ),
     ),
     Defect(
         "fe-history-dropped", "Every increment starts from surfaces without history.",
@@ -174,11 +154,16 @@ FINITE_ELEMENTS = (
     ),
     Defect(
         "fe-penalty-soft", "The penalty is a tenth of the stated penalty.",
-        ("fem_penalty_hertz",), _soft_penalty,
+        ("fem_penalty_hertz",),
+        replaces(Penalty, "stiffness")(
+            lambda whole, self, *given: 0.1 * whole(self, *given)
+        ),
     ),
     Defect(
         "fe-penalty-not-augmented", "Augmentations have no effect.", ("fem_penalty_hertz",),
-        _no_augmentation,
+        replaces(increment._Increment, "next_pass")(
+            lambda _, self, last: last
+        ),
     ),
 )  # fmt: skip
 

@@ -65,16 +65,6 @@ def _reversal_forgotten(
     return whole(model, before, normal, tangential, *rest)
 
 
-@replaces(admissible_shear, "magnitude")
-def _limit_by_direction(whole: Any, v: Any) -> Any:
-    """Plant an elliptic friction limit: the shear along y is limited to 1 % less than the shear
-    along x.
-
-    The correct limit is a circle.
-    """
-    return whole(np.stack([v[0], 1.01 * v[1]]))
-
-
 def _zero_residuals(*names: str) -> Replacements:
     """Return a seeded defect by which the named residuals of the semi-analytical solver are always
     zero."""
@@ -106,11 +96,6 @@ def _scaled_slip_increase(name: str, factor: float) -> Replacements:
         return replace(after, **{name: start + factor * (getattr(after, name) - start)})
 
     return advanced
-
-
-@replaces(stick_slip, "touching_share")
-def _slip_before_contact(whole: Any, *given: Any) -> Any:
-    return 1.0
 
 
 @replaces(coupled_increment._Trial, "_tangential_state")
@@ -163,16 +148,6 @@ def _contact_for_actuator(whole: Any, path: Any, name: str, direction: Any) -> A
     return whole(path, name.replace("actuator", "tangential"), direction)
 
 
-@replaces(sheared, "strain_moments")
-def _work_of_strain(whole: Any, *given: Any) -> Any:
-    return np.zeros(3)
-
-
-@replaces(bulk_strain, "stress_by")
-def _strain_of_wrong_layer(whole: Any, strain: Any, body: Any, layer: Any) -> Any:
-    return whole(strain, body, len(body.layers) - layer)
-
-
 HISTORIES = (
     Defect(
         "spring-energy", "The energy of a rig's springs is added to that of the bodies.",
@@ -189,11 +164,17 @@ HISTORIES = (
     ),
     Defect(
         "strain-work", "The work of a bulk strain is omitted from the energy balance.",
-        ("eccentric_contact",), _work_of_strain,
+        ("eccentric_contact",),
+        replaces(sheared, "strain_moments")(
+            lambda whole, *given: np.zeros(3)
+        ),
     ),
     Defect(
         "strain-of-wrong-layer", "The stress by a bulk strain is that of another layer.",
-        ("strained_ball",), _strain_of_wrong_layer,
+        ("strained_ball",),
+        replaces(bulk_strain, "stress_by")(
+            lambda whole, strain, body, layer: whole(strain, body, len(body.layers) - layer)
+        ),
     ),
     Defect(
         "reversal-forgotten", "Coupled bodies lose their tangential displacement when the "
@@ -203,7 +184,10 @@ HISTORIES = (
     Defect(
         "limit-by-direction", "The friction limit is 1 % smaller along y, and its residuals are "
         "zero.",
-        ("load_paths",), _limit_by_direction + NO_FRICTION_RESIDUALS,
+        ("load_paths",),
+        replaces(admissible_shear, "magnitude")(
+            lambda whole, v: whole(np.stack([v[0], 1.01 * v[1]]))
+        ) + NO_FRICTION_RESIDUALS,
     ),
     Defect(
         "approach-when-unloading", "The approach is 5 % too small while the force falls.",
@@ -216,7 +200,10 @@ HISTORIES = (
     Defect(
         "slip-before-touch", "Slip is counted from the start of the increment instead of first "
         "contact.",
-        ("coupled_history",), _slip_before_contact,
+        ("coupled_history",),
+        replaces(stick_slip, "touching_share")(
+            lambda whole, *given: 1.0
+        ),
     ),
     Defect(
         "way-slipped", "The accumulated slip is doubled.",
@@ -239,11 +226,6 @@ HISTORIES = (
         ("fem_partial_slip",), _work_on_elements,
     ),
 )  # fmt: skip
-
-
-@replaces(ContactModel, "friction")
-def _high_friction(_: Any, self: Any) -> Any:
-    return CoulombFriction(coefficient=np.sqrt(2) * self.scene.friction.largest)
 
 
 @replaces(stick_slip, "slip_and_stick")
@@ -271,55 +253,10 @@ def _dissipation_halved(whole: Any, self: TangentialState, *given: Any, **named:
         object.__setattr__(self, "dissipated_energy", 0.5 * self.dissipated_energy)
 
 
-@replaces(energy, "_load_work")
-def _work_halved(whole: Any, before: Any, after: Any) -> Any:
-    return 0.5 * (whole(before, after) or 0.0)
-
-
 @replaces(increment, "normal_target")
 def _reduced_normal_force(whole: Any, *given: Any) -> Any:
     right = whole(*given)
     return right if right.force is None else replace(right, force=0.997 * right.force)
-
-
-@replaces(PressureSum, "admissible")
-def _force_not_met(whole: Any, self: Any, p: Any) -> Any:
-    return whole(replace(self, total=0.999 * self.total), p)
-
-
-@replaces(normal_problem, "solve_normal")
-def _inaccurate_pressure(whole: Any, *given: Any) -> Any:
-    """Plant an inaccurate pressure: the normal problem is solved with a tolerance of at least 1
-    %."""
-    return whole(*given[:-1], max(given[-1], 1e-2))
-
-
-@replaces(tangential_solve, "shear")
-def _inaccurate_shear(whole: Any, *given: Any) -> Any:
-    """Plant an inaccurate shear: the tangential problem is solved with a tolerance of at least 3
-    %.
-    """
-    return whole(*given[:-1], max(given[-1], 3e-2))
-
-
-@replaces(ContactModel, "arms")
-def _arms_exchanged(_: Any, self: Any) -> Any:
-    return np.stack(self.grid.coordinates())
-
-
-@replaces(ContactModel, "rotation")
-def _twist_not_conjugate(_: Any, self: Any) -> Any:
-    return np.stack(self.grid.coordinates()[::-1])
-
-
-@replaces(cycles, "_half_diameter")
-def _whole_range(whole: Any, path: Any) -> Any:
-    return 2 * whole(path)
-
-
-@replaces(surface_tensile_stress, "_in_plane_stress")
-def _tension_across(whole: Any, *given: Any) -> Any:
-    return whole(*given)[[1, 0, 2]]
 
 
 @replaces(field, "_checked_tractions")
@@ -341,14 +278,6 @@ def _wrong_stress(change: Callable[[Any], Any]) -> Replacements:
             ),
         ),
     )
-
-
-def _planes_exchanged(stress: Any) -> Any:
-    return stress[:, [0, 1, 2, 4, 3, 5]]
-
-
-def _in_plane_halved(stress: Any) -> Any:
-    return np.concatenate([stress[:, :5], 0.5 * stress[:, 5:]], axis=1)
 
 
 def _wrong_increments(change: Callable[[int], int]) -> Replacements:
@@ -380,22 +309,34 @@ CONTACT_AND_FRICTION = (
     ),
     Defect(
         "force-not-met", "Pressures add up to 0.1 % less than the normal force.",
-        ("dissimilar_bodies",), _force_not_met,
+        ("dissimilar_bodies",),
+        replaces(PressureSum, "admissible")(
+            lambda whole, self, p: whole(replace(self, total=0.999 * self.total), p)
+        ),
     ),
     Defect(
         "residual-zero-of-contact", "The residuals of contact are zero, and pressures are "
         "inaccurate.",
         # The repeated solves of an edge correction would make the pressure accurate again.
-        ("hertz_approach_control",), _inaccurate_pressure + NO_CONTACT_RESIDUALS,
+        ("hertz_approach_control",),
+        replaces(normal_problem, "solve_normal")(
+            lambda whole, *given: whole(*given[:-1], max(given[-1], 1e-2))
+        ) + NO_CONTACT_RESIDUALS,
     ),
     Defect(
         "residual-zero-of-friction", "The residuals of friction are zero, and shears are "
         "inaccurate.",
-        ("cattaneo_mindlin",), _inaccurate_shear + NO_FRICTION_RESIDUALS,
+        ("cattaneo_mindlin",),
+        replaces(tangential_solve, "shear")(
+            lambda whole, *given: whole(*given[:-1], max(given[-1], 3e-2))
+        ) + NO_FRICTION_RESIDUALS,
     ),
     Defect(
         "friction-root-two", "The friction coefficient is too large by √2.",
-        ("cattaneo_mindlin", "near_sliding"), _high_friction,
+        ("cattaneo_mindlin", "near_sliding"),
+        replaces(ContactModel, "friction")(
+            lambda _, self: CoulombFriction(coefficient=np.sqrt(2) * self.scene.friction.largest)
+        ),
     ),
     Defect(
         "history-dropped", "Every increment starts from surfaces without history.",
@@ -414,24 +355,39 @@ CONTACT_AND_FRICTION = (
         LOOP, _dissipation_halved,
     ),
     Defect(
-        "work-halved", "The work of the loads is halved.", LOOP, _work_halved,
+        "work-halved", "The work of the loads is halved.", LOOP,
+        replaces(energy, "_load_work")(
+            lambda whole, before, after: 0.5 * (whole(before, after) or 0.0)
+        ),
     ),
     Defect(
         "tilt-axes", "Tilts about the two axes are exchanged.",
-        ("tilted_punch", "eccentric_ball"), _arms_exchanged,
+        ("tilted_punch", "eccentric_ball"),
+        replaces(ContactModel, "arms")(
+            lambda _, self: np.stack(self.grid.coordinates())
+        ),
     ),
     Defect(
         "twist-form", "The indenter twists as [y, x] instead of [-y, x].",
-        ("torsion",), _twist_not_conjugate,
+        ("torsion",),
+        replaces(ContactModel, "rotation")(
+            lambda _, self: np.stack(self.grid.coordinates()[::-1])
+        ),
     ),
     Defect(
         "slip-range", "The slip amplitude is the whole range of slip, not half of it.",
-        LOOP, _whole_range,
+        LOOP,
+        replaces(cycles, "_half_diameter")(
+            lambda whole, path: 2 * whole(path)
+        ),
     ),
     Defect(
         "tension-across", "The tensile stress of Ruiz's parameter is taken across the tangential "
         "force.",
-        LOOP, _tension_across,
+        LOOP,
+        replaces(surface_tensile_stress, "_in_plane_stress")(
+            lambda whole, *given: whole(*given)[[1, 0, 2]]
+        ),
     ),
     Defect(
         "stress-by-shear-sign", "Stress below the surface is that of the reversed shear.",
@@ -439,11 +395,14 @@ CONTACT_AND_FRICTION = (
     ),
     Defect(
         "stress-planes-exchanged", "Below the surface σ_yz and σ_xz are exchanged.",
-        ("subsurface_stress",), _wrong_stress(_planes_exchanged),
+        ("subsurface_stress",), _wrong_stress(lambda stress: stress[:, [0, 1, 2, 4, 3, 5]]),
     ),
     Defect(
         "in-plane-shear-halved", "Below the surface σ_xy is halved.",
-        ("subsurface_stress",), _wrong_stress(_in_plane_halved),
+        ("subsurface_stress",),
+        _wrong_stress(
+            lambda stress: np.concatenate([stress[:, :5], 0.5 * stress[:, 5:]], axis=1)
+        ),
     ),
 )  # fmt: skip
 

@@ -29,11 +29,6 @@ def _shown_halved(text: str, field: str) -> Replacements:
     return halved
 
 
-@replaces(judgement, "expanded_uncertainty")
-def _doubled_uncertainty(whole: Any, *given: Any) -> Any:
-    return 2 * whole(*given)
-
-
 @replaces(observed_order, "richardson")
 def _finest_exchanged(whole: Any, h: Any, f: Any, order: float) -> Any:
     g = f.copy()
@@ -45,11 +40,6 @@ def _finest_exchanged(whole: Any, h: Any, f: Any, order: float) -> Any:
 def _one_sided(whole: Any, *given: Any) -> Any:
     order = whole(*given)
     return replace(order, half_width=order.margin)
-
-
-@replaces(observed_order, "_line")
-def _weights_inverted(whole: Any, h: Any, f: Any, order: Any, weight_order: Any) -> Any:
-    return whole(h, f, order, -weight_order)
 
 
 @replaces(tables, "numbers", local=True)
@@ -64,11 +54,6 @@ def _place_turned(whole: Any, *given: Any) -> Any:
     return value, y, x
 
 
-@replaces(stress_maxima, "interface_sides")
-def _sides_exchanged(whole: Any, body: Any) -> Any:
-    return [(n, SIDES[side], *rest) for n, side, *rest in whole(body)]
-
-
 BY_HAND, BY_FILES = ("worked_examples",), ("written_files",)
 
 TOLD = (
@@ -80,7 +65,10 @@ TOLD = (
         "allowed-shown-halved", "The printed tolerance is halved.", BY_HAND,
         _shown_halved("_allowed_text", "allowed"),
     ),
-    Defect("coverage-doubled", "Tolerances are U = 4u.", BY_HAND, _doubled_uncertainty),
+    Defect("coverage-doubled", "Tolerances are U = 4u.", BY_HAND,
+        replaces(judgement, "expanded_uncertainty")(
+            lambda whole, *given: 2 * whole(*given)
+        )),
     Defect(
         "finest-levels-exchanged", "Richardson extrapolation exchanges the two finest levels.",
         BY_HAND, _finest_exchanged,
@@ -88,14 +76,18 @@ TOLD = (
     Defect("interval-one-sided", "95 % intervals omit 5 % on either side.", BY_HAND,
            _one_sided),
     Defect("variance-inverted", "Fits weight levels by h^p instead of its inverse.", BY_HAND,
-           _weights_inverted),
+        replaces(observed_order, "_line")(
+            lambda whole, h, f, order, weight_order: whole(h, f, order, -weight_order)
+        )),
     Defect("torque-for-twist", "The columns of torque and twist are exchanged.", BY_FILES,
            _torque_for_twist),
     Defect("place-of-f1-turned", "The coordinates x and y of the position of Ruiz's parameters "
     "are exchanged.",
            BY_FILES, _place_turned),
     Defect("sides-exchanged", "Above and below an interface are exchanged.", BY_FILES,
-           _sides_exchanged),
+        replaces(stress_maxima, "interface_sides")(
+            lambda whole, body: [(n, SIDES[side], *rest) for n, side, *rest in whole(body)]
+        )),
 )  # fmt: skip
 
 
@@ -160,15 +152,6 @@ def _relative_cell_size(result: Any) -> float:
     return 1 / float(result.discretisation.elements_per_radius)
 
 
-def _first_order_factor(result: Any) -> float:
-    """Return the wrong factor 1 + 0.1 h/a, with the cell side h and the contact radius a of a
-    result.
-
-    Multiplied results have an error of first convergence order, which the verification must detect.
-    """
-    return 1 + FIRST_ORDER * _relative_cell_size(result)
-
-
 def _error_floor_factor(result: Any) -> float:
     """Return the wrong factor 1 ± 0.0005 for results: refinement does not reduce this error.
 
@@ -191,10 +174,6 @@ def _last_row_missing(result: Any) -> Any:
     return replace(result, increments=tuple(map(shortened, result.increments)))
 
 
-def _last_step_missing(result: Any) -> Any:
-    return replace(result, increments=result.increments[:-1])
-
-
 @replaces(case_pool.CaseStore, "save")
 def _half_record_written(whole: Any, self: Any, case: Any, record: Any) -> None:
     """Plant an incomplete file: each stored record of a case contains only the first half of its
@@ -212,7 +191,8 @@ PLANTED_IN = ("hertz_point", "cattaneo_mindlin", "fem_hertz")
 PLANTED = (
     Defect(
         "first-order-error", "Results are too large by 0.1 h/a: an error of first order.",
-        PLANTED_IN, _changed_results(_scaled_results(_first_order_factor)),
+        PLANTED_IN,
+        _changed_results(_scaled_results(lambda r: 1 + FIRST_ORDER * _relative_cell_size(r))),
     ),
     Defect(
         "error-floor", "Results have an error of ± 0.05 % on any grid.",
@@ -235,7 +215,7 @@ NO_RESULTS = (
     ),
     Defect(
         "history-truncated", "The last increment of a result is missing.", ("cattaneo_mindlin",),
-        _changed_results(_last_step_missing),
+        _changed_results(lambda result: replace(result, increments=result.increments[:-1])),
     ),
     Defect(
         "record-truncated", "Half of the file with a finished case reaches the disk.",

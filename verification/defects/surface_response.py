@@ -66,11 +66,6 @@ def _with_nyquist_row(whole: Any, values: Any, parity: Any, reach: Any) -> Any:
     return spectrum
 
 
-@replaces(Composite, "_combined")
-def _without_cross_term(whole: Any, self: Composite, component: str) -> Any:
-    return (component != "xy") * whole(self, component)
-
-
 def _upper_body_omitted(components: tuple[str, ...]) -> Replacements:
     @replaces(Composite, "_combined")
     def combined(whole: Any, self: Composite, component: str) -> Any:
@@ -180,7 +175,10 @@ SURFACE_RESPONSE = (
     ),
     Defect(
         "shear-across-omitted", "Shear along y does not move the surface along x.",
-        ("torsion",), _without_cross_term,
+        ("torsion",),
+        replaces(Composite, "_combined")(
+            lambda whole, self, component: (component != "xy") * whole(self, component)
+        ),
     ),
     Defect(
         "shear-across-sign", "Shear along y moves the surface along x the wrong way.",

@@ -46,8 +46,7 @@ from verification.problems.cattaneo_mindlin import (
     OVER_SLIDING_WORK,
     loop_energy,
 )
-from verification.problems.paper_scene import ShiftedGrid
-from verification.problems.problem import OVER_PEAK, OVER_RADIUS, Problem, Reference
+from verification.problems.problem import OVER_PEAK, OVER_RADIUS, Problem, Reference, ShiftedGrid
 from verification.quantities import unit_of
 from verification.solver import Method
 

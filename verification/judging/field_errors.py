@@ -24,8 +24,7 @@ from verification.observed.ring_errors import (
     outward,
 )
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
-from verification.problems.paper_scene import FRICTION
-from verification.problems.problem import OVER_PEAK, Problem
+from verification.problems.problem import FRICTION, OVER_PEAK, Problem
 from verification.quantities import shear_of
 
 Field = NDArray[np.float64]

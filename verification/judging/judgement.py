@@ -53,6 +53,7 @@ from verification.judging.outcome import (
     SceneRecord,
     Status,
     Verdict,
+    finite,
     order_status,
 )
 from verification.observed.contact_state import Imbalance, Observed, observed
@@ -160,6 +161,11 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
     difference = math.nan if observed is None else abs(observed.order - study.expected)
     off = 0.0 if study.not_yet is None else study.not_yet.allowance
     kept = False if observed is None else observed.keeps(study.expected, off)
+    allowance = (
+        ""
+        if study.not_yet is None
+        else f", here {study.not_yet.allowance:g}, as {study.not_yet.because}"
+    )
     runs = "" if study.apart or len(errors) == len(study.levels) else (
         f", each the root mean square of {len(study.levels) / len(errors):.3g} runs"
     )  # fmt: skip
@@ -179,7 +185,7 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
         scale_name="1",
         tolerance_kind="order",
         because=f"an order passes where it is at 95 % no lower than {ORDER_OFF} below what is "
-        f"promised{_asymptotic_text(study)}, and not known to be as much higher; it is "
+        f"promised{allowance}, and not known to be as much higher; it is "
         f"judged where its 95 % interval is no wider than ± {ORDER_WIDTH}; "
         f"{len(errors)} {'changes' if study.apart else 'levels'}{runs}",
         status=order_status(kept),
@@ -194,11 +200,6 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
             errors=tuple(errors) if known else (),
         ),
     )
-
-
-def _asymptotic_text(study: Order) -> str:
-    known = study.not_yet
-    return "" if known is None else f", here {known.allowance:g}, as {known.because}"
 
 
 def _sizes_and_errors(
@@ -299,11 +300,6 @@ def _judge_zero(
         1.0, "dimensionless", runs=(),
     )  # fmt: skip
     return _make_verdict(zero, value, "required", allowed)
-
-
-def finite(value: float) -> float | None:
-    """Convert a number to the form stored in records: None in place of NaN and infinity."""
-    return float(value) if math.isfinite(value) else None
 
 
 def _run_spacings(case: Case, levels: tuple[str, ...]) -> list[float]:

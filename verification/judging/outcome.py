@@ -21,6 +21,11 @@ from verification.solver import Method, Solver
 SHORT_COMMIT = 7
 
 
+def finite(value: float) -> float | None:
+    """Convert a number to the form stored in records: None in place of NaN and infinity."""
+    return float(value) if math.isfinite(value) else None
+
+
 class ChangeKind(StrEnum):
     """Result of the comparison of a number with its baseline (stored value of an accepted run)."""
 

@@ -19,20 +19,20 @@ from contact_scene import Body, CoulombFriction, FlatPunch, IsotropicMaterial, L
 from verification.closed_forms.cattaneo_mindlin import CycledContact, TangentialHistory
 from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
 from verification.norms import shear_error
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,
     NORMAL_FORCE,
     NU_ZERO,
     STEEL,
+    Problem,
     frictional,
     paraboloid,
     partial_slip,
     pressing,
     tangential_step,
 )
-from verification.problems.problem import Problem
 from verification.quantities import energy_between, force_along_x, shear_of, shift_along_x
 
 if TYPE_CHECKING:

@@ -15,14 +15,18 @@ from contact_scene import Body, Cone, Ellipsoid, FlatPunch, LoadStep, Scene
 from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
 from verification.closed_forms.hertz import EllipticalContact
 from verification.problems.cattaneo_mindlin import OVER_LIMIT
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     CONTACT_MODULUS,
     FREDHOLM,
     FREDHOLM_EQUATION,
     HERTZ,
     NORMAL_FORCE,
+    OVER_PEAK,
     SEMI_CLOSED_ERROR,
     STEEL,
+    Problem,
+    ReferenceKind,
+    TabulatedContact,
     coated,
     exact_contact,
     film,
@@ -33,7 +37,6 @@ from verification.problems.paper_scene import (
     pressing,
     rigid_ball,
 )
-from verification.problems.problem import OVER_PEAK, Problem, ReferenceKind, TabulatedContact
 from verification.references import load_reference
 
 SOURCE = "Hertz 1882; Johnson 1985, ch. 4"
@@ -235,7 +238,7 @@ def _bare_body(file_name: str, row: Mapping[str, Any], increments: int) -> Inden
 _ROWS = load_reference("frictional_indentation_homogeneous")["rows"]
 WEAK = _bare_body("weak", _ROWS[0], FEW)
 STRONG = _bare_body("strong", _ROWS[1], MANY)
-NU_ZERO = _bare_body("nu_zero", _ROWS[2], FEW)
+NO_POISSON_BALL = _bare_body("nu_zero", _ROWS[2], FEW)
 _ROW = load_reference("frictional_indentation_coated")
 COATED = Indentation(
     _ROW, "coated, µ = 0.1", "coated", coated(film(_ROW["E1_over_E2"], _ROW["h_over_aH"])),

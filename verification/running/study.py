@@ -21,7 +21,7 @@ from pydantic import Field, model_validator
 from contact_scene.reading.description import Description
 from verification.exhibits.chart import Chart, Table, plain
 from verification.judging.case import Level
-from verification.judging.outcome import Status, commit_text
+from verification.judging.outcome import Status, commit_text, finite
 from verification.running.provenance import Provenance, age_text
 
 Value = str | bool | int | float | None
@@ -515,12 +515,8 @@ def within(
 
 
 def _study_text(value: float) -> str:
-    return plain(_finite_or_none(value), 2)
+    return plain(finite(value), 2)
 
 
 def _measures_row(values: Mapping[str, float]) -> Row:
-    return Row(measures={name: _finite_or_none(value) for name, value in values.items()})
-
-
-def _finite_or_none(value: float) -> float | None:
-    return value if math.isfinite(value) else None
+    return Row(measures={name: finite(value) for name, value in values.items()})

@@ -36,7 +36,7 @@ from verification.exhibits.chart import (
     table_of,
 )
 from verification.judging.case import SOLVER_TOLERANCE, Level
-from verification.problems.paper_scene import (
+from verification.problems.problem import (
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,

@@ -18,7 +18,7 @@ from scipy.special import betaincinv
 
 import fem_reference
 import semi_analytical
-from contact_errors.adaptive_refinement import Levels, RefinementLevel, refine
+from contact_errors.adaptive_refinement import Levels, refine
 from contact_errors.coarse_solves import Fineness
 from contact_errors.error_formula import values_of
 from contact_errors.on_cells import CellSolver
@@ -341,8 +341,11 @@ class RequestCase:
         except SolverError as error:
             return record.model_copy(update={"words": {"outcome": f"refused: {error}"}})
         largest = max(abs(truth.reference.value) for truth in truths)
-        found = [_computed_value(truth, made.level) for truth in truths]
-        errors = [abs(f - t.reference.value) for f, t in zip(found, truths, strict=True)]
+        found = [truth.read(made.level.values) for truth in truths]
+        errors = [
+            np.inf if f is None else abs(f - t.reference.value)
+            for f, t in zip(found, truths, strict=True)
+        ]
         measures = {REACHED: made.accuracy.reached[quantity], TRUE: max(errors) / largest}
         outcome = "met" if made.accuracy.met else f"stopped: {made.accuracy.stopped}"
         return record.model_copy(
@@ -364,11 +367,6 @@ class RequestCase:
             fit = [*dict.fromkeys(_requestable_quantities(known, share))]
             if fit:
                 return family, known, fit[int(rng.integers(len(fit)))], share
-
-
-def _computed_value(truth: Truth, level: RefinementLevel) -> float:
-    found = truth.read(level.values)
-    return np.inf if found is None else found
 
 
 def _requestable_quantities(known: KnownScene, share: float) -> Iterator[str]:

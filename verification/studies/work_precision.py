@@ -51,8 +51,14 @@ from verification.problems.cattaneo_mindlin import (
     sheared,
 )
 from verification.problems.indentation import BALL, COATED
-from verification.problems.paper_scene import FRICTION, NU_ZERO, WINDOW_PER_RADIUS, square_grid
-from verification.problems.problem import OVER_PEAK, Problem
+from verification.problems.problem import (
+    FRICTION,
+    NU_ZERO,
+    OVER_PEAK,
+    WINDOW_PER_RADIUS,
+    Problem,
+    square_grid,
+)
 from verification.quantities import shear_of
 from verification.running.cold_cache import timed
 from verification.running.study import (
@@ -107,14 +113,6 @@ class PreciseContact:
         Each path-dependent load step has one increment.
         """
         return self.posed(1)
-
-    def meaning(self, quantity: str) -> str:
-        """Return the title of the contact and one of its measured errors in words, for charts and
-        tables.
-
-        quantity  name of the error
-        """
-        return f"{self.title}: {self.errors[quantity]}"
 
     def errors_of(self, result: Any) -> Errors:
         """Compute all measured errors of a result against the reference solution, by name of the
@@ -609,7 +607,8 @@ def _precision_chart(contact: str, quantity: str, points: tuple[Point, ...]) -> 
 
 
 def _error_text(contact: str, quantity: str) -> str:
-    return CONTACTS[contact].meaning(quantity)
+    """Return the title of a contact and one of its measured errors in words."""
+    return f"{CONTACTS[contact].title}: {CONTACTS[contact].errors[quantity]}"
 
 
 def _setting_text(point: Point | None) -> str:

@@ -56,8 +56,9 @@ from verification.closed_forms.coated_indentation import (
     paraboloid,
 )
 from verification.judging.case import OTHER_NORMS, Level
+from verification.judging.outcome import finite
 from verification.observed.contact_state import observed
-from verification.problems.paper_scene import surface_of
+from verification.problems.problem import surface_of
 from verification.running.study import CaseRecord, TypedRow, parameters_of
 
 
@@ -944,8 +945,8 @@ def judge_contact(cell: StabilityCell) -> CellRecord:
         verdict=Verdict.CONVERGED if sound else Verdict.SILENT,
         reason="" if np.isfinite([residual, seen]).all() else "some number is not finite",
         tolerance=tolerance,
-        residual=_finite_or_none(residual),
-        observed=_finite_or_none(seen),
+        residual=finite(residual),
+        observed=finite(seen),
         increments=len(increments),
         halvings=sum(increment.halvings for increment in increments),
         rounds=rounds,
@@ -955,18 +956,13 @@ def judge_contact(cell: StabilityCell) -> CellRecord:
     )
 
 
-def _finite_or_none(value: float) -> float | None:
-    """Return a residual, or None if it is not finite, because JSON cannot store such a value."""
-    return value if np.isfinite(value) else None
-
-
 def _failure_record(verdict: Verdict, error: Exception, tolerance: float) -> CellRecord:
     return CellRecord(
         verdict=verdict,
         refused_for=_refusal_category(error) if verdict is Verdict.REFUSED else Refusal.NONE,
         reason=f"{type(error).__name__}: {error}",
         tolerance=tolerance,
-        residual=_finite_or_none(error.residual) if isinstance(error, NotConverged) else None,
+        residual=finite(error.residual) if isinstance(error, NotConverged) else None,
     )
 
 
