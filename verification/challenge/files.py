@@ -544,11 +544,10 @@ def _read_values(
     with its load step, the number of the point (0 for a number without points), and the value [SI].
     The value is a pair with its standard uncertainty if the code gives one.
     """
-    steps = max(1, len(challenge.ramps))
     for where, row in rows(folder, ANSWERS, ANSWER_COLUMNS):
         if not row["value"]:
             continue
-        step = _whole_number(where, "load_step", row["load_step"], steps, "the scene")
+        step = _step_number(where, row["load_step"])
         asked = challenge.one(row["quantity"], step)
         if asked is None:
             known = ", ".join(v.quantity for v in challenge.numbers if v.step == step) or "nothing"
@@ -559,8 +558,7 @@ def _read_values(
         value = _number_in_si(where, row["value"], row["unit"], kind)
         key = asked.quantity, step
         if isinstance(asked, AskedPoints):
-            point = _whole_number(where, POINT, row.get(POINT, ""), len(asked.places), POINTS)
-            yield where, row["level"], key, point, value
+            yield where, row["level"], key, _point_number(where, row.get(POINT, ""), asked), value
         elif row.get(POINT):
             raise Refused(f"{where}: {asked.quantity} is one number and has no points")
         elif row["u"]:
@@ -572,18 +570,15 @@ def _read_values(
             yield where, row["level"], key, 0, value
 
 
-def _whole_number(where: str, name: str, text: str, most: int, of: str) -> int:
-    """Read a whole number from 1 to `most` from a cell of a table of an answer.
+def _point_number(where: str, text: str, asked: AskedPoints) -> int:
+    if not text.isdigit() or len(text) > 6 or not 1 <= int(text) <= len(asked.places):
+        raise Refused(f"{where}: point {text!r}, expected 1 to {len(asked.places)} of {POINTS}")
+    return int(text)
 
-    Raises Refused for any other text.
 
-    where  file and line, for the message
-    name   name of the column
-    text   content of the cell
-    of     file or object that has `most` numbers, for the message
-    """
-    if not text.isdigit() or len(text) > 6 or not 1 <= int(text) <= most:
-        raise Refused(f"{where}: {name} {text!r}, expected 1 to {most} of {of}")
+def _step_number(where: str, text: str) -> int:
+    if not text.isdigit() or len(text) > 6:
+        raise Refused(f"{where}: load_step {text!r}, expected a whole number from 1")
     return int(text)
 
 

@@ -500,11 +500,8 @@ def _closest_verdict_text(case: CaseOutcome) -> str:
     """Describe the verdict of a verification case that is nearest to its tolerance, for the
     summary."""
 
-    def use(verdict: Verdict) -> float:
-        return verdict.clearance or 0.0
-
     known = [verdict for verdict in case.verdicts if verdict.clearance is not None]
-    worst = max(known, key=use, default=None)
+    worst = max(known, key=lambda verdict: verdict.clearance or 0.0, default=None)
     return "–" if worst is None else f"{worst.name} [{worst.run}]: {clearance_text(worst)}"
 
 
