@@ -749,9 +749,10 @@ SLACK, TIMES = 3.0, 2.0
 # which the solve ends, and with it on the processor. Numbers without a run are held to the
 # tolerance of the radial solver.
 LEAST, WITHOUT_RUN = 10.0, 1e-10
-# Part of the last change Σ|Δp|/Σp of an edge correction that a number may move by, as the force
-# stays: hertz_point and cattaneo_mindlin leave 1 % to 2 % of it in approach, radius and peak.
-MOVED = 0.05
+# Part of the last change Σ|Δp|/Σp of an edge correction that a number may move by, in addition to
+# its error, which is 0.2 % to 2 % of this change. On 41 numbers of five cases the kernels Haswell
+# and Katmai differ by at most 3e-6 of it.
+MOVED = 0.01
 
 
 class Tolerance(Description):
@@ -878,7 +879,7 @@ def _common_numbers(reports: Sequence[Report]) -> Iterator[tuple[str, str, list[
     """Yield each finite number that all reports have: case, key, its verdicts, and an allowance.
 
     The allowance is added to proposed tolerances, because an error depends on the iterate at which
-    a solve ends. It is ten times the tolerance of the solve, plus 5 % of the last change of an edge
+    a solve ends. It is ten times the tolerance of the solve, plus 1 % of the last change of an edge
     correction. Convergence orders are left out.
     """
     levels = sorted({report.level for report in reports})
