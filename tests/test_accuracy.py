@@ -1,7 +1,6 @@
 """Tests of requested accuracies: results meet them, or the program states the reason for a miss."""
 
 import json
-import re
 import signal
 import tracemalloc
 from collections.abc import Callable
@@ -370,23 +369,6 @@ def summary(out: Path):
     return load_summary((out / "summary.json").read_text(encoding="utf-8"))
 
 
-def test_a_run_meets_the_table_of_its_scene_and_says_so(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path, out = written(tmp_path, "[accuracy]\noverall = '2 %'\n"), tmp_path / "out"
-    assert slipstick("run", path, "-o", out, "--figures", "none") == 0
-    accuracy = summary(out).accuracy
-    assert accuracy.met
-    assert accuracy.settings.cells == summary(out).cells
-    shown = capsys.readouterr()
-    assert "approach requested 2 %, reached" in shown.out
-    assert "round 1: contact_radius requested 2 %, reached" in shown.err
-    by_option = tmp_path / "by option"
-    plain = written(tmp_path)
-    assert slipstick("run", plain, "-o", by_option, "--figures", "none", "--accuracy", "2%") == 0
-    assert summary(by_option) == summary(out)
-
-
 def test_a_run_that_reaches_less_leaves_with_4_and_its_best_result(tmp_path: Path) -> None:
     out = tmp_path / "out"
     asked = ("--accuracy", FINER, "--most-seconds", "0")
@@ -445,14 +427,6 @@ def test_python_solves_as_accurately_as_the_file_asks(
         solve_file(asked)
 
 
-def test_check_tells_what_accuracy_is_asked_for(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert slipstick("check", written(tmp_path, "[accuracy]\napproach = '0.5 %'\n")) == 0
-    assert "accuracy  approach 0.5 %" in capsys.readouterr().out
-    assert slipstick("check", written(tmp_path, "[accuracy]\n")) == 2
-
-
 @pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGKILL])
 def test_a_killed_run_resumes_the_solve_of_its_last_level(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str],
@@ -502,18 +476,3 @@ def test_the_price_of_less_error_is_more_of_everything() -> None:
     assert last[3] == first.fineness
     with pytest.raises(AccuracyOutOfReach, match="no grid can meet"):
         targets_of(request("1e-12"), first, levels)
-
-
-def test_plan_prints_prices_and_what_cannot_be_had(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    requests = (word for each in ("1%", "approach 0.1%", "1e-12") for word in ("--accuracy", each))
-    assert slipstick("plan", written(tmp_path), *requests) == 0
-    shown = capsys.readouterr().out
-    assert "approach 0.1%" in shown
-    memory = re.findall(r"about (\d+) MiB", shown)
-    assert len(memory) == 3
-    assert all(int(size) >= LIBRARIES // 2**20 for size in memory)
-    assert "no grid can meet" in shown
-    for solver in ("fem", "radial"):
-        assert slipstick("plan", written(tmp_path), "--accuracy", "1%", "--solver", solver) == 0

@@ -3,7 +3,6 @@
 import errno
 import json
 import os
-import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -132,28 +131,6 @@ def test_a_solver_is_used_without_the_other_and_without_the_harness(
     assert (out / SUMMARY).exists()
 
 
-@pytest.mark.parametrize(
-    ("command", "words"),
-    [
-        ("verify hertz_pont fem_herz", "'hertz_pont', did you mean hertz_point?; "
-         "no case is called 'fem_herz', did you mean fem_hertz?"),
-        ("verify xyz", "no case is called 'xyz'; 'slipstick verify --list --level quick' lists"),
-        ("maintain study coated_tractions", "did you mean coated-tractions?"),
-        ("maintain study meshh scene.toml", "did you mean mesh?"),
-        ("maintain study mesh scene.toml --cells 8", "got 8, expected at least 16"),
-        ("maintain study mesh scene.toml --levels 99", "got 99, expected at most 10"),
-        ("verify --workers two", "got 'two', expected a whole number"),
-        ("verify --level quik", "'--level': 'quik' is not one of 'quick', 'standard', 'full'"),
-    ],
-)  # fmt: skip
-def test_bad_arguments_are_told_with_what_was_expected(
-    command: str, words: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert slipstick(*command.split()) == 2
-    told = " ".join(capsys.readouterr().err.replace("│", " ").split())
-    assert words in told
-
-
 def test_package_runs_as_the_command() -> None:
     outcome = subprocess.run(
         [sys.executable, "-m", "slipstick", "--version"],
@@ -166,26 +143,6 @@ def test_package_runs_as_the_command() -> None:
 
 
 # ---- check and schema -------------------------------------------------------------------------
-
-
-def test_check_lists_every_mistake(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    text = scene.read_text(encoding="utf-8")
-    scene.write_text(text.replace("radius", "radus").replace("0.1", "-0.1"), encoding="utf-8")
-    assert slipstick("check", scene) == 2
-    output = capsys.readouterr()
-    assert output.out == ""
-    assert f"{scene}:5: indenter.radus" in output.err
-    assert f"{scene}:10: friction.coefficient" in output.err
-    assert "Traceback" not in output.err
-
-
-def test_check_speaks_json(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert slipstick("check", scene, "--json") == 0
-    assert json.loads(capsys.readouterr().out) == {"valid": True, "problems": [], "warnings": []}
-    assert slipstick("check", scene, "--json", "--set", "indenter.radus=1") == 2
-    outcome = json.loads(capsys.readouterr().out)
-    assert outcome["valid"] is False
-    assert outcome["problems"][0]["key"] == "indenter.radus"
 
 
 # ---- failures of a run ------------------------------------------------------------------------
@@ -219,28 +176,6 @@ def test_failure_ends_with_its_code_one_message_and_no_files(
     assert errors.count("error: ") == 1
     assert "Traceback" not in errors
     assert os.listdir(scene.parent) == [scene.name]
-
-
-def test_run_reports_progress_and_outcome(
-    scene: Path, solver: Any, capsys: pytest.CaptureFixture[str]
-) -> None:
-    solver(None)
-    assert (
-        slipstick("run", scene, "--output", scene.parent / "out", "--figures", "none", "--no-error")
-        == 0
-    )
-    output = capsys.readouterr()
-    assert [line.partition(",")[0] for line in output.err.splitlines()] == [
-        "step 1/3",
-        "step 2/3",
-        "step 3/3",
-    ]
-    assert "24 x 20 cells" in output.out
-    assert "1e-08" in output.out
-    assert re.search(r"3 +1 +8 +0.4 +3 +-90 ", output.out)
-    timing = json.loads((scene.parent / "out" / "timing.json").read_text(encoding="utf-8"))
-    assert timing["program"] == "slipstick"
-    assert set(timing["wall_seconds"]) >= {"read", "solve", "write"}
 
 
 @pytest.mark.parametrize(("asked", "used"), [(None, "1"), ("3", "3")])

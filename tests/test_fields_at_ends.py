@@ -31,7 +31,6 @@ from contact_scene import (
 )
 from contact_scene.quantities.field_metadata import (
     Kind,
-    reported,
 )
 from contact_scene.quantities.increment import (
     SCALARS,
@@ -170,44 +169,6 @@ def table(directory: Path) -> list[dict[str, str]]:
 
 def headers(name: str) -> list[str]:
     return [f"{part} [{SCALARS[name].unit or 1}]" for part in components(name)]
-
-
-def test_columns_are_the_registered_scalars_with_their_units(written: tuple[Any, Path]) -> None:
-    expected = ["step", "increment", *(part for name in SCALARS for part in headers(name))]
-    assert list(table(written[1])[0]) == expected
-
-
-def test_both_tables_have_the_same_numbers(written: tuple[Any, Path]) -> None:
-    """What an increment does not have is empty in one and absent or not a number in the other."""
-    result, directory = written
-    rows = table(directory)
-    with h5py.File(directory / FIELDS) as file:
-        group: Any = file["increments"]
-        fields = {n for n, m in reported(type(result.steps[0])).items() if m.kind is Kind.FIELD}
-        assert set(group) <= {"step", "increment", *SCALARS, *fields}
-        for name, mark in SCALARS.items():
-            cells = np.array([[row[part] for part in headers(name)] for row in rows])
-            if name not in group:
-                assert set(cells.ravel()) == {""}, name
-                continue
-            stored = group[name][:].reshape(cells.shape)
-            assert group[name].attrs["unit"] == mark.unit
-            empty = cells == ""
-            assert not np.all(empty), name
-            assert np.array_equal(empty, np.isnan(stored)), name
-            assert np.array_equal(cells[~empty].astype(float), stored[~empty]), name
-
-
-def test_the_increment_says_what_its_tables_say(written: tuple[Any, Path]) -> None:
-    result, directory = written
-    assert len(SCALARS) > 20
-    for row, increment in zip(table(directory), result.increments, strict=True):
-        for name in SCALARS:
-            value = getattr(increment, name)
-            values = [None] * len(components(name)) if value is None else np.ravel(value).tolist()
-            assert [row[part] for part in headers(name)] == [
-                "" if number is None else repr(number) for number in values
-            ], name
 
 
 def test_a_step_takes_its_increments_together(written: tuple[Any, Path]) -> None:

@@ -1,11 +1,10 @@
 """Tests of the report pages: the first page with its judgement, and the page with the cases."""
 
 import lzma
-import re
 from pathlib import Path
 
 import pytest
-from report_examples import case, report_of, run_record, study, verdict
+from report_examples import case, report_of, run_record, verdict
 
 from verification.judging.outcome import (
     RESIDUAL,
@@ -26,7 +25,7 @@ from verification.report.files import (
     set_aside_report,
     write_report,
 )
-from verification.report.page import line_of, render_page, render_sheets
+from verification.report.page import line_of, render_page
 from verification.report.summary_text import moved_rows, worse_rows
 from verification.running.report_record import dump_report, load_report
 
@@ -34,28 +33,6 @@ from verification.running.report_record import dump_report, load_report
 def judged(*verdicts: Verdict, name: str = "one") -> CaseOutcome:
     one = case(name, {}, run_record(64, None), drawn=False)
     return one.model_copy(update={"verdicts": verdicts})
-
-
-def test_every_sheet_and_study_is_folded_under_one_line_and_its_anchor_is_inside() -> None:
-    report = report_of(
-        tuple(
-            case(name, {"approach": (1e-6, 1e-6)}, run_record(64, None))
-            for name in ("hertz_point", "cone_contact")
-        ),
-        (study("stability", level="full"),),
-    )
-    front, sheets = render_page(report), render_sheets(report)
-    for page, name in (
-        (sheets, "hertz_point"), (front, "study-stability"), (front, "study-scoreboard")
-    ):  # fmt: skip
-        before, _, _ = page.partition(f'<article id="{name}">')
-        line = before[before.rindex("<details") :]
-        assert line.startswith('<details class="sheet">\n<summary>')  # shut
-        assert "</details>" not in line
-    assert f'href="{SHEETS}#hertz_point"' in front
-    assert not re.search(r"<details [^>]*open", front)
-    alone = render_sheets(report.model_copy(update={"cases": report.cases[:1]}))
-    assert '<details class="sheet" open>\n<summary>' in alone
 
 
 def test_a_line_names_the_quantity_nearest_to_its_limit() -> None:

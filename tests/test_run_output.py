@@ -5,13 +5,9 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
-import h5py
 import numpy as np
 import pytest
-from command import rows
-from conftest import leave_figures_undrawn
 from synthetic_result import CONVOLUTIONS, ITERATIONS, synthetic_errors, synthetic_result
 
 from contact_results.directory.file_names import PAGE, SUMMARY
@@ -35,15 +31,6 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Result, Path]:
     result, directory = synthetic_result(), tmp_path_factory.mktemp("written")
     write_result(result, directory, figures="all", errors=synthetic_errors(result))
     return result, directory
-
-
-@pytest.fixture(scope="module")
-def frictionless(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    directory = tmp_path_factory.mktemp("frictionless")
-    with pytest.MonkeyPatch.context() as patch:
-        leave_figures_undrawn(patch)
-        write_result(synthetic_result(friction=False), directory, figures="all")
-    return directory
 
 
 def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: Path) -> None:
@@ -101,59 +88,6 @@ def test_timing_counts_the_work_of_all_increments_of_a_step(tmp_path: Path) -> N
     assert [step["iterations"] for step in steps] == [ITERATIONS * number for number in numbers]
     assert [step["convolutions"] for step in steps] == [CONVOLUTIONS * n for n in numbers]
     assert [step["factorizations"] for step in steps] == [None] * len(numbers)
-
-
-@pytest.mark.parametrize("ny", [20, 21])
-def test_profile_holds_the_numbers_of_the_line_y_0(tmp_path: Path, ny: int) -> None:
-    result = synthetic_result((24, ny))
-    write_result(result, tmp_path, figures="none")
-    table = rows(tmp_path / "profiles.csv")
-    assert list(table[0]) == [
-        *("step", "x [m]", "y [m]", "shear_x [Pa]", "shear_y [Pa]", "slip_x [m]", "slip_y [m]"),
-        *("pressure [Pa]", "gap [m]", "in_stick [1]", "dissipation [J/m^2]"),
-    ]
-    assert len(table) == 24 * len(result.steps)
-    assert {row["y [m]"] for row in table} == {"0.0"}
-    end = result.steps[1]
-    middle = [ny // 2] if ny % 2 else [ny // 2 - 1, ny // 2]
-    shear = end.shear[0][:, middle].mean(axis=1)
-    mine = [row for row in table if row["step"] == "2"]
-    assert [float(row["x [m]"]) for row in mine] == result.grid.x.tolist()
-    assert [float(row["shear_x [Pa]"]) for row in mine] == shear.tolist()
-
-
-def test_field_file_holds_the_ends_of_steps_bit_for_bit(
-    written: tuple[Result, Path],
-) -> None:
-    result, directory = written
-    with h5py.File(directory / "result.h5") as file:
-        group: Any = file["increments"]
-        for name in (
-            *("pressure", "shear", "slip", "gap", "in_contact", "in_stick"),
-            *("slip_increment", "slip_distance", "dissipation", "dissipation_increment"),
-        ):
-            stored = group[name]
-            assert stored.chunks == (1, *stored.shape[1:])
-            expected = np.stack([getattr(end, name) for end in result.steps])
-            assert stored.dtype == expected.dtype
-            assert np.array_equal(stored[:], expected)
-        assert group["pressure"].attrs["unit"] == "Pa"
-        assert np.array_equal(file["x"][:], result.grid.x)
-        scene = type(result.scene).model_validate_json(file["scene"][()])
-    assert scene == result.scene
-
-
-def test_effects_that_are_off_have_no_dataset_and_no_figure(frictionless: Path) -> None:
-    with h5py.File(frictionless / "result.h5") as file:
-        group: Any = file["increments"]
-        off = {"shear", "slip", "in_stick", "tangential_force", "stick_area", "dissipation"}
-        assert not off & set(group)
-        assert "elastic_energy" in group
-        assert "last_cycle" not in file
-    assert not (frictionless / "cycles.csv").exists()
-    assert {path.name for path in frictionless.glob("*.png")} == {
-        *("overview.png", "pressure.png", "profiles.png")
-    }
 
 
 @pytest.mark.parametrize(

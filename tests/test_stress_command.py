@@ -6,8 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command import outcome, rows
-from scene_texts import STEEL_BALL_PRESSED
-from stored_mesh import read_mesh
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -140,71 +138,3 @@ def test_run_and_scene_give_the_same(place: Path) -> None:
                     continue
                 scale = 1e10 if "Pa" in key else 1.0
                 assert float(b[key]) == pytest.approx(expected, rel=1e-9, abs=1e-12 * scale)
-
-
-def test_the_last_step_of_a_scene_may_be_asked_for(tmp_path: Path) -> None:
-    (tmp_path / "ball.toml").write_text(STEEL_BALL_PRESSED, encoding="utf-8")
-    options = ("--solver", "radial", "--no-error", "--figures", "none", "-o", "out", "--step", 1)
-    assert outcome("stress", "ball.toml", *options, cwd=tmp_path).returncode == 0
-
-
-def test_step_and_depths_are_the_ones_asked_for(place: Path) -> None:
-    ended = outcome(
-        "stress", place / "run", "-o", place / "first", "--figures", "none", "--volume",
-        "--step", 1, "--depths", "0, 50 um,2e-4", cwd=ROOT,
-    )  # fmt: skip
-    assert ended.returncode == 0, ended.stderr
-    record = json.loads((place / "first" / "stress.json").read_text(encoding="utf-8"))
-    assert record["step"] == 1
-    summary = json.loads((place / "run" / "summary.json").read_text(encoding="utf-8"))
-    for name in ("contact_radius", "peak_pressure"):
-        assert record[name] == summary["steps"][0][name]
-    assert [(level["depth"], level["layer"]) for level in record["levels"]] == [
-        (0.0, 0), (5e-5, 0), (1e-4, 0), (1e-4, 1), (2e-4, 1),
-    ]  # fmt: skip
-    volume = read_mesh(place / "first" / "stress_volume.vtu")
-    kind, corners = volume.cells
-    assert kind == "hexahedron"
-    # Two slabs in the layer, one below it; none across the interface.
-    nx, ny = record["cells"]
-    assert len(corners) == 3 * (nx - 1) * (ny - 1)
-    materials = volume.at_points["material"][corners]
-    assert np.all(materials == materials[:, :1])
-
-
-def test_indenter_has_its_own_stress(place: Path) -> None:
-    asked = ("stress", place / "run", "-o", place / "ball", "--indenter", "--figures", "none")
-    ended = outcome(*asked, cwd=ROOT)
-    assert ended.returncode == 0, ended.stderr
-    record = json.loads((place / "ball" / "stress.json").read_text(encoding="utf-8"))
-    assert record["body"] == "indenter"
-    assert {e["region"] for e in record["maxima"]} == {"body"}
-
-
-@pytest.mark.parametrize(
-    ("arguments", "complaint"),
-    [
-        (["{}/run", "--step", "3"], "no step 3"),
-        (["{}/out"], "is not the output of a run: it has no"),
-        (["{}/run", "--history"], "add --at X,Y,Z"),
-        (["{}/run", "--at", "0,0"], "expected X,Y,Z"),
-        (["{}/run", "--at", "0,0,-1"], "--at"),
-        (["{}/run", "--at", "0,0,interface 9"], "expected interface 1"),
-        (["{}/run", "--at", "0,0,0", "--history", "--step", "1"], "leave --step out"),
-        (["{}/run", "--at", "0,0,0", "--volume"], "--volume excludes --at"),
-        (["{}/run", "--depths", "-1"], "expected a finite length"),
-        (["{}/run", "--depths", "1 kN"], "expected a length"),
-        (["{}/run", "--set", "title=a"], "--set applies to a scene"),
-        (["{}/run", "--solver", "fem"], "--solver applies to a scene, got the output of a run"),
-        (["{}/run", "--solver", "semi-analytical"], "omit it, or give the scene file"),
-        (["{}/run", "-o", "{}/scene.toml/out"], "is a file"),
-    ],
-)
-def test_what_cannot_be_done_is_refused(place: Path, arguments: list[str], complaint: str) -> None:
-    filled = [argument.format(place) for argument in arguments]
-    if "-o" not in filled:
-        filled += ["-o", str(place / "refused")]
-    ended = outcome("stress", *filled, cwd=ROOT)
-    assert ended.returncode == 2
-    assert complaint in " ".join(ended.stderr.replace("│", " ").split())
-    assert not (place / "refused").exists()

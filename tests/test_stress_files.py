@@ -3,24 +3,16 @@ meshes."""
 
 import csv
 import tracemalloc
-import xml.etree.ElementTree as ET
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import meshio
 import numpy as np
 import pytest
-from command import outcome, rows
-from fem_scenes import solved
 from stored_mesh import read_mesh
-from synthetic_result import synthetic_result
-from test_section_output import LOOP
 from test_surface import COATED, FRICTION, pressed_and_pushed
 
-import slipstick
 from contact_results.files.mesh_file import Mesh, write_mesh
-from contact_results.result_files import write_result
 from contact_results.stress import on_cells
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.on_cells import stress_on_cells
@@ -74,41 +66,6 @@ def header(path: Path) -> list[str]:
         return next(csv.reader(file))
 
 
-def test_cells_and_rings_have_the_same_files_columns_and_arrays(written: dict[str, Path]) -> None:
-    one, *others = written.values()
-    assert len(others) == 2
-    for other in others:
-        assert {path.name for path in one.iterdir()} == {path.name for path in other.iterdir()}
-        for table in one.glob("*.csv"):
-            assert header(table) == header(other / table.name)
-        for mesh in one.glob("*.vtu"):
-            a, b = read_mesh(mesh), read_mesh(other / mesh.name)
-            assert {*a.at_points, *a.on_cells} == {*b.at_points, *b.on_cells}
-
-
-def test_every_column_and_array_has_one_row_that_says_what_it_means(
-    written: dict[str, Path],
-) -> None:
-    assert len(written) == 3
-    for place in written.values():
-        convention, *told = rows(place / "stress_columns.csv")
-        assert convention["meaning"] == CONVENTION
-        named = {
-            (row["file"], f"{row['column']} [{row['unit']}]" if row["unit"] else row["column"])
-            for row in told
-        }
-        there = {
-            (path.name, name)
-            for path in place.glob("*.csv")
-            for name in header(path)
-            if path.name != "stress_columns.csv"
-        }
-        for path in place.glob("*.vtu"):
-            mesh = read_mesh(path)
-            there |= {(path.name, name) for name in (*mesh.at_points, *mesh.on_cells)}
-        assert named == there
-
-
 def test_stress_at_the_surface_is_the_traction_with_the_signs_of_the_convention(
     written: dict[str, Path],
 ) -> None:
@@ -146,65 +103,6 @@ def test_a_mesh_comes_back_bit_for_bit_whoever_reads_it(tmp_path: Path) -> None:
     first = path.read_bytes()
     write_mesh(Mesh(points, cells, arrays, flags), path, CONVENTION)
     assert path.read_bytes() == first
-
-
-# ---- What was written comes back as arrays with units and places, here and in other programs.
-
-
-HOSTILE = '=HYPERLINK("http://a.example";"b") <&>  µ'
-
-
-@pytest.fixture(scope="module")
-def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A run on `cells` with a title that is a formula, one on `rings`, and a `stress`."""
-    directory = tmp_path_factory.mktemp("export")
-    result = synthetic_result()
-    scene = result.scene.model_copy(update={"title": HOSTILE})
-    for name, of in (
-        ("cells", type(result)(scene, result.grid, 1e-8, result.plan, result.increments)),
-        ("rings", solved(LOOP, 8, harmonics=2)),
-    ):
-        (directory / name).mkdir()
-        write_result(of, directory / name, figures="none")
-    state = STATES["cells"]
-    field = stress_on_cells(state, see_edge=False, volume=True)
-    write_stress(
-        state, "body", field, extremes(field, COATED), directory / "stress", with_figures=False
-    )
-    return directory
-
-
-def exported(place: Path, source: str) -> Any:
-    return outcome("export", source, "-o", "out", cwd=place)
-
-
-@pytest.mark.parametrize("name", ["cells", "rings"])
-def test_surfaces_of_all_steps_carry_their_loads(place: Path, name: str) -> None:
-    """As far as the peaks: a disc of rings has no area of its own."""
-    assert exported(place, name).returncode == 0
-    run = slipstick.load(place / name)
-    files = [entry.attrib["file"] for entry in ET.parse(place / "out/surface.pvd").iter("DataSet")]
-    assert files == [f"surface_step_{n}.vtu" for n in range(1, len(run.summary.steps) + 1)]
-    for file, step in zip(files, run.summary.steps, strict=True):
-        mesh = read_mesh(place / "out" / file)
-        fields = mesh.on_cells or mesh.at_points
-        assert {"pressure [Pa]", "shear [Pa]", "slip [m]", "gap [m]", "in_stick [1]"} <= set(fields)
-        if name == "cells":
-            load = np.sum(fields["pressure [Pa]"]) * (1.2e-3 / 24) * (1.0e-3 / 20)
-            expected = np.sum(run.increments["pressure"].array[0]) * (1.2e-3 / 24) * (1e-3 / 20)
-            assert load == pytest.approx(expected)
-        else:
-            assert fields["pressure [Pa]"].max() == step.peak_pressure
-
-
-def test_what_cannot_be_exported_is_refused_with_what_to_do(place: Path) -> None:
-    for source, complaint in (
-        ("nowhere", "nowhere is not the output of a run: it has no summary.json"),
-        ("stress", "open its stress_section.vtu"),
-    ):
-        ended = exported(place, source)
-        assert ended.returncode == 2, ended.stdout
-        assert complaint in " ".join(ended.stderr.replace("│", " ").split())
 
 
 def test_stress_is_refused_before_it_takes_more_memory_than_there_is(

@@ -1,7 +1,5 @@
 """Tests of the rows of a study: their files, and the rules by which they are judged."""
 
-import csv
-import io
 import json
 from dataclasses import dataclass
 from enum import StrEnum
@@ -56,31 +54,6 @@ class Asked:
 @given(rows)
 def test_a_record_comes_back_from_its_file(record: CaseRecord) -> None:
     assert CaseRecord.model_validate_json(record.model_dump_json()) == record
-
-
-@given(st.dictionaries(names, rows, min_size=1))
-def test_every_number_of_every_row_is_written(records: dict[str, CaseRecord]) -> None:
-    lines = list(csv.DictReader(io.StringIO(row_files(records)["rows.csv"])))
-    assert [line["case name"] for line in lines] == list(records)
-    for line, record in zip(lines, records.values(), strict=True):
-        for name, value in record.measures.items():
-            assert line[f"{name} [1]"] == ("" if value is None else str(value))
-        for name, count in record.counters.items():
-            assert line[f"{name} [count]"] == str(count)
-        for name, word in record.words.items():
-            assert line[name] == word
-
-
-def test_units_stand_in_the_head_and_parts_in_a_file_of_their_own() -> None:
-    part = Row(parameters={"step": 1}, measures={"shift": 2e-6}, units={"shift": "m"})
-    files = row_files({"one": CaseRecord(parts=(part, part), seconds=0.5, repeats=3)})
-    assert files["parts.csv"].splitlines() == [
-        "case name,step,shift [m]",
-        "one,1,2e-06",
-        "one,1,2e-06",
-    ]
-    assert files["seconds.csv"].splitlines() == ["case name,seconds,repeats", "one,0.5,3"]
-    assert "parts.csv" not in row_files({"one": CaseRecord()})
 
 
 def test_the_clock_changes_no_other_file() -> None:

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from command import outcome, rows
 
-from contact_results.figures import style
 from slipstick.sweep import Variation
-from slipstick.sweep_chart import SweptQuantity, write_sweep_chart
+from slipstick.sweep_chart import SweptQuantity
 
 HERTZ = """
 title = "steel ball"
@@ -114,20 +113,6 @@ def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:
     assert np.all((low <= moved.percentiles[0]) & (moved.percentiles[0] <= high))
 
 
-def test_a_map_has_every_value_at_its_place_and_the_largest_error(tmp_path, monkeypatch) -> None:
-    drawn = []
-    monkeypatch.setattr(style, "save", lambda figure, path: (path.touch(), drawn.append(figure)))
-    keys = [
-        Variation(name, "", tuple(map(float, range(count)))) for name, count in (("a", 2), ("b", 3))
-    ]
-    values = np.arange(6.0).reshape(2, 3, 1)
-    swept = [SweptQuantity("c", "", values, 0.02 * values)]
-    write_sweep_chart(keys, swept, tmp_path / "map.png", "")
-    ax = drawn[0].axes[0]
-    assert ax.get_title().split() == ["largest", "numerical", "error:", "0.1"]
-    assert np.array_equal(ax.collections[0].get_array(), values[..., 0].T)
-
-
 def test_a_point_without_answer_leaves_its_reason(scene: Path) -> None:
     text = HERTZ + "tangential_force = [60, 20]\n[friction]\ncoefficient = 0.3\n"
     text += '[semi_analytical]\ncells = [16, 16]\nwindow = ["1 mm", "1 mm"]\n'
@@ -143,34 +128,3 @@ def test_a_point_without_answer_leaves_its_reason(scene: Path) -> None:
     assert float(fits["approach [m]"]) > 0
     assert [float(fits[f"tangential_force_{axis} [N]"]) for axis in "xy"] == [60, 20]
     assert "--solver radial can solve this" in ended.stdout
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("--vary", "indenter.radius=18 mm"), "got --vary indenter.radius=18 mm, expected KEY="),
-        (("--vary", "indenter.radius=0..9 mm log 3"), "log takes positive a and b"),
-        (
-            ("--vary", "indenter.radius=1..9 mm 0"),
-            "got --vary indenter.radius=1..9 mm 0, expected KEY=",
-        ),
-        (("--vary", "a=normal(1,-2) 3"), "got --vary a=normal(1,-2) 3, expected KEY="),
-        (("--vary", "a=normal(1,2) 3", "--vary", "b=normal(1,2) 4"), "differ in N"),
-        (("--vary", "a=1..2 3", "--vary", "a=1..2 3"), "a key is named twice"),
-        (("--vary", "indenter.radius=-9..-1 mm 3"), "expected a positive length"),
-        (
-            ("--vary", "indenter.radius=1..9 mm 999", "--vary", "a=1..2 999"),
-            "expected at most 99999",
-        ),
-        (("--vary", "indenter.radius=8..9 mm 2", "--get", "peak_presure"), "mean peak_pressure?"),
-        (
-            ("--vary", "indenter.radius=8..9 mm 2", "--get", "interface_shear@1"),
-            "no quantity is called",
-        ),
-    ],
-)
-def test_a_sweep_that_cannot_be_made_says_why(scene: Path, arguments, message) -> None:
-    ended = sweep(scene, *arguments)
-    assert ended.returncode == 2
-    assert message in " ".join(ended.stderr.replace("│", " ").split())
-    assert not (scene.parent / "out").exists()

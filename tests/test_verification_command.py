@@ -47,13 +47,6 @@ def test_report_is_rendered_again_from_its_record(made: Path) -> None:
     assert (made / PAGE).read_bytes() == page
 
 
-def test_cases_are_listed_without_solving(tmp_path: Path) -> None:
-    ended = outcome("verify", "--list", cwd=tmp_path)
-    assert ended.returncode == 0
-    assert "fretting_loop" in ended.stdout
-    assert list(tmp_path.iterdir()) == []
-
-
 # ---- Defects planted in the solver are seen by the verification, which passes without them.
 
 

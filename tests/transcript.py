@@ -59,7 +59,7 @@ VARIABLE = (  # text that differs between machines, versions and times
     (re.compile(r"(differs( here)?:|cases? (is|are) compared with|of the cases:) .*"), "BASELINE"),
 )  # fmt: skip
 VARIABLE_KEY = re.compile(
-    "seconds|bytes|machine|libraries|version$|started|commit|provenance|processor|baseline[.]"
+    "seconds|bytes|machine|libraries|version$|started|commit|provenance|processor|baseline[.]|by[.]"
 )
 
 
@@ -88,6 +88,7 @@ def _run(words: list[str], directory: Path) -> Iterator[str]:
         out = stack.enter_context(redirect_stdout(StringIO()))
         err = stack.enter_context(redirect_stderr(StringIO()))
         stack.enter_context(chdir(directory))
+        stack.enter_context(patch.dict("os.environ", COLUMNS="80"))
         for module in ("figure_files", "style"):
             stack.enter_context(patch(f"contact_results.figures.{module}.save", _write_figure))
         pool = "verification.running.case_pool.LocalWorkers"
@@ -102,7 +103,8 @@ def _run(words: list[str], directory: Path) -> Iterator[str]:
             code = end.code or 0
     yield f"exit code: {code}"
     yield from (f"out: {line}" for line in out.getvalue().splitlines() if line)
-    yield from (f"err: {line}" for line in err.getvalue().splitlines() if line)
+    messages = (line.strip("│╭╮╰╯─ ") for line in err.getvalue().splitlines())
+    yield from (f"err: {line}" for line in messages if line)
 
 
 def _write_figure(figure: Any, path: Path, dots: int = 0) -> None:
