@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import laplace
 
 from verification import norms
 from verification.norms import cell_means
@@ -162,12 +163,15 @@ def pressure_at(result: Any, r: Field) -> Field:
     [force/length²].
 
     The result has the shape (radii, directions): 16 directions on cells, one on finite elements.
+    Pressures with edge correction are means over cells, which differ from the pressure at the
+    centre by h²/24 ∇²p.
 
     r  distances from the axis [length]
     """
     end = result.steps[-1]
     if hasattr(result, "grid"):
-        return along_radii(end.pressure, result.grid, r)
+        excess = laplace(end.pressure) / 24 if is_corrected(end) else 0.0
+        return along_radii(end.pressure - excess, result.grid, r)
     return at_radii(end, end.pressure, r)[:, None]
 
 
