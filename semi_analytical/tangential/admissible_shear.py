@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from contact_scene.array_types import Field, Indices, Mask, Vector, VectorField
+from contact_scene.array_types import Field, Indices, Mask, Matrix, Vector, VectorField
 from semi_analytical.multipliers import find_multiplier
 
 # Rounding error of a sum of shears, relative to the sum of their magnitudes.
@@ -194,10 +194,11 @@ class TangentialLoad:
         stiffness  stiffness of a test rig's spring, over γ
         """
         loaded, units = self._loaded_cells(bound)
-        of_loaded, limit = y[:, loaded], bound[loaded]
+        of_loaded, limit = np.array(y[:, loaded], order="C"), bound[loaded]  # sums are pairwise
         if guess is None:
-            missing = forces - _resultant_forces(units, of_loaded)
-            guess = missing / np.sum(units * units, axis=(1, 2))
+            guess = (forces - units.forces(of_loaded)) / np.diag(
+                units.products(np.ones(len(limit)))
+            )
         shifted, multiplier = find_multiplier(
             lambda m: _ProjectedShear(m, of_loaded, limit, units, forces, stiffness), guess
         )
@@ -205,18 +206,17 @@ class TangentialLoad:
         q[:, loaded] = shifted.q
         return q, multiplier
 
-    def _loaded_cells(self, bound: Field) -> tuple[Mask, Field]:
+    def _loaded_cells(self, bound: Field) -> "tuple[Mask, _FreeMotions]":
         """Select the cells that can carry shear, because their friction limit is positive.
 
-        Return their mask (nx, ny) and the free unit motions in these n cells (k, 2, n).
+        Return their mask (nx, ny) and the free rigid motions in these cells.
 
         bound  friction limit µp (nx, ny)
         """
-        loaded = bound > 0
-        units = np.repeat(np.eye(3, 2)[self._free, :, None], np.count_nonzero(loaded), axis=2)
-        if self.rotation is not None:
-            units[-1] = self.rotation[:, loaded] / self.reach
-        return loaded, units
+        loaded, turn = bound > 0, self.rotation
+        if turn is not None:
+            turn = np.array(turn[:, loaded] / self.reach, order="C")
+        return loaded, _FreeMotions(self._free[self._free < 2], turn)
 
     def exhausts(self, bound: Field) -> bool:
         """Return True if the prescribed forces together are at or above the friction limit.
@@ -244,7 +244,7 @@ class TangentialLoad:
             motion = np.array([*self.shift, *motion[2:]])
         if np.any(bound) and np.any(self.prescribed_forces):
             loaded, units = self._loaded_cells(bound)
-            speed = np.tensordot(self.limit(bound)[1], units, 1)
+            speed = units.displacement(self.limit(bound)[1])
             q[:, loaded] = bound[loaded] * speed / _blunt_size(speed)
         return q, motion
 
@@ -273,7 +273,7 @@ class TangentialLoad:
         limit = bound[loaded]
         across = np.linalg.svd(self.prescribed_forces[None, :])[2][1:]
         if len(across) == 0:
-            return float(limit @ magnitude(np.tensordot(start, units, 1))), start
+            return float(limit @ magnitude(units.displacement(start))), start
 
         def power_at(x: Vector) -> tuple[float, Vector, Field]:
             return _friction_power(start + x @ across, limit, units)
@@ -292,7 +292,47 @@ class TangentialLoad:
         return power, start + x @ across
 
 
-def _friction_power(velocity: Vector, limit: Vector, units: Field) -> tuple[float, Vector, Field]:
+@dataclass(frozen=True)
+class _FreeMotions:
+    """Rigid motions of the indenter that a load leaves free, in n cells: k unit motions.
+
+    shifts  components of the free shifts: 0 for x, 1 for y
+    turn    displacement (2, n) by the unit rotation; None where the twist is not free
+    """
+
+    shifts: Indices
+    turn: Field | None
+
+    def displacement(self, motion: Vector) -> Field:
+        """Compute the displacement (2, n) by a motion (k,); (2, 1) by a shift of all cells."""
+        shift = np.zeros((2, 1))
+        shift[self.shifts, 0] = motion[: len(self.shifts)]
+        return shift if self.turn is None else shift + motion[-1] * self.turn
+
+    def forces(self, q: Field) -> Vector:
+        """Compute the forces (k,) of a shear (2, n), conjugate to the unit motions."""
+        forces = np.sum(q, axis=1)[self.shifts]
+        return forces if self.turn is None else np.array([*forces, np.sum(self.turn * q)])
+
+    def projections(self, vector: Field) -> Field:
+        """Compute the scalar products (k, n) of the unit motions with a vector of each cell."""
+        along = vector[self.shifts]
+        return along if self.turn is None else np.stack([*along, np.sum(self.turn * vector, 0)])
+
+    def products(self, weight: Vector) -> Matrix:
+        """Compute the scalar products (k, k) of the unit motions, with a weight of each cell."""
+        if self.turn is None:
+            return np.sum(weight) * np.eye(len(self.shifts))
+        products = np.sum(weight) * np.eye(len(self.shifts) + 1)
+        weighted = weight * self.turn
+        products[-1, :-1] = products[:-1, -1] = np.sum(weighted, axis=1)[self.shifts]
+        products[-1, -1] = np.sum(weighted * self.turn)
+        return products
+
+
+def _friction_power(
+    velocity: Vector, limit: Vector, units: _FreeMotions
+) -> tuple[float, Vector, Matrix]:
     """Compute the power of friction in gross slip, with its gradient and Hessian.
 
     The power is the sum over the cells of friction limit times sliding speed. The limit load
@@ -300,46 +340,14 @@ def _friction_power(velocity: Vector, limit: Vector, units: Field) -> tuple[floa
 
     velocity  rigid motion, as components along the unit motions (k,)
     limit     friction limit of the loaded cells (n,)
-    units     unit motions in the loaded cells (k, 2, n)
+    units     free rigid motions in the loaded cells
     """
-    speed = np.tensordot(velocity, units, 1)
+    speed = units.displacement(velocity)
     size = _blunt_size(speed)
     weight = limit / size
-    along = _unit_projections(units, speed) / size
-    curvature = _unit_products(units, weight) - (along * weight) @ along.T
-    return float(limit @ size), _resultant_forces(units, weight * speed), curvature
-
-
-def _resultant_forces(units: Field, q: Field) -> Vector:
-    """Compute tangential force and torque (k,) of a shear, divided by the cell area.
-
-    units  unit rigid motions of the indenter in n cells (k, 2, n), to which the forces are
-           conjugate
-    q      shear of these cells (2, n)
-    """
-    return np.asarray(np.einsum("kan,an->k", units, q))
-
-
-def _unit_projections(units: Field, vector: Field) -> Field:
-    """Compute the scalar product of each unit rigid motion with a vector in each cell (k, n).
-
-    units   unit rigid motions of the indenter in n cells (k, 2, n)
-    vector  vector of each cell (2, n), such as the shear
-    """
-    return np.asarray(units[:, 0] * vector[0] + units[:, 1] * vector[1])
-
-
-def _unit_products(units: Field, weight: Vector) -> Field:
-    """Compute the matrix (k, k) of weighted scalar products of the unit rigid motions.
-
-    The products are summed over cells. Used for the derivatives of force and torque with respect to
-    the rigid motion.
-
-    units   unit rigid motions of the indenter in n cells (k, 2, n)
-    weight  weight of each cell (n,)
-    """
-    flat = units.reshape(len(units), -1)
-    return np.asarray((units * weight).reshape(flat.shape) @ flat.T)
+    along = units.projections(speed) / size
+    curvature = units.products(weight) - (along * weight) @ along.T
+    return float(limit @ size), units.forces(weight * speed), curvature
 
 
 def _blunt_size(speed: VectorField) -> Field:
@@ -469,7 +477,7 @@ class _ProjectedShear:
     multiplier  multipliers λ (k,) of the prescribed forces
     y           shear of the loaded cells before the shift (2, n)
     bound       friction limit of these cells (n,)
-    units       unit rigid motions in these cells (k, 2, n)
+    units       free rigid motions in these cells
     given       prescribed forces conjugate to the unit motions (k,)
     stiffness   stiffness of a test rig's spring, over γ: the forces then include stiffness λ
     """
@@ -479,18 +487,18 @@ class _ProjectedShear:
         multiplier: Vector,
         y: Field,
         bound: Vector,
-        units: Field,
+        units: _FreeMotions,
         given: Vector,
         stiffness: float,
     ) -> None:
         self._units, self._stiffness = units, stiffness
-        self._z = y + np.tensordot(multiplier, units, 1)
+        self._z = y + units.displacement(multiplier)
         self._length = magnitude(self._z)
         self._outside = self._length > bound
         self._scale = np.where(self._outside, bound / np.maximum(self._length, bound), 1.0)
         self._capacity = float(np.sum(bound))
         self.q = self._z * self._scale
-        self.defect = _resultant_forces(units, self.q) + stiffness * multiplier - given
+        self.defect = units.forces(self.q) + stiffness * multiplier - given
 
     def has_prescribed_forces(self, multiplier: Vector) -> bool:
         """Return True if the projected shear has the prescribed forces up to rounding errors.
@@ -511,8 +519,8 @@ class _ProjectedShear:
         the friction limit. The derivative of the forces is singular if all cells slip along their
         motion. The damping is relative to its part by `scale`, which does not vanish then.
         """
-        along = _unit_projections(self._units, self._z)
-        products = _unit_products(self._units, self._scale)
+        along = self._units.projections(self._z)
+        products = self._units.products(self._scale)
         radial = self._outside * self._scale / np.where(self._outside, self._length**2, 1.0)
         matrix = products - (along * radial) @ along.T
         damping = np.trace(products) * (np.sum(np.abs(self.defect)) / self._capacity) ** 2
