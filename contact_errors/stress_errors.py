@@ -47,6 +47,7 @@ from contact_results.stress.stress_maxima import (
 from contact_scene import Body
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.quantities.stated_error import (
+    ErrorStatus,
     Part,
     StatedError,
     StatedErrors,
@@ -335,7 +336,11 @@ def _stress_errors_on_disc(
         here = (points.depth == e.depth) & (measures[e.measure] == e.value)
         levels.append(Level(e.depth, int(points.material[np.argmax(here)])))
     x, y = np.array([(e.x, e.y) for e in found]).T
-    again = stress_at_radii(state, x, y, levels, indenter=indenter, fineness=int(COARSE)).measures
+    fineness = int(COARSE)
+    try:
+        again = stress_at_radii(state, x, y, levels, indenter=indenter, fineness=fineness).measures
+    except UnsupportedScene:  # the finer fit has no edge: the errors are unknown
+        return (StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED),) * len(found)
     errors = []
     for k, e in enumerate(found):
         size = abs(again[e.measure][k] - e.value) / abs(COARSE ** (-BELIEVED * SMOOTH) - 1)

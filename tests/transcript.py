@@ -78,7 +78,7 @@ def transcribe(commands: Iterable[str], directory: Path) -> list[str]:
             if written[name] != known.get(name):
                 lines += [f"written: {name}", *(f"    {x}" for x in file_lines(directory / name))]
         known = written
-    return [_masked(line, directory) for line in lines]
+    return [_masked(line.replace(str(directory), "DIR")) for line in lines]
 
 
 def _run(words: list[str], directory: Path) -> Iterator[str]:
@@ -120,8 +120,7 @@ def _contents(directory: Path) -> dict[str, bytes]:
     return {name.as_posix(): path.read_bytes() for name, path in chosen.items()}
 
 
-def _masked(line: str, directory: Path) -> str:
-    line = line.replace(str(directory), "DIR")
+def _masked(line: str) -> str:
     for pattern, name in VARIABLE:
         line = pattern.sub(name, line)
     return line
@@ -158,7 +157,8 @@ def values_text(values: Iterable[object]) -> str:
     if others:
         distinct = list(dict.fromkeys(map(_text, others)))
         shown = " ".join(distinct[:SHOWN])
-        parts.append(f"{len(others)} texts, digest {crc32(repr(others).encode()) % 1000}: {shown}")
+        digest = crc32("\n".join(_masked(_text(value)) for value in others).encode()) % 1000
+        parts.append(f"{len(others)} texts, digest {digest}: {shown}")
     if numbers:
         parts.append(array_text(np.array(numbers, float)))
     return "; ".join(parts)

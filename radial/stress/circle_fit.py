@@ -194,11 +194,17 @@ def _fit_edge_circle(
 
     squared  fit of p² as a function of 1 - r² and the angle
     angles   angles at which the zeros are found [radian]
+    raises   UnsupportedScene if the fit has no zero near the outermost loaded ring
     """
     s, step = np.zeros_like(angles), 1e-6
     for _ in range(STEPS):
         slope = (squared(s + step, angles) - squared(s - step, angles)) / (2 * step)
         s -= squared(s, angles) / slope
+    if not np.all(np.abs(s) < 1):
+        raise UnsupportedScene(
+            "the pressure of the outer rings does not determine the edge of the contact, which the "
+            f"stress below the surface requires. Use more increments, or {ELSEWHERE}"
+        )
     # r² = 2 x c + R² - c²
     x = np.sqrt(1 - s) * np.cos(angles)
     law = np.stack([2 * x, np.ones_like(x)], axis=1)
