@@ -11,15 +11,12 @@ import time
 from collections.abc import Collection
 from dataclasses import dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING
 
 from contact_scene.reading.description import Description
+from verification.judging.case import Case, Level
+from verification.judging.judgement import judge
 from verification.judging.judgement import lost as without_result
 from verification.judging.outcome import CaseOutcome
-
-if TYPE_CHECKING:
-    from verification.judging.case import Case, Level
-
 
 # In the order in which a report shows them.
 CASES = (
@@ -179,8 +176,6 @@ class CaseToJudge:
         Stored results of earlier versions of the program could hide an error of the present
         version.
         """
-        from verification.judging.case import Level
-        from verification.judging.judgement import judge
         from verification.running.cold_cache import cache_directory
 
         case, started = case_of(self.name, Level[self.level]), time.perf_counter()
