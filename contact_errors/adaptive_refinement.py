@@ -116,9 +116,15 @@ class RefinementLevel:
     def errors(self, name: str) -> Iterator[StatedError]:
         """Yield the error estimate of one scalar at the end of each load step that has the scalar.
 
+        Load steps at whose end the scalar is zero with round-off are left out.
+
         name  name of the scalar, such as "peak_pressure"
         """
-        return (step[name] for step in self.stated.steps if name in step)
+        for stated, values in zip(self.stated.steps, self.values, strict=True):
+            if name in stated:
+                size = np.max(np.abs(values[name]))
+                if size > ROUND_OFF * characteristic_size(name, values):
+                    yield stated[name]
 
     def reached_error(self, name: str) -> float | None:
         """Compute the relative error of one scalar at this refinement level.

@@ -425,7 +425,8 @@ def compare_with_coarse_solves(
                 effects.append((found[1], other[1]))
                 found, changes = other, further
         changes = changes or {}
-    believed = BELIEVED if len(meshes) < 3 else BELIEVED_BY_THREE
+    different = {ratio for _, ratio in meshes if ratio != 1}
+    believed = BELIEVED if len(different) < 3 else BELIEVED_BY_THREE
     for coarse_values, ratio in meshes:
         factors = (ratio,) * len(values)
         comparisons.append(Comparison(solver.part, values, coarse_values, factors, believed))

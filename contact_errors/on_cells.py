@@ -211,12 +211,13 @@ def _remaining_edge_errors(report: EdgeReport) -> Mapping[str, float]:
 
     report  outcome of the edge correction at the end of a load step
     """
+    stick = report.stick or report.radius  # without a border of stick it is that of the contact
     return {
         **dict.fromkeys(MOTIONS, report.response),
         "contact_radius": report.radius,
         "contact_area": 2 * report.radius,
-        "stick_radius": report.stick or 0.0,
-        "stick_area": 2 * (report.stick or 0.0),
+        "stick_radius": stick,
+        "stick_area": 2 * stick,
         PEAK: report.peak,
     }
 

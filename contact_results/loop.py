@@ -108,7 +108,9 @@ def _half_opening(forces: Vector, shifts: Vector) -> float:
     The tangential shift is interpolated at each point where the loop passes the mean of the extreme
     forces. Within a branch of the loop the shift is a smooth function of the force. Therefore the
     interpolation is a cubic through the two increments on either side of the point, with fewer
-    increments next to the end of a branch. The result is half the range of the interpolated shifts.
+    increments next to the end of a branch. It is a line between these two where the cubic leaves
+    their range, as in gross slip, where the shift increases at a constant force. The result is half
+    the range of the interpolated shifts.
 
     forces, shifts  tangential force and shift at the ends of the increments (n,)
     """
@@ -120,7 +122,10 @@ def _half_opening(forces: Vector, shifts: Vector) -> float:
         last = n + 1 + int(n + 2 < len(apart) and rises[min(n + 1, len(rises) - 1)] == rises[n])
         x, y = apart[first : last + 1], shifts[first : last + 1]
         others = [np.delete(x, k) for k in range(len(x))]
-        found.append(sum(y[k] * np.prod(o / (o - x[k])) for k, o in enumerate(others)))
+        cubic = sum(y[k] * np.prod(o / (o - x[k])) for k, o in enumerate(others))
+        low, high = sorted(shifts[n : n + 2])
+        line = shifts[n] + (shifts[n + 1] - shifts[n]) * apart[n] / (apart[n] - apart[n + 1])
+        found.append(cubic if low <= cubic <= high else line)
     return _half_range(np.array(found))
 
 

@@ -301,10 +301,13 @@ def test_a_last_level_beyond_the_memory_is_refused_by_run_and_plan(
     judge(levels, asked)
 
 
+SIZES = "approach", "normal_force", "contact_radius", "contact_area", "peak_pressure"
+
+
 def level_of(parts: dict[str, float], status=ErrorStatus.ESTIMATED) -> RefinementLevel:
     """A level whose approach is 2 and has an error of these parts."""
     error = StatedError(error=sum(parts.values()), parts=parts, status=status)
-    values = [{"approach": np.array([2.0])}]
+    values = [dict.fromkeys(SIZES, np.array([2.0]))]
     run = SolvedRun(scene(PRESS), values, [1e-8], [Features(10)], [], {"cells": [True]}, {})
     stated = StatedErrors(({"approach": error},), ())
     return RefinementLevel(None, None, values, stated, run, 1.0, 0.5, 0.5)
@@ -342,7 +345,7 @@ def test_a_request_is_met_where_every_number_of_every_step_meets_it() -> None:
         assert level.reached_error("approach") == 0.25
         assert not level.meets({"approach": 0.1})
     both = {"approach": steps[0]["approach"], "twist": steps[1]["approach"]}
-    values = [dict.fromkeys(both, np.array([2.0]))]
+    values = [dict.fromkeys((*SIZES, *both), np.array([2.0]))]
     assert not replace(fine, values=values, stated=StatedErrors((both,), ())).meets(
         dict.fromkeys(both, 0.1)
     )

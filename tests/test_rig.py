@@ -155,6 +155,15 @@ def test_the_regime_of_a_loop_follows_its_amplitude(amplitude, regime, share):
     assert first["actuator_amplitude"] is None
 
 
+@pytest.mark.parametrize("increments", [4, 10])
+def test_a_loop_opens_by_no_more_than_its_shift(increments):
+    """In gross slip the shift increases at a constant force."""
+    shifts = (3e-6, -3e-6, 3e-6)
+    once = ({"tangential_shift": (shift, 0), "increments": increments} for shift in shifts)
+    (cycle,) = fretting_cycles(on_cells(scene({"normal_force": "1 kN"}, *once)))
+    assert 0.5 < cycle.numbers["loop_opening"] / 3e-6 < 1
+
+
 def test_a_cycle_of_torsion_has_no_loop_of_force():
     turns = ({"twist": turn, "increments": 2} for turn in (1e-3, -1e-3, 1e-3))
     (cycle,) = fretting_cycles(on_cells(scene({"normal_force": "1 kN"}, *turns)))

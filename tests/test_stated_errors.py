@@ -32,6 +32,8 @@ from contact_errors import coarse_solves
 from contact_errors import stress_errors as stress_errors_module
 from contact_errors.coarse_solves import Fineness, add_effects, coarse_increment_counts, ratios
 from contact_errors.error_formula import (
+    BELIEVED,
+    BELIEVED_BY_THREE,
     Comparison,
     Features,
     SolvedRun,
@@ -647,6 +649,14 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
     assert stated.steps[0]["approach"].error is not None
     refused |= {10, 12}
     assert stated_errors(result).steps[0]["approach"].error is None
+
+
+@pytest.mark.parametrize(("count", "believed"), [(14, BELIEVED), (16, BELIEVED_BY_THREE)])
+def test_equal_coarse_solves_count_once(count: int, believed: float) -> None:
+    """Half of 14² cells plus two, and two thirds, rounded up, are 10² cells each."""
+    result = package.solve(scene(PRESS), "semi-analytical", cells(count))
+    run, _ = coarse_solves.compare_with_coarse_solves(CellSolver.of(result), result)
+    assert {comparison.believed for comparison in run.comparisons} == {believed}
 
 
 def test_coarse_solves_are_cheap_and_their_tolerance_has_no_effect(
