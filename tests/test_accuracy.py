@@ -380,19 +380,6 @@ def test_a_run_that_reaches_less_leaves_with_4_and_its_best_result(tmp_path: Pat
     assert json.loads((out / "summary.json").read_text())["accuracy"]["stopped"]
 
 
-def test_stress_meets_the_table_of_its_scene_and_says_so(tmp_path: Path) -> None:
-    path, out = written(tmp_path, "[accuracy]\nmax_principal = '40 %'\n"), tmp_path / "new" / "out"
-    assert slipstick("stress", path, "-o", out, "--figures", "none") == 0
-    record = json.loads((out / "stress.json").read_text())
-    tension = next(e for e in record["maxima"] if e["measure"] == "max_principal")
-    assert record["accuracy"]["met"]
-    reached = record["accuracy"]["reached"]["max_principal"]
-    assert reached == pytest.approx(tension["error"]["error"] / tension["value"])
-    path = written(tmp_path, "[accuracy]\nmax_principal = '0.1 %'\n")
-    assert slipstick("stress", path, "-o", out, "--figures", "none", "--most-seconds", 0) == 4
-    assert not json.loads((out / "stress.json").read_text())["accuracy"]["met"]
-
-
 @pytest.mark.parametrize(
     "words",
     [

@@ -100,30 +100,6 @@ def test_cells_and_rings_have_the_same_stress_at_points_within_their_errors(plac
     assert abs(float(rings[2]["sigma_xy [Pa]"])) > 1e7
 
 
-def test_a_history_of_points_needs_the_fields_of_all_increments(place: Path) -> None:
-    point = ("--at", "0.2 mm,0,interface 1", "--history")
-    shown = at_points(place, "scene.toml", "steps", *point)
-    assert [(row["point"], row["step"], row["increment"]) for row in shown] == [
-        (point, step, "1") for point in "12" for step in "12"
-    ]
-    four = ("--set", "loading[2].increments=4", "--figures", "none", "--no-error")
-    for name, more in (("ends", ()), ("all", ("--all-fields",))):
-        outcome("run", place / "scene.toml", "-o", place / name, *four, *more, cwd=ROOT)
-    refused = outcome("stress", place / "ends", "-o", place / "no", *point, cwd=ROOT)
-    assert refused.returncode == 2
-    assert "run again with --all-fields" in " ".join(refused.stderr.replace("│", " ").split())
-    found = at_points(place, "all", "history", *point)
-    assert len(found) == 10
-    assert float(found[4][SIGMA[2]]) == pytest.approx(float(shown[1][SIGMA[2]]), rel=1e-5)
-    for row in found:
-        largest, middle, least = (float(row[f"principal_{n} [Pa]"]) for n in (1, 2, 3))
-        assert largest >= middle >= least
-    for step in (1, 2):
-        (of_step,) = at_points(place, "run", f"step {step}", *point[:2], "--step", step)[:1]
-        assert of_step == shown[step - 1] | {"increment": ""}
-    assert (place / "history/stress_history.png").is_file()
-
-
 def test_run_and_scene_give_the_same(place: Path) -> None:
     ended = outcome("stress", place / "run", "-o", place / "of_run", "--figures", "none", cwd=ROOT)
     assert ended.returncode == 0, ended.stderr

@@ -111,20 +111,3 @@ def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:
     assert np.all(low < middle)
     assert np.all(middle < high)
     assert np.all((low <= moved.percentiles[0]) & (moved.percentiles[0] <= high))
-
-
-def test_a_point_without_answer_leaves_its_reason(scene: Path) -> None:
-    text = HERTZ + "tangential_force = [60, 20]\n[friction]\ncoefficient = 0.3\n"
-    text += '[semi_analytical]\ncells = [16, 16]\nwindow = ["1 mm", "1 mm"]\n'
-    scene.write_text(text, encoding="utf-8")
-    wanted = "approach,tangential_force_x,tangential_force_y"
-    ended = sweep(scene, "--vary", "indenter.radius=-72..90 mm 3", "--get", wanted)
-    assert ended.returncode == 3
-    invalid, fits, cut_off = rows(scene.parent / "out/sweep.csv")
-    assert "window" in cut_off["refused"]
-    assert "expected a positive length" in invalid["refused"]
-    assert not cut_off["approach [m]"]
-    assert not fits["refused"]
-    assert float(fits["approach [m]"]) > 0
-    assert [float(fits[f"tangential_force_{axis} [N]"]) for axis in "xy"] == [60, 20]
-    assert "--solver radial can solve this" in ended.stdout

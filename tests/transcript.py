@@ -157,8 +157,11 @@ def values_text(values: Iterable[object]) -> str:
     if others:
         distinct = list(dict.fromkeys(map(_text, others)))
         shown = " ".join(distinct[:SHOWN])
-        digest = crc32("\n".join(_masked(_text(value)) for value in others).encode()) % 1000
+        words = "\n".join(_masked(_text(value)) for value in others)
+        digest = crc32(NUMBER.sub("#", words).encode()) % 1000
         parts.append(f"{len(others)} texts, digest {digest}: {shown}")
+        within = [float(number) for number in NUMBER.findall(words)]
+        parts += [f"numbers in texts: {array_text(within)}"] if within else []
     if numbers:
         parts.append(array_text(np.array(numbers, float)))
     return "; ".join(parts)
