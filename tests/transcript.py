@@ -53,7 +53,7 @@ VARIABLE = (  # text that differs between machines, versions and times
     (re.compile(r"(about )?\b\d[\d.]* [KMG]i?B\b"), "MEMORY"),
     (re.compile(r"\b\d{4}-\d\d-\d\d([T ][\d:.]+(Z|\+[\d:]+)?)?"), "DATE"),
     (re.compile(r"(?<![.\w])(?=[0-9]*[a-f])[0-9a-f]{12,64}\b"), "DIGEST"),
-    (re.compile(r"(?<=[\w.]-)[0-9a-f]{8}(?=[-.\s]|$)"), "DIGEST"),
+    (re.compile(r"(?<=[\w.]-)[0-9a-f]{8}\b"), "DIGEST"),
     (re.compile(r"data:[\w/+;-]+,[\w+/=]+"), "DATA"),
     (re.compile(r"\b\d+\.\d+\.\d+(\.\w+)?\b"), "VERSION"),
     (re.compile(r"(differs( here)?:|cases? (is|are) compared with|of the cases:) .*"), "BASELINE"),
