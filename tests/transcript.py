@@ -59,7 +59,8 @@ VARIABLE = (  # text that differs between machines, versions and times
     (re.compile(r"(differs( here)?:|cases? (is|are) compared with|of (the|\d+) cases:) .*"), "BASELINE"),
 )  # fmt: skip
 VARIABLE_KEY = re.compile(
-    "seconds|bytes|machine|libraries|version$|started|commit|provenance|processor|regression|baseline[.]|by[.]"
+    "seconds|bytes|machine|libraries|version$|started|commit|provenance|processor|regression"
+    "|baseline[.]|by[.]"
 )
 
 
