@@ -56,7 +56,7 @@ VARIABLE = (  # text that differs between machines, versions and times
     (re.compile(r"(?<=[\w.]-)[0-9a-f]{8}\b"), "DIGEST"),
     (re.compile(r"data:[\w/+;-]+,[\w+/=]+"), "DATA"),
     (re.compile(r"\b\d+\.\d+\.\d+(\.\w+)?\b"), "VERSION"),
-    (re.compile(r"(differs( here)?:|cases? (is|are) compared with|of (the|\d+) cases:) .*"), "BASELINE"),
+    (re.compile(r"(differs( here)?:|cases? \w+ compared with|of (the|\d+) cases:) .*"), "BASELINE"),
 )  # fmt: skip
 VARIABLE_KEY = re.compile(
     "seconds|bytes|machine|libraries|version$|started|commit|provenance|processor|regression"
