@@ -213,9 +213,11 @@ def near_edge(
     both = safe & safe_again
     if not np.any(both):
         raise EdgeNotSeen(NOT_SMOOTH.format("any point"))
-    for at, count in zip((phi.x[both], phi.y[both]), grid.cells, strict=True):
-        if not (np.min(at) >= NODES and np.max(at) <= count - 1 - NODES):
-            raise EdgeNotSeen(f"the contact is within {NODES} cells of the border of the window")
+    for points in (phi, again):
+        edge = _set_on_edge(points.chosen(both))
+        for at, count in zip((edge.x, edge.y), grid.cells, strict=True):
+            if not (np.min(at) >= NODES and np.max(at) <= count - 1 - NODES):
+                raise EdgeNotSeen(f"the contact is within {NODES} cells of the window's border")
     plane = subsurface(stack, grid, pressure, shear, (0.0,)).stress[0]
     depth = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
     slipping = np.inf if stuck is None or not np.any(stuck) else np.min(depth[stuck])

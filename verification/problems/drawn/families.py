@@ -678,17 +678,17 @@ FAMILIES = {
         (of.ball, of.sphere), (RIGID_ON_FILM,), by_rings, 38, finest=24.0, stressed=True
     ),
     "tilted": Family((of.ball,), (RIGID_ON_BARE, UNLIKE_COATED), beside_the_centre, 100),
-    "pushed": Family((of.ball,), (NO_POISSON,), similar, 72, of.pushes, coarsest=8.0, finest=24.0),
+    "pushed": Family((of.ball,), (NO_POISSON,), similar, 84, of.pushes, coarsest=8.0, finest=24.0),
     "pushed-shapes": Family(
         (of.cone, of.power_law, of.sphere, of.ellipsoid), (NO_POISSON,), similar, 20, of.pushes
     ),
-    "near-sliding": Family((of.ball,), (NO_POISSON,), similar, 16, of.near_gross_slip),
+    "near-sliding": Family((of.ball,), (NO_POISSON,), similar, 24, of.near_gross_slip),
     "sliding": Family((of.ball,), (ALIKE,), slid, 26, of.near_gross_slip),
     "twisted": Family(
         (of.ball, of.cone, of.power_law),
         (ALIKE, ALIKE_COATED),
         by_rings,
-        60,
+        72,
         of.pushes,
         twists=True,
     ),
@@ -705,7 +705,7 @@ FAMILIES = {
     ),
     "coated-pushed": Family((of.ball,), (ALIKE_COATED,), refined, 16, of.pushes, finest=PUSHED),
     "coupled": Family(
-        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), refined, 14, of.pushes, finest=COUPLED
+        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), refined, 18, of.pushes, finest=COUPLED
     ),
     "films-pushed": Family(
         (of.ball,), (RIGID_ON_FILM,), refined, 24, of.pushes, finest=COUPLED, stressed=True
@@ -721,7 +721,7 @@ FAMILIES = {
         (of.ball,), (ALIKE, ALIKE_COATED), by_rings, 24, of.pushes, twists=True, solver=ELEMENTS
     ),
     "elements-indented": Family(
-        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), by_rings, 28, friction=True, solver=ELEMENTS
+        (of.ball,), (RIGID_ON_BARE, RIGID_ON_COATED), by_rings, 32, friction=True, solver=ELEMENTS
     ),
 }
 
