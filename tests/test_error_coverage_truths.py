@@ -123,3 +123,11 @@ def test_finer_cells_and_more_increments_agree_with_closed_forms() -> None:
     for key in both:
         apart = abs(closed[key].value - found[key].value)
         assert apart <= 3 * found[key].uncertainty + 1e-6 * abs(closed[key].value), key
+
+
+def test_an_edge_at_the_border_of_coarse_tractions_has_no_stress() -> None:
+    """On half of its cells the fitted edge of this contact lies at the border of the window."""
+    known = drawn("films", 86243, 30)
+    result = semi_analytical.solve_discretised(known.scene, known.fineness.asked)
+    found = stress_maxima(result, len(known.scene.loading))
+    assert all(value > 0 and error.error for value, error in found.values())
