@@ -115,7 +115,8 @@ def _write_figure(figure: Any, path: Path, dots: int = 0) -> None:
 
 def _contents(directory: Path) -> dict[str, bytes]:
     """Files below a directory by name, without the stored cases that the other files summarise."""
-    names = {path.relative_to(directory): path for path in directory.rglob("*") if path.is_file()}
+    files = [path for path in directory.rglob("*") if path.is_file() and path.suffix != ".pyc"]
+    names = {path.relative_to(directory): path for path in files}
     left_out = {"cases", "points", "seconds.csv", "junit.xml"}
     chosen = {name: path for name, path in names.items() if not left_out & {*name.parts}}
     return {name.as_posix(): path.read_bytes() for name, path in chosen.items()}
