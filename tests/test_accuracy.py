@@ -1,6 +1,7 @@
 """Tests of requested accuracies: results meet them, or the program states the reason for a miss."""
 
 import json
+import re
 import signal
 import tracemalloc
 from collections.abc import Callable
@@ -466,3 +467,18 @@ def test_the_price_of_less_error_is_more_of_everything() -> None:
     assert last[3] == first.fineness
     with pytest.raises(AccuracyOutOfReach, match="no grid can meet"):
         targets_of(request("1e-12"), first, levels)
+
+
+def test_plan_prints_prices_and_what_cannot_be_had(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    requests = (word for each in ("1%", "approach 0.1%", "1e-12") for word in ("--accuracy", each))
+    assert slipstick("plan", written(tmp_path), *requests) == 0
+    shown = capsys.readouterr().out
+    assert "approach 0.1%" in shown
+    memory = re.findall(r"about (\d+) MiB", shown)
+    assert len(memory) == 3
+    assert all(int(size) >= LIBRARIES // 2**20 for size in memory)
+    assert "no grid can meet" in shown
+    for solver in ("fem", "radial"):
+        assert slipstick("plan", written(tmp_path), "--accuracy", "1%", "--solver", solver) == 0

@@ -144,3 +144,25 @@ def test_a_table_that_cannot_be_compared_is_refused(place: Path, columns, messag
     ended = outcome("against", table(place / "bad.csv", **columns), "run", cwd=place)
     assert ended.returncode == 2
     assert message in " ".join(ended.stderr.replace("│", " ").split())
+
+
+def test_a_profile_is_compared_at_its_places(place: Path) -> None:
+    path = place / "run/profiles.csv"
+    x, p, q = (column(path, name, ("2",)) for name in ("x [m]", "pressure [Pa]", "shear_x [Pa]"))
+    some = slice(3, -3, 2)
+    measured = table(
+        place / "profile.csv",
+        **{"x [mm]": 1e3 * x[some], "p [GPa]": 1.01e-9 * p[some], "q [MPa]": 1e-6 * q[some]},
+    )
+    found = against(place, measured, "--step", "2")
+    assert float(found["largest pressure"][2]) == pytest.approx(1.01, abs=1e-4)
+    gap = 0.01 * np.sqrt(np.mean((p[some] / 1e9) ** 2))
+    assert float(found["pressure at the places"][3]) == pytest.approx(gap, rel=1e-3)
+    assert found["shear at the places"][4] == "100.0 %"
+    steps = json.loads((place / "run/summary.json").read_text(encoding="utf-8"))["steps"]
+    error = steps[1]["errors"]["peak_pressure"]["error"] / steps[1]["peak_pressure"]
+    assert float(found["largest pressure"][4].split()[0]) == pytest.approx(1e4 * error, abs=0.06)
+    shear = [float(text) for text in found["largest shear"][1].split("±")]
+    for name in ("tangential_shift", "tangential_force"):
+        error += steps[1]["errors"][name]["error"][0] / steps[1][name][0]
+    assert shear[1] / shear[0] == pytest.approx(error, rel=0.05)

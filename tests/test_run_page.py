@@ -1,13 +1,24 @@
 """Tests of the HTML page and the overview figure of a run."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
+from matplotlib.quiver import Quiver
+from synthetic_result import MU, synthetic_result
 
+from contact_results.figures.figure_files import seen_from_above
 from contact_results.figures.map_panels import RingsAbove
+from contact_results.figures.maps import field_map, latest_slip, stick_slip_map
+from contact_results.figures.overview import overview
+from contact_results.figures.profile_plot import profile_plot
+from contact_results.figures.style import figure_style
+from contact_results.key_numbers import key_numbers
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.surface import Rings
+from contact_scene.quantities.stated_error import ErrorStatus, StatedError
 
 
 @pytest.mark.parametrize("error", [3.2e-5, 4e-13, 4e-16])
@@ -67,3 +78,65 @@ def test_rings_seen_from_above_are_the_field_that_they_sample(
     assert_same(
         seen(direction, angles, radial=outward, circumferential=around), c * along, s * along
     )
+
+
+def ended(result: Any, **changes: Any) -> Any:
+    last = replace(result.increments[-1], **changes)
+    return replace(result, increments=(*result.increments[:-1], last))
+
+
+def test_a_component_is_shown_with_its_own_error() -> None:
+    both = StatedError(error=(1.0, 2.0), parts={}, status=ErrorStatus.ESTIMATED)
+    pushed = ended(synthetic_result(), tangential_force=np.array([30.0, 40.0])).steps
+    found = dict(key_numbers(pushed, {"tangential_force": both}))
+    shown = [found[f"tangential force {axis}"] for axis in "xy"]
+    assert shown == ["30.0 ± 1.0 N", "40.0 ± 2.0 N"]
+    unknown = StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED)
+    assert " ? " in dict(key_numbers(pushed, {"approach": unknown}))["approach"]
+
+
+def test_a_map_has_every_cell_at_its_place_and_a_profile_the_limit_of_its_last_step() -> None:
+    whole: Any = synthetic_result()
+    result = ended(whole, pressure=whole.increments[-1].pressure / 2)
+    cells, end = seen_from_above(result), result.steps[-1]
+    with figure_style():
+        drawn = field_map(result, cells, "pressure").axes[2].images[0].get_array().filled(0.0)
+        (band,) = profile_plot(result, cells).axes[1].collections
+    np.testing.assert_allclose(1e9 * drawn, end.pressure.T)
+    highest = 1e6 * np.max(band.get_paths()[0].vertices[:, 1])
+    assert highest == pytest.approx(MU * np.max(cells.along(end.pressure)))
+
+
+def arrows(figure: Figure) -> list[tuple[Any, Quiver]]:
+    return [(ax, c) for ax in figure.axes for c in ax.collections if isinstance(c, Quiver)]
+
+
+def test_arrows_of_the_latest_slip_oppose_the_shear_where_it_slips() -> None:
+    result: Any = synthetic_result()
+    cells = seen_from_above(result)
+    with figure_style():
+        figure = stick_slip_map(result, cells)
+    drawn = [(ax.get_title().partition(":")[0], arrow) for ax, arrow in arrows(figure)]
+    assert drawn
+    for title, arrow in drawn:
+        step = result.steps[int(title.split()[1]) - 1]
+        i, j = (
+            np.argmin(np.abs(np.subtract.outer(at, 1e3 * centres)), axis=1)
+            for at, centres in ((arrow.X, cells.x), (arrow.Y, cells.y))
+        )
+        q_x, q_y = step.shear[:, i, j]
+        assert np.all(arrow.U * q_x + arrow.V * q_y < 0)
+        assert np.all(step.in_contact[i, j] & ~step.in_stick[i, j])
+    slips = [latest_slip(result, cells, i) for i in result.increments if i.slip is not None]
+    assert len(slips) > 2
+    np.testing.assert_allclose(sum(slips), result.increments[-1].slip)
+
+
+def test_the_overview_begins_with_the_profile_and_ends_with_the_last_numbers() -> None:
+    result: Any = synthetic_result()
+    with figure_style():
+        figure = overview(result, seen_from_above(result))
+    (numbers,) = (ax for ax in figure.axes if ax.texts and "status" in ax.texts[0].get_text())
+    assert figure.axes[0].get_position().y0 > numbers.get_position().y1
+    shown = numbers.texts[0].get_text().splitlines()
+    assert shown[1:-1] == [f"{name}: {text}" for name, text in key_numbers(result.steps, None)]

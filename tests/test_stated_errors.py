@@ -7,9 +7,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, NamedTuple, cast
 
+import h5py
 import numpy as np
 import pytest
-from command import slipstick
+from command import outcome, rows, slipstick
 from contact_scenes import (
     LOAD,
     MU,
@@ -37,7 +38,9 @@ from contact_errors.error_formula import (
     Comparison,
     Features,
     SolvedRun,
+    build_stated_error,
     characteristic_size,
+    largest_so_far,
     prescribed_scalars,
     values_of,
 )
@@ -64,10 +67,12 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
+from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,
 )
+from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.reading.scene_file import read_scene_file
 from contact_scene.rig import Rig
 from contact_scene.solver_errors import NotConverged
@@ -746,3 +751,52 @@ def test_stress_counts_what_increments_leave_wrong_in_the_tractions(tmp_path: Pa
         parts = maximum["error"]["parts"]
         assert 0 < parts["increments"] < 0.1 * maximum["value"]
         assert maximum["error"]["error"] == pytest.approx(sum(parts.values()))
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[str, Any], str]]:
+    """Summary of a run and its output, with errors and without."""
+    folder = tmp_path_factory.mktemp("runs")
+    (folder / "scene.toml").write_text(FRETTING, encoding="utf-8")
+    found = {}
+    for option in ("--error", "--no-error"):
+        asked = ("run", "scene.toml", "-o", option, "--figures", "none", option)
+        ended = outcome(*asked, cwd=folder)
+        assert ended.returncode == 0, ended.stderr
+        written = (folder / option / "summary.json").read_text(encoding="utf-8")
+        with h5py.File(folder / option / "result.h5") as file:
+            last = dict(file["last_cycle"].attrs)
+        table = rows(folder / option / "cycles.csv")
+        found[option] = json.loads(written), ended.stdout, table, last
+    return found
+
+
+def test_a_cycle_has_the_numbers_and_errors_of_the_step_that_closes_it(runs: Any) -> None:
+    summary, _, cycles, last = runs["--error"]
+    assert [(row["start_step"], row["end_step"]) for row in cycles] == [("2", "4")]
+    assert (last["start_step"], last["end_step"]) == (2, 4)
+    end = summary["steps"][3]
+    assert [step["cycle_start"] for step in summary["steps"]] == [None, None, None, 2, None]
+    for name, mark in OF_CYCLES.items():
+        parts = ("_x", "_y") if mark.kind is Kind.VECTOR else ("",)
+        error = end["errors"].get(name, {"error": None})["error"]
+        errors = [None] * len(parts) if error is None else np.ravel(error).tolist()
+        shown = [cycles[0][f"{name}{part}_error [{mark.unit or 1}]"] for part in parts]
+        assert shown == ["" if size is None else repr(size) for size in errors]
+
+
+def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:
+    names = ("normal_force", "contact_radius", "contact_area", "peak_pressure", "approach")
+    at_2, at_3 = ({name: np.full(1, size) for name in names} for size in (2.0, 3.0))
+    part = Comparison("cells", [at_2, at_2], [at_3, at_2], [2.0, 2.0])
+    posed, features = scene({"approach": 1e-6}, {"approach": 2e-6}), [Features(contact=10)] * 2
+    run = SolvedRun(posed, [at_2] * 2, [1e-8] * 2, features, [part], {"cells": [True] * 2}, {})
+    first, second = (step["peak_pressure"].error for step in run.errors())
+    assert second == first > 0.1
+
+
+def test_components_of_a_vector_share_one_size() -> None:
+    steps = [{"tangential_shift": np.array(shift)} for shift in ((3.0, 1e-12), (2.0, -1.0))]
+    sizes = [found["tangential_shift"] for found in largest_so_far(steps)]
+    np.testing.assert_array_equal(sizes, [[3.0, 3.0]] * 2)  # also where it has become smaller
+    assert build_stated_error({"cells": np.array([1.0, 2.0])}, True).error == (1.0, 2.0)

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command import outcome, rows
+from scene_texts import STEEL_BALL_PRESSED
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -114,3 +115,33 @@ def test_run_and_scene_give_the_same(place: Path) -> None:
                     continue
                 scale = 1e10 if "Pa" in key else 1.0
                 assert float(b[key]) == pytest.approx(expected, rel=1e-9, abs=1e-12 * scale)
+
+
+def test_a_history_of_points_needs_the_fields_of_all_increments(place: Path) -> None:
+    point = ("--at", "0.2 mm,0,interface 1", "--history")
+    shown = at_points(place, "scene.toml", "steps", *point)
+    assert [(row["point"], row["step"], row["increment"]) for row in shown] == [
+        (point, step, "1") for point in "12" for step in "12"
+    ]
+    four = ("--set", "loading[2].increments=4", "--figures", "none", "--no-error")
+    for name, more in (("ends", ()), ("all", ("--all-fields",))):
+        outcome("run", place / "scene.toml", "-o", place / name, *four, *more, cwd=ROOT)
+    refused = outcome("stress", place / "ends", "-o", place / "no", *point, cwd=ROOT)
+    assert refused.returncode == 2
+    assert "run again with --all-fields" in " ".join(refused.stderr.replace("│", " ").split())
+    found = at_points(place, "all", "history", *point)
+    assert len(found) == 10
+    assert float(found[4][SIGMA[2]]) == pytest.approx(float(shown[1][SIGMA[2]]), rel=1e-5)
+    for row in found:
+        largest, middle, least = (float(row[f"principal_{n} [Pa]"]) for n in (1, 2, 3))
+        assert largest >= middle >= least
+    for step in (1, 2):
+        (of_step,) = at_points(place, "run", f"step {step}", *point[:2], "--step", step)[:1]
+        assert of_step == shown[step - 1] | {"increment": ""}
+    assert (place / "history/stress_history.png").is_file()
+
+
+def test_the_last_step_of_a_scene_may_be_asked_for(tmp_path: Path) -> None:
+    (tmp_path / "ball.toml").write_text(STEEL_BALL_PRESSED, encoding="utf-8")
+    options = ("--solver", "radial", "--no-error", "--figures", "none", "-o", "out", "--step", 1)
+    assert outcome("stress", "ball.toml", *options, cwd=tmp_path).returncode == 0

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from command import outcome, rows
 
+from contact_results.figures import style
 from slipstick.sweep import Variation
-from slipstick.sweep_chart import SweptQuantity
+from slipstick.sweep_chart import SweptQuantity, write_sweep_chart
 
 HERTZ = """
 title = "steel ball"
@@ -111,3 +112,34 @@ def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:
     assert np.all(low < middle)
     assert np.all(middle < high)
     assert np.all((low <= moved.percentiles[0]) & (moved.percentiles[0] <= high))
+
+
+def test_a_map_has_every_value_at_its_place_and_the_largest_error(tmp_path, monkeypatch) -> None:
+    drawn = []
+    monkeypatch.setattr(style, "save", lambda figure, path: (path.touch(), drawn.append(figure)))
+    keys = [
+        Variation(name, "", tuple(map(float, range(count)))) for name, count in (("a", 2), ("b", 3))
+    ]
+    values = np.arange(6.0).reshape(2, 3, 1)
+    swept = [SweptQuantity("c", "", values, 0.02 * values)]
+    write_sweep_chart(keys, swept, tmp_path / "map.png", "")
+    ax = drawn[0].axes[0]
+    assert ax.get_title().split() == ["largest", "numerical", "error:", "0.1"]
+    assert np.array_equal(ax.collections[0].get_array(), values[..., 0].T)
+
+
+def test_a_point_without_answer_leaves_its_reason(scene: Path) -> None:
+    text = HERTZ + "tangential_force = [60, 20]\n[friction]\ncoefficient = 0.3\n"
+    text += '[semi_analytical]\ncells = [16, 16]\nwindow = ["1 mm", "1 mm"]\n'
+    scene.write_text(text, encoding="utf-8")
+    wanted = "approach,tangential_force_x,tangential_force_y"
+    ended = sweep(scene, "--vary", "indenter.radius=-72..90 mm 3", "--get", wanted)
+    assert ended.returncode == 3
+    invalid, fits, cut_off = rows(scene.parent / "out/sweep.csv")
+    assert "window" in cut_off["refused"]
+    assert "expected a positive length" in invalid["refused"]
+    assert not cut_off["approach [m]"]
+    assert not fits["refused"]
+    assert float(fits["approach [m]"]) > 0
+    assert [float(fits[f"tangential_force_{axis} [N]"]) for axis in "xy"] == [60, 20]
+    assert "--solver radial can solve this" in ended.stdout
