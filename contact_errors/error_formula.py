@@ -49,7 +49,7 @@ Numbers = NDArray[np.float64]
 Values: TypeAlias = Mapping[str, Numbers]
 
 # Fraction of the convergence order that is believed: with one or two, and with three coarse solves
-# of a parameter. Their data are in docs/howto/accuracy.md.
+# of a parameter. docs/believed_fraction.py measures the coverage that follows.
 BELIEVED, BELIEVED_BY_THREE = 0.6, 0.7
 # Convergence orders in the cell size: of means of smooth fields, of values at the edge of a zone
 # that lies within a cell, and of values near a square-root singularity.

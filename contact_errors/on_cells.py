@@ -36,8 +36,8 @@ from semi_analytical.plan import Coupling
 from semi_analytical.resolution import resolution, resolution_at
 from semi_analytical.solve import solve_within
 
-# Third coarse solve of a small run, and the largest number of unknowns times increments of such a
-# run. It takes about a second or two, which its user waits for start and figures, too.
+# Third coarse solve of a small run, and the largest number of unknowns times increments of a small
+# run. Such a run takes one or two seconds; start and figures take as long.
 THIRD, SMALL = ("2/3 of the {}", 2 / 3, 0), 1e6
 # Cells over the contact radius in the solves for the increment error. The effect of increments on
 # 24² and on 64² cells differs by at most 7 %.
