@@ -74,13 +74,16 @@ class LinearisedShear:
     def admissible(self, q: VectorField, bound: Field) -> VectorField:
         """Return a shear near q that is within the friction limit and has the prescribed forces.
 
-        Slipping cells first receive the friction limit along their slip. The result is then
-        corrected to the prescribed forces and projected.
+        Slipping cells receive the friction limit along their slip, sticking cells keep the shear.
+        The result is then corrected to the prescribed forces and projected. If all cells slip, it
+        is the projection of the natural map and has the prescribed forces: a correction by equal
+        shears would move all cells inside the friction limit, and near gross slip Newton's method
+        would stagnate.
 
         q      shear (2, nx, ny)
         bound  friction limit µp (nx, ny)
         """
-        near = self._zones.sliding_shear + self._zones.free(q)
+        near = np.where(self._zones.slip, self._zones.sliding_shear, q)
         self._correct_forces(self._load.prescribed_forces - self._load.forces(near), near)
         return self._load.admissible(near, bound)
 
