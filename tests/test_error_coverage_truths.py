@@ -69,7 +69,7 @@ def test_errors_fall_towards_the_answer(family: str) -> None:
 
 
 def test_scenes_are_equal_at_every_call_and_differ_between_seeds() -> None:
-    for family in ("balls", "pushed", "coated"):
+    for family in ("balls", "pushed", "tilted"):
         assert drawn(family, SEED, 0) == drawn(family, SEED, 0)
         scenes = [drawn(family, seed, 0).scene for seed in (*CHOOSING, *TRIED, JUDGING)]
         assert len({scene.model_dump_json() for scene in scenes}) == len(scenes)
