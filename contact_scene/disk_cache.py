@@ -26,6 +26,9 @@ SUFFIX = ".array"
 # Largest size of all entries [byte]; one entry may have a quarter. The least recently used entries
 # are deleted first.
 LARGEST_CACHE = 1 << 30
+# Number of stored arrays per search for old entries. A search takes 0.06 s in a cache of 18 000
+# entries, as long as the solve of a small contact.
+WRITES_PER_SEARCH = 16
 
 _ignored = ContextVar("_ignored", default=False)
 # Without a handler, a warning is one line on stderr.
@@ -116,7 +119,8 @@ def _read_entry(path: Path, key: str, shape: tuple[int, ...]) -> NDArray[np.floa
 def _write_entry(path: Path, key: str, values: NDArray[np.float64]) -> None:
     """Store an array in the disk cache atomically, and delete the oldest arrays beyond its limit.
 
-    An array of more than LARGEST_CACHE / 4 bytes is not stored.
+    An array of more than LARGEST_CACHE / 4 bytes is not stored. The key selects the stored arrays
+    after which old arrays are deleted: one in WRITES_PER_SEARCH.
 
     path    file of the array
     key     hash of the data that determine the array
@@ -135,7 +139,8 @@ def _write_entry(path: Path, key: str, values: NDArray[np.float64]) -> None:
     except BaseException:
         os.unlink(temporary)
         raise
-    _delete_old_entries(path)
+    if int(key, 16) % WRITES_PER_SEARCH == 0:
+        _delete_old_entries(path)
 
 
 def _entry_header(key: str, body: bytes) -> bytes:
@@ -159,8 +164,9 @@ def _delete_old_entries(newest: Path) -> None:
         with contextlib.suppress(OSError):  # another process may delete entries, too
             if entry.name.endswith(SUFFIX):
                 status = entry.stat()
-                is_older = entry.name != newest.name
-                entries.append((is_older, -status.st_mtime, status.st_size, entry.path))
+                entries.append(
+                    (entry.name != newest.name, -status.st_mtime, status.st_size, entry.path)
+                )
     total = 0
     for _, _, size, path in sorted(entries):
         total += size

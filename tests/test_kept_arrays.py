@@ -112,6 +112,7 @@ def test_least_recently_used_make_room_and_other_files_are_spared(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(disk_cache, "LARGEST_CACHE", 900)
+    monkeypatch.setattr(disk_cache, "WRITES_PER_SEARCH", 1)
     folder.mkdir(parents=True)
     (folder / "notes.txt").write_text("x" * 5000)
     for number in range(3):  # of 250 bytes each

@@ -2,7 +2,8 @@
 
 import os
 import platform
-from importlib.metadata import PackageNotFoundError, version
+import re
+from importlib.metadata import PackageNotFoundError, distribution
 
 LIBRARIES = ("numpy", "scipy", "scikit-fem", "gmsh", "meshio", "h5py", "matplotlib", "pydantic")
 
@@ -47,12 +48,17 @@ def arithmetic() -> str:
     return ", ".join((*sorted(cores), *sorted(vectors)))
 
 
-def version_of(distribution: str) -> str | None:
-    """Return the installed version of a Python distribution; None if it is not installed."""
+def version_of(name: str) -> str | None:
+    """Return the installed version of a Python distribution; None if it is not installed.
+
+    The version is read from the text of the metadata, because to parse their long description
+    takes longer than to import a small module.
+    """
     try:
-        return version(distribution)
+        found = re.search(r"(?m)^Version: (.*)$", distribution(name).read_text("METADATA") or "")
     except PackageNotFoundError:
         return None
+    return found and found[1]
 
 
 def _processor_name() -> str:

@@ -128,7 +128,7 @@ def _cycle_fields(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, 
     for title, symbol, values in (
         ("slip amplitude δ", "m", cycle.slip_amplitude),
         ("dissipated per area", "J/m²", cycle.dissipation),
-        ("Ruiz $F_1$ = τ δ", "Pa m", cycle.ruiz_f1),
+        ("Ruiz F₁ = τ δ", "Pa m", cycle.ruiz_f1),
     ):
         if values is not None:
             yield title, engineering_unit(float(np.max(values)), symbol), values
@@ -137,7 +137,7 @@ def _cycle_fields(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, 
         # A power of ten, because a prefix of Pa would be squared.
         exponent = 3 * floor(log10(largest) / 3) if largest > 0 else 0
         name = f"$10^{{{exponent}}}$ Pa² m" if exponent else "Pa² m"
-        yield "Ruiz $F_2$ = $σ_T$ τ δ", EngineeringUnit(10.0**exponent, name), cycle.ruiz_f2
+        yield "Ruiz F₂ = σT τ δ", EngineeringUnit(10.0**exponent, name), cycle.ruiz_f2
 
 
 def stick_slip_map(result: Result, cells: Above) -> Figure:

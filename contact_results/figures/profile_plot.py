@@ -114,7 +114,7 @@ def _shear_curves(surface: Surface, steps: Sequence[Increment]) -> list[Curves]:
     largest = np.max([(0.0, 0.0), *sizes], axis=0).tolist()
     return [
         Curves(
-            f"shear $q_{{{surface.profile_line.components[k]}}}$",
+            f"shear q{surface.profile_line.components[k]}",
             {step: vector[k] for step, vector in lines.items()},
             engineering_unit(largest[k], "Pa"),
         )

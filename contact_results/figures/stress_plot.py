@@ -45,8 +45,8 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
     points = field.section
     panels = {
         "von Mises": points.von_mises,
-        _component_label("xx"): points.components["xx"],
-        _component_label("xz"): points.components["xz"],
+        "σxx": points.components["xx"],
+        "σxz": points.components["xz"],
         "tensile stress (largest principal)": np.maximum(points.principal[0], 0.0),
     }
     half = float(points.x.min()) >= 0
@@ -92,7 +92,7 @@ def draw_surface(ax: Any, field: StressField) -> None:
     x = np.concatenate([part.x for part in parts])
     order = np.argsort(x, kind="stable")
     lines = {
-        _component_label(name): np.concatenate([part.components[name] for part in parts])[order]
+        f"σ{name}": np.concatenate([part.components[name] for part in parts])[order]
         for name in ("xx", "yy")
     }
     unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
@@ -177,7 +177,7 @@ def draw_depth(ax: Any, field: StressField, body: Body, points: StressPoints, wh
     deepest = field.shown[1]
     length = engineering_unit(deepest, "m")
     line = points.select(points.depth <= deepest)
-    lines = {_component_label(name): line.components[name] for name in ("xx", "yy", "zz", "xz")}
+    lines = {f"σ{name}": line.components[name] for name in ("xx", "yy", "zz", "xz")}
     lines["von Mises"] = line.von_mises
     unit = engineering_unit(float(max(np.abs(v).max() for v in lines.values())), "Pa")
     for number, (name, values) in enumerate(lines.items()):
@@ -194,11 +194,6 @@ def draw_depth(ax: Any, field: StressField, body: Body, points: StressPoints, wh
     ax.set_ylabel(length.labelled(f"depth z {where}"))
     show_depths(ax, body, deepest, length)
     style.legend_above(ax)
-
-
-def _component_label(component: str) -> str:
-    """Return the label of a stress component, such as σ_xx, in the notation of matplotlib."""
-    return f"$σ_{{{component}}}$"
 
 
 def _titled_figure(width: float, height: float, title: str) -> Figure:
@@ -231,7 +226,7 @@ def write_history_figure(
 
 
 def _draw_point(ax: Any, history: Sequence[StressIncrement], n: int, layers: int) -> None:
-    """Draw σ_xx, σ_zz, σ_xz and the largest principal stress of one point over the increments.
+    """Draw σxx, σzz, σxz and the largest principal stress of one point over the increments.
 
     The stated errors are drawn as error bars. Dotted lines mark the ends of load steps.
 
@@ -240,10 +235,10 @@ def _draw_point(ax: Any, history: Sequence[StressIncrement], n: int, layers: int
     layers  number of layers of the body
     """
     values = {
-        _component_label(name): [each.points.components[name][n] for each in history]
+        f"σ{name}": [each.points.components[name][n] for each in history]
         for name in ("xx", "zz", "xz")
     }
-    values["$σ_1$"] = [each.points.principal[0][n] for each in history]
+    values["σ₁"] = [each.points.principal[0][n] for each in history]
     errors = np.array([each.errors[n] for each in history])
     unit = engineering_unit(float(np.max(np.abs(list(values.values())))), "Pa")
     numbers = np.arange(1, len(history) + 1)

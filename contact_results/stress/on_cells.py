@@ -173,10 +173,10 @@ def _stress_in_window(
         edge, why = _fit_edge(state, body, grid, levels, pressure, shear)
     how = _edge_record(edge, why)
     rows = None if volume else _computed_rows(grid, pressure, shear, section_only)
-    if edge is not None and rows is not None and not section_only:
-        upper = edge.phi.y >= rows[0]
-        if np.any(upper):  # an edge that is fitted in part may have points on one side only
-            edge = replace(edge, phi=edge.phi.chosen(upper))
+    if edge is not None and rows is not None:
+        shown = (edge.phi.y >= rows[0]) & (edge.phi.y <= rows[-1])
+        if np.any(shown):  # an edge that is fitted in part may have points on one side only
+            edge = replace(edge, phi=edge.phi.chosen(shown))
     sections, largest, planes = [], [], []
     for field in _stress_by_level(
         state, body, grid, levels, pressure, shear, None if why else edge, rows
@@ -289,15 +289,16 @@ def _stress_by_level(
     far = _far_field_tractions(state, pressure, shear)
     reached = [level for level in levels if edge is not None and edge.reaches(level)]
     # Adjacent to a corrected edge, the tractions themselves give the field.
-    exact = reached if state.edges else []
-    near = fields_by_level(body, grid, pressure, shear, exact, rows)
+    below = [level for level in reached if level.depth > 0] if state.edges else []
+    near = fields_by_level(body, grid, pressure, shear, below, rows)
     for field in fields_by_level(body, grid, *far, levels, rows):
         if edge is None or field.levels[0] not in reached:
             yield field
-        elif exact:
-            beside = edge.beside if rows is None else edge.beside[:, rows]
-            there = edge.corrected(next(near)).stress
-            yield replace(field, stress=np.where(beside, there, field.stress))
+        elif state.edges:
+            some = slice(None) if rows is None else rows
+            there = next(near).stress if field.depths[0] else edge.plane[None, ..., some]
+            corrected = edge.corrected(replace(field, stress=there)).stress
+            yield replace(field, stress=np.where(edge.beside[:, some], corrected, field.stress))
         else:
             yield edge.corrected(field)
 

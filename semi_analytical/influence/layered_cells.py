@@ -99,23 +99,21 @@ def _average_cells(
     points *= spacing[0] * spacing[1]
     result = np.empty((len(parities), *shape))
     for averaged, field, (along_x, along_y) in zip(result, points, parities, strict=True):
-        averaged[:] = _average_along_axis(_average_along_axis(field, 0, along_x), 1, along_y)
+        averaged[:] = _average_first_axis(_average_first_axis(field, along_x).T, along_y).T
     return result
 
 
-def _average_along_axis(field: Field, axis: int, parity: int) -> Field:
-    """Compute the average of a point-force response over each cell along one axis, from centre
-    values.
+def _average_first_axis(field: Field, parity: int) -> Field:
+    """Compute the average of a point-force response over each cell along the first axis, from
+    centre values.
 
     The result is shorter than the input by MARGIN.
 
     field   values at cell offsets >= 0
-    axis    0 for x, 1 for y
     parity  parity of the response along the axis: 1 even, -1 odd
     """
-    mirrored = parity * np.flip(np.take(field, range(1, MARGIN + 1), axis), axis)
-    averaged = correlate1d(np.concatenate([mirrored, field], axis), CELL_AVERAGE, axis)
-    return np.take(averaged, range(MARGIN, averaged.shape[axis] - MARGIN), axis)
+    both_sides = np.concatenate([parity * field[MARGIN:0:-1], field])
+    return np.asarray(correlate1d(both_sides, CELL_AVERAGE, 0)[MARGIN:-MARGIN])
 
 
 def integrals_near(

@@ -31,7 +31,7 @@ from semi_analytical.influence.radial_table import RadialTable, tabulate
 from semi_analytical.stress.components import FIELDS, acting, empty_response, parity
 
 # Levels per table, so that its work space is some tens of megabytes.
-AT_ONCE = 16
+AT_ONCE = 64
 # Order of the Bessel function of each radial function.
 ORDERS = (1, 0, 0, 1, 0, 2, 0, 2, 1, 0, 2, 1, 1, 1, 3)
 BY_PRESSURE = 6  # number of functions for pressure, which are first

@@ -19,7 +19,7 @@ from slipstick.cli.errors import ExitCode, explain
 LONGEST = 600  # characters of a message
 # Number of new objects before a search for unreachable cycles of references. Searches at Python's
 # default of 700, during imports, and at exit take 15 % of the CPU time of a short run.
-COLLECTED_OBJECTS = 50_000
+COLLECTED_OBJECTS = 500_000
 
 
 class WordedCommand(TyperCommand):
