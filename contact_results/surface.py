@@ -190,7 +190,7 @@ class Rings:
         load.
         """
         along_x = self.direction == (1.0, 0.0)
-        load = ("x", "y") if along_x else (r"\parallel", r"\perp")
+        load = ("x", "y") if along_x else ("∥", "⊥")
         if self.angles is None:
             return ProfileLine(self.radii, "radius r", ("r", "θ") if self.polar else load)
         places = np.concatenate([-self.radii[::-1], self.radii])
