@@ -40,7 +40,7 @@ def write_stress_figures(
 def section_plot(field: StressField, body: Body, title: str) -> Figure:
     """Draw four stresses on the section, z downward, with dashed interfaces.
 
-    The stresses are von Mises, σ_xx, σ_xz and the tensile stress. Call within `figure_style`.
+    The stresses are von Mises, σxx, σxz and the tensile stress. Call within `figure_style`.
     """
     points = field.section
     panels = {
@@ -67,7 +67,7 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
 def line_plot(field: StressField, body: Body, title: str) -> Figure:
     """Draw stresses over depth on the z axis and below the trailing edge, and along the surface.
 
-    The trailing edge is the edge with the larger σ_xx at the surface. Call within `figure_style`.
+    The trailing edge is the edge with the larger σxx at the surface. Call within `figure_style`.
     """
     figure = _titled_figure(11.0, 4.4, title)
     place = {"left": 0.06, "right": 0.97, "bottom": 0.12, "top": 0.84, "wspace": 0.25}
@@ -79,7 +79,7 @@ def line_plot(field: StressField, body: Body, title: str) -> Figure:
 
 
 def draw_surface(ax: Any, field: StressField) -> None:
-    """Draw σ_xx and σ_yy at the surface z = 0, with dotted lines at the contact edges.
+    """Draw σxx and σyy at the surface z = 0, with dotted lines at the contact edges.
 
     The stress at a fitted contact edge is included.
 
@@ -151,7 +151,7 @@ def _surface_points(field: StressField) -> StressPoints:
 def _below_edge(field: StressField) -> tuple[StressPoints, str]:
     """Select the points of the stress section below the trailing contact edge, sorted by depth.
 
-    The trailing edge is the edge with the larger σ_xx at the surface.
+    The trailing edge is the edge with the larger σxx at the surface.
 
     Returns the points, and their place in words.
     """
