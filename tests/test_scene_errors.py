@@ -101,7 +101,12 @@ MISTAKES = {
     "both": (("increments", "tangential_shift = [1, 2]\nincrements"), 12, "loading[2]", "one of"),
     "one component": (('"90 N", 0', '"90 N"'), 13, "loading[2].tangential_force", "array of 2"),
     "three components": (("0]", "0, 0]"), 13, "loading[2].tangential_force", "at most 2"),
-    "not a vector": (('["90 N", 0]', "90"), 13, "loading[2].tangential_force", "an array"),
+    "not a vector": (
+        ('["90 N", 0]', "90"),
+        13,
+        "loading[2].tangential_force",
+        "an array of 2, for x and y",
+    ),
     "component": (('"90 N", 0', '0, "9 m"'), 13, "loading[2].tangential_force[2]", "a force"),
     "torque unit": (
         ('tangential_force = ["90 N", 0]', 'torque = "3 N"'),
@@ -151,7 +156,12 @@ MISTAKES = {
     "true increments": (("18\n", "true\n"), 14, "loading[2].increments", "got true"),
     "cells": (("256, 256", "256, 7"), 16, "semi_analytical.cells[2]", "from 8 to 16384"),
     "many cells": (("256, 256", "256, 16385"), 16, "semi_analytical.cells[2]", "from 8 to 16384"),
-    "one cell number": (("[256, 256]", "256"), 16, "semi_analytical.cells", "an array"),
+    "one cell number": (
+        ("[256, 256]", "256"),
+        16,
+        "semi_analytical.cells",
+        "an array of 2, for x and y",
+    ),
     "window": (('"1.2 mm", ', '"1.2 N", '), 17, "semi_analytical.window[1]", "a positive length"),
     "tolerance": (("1e-8", "0.0"), 18, "semi_analytical.tolerance", "from 1e-12 to 0.1"),
     "tolerance text": (("1e-8", '"1e-8"'), 18, "semi_analytical.tolerance", "without quotes"),

@@ -23,6 +23,8 @@ from contact_scene.scene import SceneFile
 _MISSING = "the key is missing"
 _NO_TABLE = ("model_type", "model_attributes_type", "dict_type", "dict_attributes_type", "enum")
 _NO_ARRAY = ("tuple_type", "list_type")
+# Keys of arrays of tables.
+_TABLES = ("layers", "loading")
 
 
 def problems_of(document: Mapping[str, Any], error: ValidationError) -> list[Problem]:
@@ -57,9 +59,7 @@ def _convert_error(document: Mapping[str, Any], detail: ErrorDetails) -> Problem
     if kind == "missing" and isinstance(location[-1], str):
         return Problem(path, _MISSING, _expected_value(location))
     if kind == "missing":
-        of_strain = str(location[-2]).startswith("bulk_")
-        expected = "an array of 3, for xx, yy and xy" if of_strain else "an array of 2, for x and y"
-        return Problem(path[:-1], got, expected)
+        return Problem(path[:-1], got, _expected_components(location[-2]))
     if kind == "extra_forbidden":
         model = _model_at(location[:-1])
         known = list(model.model_fields) if model else []
@@ -75,7 +75,8 @@ def _convert_error(document: Mapping[str, Any], detail: ErrorDetails) -> Problem
     if kind in _NO_TABLE:
         return Problem(path, got, _expected_table(location), _bracket_hint(path, detail["input"]))
     if kind in _NO_ARRAY:
-        return Problem(path, got, "an array", _bracket_hint(path, detail["input"]))
+        expected = "an array" if path[-1] in _TABLES else _expected_components(path[-1])
+        return Problem(path, got, expected, _bracket_hint(path, detail["input"]))
     if kind in ("too_short", "too_long"):
         number = context["actual_length"]
         got = f"got {number or 'no'} {'entry' if number == 1 else 'entries'}"
@@ -188,6 +189,12 @@ def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
         elif model is not None and part in model.model_fields:
             model = _model_in(model.model_fields[part].annotation)
     return model
+
+
+def _expected_components(key: str | int) -> str:
+    """Name the array that a key with components along the axes expects."""
+    of_strain = str(key).startswith("bulk_")
+    return "an array of 3, for xx, yy and xy" if of_strain else "an array of 2, for x and y"
 
 
 def _expected_value(location: Location) -> str:
