@@ -152,7 +152,9 @@ def test_where_the_load_goes_straight_on_the_shear_goes_as_much_further(part):
         TangentialTarget(shift=SECOND.shift + 10 * part * WAY, twist=3e-6 + part * 2e-6),
     ):
         assert further(SECOND, FIRST, target) == pytest.approx(part, rel=1e-12)
-        shear, displacement = further_shear(SECOND, FIRST, target)
+        (shear, displacement), motion = further_shear(SECOND, FIRST, target)
+        twist = [3e-6 + part * 2e-6] if target.torque else []
+        np.testing.assert_allclose(motion, [3 + part * 2, 5 + part * 3, *twist])
         np.testing.assert_allclose(shear, 3 + 2 * part)
         np.testing.assert_allclose(displacement, 50 + 40 * part)
 
@@ -163,7 +165,8 @@ def test_where_the_load_turns_rests_or_leaps_the_shear_stays(way):
     assert further(SECOND, FIRST, target) == 0
     straight = TangentialTarget(force=SECOND.force + WAY, torque=2e-3 + 2e-3 * way[0] / WAY[0])
     assert further(SECOND, FIRST, straight) == 0
-    assert further_shear(SECOND, FIRST, target) == (SECOND.shear, SECOND.displacement)
+    shear, displacement = further_shear(SECOND, FIRST, target)[0]
+    assert (shear, displacement) == (SECOND.shear, SECOND.displacement)
 
 
 def products(described, cells):

@@ -21,7 +21,7 @@ from semi_analytical.edge.contact_area import (
     stuck_cells,
 )
 from semi_analytical.edge_correction.stick_area import stick_area
-from semi_analytical.operator.domain import QUARTER
+from semi_analytical.operator.domain import QUARTER, ReducedDomain
 
 CELLS, PARTS = 64, 12
 CONTACT = 28.0  # radius in cells
@@ -95,6 +95,9 @@ def test_a_mirrored_or_turned_zone_is_as_large():
         assert stick_area(*turned) == pytest.approx(area, rel=1e-12)
     mirrored = stick_area(shear[:, :, ::-1], bound[:, ::-1], stick[:, ::-1])
     assert mirrored == pytest.approx(area, rel=1e-12)
+    for even in (contact(9.3, 0.5), contact(18.4, 1.5), contact(9.3, 1.5, turning=np.radians(5))):
+        half = ReducedDomain((False, True))
+        assert stick_area(*even, domain=half) == pytest.approx(stick_area(*even), rel=1e-12)
 
 
 def test_without_a_border_cells_count():

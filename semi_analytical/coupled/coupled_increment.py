@@ -24,6 +24,7 @@ from semi_analytical.increments.increment import (
     State,
     reached_moment,
 )
+from semi_analytical.increments.increment_history import further_motion
 from semi_analytical.increments.normal_solve import (
     MARGIN,
     NormalState,
@@ -41,7 +42,6 @@ from semi_analytical.increments.tangential_solve import (
 )
 from semi_analytical.increments.tangential_state import (
     TangentialState,
-    first_motion,
     rigid,
     surface_target,
     untouched_state,
@@ -91,7 +91,9 @@ def solve_coupled_increment(
     start, shear, iterations = _initial_guess(model, before, last, normal, tangential)
     box = _box_with_margin((start > 0) | (last.shear[0] != 0), model.domain)
     aim, residual = tolerance, np.inf
-    motion = first_motion(last, tangential)
+    motion = tangential.rigid_motion(last.shift, last.twist)
+    if before is not None and (seen := before.seen()):
+        motion = further_motion(seen, before.behind, tangential)
     for _ in range(MAX_ATTEMPTS):
         problem = _coupled_problem(model, box, last, normal, tangential)
         inside = (..., *box.slices)

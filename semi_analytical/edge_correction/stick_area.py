@@ -18,6 +18,7 @@ from semi_analytical.edge.fit import NARROW, WIDE, Stencil
 from semi_analytical.edge.shape import LARGEST_RMS, AdjacentCells, depth_of, edge_shape
 from semi_analytical.edge_correction.shear_at_edge import LAYERS, direction_of_slip
 from semi_analytical.operator.box import box_around
+from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 # Exponent of the distance, stencil of the fit, and factor of the residual in the comparison. The
 # exponent 3/2 requires a wider stencil. Its fits can follow a root at a strongly curved border, so
@@ -44,7 +45,14 @@ class _LawFit:
     residual: Field
 
 
-def stick_area(shear: VectorField, bound: Field, stick: Mask, *, spreads: bool = True) -> float:
+def stick_area(
+    shear: VectorField,
+    bound: Field,
+    stick: Mask,
+    *,
+    spreads: bool = True,
+    domain: ReducedDomain = WINDOW,
+) -> float:
     """Compute the area of the stick zone in cells, with the sticking fractions of its border cells.
 
     The fractions come from fits of two power laws to the shear deficit. A cell of the stick zone
@@ -55,18 +63,28 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask, *, spreads: bool =
     stick    sticking cells (nx, ny)
     spreads  True if the stick zone may have grown; without coupling the zone grows only with the
              pressure
+    domain   reduced domain of the solution: mirror images of a border cell share one fit
     """
     if not np.any(stick):
         return 0.0
     box = box_around(stick, LAYERS + 1).slices  # cells that determine the direction of slip
     shear, bound, stick = shear[:, *box], bound[box], stick[box]
-    slips = (bound > 0) & ~stick
-    depth = depth_of(stick)
+    slips, depth = (bound > 0) & ~stick, depth_of(stick)
     if not np.any(slips) or np.max(depth) < THICK:
         return stuck_cells(shear, bound, stick)
+    # The box is symmetric about the mirror planes. Cells of one side are counted; the margin on the
+    # other side contains the data of their fits.
+    planes = [size // 2 * mirrored for size, mirrored in zip(stick.shape, domain.mirrors)]
+    margins = [min(plane, LAYERS) for plane in planes]
+    part = tuple(slice(at - width, None) for at, width in zip(planes, margins, strict=True))
+    counted = tuple(slice(width, None) for width in margins)
+    shear = shear[:, *part]
+    bound, stick, slips, depth = (field[part] for field in (bound, stick, slips, depth))
     along = np.sum(shear * direction_of_slip(shear, slips), axis=0)
     deficit = np.where(stick, np.maximum(bound - along, 0.0), 0.0)
-    i, j = np.nonzero((depth <= CUT) & near(np.pad(stick, 1)))
+    border = np.zeros_like(stick)
+    border[counted] = ((depth <= CUT) & near(np.pad(stick, 1)))[counted]
+    i, j = np.nonzero(border)
     laws = LAWS if spreads else LAWS[:1]
     cells, deficit = AdjacentCells(depth, i, j), deficit / np.max(deficit)
     fits = [_fit_power_law(deficit, stick, depth, cells, *law) for law in laws]
@@ -76,7 +94,7 @@ def stick_area(shear: VectorField, bound: Field, stick: Mask, *, spreads: bool =
     covered = stick.astype(float)
     fitted = np.isfinite(np.min(residual, axis=0))
     covered[i[fitted], j[fitted]] = stuck[fitted]
-    return float(np.sum(covered))
+    return domain.images * float(np.sum(covered[counted]))
 
 
 def _fit_power_law(

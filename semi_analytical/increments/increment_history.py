@@ -77,20 +77,39 @@ def further(
 
 def further_shear(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
-) -> Point:
-    """Predict shear and tangential displacement of the next increment by linear extrapolation.
+) -> tuple[Point, Vector]:
+    """Predict shear, tangential displacement and rigid motion of the next increment.
 
-    The prediction is the initial guess of the tangential problem. Without valid extrapolation it is
-    the last shear and displacement.
+    The prediction is the initial guess of the tangential problem, by linear extrapolation. Without
+    valid extrapolation it is the last state.
 
     now         data of the last converged state
     behind      data of the converged state before `now`; None if unknown
     tangential  tangential load of the next increment
     """
     ratio = further(now, behind, tangential)
+    motion = further_motion(now, behind, tangential)
     if behind is None or ratio == 0:
-        return Point(now.shear, now.displacement)
-    return Point(
+        return Point(now.shear, now.displacement), motion
+    ahead = Point(
         now.shear + ratio * (now.shear - behind.shear),
         now.displacement + ratio * (now.displacement - behind.displacement),
     )
+    return ahead, motion
+
+
+def further_motion(
+    now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
+) -> Vector:
+    """Predict the rigid tangential motion at the end of the next increment by extrapolation.
+
+    Extrapolated displacements require this motion: with the last motion, all cells would slip.
+
+    now         data of the last converged state
+    behind      data of the converged state before `now`; None if unknown
+    tangential  tangential load of the next increment
+    """
+    motion, ratio = tangential.rigid_motion(now.shift, now.twist), further(now, behind, tangential)
+    if behind is None:
+        return motion
+    return motion + ratio * (motion - tangential.rigid_motion(behind.shift, behind.twist))

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from contact_scene.array_types import Field, VectorField
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.bulk_strain import UNSTRAINED
 from contact_scene.friction import sliding_friction
 from contact_scene.quantities.residuals import ShearResiduals
@@ -22,7 +22,6 @@ from semi_analytical.increments.tangential_solve import (
 )
 from semi_analytical.increments.tangential_state import (
     TangentialState,
-    first_motion,
     rigid,
     surface_target,
     torque_of,
@@ -48,7 +47,7 @@ def slip_and_stick(
     last: TangentialState,
     load: TangentialTarget,
     tolerance: float,
-    guess: Point | None = None,
+    guess: tuple[Point, Vector] | None = None,
 ) -> TangentialState:
     """Solve the tangential problem of one increment at a given pressure, from the previous state.
 
@@ -59,7 +58,8 @@ def slip_and_stick(
     last       tangential state at the start of the increment
     load       prescribed tangential load
     tolerance  limit of all dimensionless residuals
-    guess      initial guess of the shear with its displacement; None for that of the previous state
+    guess      initial guess of the shear with its displacement, and of the rigid motion; None for
+               those of the previous state
     raises     NotConverged; GrossSliding if a force exceeds the friction limit
     """
     bound = model.friction_limit(pressure)
@@ -69,7 +69,8 @@ def slip_and_stick(
     if trivial is not None:
         return trivial
     target = surface_target(model, last, load)
-    start, motion = guess or Point(last.shear, last.displacement), first_motion(last, load)
+    here = Point(last.shear, last.displacement), load.rigid_motion(last.shift, last.twist)
+    start, motion = guess or here
     aim, iterations = tolerance, 0
     for _ in range(MAX_ATTEMPTS):
         solution = shear(model, bound, target, load, start, motion, 0.5 * aim)
@@ -101,12 +102,12 @@ def _trivial_state(
     last      tangential state at the start of the increment
     load      prescribed tangential load
     """
-    nothing = np.zeros_like(last.shear)
+    nothing, here = np.zeros_like(last.shear), load.rigid_motion(last.shift, last.twist)
     if load.torque is not None:
         refuse_excessive_torque(model, bound, load)
         if np.any(bound):
             return None
-        return frictionless_state(model, pressure, nothing, last, load, first_motion(last, load))
+        return frictionless_state(model, pressure, nothing, last, load, here)
     if load.force is None:
         assert load.shift is not None
         return (
@@ -124,7 +125,7 @@ def _trivial_state(
         return None
     if np.any(bound):
         return gross_slip_state(model, pressure, last, load)
-    return frictionless_state(model, pressure, nothing, last, load, first_motion(last, load))
+    return frictionless_state(model, pressure, nothing, last, load, here)
 
 
 def shear_residuals(

@@ -36,6 +36,14 @@ class TangentialTarget:
         """True if the load includes torsion: a torque or a twist is prescribed."""
         return self.torque is not None or self.twist is not None
 
+    def rigid_motion(self, shift: Vector | None, twist: float | None) -> Vector:
+        """Return a rigid tangential motion: shift (2,), or shift and twist (3,) under a torque.
+
+        shift, twist  shift (2,) [length] and twist of the indenter; None for a twist of 0
+        """
+        assert shift is not None
+        return shift if self.torque is None else np.array([*shift, twist or 0.0])
+
     def as_load(
         self,
         cell_area: float,

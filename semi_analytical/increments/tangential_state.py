@@ -153,21 +153,6 @@ def strain_moments(model: ContactModel, q: VectorField) -> Vector:
     return np.array([float(np.sum(one)) for one in products]) * model.grid.cell_area
 
 
-def first_motion(last: TangentialState, load: TangentialTarget) -> Vector:
-    """Return the rigid tangential motion of the indenter at the start of an increment.
-
-    The solver uses it as initial guess. The result is the shift (2,), or shift and twist (3,) if a
-    torque is prescribed.
-
-    last  tangential state at the start of the increment
-    load  prescribed tangential load of the increment
-    """
-    assert last.shift is not None
-    if load.torque is None:
-        return last.shift
-    return np.array([*last.shift, last.twist or 0.0])
-
-
 def torque_of(model: ContactModel, q: VectorField) -> float:
     """Compute the torque Σ(q_y x - q_x y) Δ of a shear about the z axis [force length].
 

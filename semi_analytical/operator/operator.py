@@ -262,12 +262,12 @@ class DisplacementOperator:
 
     @cached_property
     def inverse(self) -> ApproximateInverse:
-        """Approximate inverse of the map from all tractions to displacements, in single precision.
+        """Approximate inverse of the map from all tractions to displacements.
 
         Used to precondition the coupled problem.
         """
         spectra = self._inverse_tangential() | {"zz": self._inverse_normal()}
-        return ApproximateInverse(self.transforms, spectra, SINGLE)
+        return ApproximateInverse(self.transforms, spectra)
 
     def _inverse_normal(self) -> Field:
         """Compute the spectrum of the approximate inverse of the normal displacement operator.
@@ -295,37 +295,35 @@ class DisplacementOperator:
 class ApproximateInverse:
     """Approximate inverse of the displacement operator, without normal-tangential coupling.
 
-    This preconditioner maps displacements to tractions. The spectra are those of the influence
+    This preconditioner maps displacements to tractions, in single precision: its errors affect the
+    number of iterations only. The spectra are those of the influence
     coefficients without zero padding. A component costs 1/4 convolution. Components are x, y and z
     if they have spectra, then the bins of slip compliance. A bin is a scalar shear, for which the
     mean tangential compliance plus the compliance of the bin is inverted.
 
     transforms  transforms of the domain
     spectra     spectra of the inverse (quarters) by pairs of components; real and symmetric
-    dtype       precision of the transforms
     """
 
-    def __init__(
-        self, transforms: Transforms, spectra: Mapping[str, Field], dtype: Dtype = DOUBLE
-    ) -> None:
-        self._transforms, self._spectra, self._dtype = transforms, spectra, dtype
+    def __init__(self, transforms: Transforms, spectra: Mapping[str, Field]) -> None:
+        self._transforms, self._spectra = transforms, spectra
         # The scale avoids overflow and underflow in single precision.
         self._unit = 1 / max(float(np.max(np.abs(one))) for one in spectra.values())
         entries = {}
         for pair, quarter in spectra.items():
-            scaled = KernelSpectrum((self._unit * quarter).astype(dtype), -1 if pair == "xy" else 1)
+            scaled = KernelSpectrum((self._unit * quarter).astype(SINGLE), -1 if pair == "xy" else 1)
             entries[pair] = response(transforms, pair, scaled)
         names = "".join(name for name in "xyz" + BINS if 2 * name in spectra)
-        self._apply_product = Product(transforms, entries, names, names, padded=False, dtype=dtype)
+        self._apply_product = Product(transforms, entries, names, names, padded=False, dtype=SINGLE)
 
     def __call__(self, displacements: Array) -> Array:
         """Compute approximate tractions that cause given surface displacements (components, nx,
         ny).
 
         displacements  displacement components and bins (components, nx, ny), within the range of
-                       `dtype`
+                       single precision
         """
-        tractions = self._apply_product(np.asarray(displacements, dtype=self._dtype))
+        tractions = self._apply_product(np.asarray(displacements, dtype=SINGLE))
         tractions *= 1 / self._unit
         return tractions
 
@@ -350,7 +348,7 @@ class ApproximateInverse:
             "xy": xy / total,
             **{p: one / (1 + more.get(p[0], compliance) * one) for p, one in alone.items()},
         }
-        return ApproximateInverse(self._transforms, spectra, self._dtype)
+        return ApproximateInverse(self._transforms, spectra)
 
 
 def positive_inverse(spectrum: Field) -> Field:

@@ -67,17 +67,21 @@ class Waves:
     turned      True if amplitudes are i times the spectrum
     of_complex  True if values are complex, so that wavenumbers have both signs
     in_pairs    True if amplitudes are pairs of real numbers
+    dtype       precision of the transform
     """
 
     def __init__(
-        self, cells: int, period: int, turned: bool, *, of_complex: bool, in_pairs: bool
+        self,
+        cells: int,
+        period: int,
+        turned: bool,
+        *,
+        of_complex: bool,
+        in_pairs: bool,
+        dtype: Dtype,
     ) -> None:
-        self._cells, self._period, self._has_factor_i, self._in_pairs = (
-            cells,
-            period,
-            turned,
-            in_pairs,
-        )
+        self._cells, self._period, self._has_factor_i = cells, period, turned
+        self._complex = np.result_type(dtype, np.complex64)
         self._forward = np.fft.fft if of_complex else np.fft.rfft
         self._back = np.fft.ifft if of_complex else np.fft.irfft
         self.count = (period if of_complex else period // 2 + 1) * (1 + in_pairs)
@@ -88,7 +92,7 @@ class Waves:
         values  field on the cells (…, cells)
         out     array for the amplitudes, which is returned (…, count)
         """
-        spectrum = _as_complex(out) if self._in_pairs else out
+        spectrum = out.view(self._complex)
         self._forward(values, n=self._period, axis=-1, out=spectrum)
         if self._has_factor_i:
             spectrum *= 1j
@@ -99,15 +103,10 @@ class Waves:
 
         amplitudes  amplitudes by wavenumber (…, count)
         """
-        spectrum = _as_complex(np.ascontiguousarray(amplitudes)) if self._in_pairs else amplitudes
+        spectrum = np.ascontiguousarray(amplitudes).view(self._complex)
         if self._has_factor_i:
             spectrum = -1j * spectrum
         return np.asarray(self._back(spectrum, n=self._period, axis=-1)[..., : self._cells])
-
-
-def _as_complex(pairs: Array) -> Array:
-    """View pairs of real numbers along the last axis as complex numbers."""
-    return pairs.view(np.result_type(pairs.dtype, np.complex64))
 
 
 class MirroredWaves:
@@ -280,7 +279,8 @@ class Transforms:
         if sign:
             return _mirrored(cells, period, sign, dtype)
         of_complex = self.whole and axis == 0
-        return Waves(cells, period, turned, of_complex=of_complex, in_pairs=not self.whole)
+        in_pairs = not self.whole
+        return Waves(cells, period, turned, of_complex=of_complex, in_pairs=in_pairs, dtype=dtype)
 
     def filter_fields(
         self, values: Array, inputs: Sequence[Sides], outputs: Sequence[Sides], multiply: Multiply

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from contact_scene.array_types import Field, Indices, Mask, Matrix, Vector, VectorField
+from contact_scene.array_types import Field, Indices, Matrix, Vector, VectorField
 from semi_analytical.multipliers import find_multiplier
 
 # Rounding error of a sum of shears, relative to the sum of their magnitudes.
@@ -194,7 +194,7 @@ class TangentialLoad:
         stiffness  stiffness of a test rig's spring, over γ
         """
         loaded, units = self._loaded_cells(bound)
-        of_loaded, limit = np.array(y[:, loaded], order="C"), bound[loaded]  # sums are pairwise
+        of_loaded, limit = y.reshape(2, -1).take(loaded, axis=1), bound.take(loaded)
         if guess is None:
             guess = (forces - units.forces(of_loaded)) / np.diag(
                 units.products(np.ones(len(limit)))
@@ -202,20 +202,18 @@ class TangentialLoad:
         shifted, multiplier = find_multiplier(
             lambda m: _ProjectedShear(m, of_loaded, limit, units, forces, stiffness), guess
         )
-        q = np.zeros_like(y)
-        q[:, loaded] = shifted.q
-        return q, multiplier
+        return _field_with_values(shifted.q, loaded, bound.shape), multiplier
 
-    def _loaded_cells(self, bound: Field) -> "tuple[Mask, _FreeMotions]":
+    def _loaded_cells(self, bound: Field) -> "tuple[Indices, _FreeMotions]":
         """Select the cells that can carry shear, because their friction limit is positive.
 
-        Return their mask (nx, ny) and the free rigid motions in these cells.
+        Return their flat indices (n,) and the free rigid motions in these cells.
 
         bound  friction limit µp (nx, ny)
         """
-        loaded, turn = bound > 0, self.rotation
+        loaded, turn = np.flatnonzero(bound > 0), self.rotation
         if turn is not None:
-            turn = np.array(turn[:, loaded] / self.reach, order="C")
+            turn = turn.reshape(2, -1).take(loaded, axis=1) / self.reach
         return loaded, _FreeMotions(self._free[self._free < 2], turn)
 
     def exhausts(self, bound: Field) -> bool:
@@ -239,14 +237,14 @@ class TangentialLoad:
         bound   friction limit µp (nx, ny)
         motion  rigid motion, whose free components are returned: gross slip does not determine them
         """
-        q = np.zeros((2, *bound.shape))
         if self.shift is not None:
             motion = np.array([*self.shift, *motion[2:]])
-        if np.any(bound) and np.any(self.prescribed_forces):
-            loaded, units = self._loaded_cells(bound)
-            speed = units.displacement(self.limit(bound)[1])
-            q[:, loaded] = bound[loaded] * speed / _blunt_size(speed)
-        return q, motion
+        if not (np.any(bound) and np.any(self.prescribed_forces)):
+            return np.zeros((2, *bound.shape)), motion
+        loaded, units = self._loaded_cells(bound)
+        speed = units.displacement(self.limit(bound)[1])
+        q = bound.take(loaded) * speed / _blunt_size(speed)
+        return _field_with_values(q, loaded, bound.shape), motion
 
     @cached_property
     def _gross_slip(self) -> Vector:
@@ -270,7 +268,7 @@ class TangentialLoad:
         if self.rotation is None:
             return float(np.sum(bound) * np.linalg.norm(start)), start
         loaded, units = self._loaded_cells(bound)
-        limit = bound[loaded]
+        limit = bound.take(loaded)
         across = np.linalg.svd(self.prescribed_forces[None, :])[2][1:]
         if len(across) == 0:
             return float(limit @ magnitude(units.displacement(start))), start
@@ -290,6 +288,19 @@ class TangentialLoad:
             x, (power, slope, curvature) = _descend(power_at, x, step, power, fall)
         self._gross_slip[:] = x
         return power, start + x @ across
+
+
+def _field_with_values(values: Field, cells: Indices, shape: tuple[int, ...]) -> VectorField:
+    """Return a vector field (2, nx, ny) with given values in some cells and zeros elsewhere.
+
+    values  vectors of the cells (2, n)
+    cells   flat indices of the cells (n,)
+    shape   number of cells along x and y
+    """
+    field = np.zeros((2, *shape))
+    for component, of_cells in zip(field.reshape(2, -1), values, strict=True):
+        component[cells] = of_cells
+    return field
 
 
 @dataclass(frozen=True)
@@ -493,10 +504,8 @@ class _ProjectedShear:
     ) -> None:
         self._units, self._stiffness = units, stiffness
         self._z = y + units.displacement(multiplier)
-        self._length = magnitude(self._z)
-        self._outside = self._length > bound
-        self._scale = np.where(self._outside, bound / np.maximum(self._length, bound), 1.0)
-        self._capacity = float(np.sum(bound))
+        self._bound, self._length = bound, magnitude(self._z)
+        self._scale = bound / np.maximum(self._length, bound)
         self.q = self._z * self._scale
         self.defect = units.forces(self.q) + stiffness * multiplier - given
 
@@ -521,8 +530,9 @@ class _ProjectedShear:
         """
         along = self._units.projections(self._z)
         products = self._units.products(self._scale)
-        radial = self._outside * self._scale / np.where(self._outside, self._length**2, 1.0)
+        outside = self._length > self._bound
+        radial = outside * self._scale / np.maximum(self._length, self._bound) ** 2
         matrix = products - (along * radial) @ along.T
-        damping = np.trace(products) * (np.sum(np.abs(self.defect)) / self._capacity) ** 2
+        damping = np.trace(products) * (np.sum(np.abs(self.defect)) / np.sum(self._bound)) ** 2
         damping = 1e-3 * damping + self._stiffness
         return -np.linalg.solve(matrix + damping * np.eye(len(matrix)), self.defect)

@@ -84,6 +84,10 @@ class ShearZones:
         return found
 
     @cached_property
+    def _unheld(self) -> Field:
+        return self._bin_weights[0] + self._stick
+
+    @cached_property
     def _excess_compliance(self) -> Field:
         return beyond(self.slip_compliance / self._self_compliance)
 
@@ -106,13 +110,12 @@ class ShearZones:
         v        displacement (2, nx, ny)
         inverse  F⁻¹ of two components, then (f + d_j)⁻¹ of one component per bin
         """
-        given = np.empty((len(self._bin_weights) + 1, *v.shape[1:]))
-        unheld = self._bin_weights[0] + self._stick
-        np.multiply(unheld, v, out=given[:2])
+        given = np.empty((len(self._bin_weights) + 1, *v.shape[1:]), dtype=np.float32)
+        np.multiply(self._unheld, v, out=given[:2])
         along = self._tangent[0] * v[0] + self._tangent[1] * v[1]
         np.multiply(self._bin_weights[1:], along, out=given[2:])
         found = inverse(given)
-        free = self.free(unheld * found[:2])
+        free = self.free(self._unheld * found[:2])
         turned = np.einsum("kij,kij->ij", self._bin_weights[1:], found[2:])
         turned += self._single_cell_inverse * along
         free += self._tangent * turned
