@@ -95,9 +95,10 @@ def test_a_mirrored_or_turned_zone_is_as_large():
         assert stick_area(*turned) == pytest.approx(area, rel=1e-12)
     mirrored = stick_area(shear[:, :, ::-1], bound[:, ::-1], stick[:, ::-1])
     assert mirrored == pytest.approx(area, rel=1e-12)
-    for even in (contact(9.3, 0.5), contact(18.4, 1.5), contact(9.3, 1.5, turning=np.radians(5))):
-        half = ReducedDomain((False, True))
-        assert stick_area(*even, domain=half) == pytest.approx(stick_area(*even), rel=1e-12)
+    for end in (contact(18.4, 1.5), contact(9.3, 0.5, turning=np.radians(5))):
+        for domain in (ReducedDomain((True, True), (-1, 1)), ReducedDomain((False, True))):
+            even = [domain.extend(domain.restrict(field)) for field in end]
+            assert stick_area(*even, domain=domain) == pytest.approx(stick_area(*even), rel=1e-12)
 
 
 def test_without_a_border_cells_count():
