@@ -368,9 +368,7 @@ def _stick_zone(
     from semi_analytical.edge_correction.stick_area import stick_area
 
     limit = model.friction.limit(p)
-    stuck = stick_area(
-        sheared.shear, limit, sheared.in_stick, spreads=spreads, domain=model.domain
-    )
+    stuck = stick_area(sheared.shear, limit, sheared.in_stick, spreads=spreads, domain=model.domain)
     if corrected is None or corrected.shear is None:
         return stuck, sheared, increment
     stick = sheared.in_stick & (corrected.pressure > 0)

@@ -74,12 +74,12 @@ def stick_area(
         return stuck_cells(shear, bound, stick)
     # The box is symmetric about the mirror planes. Cells of one side are counted; the margin on the
     # other side contains the data of their fits.
-    planes = [size // 2 * mirrored for size, mirrored in zip(stick.shape, domain.mirrors)]
+    planes = [stick.shape[axis] // 2 * domain.mirrors[axis] for axis in (0, 1)]
     margins = [min(plane, LAYERS) for plane in planes]
     part = tuple(slice(at - width, None) for at, width in zip(planes, margins, strict=True))
     counted = tuple(slice(width, None) for width in margins)
-    shear = shear[:, *part]
-    bound, stick, slips, depth = (field[part] for field in (bound, stick, slips, depth))
+    shear, bound, depth = shear[:, *part], bound[part], depth[part]
+    stick, slips = stick[part], slips[part]
     along = np.sum(shear * direction_of_slip(shear, slips), axis=0)
     deficit = np.where(stick, np.maximum(bound - along, 0.0), 0.0)
     border = np.zeros_like(stick)

@@ -311,7 +311,9 @@ class ApproximateInverse:
         self._unit = 1 / max(float(np.max(np.abs(one))) for one in spectra.values())
         entries = {}
         for pair, quarter in spectra.items():
-            scaled = KernelSpectrum((self._unit * quarter).astype(SINGLE), -1 if pair == "xy" else 1)
+            scaled = KernelSpectrum(
+                (self._unit * quarter).astype(SINGLE), -1 if pair == "xy" else 1
+            )
             entries[pair] = response(transforms, pair, scaled)
         names = "".join(name for name in "xyz" + BINS if 2 * name in spectra)
         self._apply_product = Product(transforms, entries, names, names, padded=False, dtype=SINGLE)
