@@ -1,6 +1,5 @@
 """Tests of the study of work and precision: Pareto front, cheapest setting, and timing."""
 
-import os
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -11,13 +10,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from contact_scene.disk_cache import cached_array
 from radial.response.wavenumbers import (
     waves,
 )
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import FAILED, PEERS, made_environment
-from verification.running.cold_cache import CACHE, cold_cache
+from verification.running.cold_cache import cold_cache
 from verification.running.study import CaseRecord, Conclusion, Settings, parameters_of
 from verification.studies.work_precision import (
     CONTACTS,
@@ -129,13 +129,13 @@ def test_all_but_the_clock_is_the_same_at_every_run(
     assert set(first.measures) == set(CONTACTS["coated"].errors)
 
 
-def test_a_measurement_starts_from_an_empty_cache(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv(CACHE, "/somewhere/else")
+def test_a_measurement_starts_from_an_empty_cache(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path))
+    assert cached_array("stored", (1,), lambda: np.zeros(1)) == 0
     with cold_cache():
-        place = Path(os.environ[CACHE])
-        assert list(place.iterdir()) == []
-    assert os.environ[CACHE] == "/somewhere/else"
-    assert not place.exists()
+        assert cached_array("stored", (1,), lambda: np.ones(1)) == 1
 
 
 def test_a_measurement_finds_nothing_in_memory() -> None:

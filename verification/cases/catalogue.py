@@ -6,12 +6,12 @@ Python module that defines a case is imported only when the case is needed.
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Collection
 from dataclasses import dataclass
 from importlib import import_module
 
+from contact_scene.disk_cache import without_cache
 from contact_scene.reading.description import Description
 from verification.judging.case import Case, Level
 from verification.judging.judgement import judge
@@ -176,10 +176,8 @@ class CaseToJudge:
         Stored results of earlier versions of the program could hide an error of the present
         version.
         """
-        from verification.running.cold_cache import cache_directory
-
         case, started = case_of(self.name, Level[self.level]), time.perf_counter()
-        with cache_directory(os.devnull):
+        with without_cache():
             outcome = judge(case)
         return JudgedCase(outcome=outcome, seconds=time.perf_counter() - started)
 

@@ -21,6 +21,7 @@ import numpy as np
 
 from contact_results.blas_threads import VARIABLES
 from contact_results.directory.atomic_file import atomic_file
+from contact_scene.disk_cache import cache_directory
 from verification.challenge.python_api import (
     CannotDo,
     Posed,
@@ -79,13 +80,12 @@ def peers_directory() -> Path:
     """Return the directory of the Python environment in which the other contact codes are
     installed.
 
-    The directory is in SLIPSTICK_CACHE_DIR, or in `slipstick` in the user's cache directory.
+    The directory is part of the directory of the disk cache. Raises RuntimeError without one.
     """
-    place = os.environ.get("SLIPSTICK_CACHE_DIR")
-    if place:
-        return Path(place) / FOLDER
-    user = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
-    return Path(user) / "slipstick" / FOLDER
+    directory = cache_directory()
+    if directory is None:
+        raise RuntimeError("the user has no home directory. Set SLIPSTICK_CACHE_DIR")
+    return directory / FOLDER
 
 
 def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import os
 import statistics
 import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from tempfile import TemporaryDirectory
 from typing import TypeVar
 
-CACHE = "SLIPSTICK_CACHE_DIR"
+from contact_scene.disk_cache import without_cache
+
 SOLVERS = ("semi_analytical", "fem_reference", "radial")
 ENOUGH_SECONDS = 1.0  # CPU time after which repetitions add no accuracy
 MAX_REPEATS = 5
@@ -20,29 +19,10 @@ T = TypeVar("T")
 
 
 @contextmanager
-def cache_directory(path: str) -> Iterator[None]:
-    """Run a block of code with another directory for the solvers' cache on disk.
-
-    path  directory of the cache; `os.devnull` for no cache on disk
-    """
-    before = os.environ.get(CACHE)
-    os.environ[CACHE] = path
-    try:
-        yield
-    finally:
-        del os.environ[CACHE]
-        if before is not None:
-            os.environ[CACHE] = before
-
-
-@contextmanager
 def cold_cache() -> Iterator[None]:
-    """Run a block of code with empty caches of all solvers, on disk and in memory.
-
-    The cache on disk is a temporary directory, which is removed after the block.
-    """
+    """Run a block of code with empty caches of all solvers in memory, and without that on disk."""
     clear_caches(*SOLVERS)
-    with TemporaryDirectory() as empty, cache_directory(empty):
+    with without_cache():
         yield
 
 
