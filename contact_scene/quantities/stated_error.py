@@ -54,7 +54,7 @@ class StatedError(Description):
     number that the load prescribes."""
 
 
-EXACT = StatedError(error=0.0, parts={}, status=ErrorStatus.EXACT)
+EXACT = StatedError.model_construct(error=0.0, parts={}, status=ErrorStatus.EXACT)
 
 
 class CoarseSolveRecord(Description):

@@ -41,7 +41,7 @@ def stress_at_surface(
     spacing   cell sides [length]
     """
     found = [
-        stress_from_beyond(edged.cells, plane, some.x, some.y, material, spacing)
+        stress_from_beyond(edged.framed_fields[0], plane, some.x, some.y, material, spacing)
         + _stress_in_box(edged, some, material, spacing)
         + _stress_by_points(edged, some.x, some.y, 0.0, material, spacing)
         for some in (
@@ -154,10 +154,9 @@ def _stress_by_points(
     if not slopes_alone:
         ring = np.maximum(np.abs(a), np.abs(b)) > BOX
         a, b = a[ring], b[ring]
-    fields = (edged.cells * (not slopes_alone), *edged.slopes)
     at = i[:, None] + a + PATCH, j[:, None] + b + PATCH
-    pad = [(0, 0), (PATCH, PATCH), (PATCH, PATCH)]
-    mean, by_x, by_y = (np.pad(field, pad)[:, at[0], at[1]] for field in fields)
+    mean, by_x, by_y = (field[:, at[0], at[1]] for field in edged.framed_fields)
+    mean *= not slopes_alone
     observer, cell = np.nonzero((mean[2] > 0) | (by_x[2] != 0) | (by_y[2] != 0))
     mean, by_x, by_y = (field[:, observer, cell] for field in (mean, by_x, by_y))
     to_x, to_y = (x - i)[observer] - a[cell], (y - j)[observer] - b[cell]

@@ -136,7 +136,7 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
         x.forward(y.forward(field, name == "y").T, name == "x")
         for field, name in zip(tractions, names, strict=True)
     ]
-    padded = np.zeros((y.half + 1, x.half + 1))
+    padded = np.zeros((x.half + 1, y.half + 1))
 
     def convolve(coefficients: Field) -> Field:
         fields = np.empty((len(FIELDS), x.cells, y.cells))
@@ -145,12 +145,12 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
             total = np.zeros_like(spectra[0])
             for spectrum, name in zip(spectra, names, strict=True):
                 response, (along_x, along_y) = next(responses)
-                padded[: offsets[1], : offsets[0]] = response.T
-                lines = _cosine_or_sine_sums(_cosine_or_sine_sums(padded, along_x).T, along_y).T
+                padded[: offsets[0], : offsets[1]] = response
+                lines = _cosine_or_sine_sums(_cosine_or_sine_sums(padded, along_y).T, along_x)
                 if spectrum.shape[-1] > lines.shape[-1]:
                     lines = np.concatenate([lines, along_x * lines[:, -2:0:-1]], axis=1)
                 factor = x.factor(along_x < 0, name == "x") * y.factor(along_y < 0, name == "y")
-                total = total + (factor * spectrum) * lines
+                total += spectrum * (factor * lines)
             along = x.back(total, axes.count("x") % 2 == 1)
             field[:] = y.back(along.T, axes.count("y") % 2 == 1)
         return fields

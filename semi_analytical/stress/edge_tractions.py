@@ -7,6 +7,7 @@ are in cells and positions are cell indices.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt
@@ -16,6 +17,7 @@ from semi_analytical.edge.clipped_power_means import mean_power
 from semi_analytical.edge.fit import Stencil, fit_about
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import EdgeShape, edge_shape
+from semi_analytical.stress.patch import PATCH
 
 # Depth of the cells that are divided into subcells, and their largest distance from the contact.
 TAKEN_APART, CUT = 3.5, 1.5
@@ -77,16 +79,18 @@ class EdgedTractions:
         beside = (self.means - self.cells)[:, self.i, self.j] - each * by_fit
         return np.asarray(each[..., None, None] * within + beside[..., None, None])
 
-    @property
-    def slopes(self) -> tuple[Field, Field]:
-        """Slopes of the tractions `cells` along x and y, each (3, nx, ny), as changes per cell.
+    @cached_property
+    def framed_fields(self) -> tuple[Field, ...]:
+        """Tractions `cells` and their slopes along x and y, each (3, nx + 2 PATCH, ny + 2 PATCH).
 
-        The slopes are zero in cells without pressure, and in cells that are divided into subcells.
+        The slopes are changes per cell. They are zero in cells without pressure, and in cells that
+        are divided into subcells. PATCH layers of cells without traction surround the grid.
         """
         whole = self.cells[2] > 0
         whole[self.i, self.j] = False
-        by_x, by_y = (np.asarray(np.gradient(self.cells, axis=axis)) for axis in (1, 2))
-        return by_x * whole, by_y * whole
+        slopes = (whole * np.gradient(self.cells, axis=axis) for axis in (1, 2))
+        frame = [(0, 0), (PATCH, PATCH), (PATCH, PATCH)]
+        return tuple(np.pad(field, frame) for field in (self.cells, *slopes))
 
 
 def part_centres(count: int) -> Field:

@@ -32,7 +32,8 @@ def stress_from_beyond(
     The patch is centred at the nearest cell, which is at least NODES cells from the border of the
     grid.
 
-    cells     tractions (q_x, q_y, p) of the cells (3, nx, ny) [force/length^2]
+    cells     tractions (q_x, q_y, p) of the cells (3, nx + 2 PATCH, ny + 2 PATCH) [force/length^2];
+              PATCH layers of cells without traction surround the grid
     plane     surface stress at the cell centres by all tractions (6, nx, ny) [force/length^2]
     x, y      points as cell indices (n,)
     material  outermost material of the body
@@ -51,14 +52,13 @@ def stress_from_beyond(
 def _cell_patches(cells: Field, i: Indices, j: Indices) -> Field:
     """Return the tractions on the square patch of cells about each of n cells (n, 3, side, side).
 
-    Cells beyond the grid have zero traction. side is 2 PATCH + 1 cells.
+    side is 2 PATCH + 1 cells.
 
-    cells  tractions (q_x, q_y, p) of the cells (3, nx, ny)
+    cells  tractions (q_x, q_y, p) of the cells, within PATCH layers of cells without traction
     i, j   indices of the central cell of each patch (n,)
     """
     shift = np.arange(2 * PATCH + 1)
-    padded = np.pad(cells, [(0, 0), (PATCH, PATCH), (PATCH, PATCH)])
-    found = padded[:, (i[:, None] + shift)[:, :, None], (j[:, None] + shift)[:, None, :]]
+    found = cells[:, (i[:, None] + shift)[:, :, None], (j[:, None] + shift)[:, None, :]]
     return np.moveaxis(found, 1, 0)
 
 
