@@ -48,15 +48,18 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
     new = np.pad(slips & (size > 0), 1)  # all neighbours of cells are in the frame
     known, n = new.copy(), np.zeros((2, *new.shape))
     n[:, known] = q[:, known[1:-1, 1:-1]] / size[known[1:-1, 1:-1]]
+    flat, across = n.reshape(2, -1), new.shape[1]
+    neighbours = np.add.outer([-across, 0, across], [-1, 0, 1]).reshape(-1, 1)
     for _ in range(LAYERS):
         i, j = np.nonzero(near(new) & ~known[1:-1, 1:-1])
-        about = np.sum([n[:, i + row, j + column] for row, column in np.ndindex(3, 3)], axis=0)
+        cells = (i + 1) * across + j + 1
+        about = np.sum(flat.take(cells + neighbours, axis=1), axis=1)
         size = magnitude(about)
         agree = size > LEAST_COMMON
-        i, j = i[agree] + 1, j[agree] + 1
-        n[:, i, j] = about[:, agree] / size[agree]
+        cells = cells[agree]
+        flat[:, cells] = about[:, agree] / size[agree]
         new[:] = False
-        new[i, j] = True
+        new.flat[cells] = True
         known |= new
     nearest = distance_transform_edt(
         ~known[1:-1, 1:-1], return_distances=False, return_indices=True
