@@ -274,6 +274,22 @@ def test_a_limit_of_time_keeps_the_best_result() -> None:
     assert made.level.result.grid.cells == made.accuracy.settings.cells == (24, 24)
 
 
+def test_a_limit_of_time_holds_for_all_rounds_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each round takes one second and needs another of the same length."""
+    solve_level, rounds = Levels.solve_level, []
+
+    def solved(self: Levels, fineness: Fineness) -> RefinementLevel:
+        rounds.append(fineness)
+        level = solve_level(self, fineness)
+        return replace(level, seconds=1.0, solve_seconds=1.0, error_seconds=0.0)
+
+    monkeypatch.setattr(Levels, "solve_level", solved)
+    monkeypatch.setattr(Levels, "estimated_seconds", lambda *_: 1.0)
+    made = refine(on_cells(scene(PRESS), edge="off"), request("approach 0.001%"), most_seconds=2.5)
+    assert not made.accuracy.met
+    assert len(rounds) == 2
+
+
 def test_a_limit_of_memory_keeps_the_best_result(monkeypatch: pytest.MonkeyPatch) -> None:
     # Another program takes the memory after the first level, which is not accurate enough without
     # edge correction.

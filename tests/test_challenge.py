@@ -308,6 +308,8 @@ def test_who_gives_up_has_not_merely_omitted() -> None:
     found = judged(POINT, Solver("stranger"), (Answer(1e-5, gave_up={0: "no convergence"}),))
     assert found.exit_code() == 3
     assert found.omitted == ()
+    coarse, wrong = Answer(2e-5, gave_up={0: "no convergence"}), exact(POINT, off=0.5)
+    assert judged(POINT, Solver("stranger"), [coarse, wrong]).exit_code() == 1
     assert "no convergence" in found.rows[0].because
 
 
@@ -342,14 +344,25 @@ def test_a_number_that_the_finest_level_lacks_leaves_it_open(name: str) -> None:
     assert (*key, number.required) in found.omitted
 
 
-def test_a_class_has_room_for_the_uncertainty_of_the_reference() -> None:
+@pytest.mark.parametrize(
+    ("part", "grade", "status"),
+    [
+        (-1.5, "A", Status.PASS),
+        (-0.5, "B", Status.INCONCLUSIVE),
+        (0.5, "B", Status.INCONCLUSIVE),
+        (1.5, "B", Status.FAIL),
+    ],
+)
+def test_a_class_has_room_for_the_uncertainty_of_the_reference(
+    part: float, grade: str, status: Status
+) -> None:
+    """The error is the bound of the class and a part of twice the uncertainty."""
     each = ((one, asked) for one in challenges().values() for asked in one.values)
     challenge, asked = next(pair for pair in each if pair[1].uncertainty > 1e-7)
-    for part, grade in ((0.5, "B"), (1.5, "A")):
-        off = (Grade.A.bound - part * 2 * asked.uncertainty) * asked.scale
-        answer = Answer(1e-5, {(asked.quantity, asked.step): asked.value + off})
-        (row,) = (r for r in judged(challenge, Solver("s"), [answer]).rows if r.grade)
-        assert (row.quantity, row.grade) == (asked.quantity, grade)
+    off = (Grade.A.bound + part * 2 * asked.uncertainty) * asked.scale
+    answer = Answer(1e-5, {(asked.quantity, asked.step): asked.value + off})
+    (row,) = (r for r in judged(challenge, Solver("s"), [answer], Grade.A).rows if r.grade)
+    assert (row.quantity, row.grade, row.status) == (asked.quantity, grade, status)
 
 
 def test_a_field_that_the_finest_level_lacks_leaves_it_open() -> None:

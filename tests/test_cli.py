@@ -17,10 +17,16 @@ import semi_analytical
 from contact_results.blas_threads import VARIABLES
 from contact_results.directory.file_names import SUMMARY
 from contact_scene.solver_errors import (
+    AccuracyOutOfReach,
     ContactAtWindowEdge,
+    ContactAtZoneEdge,
+    ContactNotResolved,
     GrossSliding,
     NotConverged,
+    NothingTouches,
     ResourceRefused,
+    SolverError,
+    SurfacesOverlap,
     UnsupportedScene,
 )
 from slipstick.cli import main
@@ -151,10 +157,17 @@ FAILURES = {
     2: (
         GrossSliding("tangential force exceeds the limit"),
         ContactAtWindowEdge("contact touches the edge"),
+        ContactAtZoneEdge("contact touches the end of the fine rings"),
+        AccuracyOutOfReach("no grid can meet the request"),
         UnsupportedScene("no layers yet"),
         OSError(errno.EACCES, "Permission denied", "out/result.h5"),
     ),
-    3: (NotConverged("pressure", 100, 1e-3, 1e-8),),
+    3: (
+        NotConverged("pressure", 100, 1e-3, 1e-8),
+        ContactNotResolved("the contact is smaller than the cells"),
+        NothingTouches("no cell touches"),
+        SurfacesOverlap(1e-2, 3, 1e-3),
+    ),
     4: (
         ResourceRefused("needs 80 GB"),
         MemoryError("Unable to allocate 80 GiB"),
@@ -162,6 +175,11 @@ FAILURES = {
     ),
     70: (ZeroDivisionError("a defect"), ValueError("another")),
 }
+
+
+def test_every_error_of_a_solver_has_a_stated_code() -> None:
+    stated = {type(failure) for failures in FAILURES.values() for failure in failures}
+    assert {*SolverError.__subclasses__(), NothingTouches} <= stated
 
 
 @pytest.mark.parametrize(

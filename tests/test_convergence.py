@@ -19,10 +19,12 @@ from verification.convergence.observed_order import (
     refined_value,
     triplets_agree,
 )
+from verification.judging.field_errors import shear_error as shear_error_of_run
 from verification.norms import relative_l1, relative_l2, shear_error
-from verification.observed.ring_errors import between_rings
+from verification.observed.ring_errors import between_rings, central_pressure
 from verification.observed.ring_errors import relative_l1 as relative_l1_over_radius
 from verification.observed.ring_errors import relative_l2 as relative_l2_over_radius
+from verification.problems.problem import FRICTION
 
 SIZES = 0.25 * 2.0 ** -np.arange(6)
 GRIDS = 0.25 * 2.0 ** (-np.arange(6) / 2)
@@ -177,6 +179,26 @@ def test_errors_between_rings_are_those_of_the_linear_traction() -> None:
     assert l1 == pytest.approx(side**2 / 6, rel=0.02)
     l2 = relative_l2_over_radius(increment, exact(radii), exact, 1.0)
     assert l2 == pytest.approx(side**2 / np.sqrt(30) * np.sqrt(30 / 1.1**4), rel=0.02)
+
+
+def test_an_error_of_half_the_friction_limit_is_half_on_rings() -> None:
+    radii = np.arange(41) / 40
+    pressure = np.sqrt(1 - radii**2)
+    end = SimpleNamespace(
+        radii=radii, pressure=pressure, shear_along_load=0.5 * FRICTION * pressure
+    )
+    none: Any = SimpleNamespace(ends=[SimpleNamespace(shear=np.zeros_like)], radius=1.0)
+    found = shear_error_of_run(SimpleNamespace(steps=[end]), 0, none)
+    assert found == pytest.approx(0.5, rel=1e-3)
+
+
+def test_the_pressure_on_the_axis_is_the_vertex_of_a_parabola() -> None:
+    x, y = np.meshgrid(*[0.1 * (np.arange(8) - 3.5)] * 2)
+    mean = 3 - 2 * (x**2 + y**2)
+    report = SimpleNamespace(cause=None)
+    grid = SimpleNamespace(coordinates=lambda: (x, y))
+    result = SimpleNamespace(grid=grid, steps=[SimpleNamespace(pressure=mean, edge_report=report)])
+    assert central_pressure(result) == pytest.approx(3.0, rel=1e-12)
 
 
 def test_shear_error_counts_the_transverse_component() -> None:

@@ -13,6 +13,8 @@ from semi_analytical.edge.film import FilmLaw, film_law
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil, fit_about, peak_of
 from semi_analytical.edge.kernels import PARITY
 from semi_analytical.edge.shape import EdgeShape, edge_shape
+from semi_analytical.frf.stack import stack_of
+from semi_analytical.frf.surface import scalars
 from tests.cell_means import ellipse_means, elliptic_radius
 from verification.norms import cell_means, round_means
 from verification.problems.indentation import BALL
@@ -245,6 +247,14 @@ def test_no_film_calls_for_a_law_where_an_edge_sees_none() -> None:
     )
     assert one is not None
     assert other is not None
+    # The response is the compliance of both bodies over that of their outermost materials.
+    film = coated(4.0, 0.1).layers[0]
+    k, outermost = np.array([0.01, 0.1, 1.0, 5.0]), Body(material=film.material)
+    compliance, unit = (
+        sum(scalars(stack_of(body), k / film.thickness).c22 for body in bodies)
+        for bodies in ((coated(4.0, 0.1), bare), (outermost, bare))
+    )
+    np.testing.assert_allclose(one.response(k), compliance / unit, rtol=1e-10)
     s, c = np.array([0.3, 3.0]), np.zeros(2)
     np.testing.assert_allclose(one.over_root(s, c), other.over_root(s, c), rtol=1e-12)
 

@@ -26,7 +26,10 @@ SCENE = slipstick.Scene(
     friction=slipstick.CoulombFriction(coefficient=0.1),
     loading=(
         slipstick.LoadStep(normal_force=1e3),
-        *(slipstick.LoadStep(tangential_force=(t, 0.0), increments=2) for t in (60.0, -60.0, 60.0)),
+        *(
+            slipstick.LoadStep(tangential_force=(force, 0.0), increments=2)
+            for force in (60.0, -60.0, 60.0, -30.0, 60.0)  # two cycles of different amplitude
+        ),
     ),
 )
 COARSE: dict[str, Any] = {

@@ -118,6 +118,15 @@ def test_estimated_memory_is_the_peak_of_the_run(text: str, tmp_path: Path) -> N
     assert estimated_bytes(grid, decided) == pytest.approx(ended.memory, rel=WITHIN)
 
 
+def test_a_long_history_keeps_little_of_each_increment_in_memory(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(scene(256), encoding="utf-8")
+    contents = read_scene_file(path)
+    grid, decided = discretise(contents.scene, contents.semi_analytical), plan(contents.scene)
+    short, long = (estimated_bytes(grid, decided.cut_into([n])) for n in (1000, 2000))
+    assert 0 < long - short < 1e6
+
+
 # ---- The radial solver states the memory of a run before it takes it, and keeps no more than
 
 

@@ -69,6 +69,12 @@ def test_a_push_is_cut_by_its_change_over_the_friction_limit(of):
     assert of(coupled_scene(press(), *steps)).increments[1:] == (12, 2)
 
 
+@pytest.mark.parametrize("of", [fem_reference.plan, radial.plan])
+def test_a_strain_is_cut_where_friction_meets_it(of):
+    pressed, strained = of(scene(PRESS, {"bulk_strain": (1e-5, 1e-5, 0.0)})).increments
+    assert pressed == strained > 1
+
+
 def test_a_load_under_shear_is_cut_alike_there_and_back():
     half = {"normal_force": 0.5 * PRESS["normal_force"], **push(0.2)}
     whole = {**PRESS, **push(0.3)}

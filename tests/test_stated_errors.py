@@ -602,6 +602,21 @@ def test_the_error_of_two_coarse_tractions_is_the_larger_one(monkeypatch) -> Non
     assert np.any(one < other)
 
 
+def test_stress_near_the_surface_improves_slower_with_cells_than_that_below(monkeypatch) -> None:
+    """The same change between cells leaves the larger error where the order is lower."""
+    state = state_of_result(solve(scene(PRESS), grid(24), 1e-8), 1)
+    depth, wide = np.array([0.01 * A, A]), on_wide_cells(state, 0)
+    monkeypatch.setattr(stress_errors_module, "on_wide_cells", lambda *_: wide)
+    monkeypatch.setattr(
+        stress_errors_module, "stress_at_cells",
+        lambda one, *_, **__: SimpleNamespace(
+            depth=depth, stress=np.full((6, 2), float(one is wide))
+        ),
+    )  # fmt: skip
+    _, (near, below) = stress_errors_module.stress_at(state, depth, depth, [])
+    assert near > 1.2 * below > 0
+
+
 @pytest.mark.parametrize(("nu", "count"), [(0.2, 32), (0.49, 32), (0.499, 32), (0.47, 100)])
 def test_a_tension_near_zero_has_the_error_of_the_tractions(nu: float, count: int) -> None:
     """At the edge of Hertz's contact it is (1 - 2ν)/3 of the peak, however close ν is to ½."""

@@ -92,7 +92,9 @@ def test_cells_and_rings_have_the_same_stress_at_points_within_their_errors(plac
     points = ("--at", "0.3 mm,0,0.25 mm", "--at", "0,0.3 mm,0.25 mm", "--at", "-.3mm,.2mm,.15mm")
     cells = at_points(place, "run", "cells", *points)
     rings = at_points(place, "scene.toml", "rings", *points, "--solver", "radial")
-    for one, other in zip(cells, rings, strict=True):
+    asked = [(3e-4, 0.0), (0.0, 3e-4), (-3e-4, 2e-4)]
+    for one, other, (x, y) in zip(cells, rings, asked, strict=True):
+        assert (float(one["x [m]"]), float(one["y [m]"])) == (x, y)
         allowed = float(one["error [Pa]"]) + float(other["error [Pa]"])
         assert allowed < 2e7
         for name in SIGMA:

@@ -3,6 +3,7 @@ solver."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ import radial.history
 import slipstick
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
-from contact_results.stress.on_disc import stress_on_disc
+from contact_results.stress.on_disc import stress_at_radii, stress_on_disc
 from contact_results.stress.points import StressField
 from contact_results.stress.stress_maxima import (
     Extreme,
@@ -280,6 +281,34 @@ def test_an_oblique_load_has_its_profile_along_it_and_acts_on_the_indenter_in_re
     assert np.max(np.abs(lower["xz"])) > 1e-3 * end.peak_pressure
     assert_allclose(upper["xz"], -lower["xz"])
     assert_allclose(upper["zz"], lower["zz"])
+
+
+@pytest.mark.parametrize("direction", [(0.6, 0.8), (0.0, -1.0), (-1.0, 0.0)])
+def test_a_stress_turns_as_a_tensor(
+    direction: tuple[float, float], rng: np.random.Generator
+) -> None:
+    axis = stress_on_disc(state_of_result(radial.solve(scene_of(BARE)), None), depths=[0.3]).axis
+    points = replace(axis, stress=rng.normal(size=axis.stress.shape))
+    c, s = direction
+    turn, voigt = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), [[0, 5, 4], [5, 1, 3], [4, 3, 2]]
+    expected = np.einsum("ia,jb,abn->ijn", turn, turn, points.stress[voigt])
+    assert_allclose(points.rotate_to_scene(direction).stress[voigt], expected, atol=1e-14)
+
+
+TWISTED = frictional(
+    Body(material=SOFT), SAME, LoadStep(normal_force=W, increments=1), LoadStep(torque=0.02 * W)
+)
+
+
+@pytest.mark.parametrize("scene", [TWISTED, pushed()], ids=["twisted", "pushed"])
+def test_a_section_has_on_both_sides_the_stress_of_its_points(scene: Scene) -> None:
+    state = state_of_result(radial.solve(scene), None)
+    section = stress_on_disc(state, depths=[0.3]).section.select_columns(slice(None, None, 9))
+    levels = [Level(0.3, 0)] * section.x.size
+    at_points = stress_at_radii(state, section.x.ravel(), section.y.ravel(), levels)
+    peak = np.max(np.abs(section.stress))
+    assert np.min(section.x) < 0
+    assert_allclose(at_points.stress, section.stress[:, 0], atol=1e-9 * peak)
 
 
 @pytest.mark.parametrize(

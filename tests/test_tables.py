@@ -18,6 +18,7 @@ from semi_analytical.frf.surface import scalars
 from slipstick.cli.commands import deposit
 from slipstick.tables.catalogue import TABLES
 from slipstick.tables.table import Axis, RowValues, Table
+from verification.challenge.cases import challenges
 from verification.closed_forms.coated_indentation import (
     LayeredSurface,
     flat_punch,
@@ -223,8 +224,12 @@ def test_the_deposit_describes_every_table_and_has_the_same_bytes_again(
     assert again.items() <= found[0].rows[0].items()
     recorded = load_reference("changing_loads")["ends"]["0.3"]["5"]
     stored = {
-        row["quantity"]: row["value"]
+        row["quantity"]: (row["value"], row["value_uncertainty"])
         for row in found[2].rows
         if row["case"] == "changing_loads/nu=0.3" and row["step"] == 5
     }
-    assert stored == pytest.approx(recorded, rel=1e-5)
+    assert {name: value for name, (value, _) in stored.items()} == pytest.approx(recorded, rel=1e-5)
+    for asked in challenges()["changing_loads/nu=0.3"].values:
+        if asked.step == 5:
+            allowed = asked.uncertainty * asked.scale
+            assert stored[asked.quantity][1] == pytest.approx(allowed, rel=1e-12)

@@ -160,13 +160,21 @@ def measured(heights: NDArray[np.float64]) -> HeightMap:
 
 AT = np.square(np.arange(32) - 15.5) * 5e-6**2 / (2 * R)
 ROUND = AT[:, None] + AT
+TILT = 2e-2 * np.arange(32) * 5e-6
 RIDGES = 1e-8 * np.cos(np.arange(32))[:, None] * np.cos(np.arange(32))
 
 
 @pytest.mark.parametrize(
     "heights",
-    [np.zeros((32, 32)), -ROUND, ROUND + 2e-2 * np.arange(32) * 5e-6, np.ones((9, 40))],
-    ids=["flat", "inverted", "tilted", "flat, above zero"],
+    [
+        np.zeros((32, 32)),
+        -ROUND,
+        ROUND + TILT,
+        ROUND - TILT,
+        ROUND.T - TILT[:, None],
+        np.ones((9, 40)),
+    ],
+    ids=["flat", "inverted", "near y", "far y", "far x", "flat, above zero"],
 )
 def test_a_map_that_touches_first_at_its_rim_is_refused_at_once(
     heights: NDArray[np.float64],
