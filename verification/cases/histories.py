@@ -35,6 +35,7 @@ from contact_scene import (
 from contact_scene.loading import CONTROLS
 from contact_scene.quantities.residuals import worst
 from semi_analytical import SurfaceGrid, all_effects
+from semi_analytical.edge_correction.pressure import SETTLED
 from verification.closed_forms.hertz import PointContact
 from verification.judging.case import (
     OTHER_NORMS,
@@ -93,6 +94,10 @@ ISOTROPIC = "isotropy of bodies and friction"
 TURNS_INTO_ITSELF = "a right angle maps square cells to square cells;"
 ROTATION = r"\mathbf{q}(\mathbf{R}\mathbf{x}) = \mathbf{R}\,\mathbf{q}(\mathbf{x})"
 EXACT = 10 * SOLVER_TOLERANCE
+# An edge correction ends at a change of SETTLED, and its tangential solves end at a tenth of their
+# first residual. The result therefore depends on the round-off of the preconditioner, by 1.2e-7 at
+# any tolerance of the solver. Allowed is the part MOVED of the last change as in the baselines.
+CORRECTED = 0.01 * SETTLED
 FILMED = coated(film(2.0, 1.0))
 
 
@@ -268,8 +273,9 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
             compare_runs(
                 "turned_by_90", "difference of pressure, shear and shift after a rotation by a "
                 "right angle",
-                (quarter.label, straight.label), after_quarter, EXACT,
-                TURNS_INTO_ITSELF + ANSWERED, ISOTROPIC,
+                (quarter.label, straight.label), after_quarter, EXACT + CORRECTED,
+                TURNS_INTO_ITSELF + ANSWERED + "; 1 % of the change at which the edge correction "
+                "ends", ISOTROPIC,
             ),
             _rotation_comparison(oblique, straight, 30.0, 3e-4, 64),
         ),
