@@ -287,7 +287,7 @@ def page_lines(text: str) -> Iterator[str]:
 def differences(accepted: list[str], found: list[str], shown: int = 6) -> list[str]:
     """Return the first lines that differ, below the command and the file that they belong to."""
     report: list[str] = []
-    words = [[NUMBER.sub("#", line) for line in lines] for lines in (accepted, found)]
+    words = [[_words(line) for line in lines] for lines in (accepted, found)]
     for _, a, b, c, d in SequenceMatcher(None, *words, autojunk=False).get_opcodes():
         for k in range(max(b - a, d - c)):
             old = accepted[a + k] if a + k < b else "(nothing)"
@@ -307,9 +307,14 @@ def _place(lines: list[str]) -> str:
     return " | ".join([lines[command], *files[-1:]])
 
 
+def _words(line: str) -> str:
+    """The line without its numbers; a time or a size that is left out has changed the columns."""
+    return NUMBER.sub("#", re.sub(r"([ ─])\1+", r"\1", line))
+
+
 def _agree(accepted: str, found: str) -> bool:
     """True if two lines of equal words have equal numbers."""
-    if NUMBER.sub("#", accepted) != NUMBER.sub("#", found):
+    if _words(accepted) != _words(found):
         return False
     pairs = list(zip(NUMBER.findall(accepted), NUMBER.findall(found), strict=True))
     largest = max((abs(float(old)) for old, _ in pairs), default=0.0)
