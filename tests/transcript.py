@@ -21,6 +21,7 @@ from contextlib import ExitStack, chdir, redirect_stderr, redirect_stdout
 from difflib import SequenceMatcher
 from html import unescape
 from io import StringIO
+from itertools import zip_longest
 from pathlib import Path
 from runpy import run_path
 from tempfile import TemporaryDirectory
@@ -83,13 +84,14 @@ def transcribe(commands: Iterable[str], directory: Path) -> list[str]:
 
 
 def _run(words: list[str], directory: Path) -> Iterator[str]:
-    """Run `slipstick ...` or `python FILE`; yield exit code and output."""
+    """Run `slipstick ...` or `python FILE ...`; yield exit code and output."""
     program, *arguments = words
     with ExitStack() as stack:
         out = stack.enter_context(redirect_stdout(StringIO()))
         err = stack.enter_context(redirect_stderr(StringIO()))
         stack.enter_context(chdir(directory))
         stack.enter_context(patch.dict("os.environ", COLUMNS="80"))
+        stack.enter_context(patch("sys.argv", words[1:]))
         for module in ("figure_files", "style"):
             stack.enter_context(patch(f"contact_results.figures.{module}.save", _write_figure))
         pool = "verification.running.case_pool.LocalWorkers"
@@ -220,7 +222,7 @@ def table_lines(text: str) -> Iterator[str]:
     lines = text.splitlines()
     yield from (line for line in lines if line.startswith("#"))
     rows = list(csv.reader(line for line in lines if not line.startswith("#")))
-    for head, *column in zip(*rows, strict=True):
+    for head, *column in zip_longest(*rows, fillvalue=""):
         yield f"{head}: {values_text(map(_number_or_text, column))}"
 
 

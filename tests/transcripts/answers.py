@@ -5,18 +5,18 @@ from pathlib import Path
 from verification import Answer
 
 ANSWERS = """level,load_step,quantity,value,unit,u,point
-1,1,approach,9.6e-6,m,1 um,
-1,1,contact_radius,0.391 mm,,,
+1,1,approach,9.6e-6,m,1e-6,
+1,1,contact_radius,0.391,mm,,
 1,1,moment_x,0.13,N m,,
 1,1,moment_y,-0.1,N m,,
-2,1,approach,9.51e-6,m,1 um,
-2,1,contact_radius,0.39 mm,,,
+2,1,approach,9.51e-6,m,1e-6,
+2,1,contact_radius,0.39,mm,,
 2,1,moment_x,0.102,N m,,
 2,1,moment_y,-0.09,N m,,
 """
 LEVELS = """level,status,reason,h,h_unit,unknowns,cpu_seconds
-1,ok,,20,um,1000,1
-2,ok,,10,um,4000,5
+1,solved,,20,um,1000,1
+2,solved,,10,um,4000,5
 """
 SOLVER = """[solver]
 name = "wrong"
