@@ -29,6 +29,7 @@ from contact_scene.solver_errors import (
     SurfacesOverlap,
     UnsupportedScene,
 )
+from fem_reference.mesh.gmsh_mesh import GmshMissing
 from slipstick.cli import main
 from slipstick.solvers.names import SolverName
 
@@ -160,6 +161,7 @@ FAILURES = {
         ContactAtZoneEdge("contact touches the end of the fine rings"),
         AccuracyOutOfReach("no grid can meet the request"),
         UnsupportedScene("no layers yet"),
+        GmshMissing("gmsh cannot be loaded"),
         OSError(errno.EACCES, "Permission denied", "out/result.h5"),
     ),
     3: (
