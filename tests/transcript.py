@@ -310,7 +310,9 @@ def _place(lines: list[str]) -> str:
 
 
 def _words(line: str) -> str:
-    """The line without its numbers; a time or a size that is left out has changed the columns."""
+    """Return a line without its numbers and the widths of its columns.
+
+    The widths depend on times and sizes, which the transcript leaves out."""
     return NUMBER.sub("#", re.sub(r"([ ─])\1+", r"\1", line))
 
 

@@ -192,7 +192,7 @@ def _model_at(location: Iterable[str | int]) -> type[BaseModel] | None:
 
 
 def _expected_components(key: str | int) -> str:
-    """Name the array that a key with components along the axes expects."""
+    """Describe the array that is expected as the value of a key with components along axes."""
     of_strain = str(key).startswith("bulk_")
     return "an array of 3, for xx, yy and xy" if of_strain else "an array of 2, for x and y"
 
