@@ -4,10 +4,8 @@ The system is solved by GMRES.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from contact_scene.array_types import Field, Matrix, Vector
 from contact_scene.solver_errors import NotConverged
@@ -217,7 +215,7 @@ class BinnedPreconditioner:
         """
         zones, slip, shares = self._zones, self._zones.slip, self._shares
         shape = zones.contact.shape
-        v: NDArray[Any] = np.zeros((2 + len(shares), zones.contact.size), dtype=np.float32)
+        v = np.zeros((2 + len(shares), zones.contact.size))
         v[:3] = zones.field(rows).reshape(3, -1)
         along = zones.split_unknowns(rows)[1]
         for one in v[:2]:

@@ -75,6 +75,7 @@ def slip_and_stick(
     for _ in range(MAX_ATTEMPTS):
         solution = shear(model, bound, target, load, start, motion, 0.5 * aim)
         iterations += solution.iterations
+        solution = replace(solution, iterations=iterations)
         # Slip of the indenter relative to the body in this increment.
         relative_slip = rigid(model, solution.motion) + target - solution.displacement
         residuals = shear_residuals(model, solution, bound, relative_slip, load, last)

@@ -17,13 +17,12 @@ from semi_analytical.influence.coefficients import PARITY, InfluenceCoefficients
 from semi_analytical.operator.domain import Pair, ReducedDomain
 from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
 from semi_analytical.operator.spectra import KernelSpectrum, kernel_spectrum
-from semi_analytical.operator.transforms import DOUBLE, Convolutions, Dtype, Transforms
+from semi_analytical.operator.transforms import Convolutions, Transforms
 
 Array = NDArray[Any]
 # Real symmetric response between the amplitudes of two components.
 Response = KernelSpectrum | Field
 
-SINGLE: Dtype = np.dtype(np.float32)
 BINS = "".join(str(number) for number in range(len(COMPLIANCES)))
 
 
@@ -79,7 +78,6 @@ class Product:
     entries          factors by pairs of component names, e.g. "xy"
     inputs, outputs  names of the components of the input and output fields
     padded           True for zero padding to twice the window (linear convolution)
-    dtype            precision of the transforms
     """
 
     def __init__(
@@ -90,10 +88,9 @@ class Product:
         outputs: str,
         *,
         padded: bool = True,
-        dtype: Dtype = DOUBLE,
     ) -> None:
         self._transforms = transforms
-        self._sides = transforms.axis_transforms(inputs, outputs, padded=padded, dtype=dtype)
+        self._sides = transforms.axis_transforms(inputs, outputs, padded=padded)
         names = [["".join(sorted(row + column)) for column in inputs] for row in outputs]
         self._rows = [[(k, name) for k, name in enumerate(row) if name in entries] for row in names]
         self._entries = {name: entries[name] for row in self._rows for _, name in row}
@@ -113,9 +110,7 @@ class Product:
         amplitudes  amplitudes of each input field at some wavenumbers along y
         columns     slice of these wavenumbers
         """
-        dtype = amplitudes[0].dtype  # mixed products would be slower
-        entries = self._entries.items()
-        some = {name: entry[columns].astype(dtype, copy=False) for name, entry in entries}
+        some = {name: entry[columns] for name, entry in self._entries.items()}
         found = []
         for row in self._rows:
             (first, name), *others = row
@@ -295,8 +290,7 @@ class DisplacementOperator:
 class ApproximateInverse:
     """Approximate inverse of the displacement operator, without normal-tangential coupling.
 
-    This preconditioner maps displacements to tractions, in single precision: its errors affect the
-    number of iterations only. The spectra are those of the influence
+    This preconditioner maps displacements to tractions. The spectra are those of the influence
     coefficients without zero padding. A component costs 1/4 convolution. Components are x, y and z
     if they have spectra, then the bins of slip compliance. A bin is a scalar shear, for which the
     mean tangential compliance plus the compliance of the bin is inverted.
@@ -307,27 +301,20 @@ class ApproximateInverse:
 
     def __init__(self, transforms: Transforms, spectra: Mapping[str, Field]) -> None:
         self._transforms, self._spectra = transforms, spectra
-        # The scale avoids overflow and underflow in single precision.
-        self._unit = 1 / max(float(np.max(np.abs(one))) for one in spectra.values())
         entries = {}
         for pair, quarter in spectra.items():
-            scaled = KernelSpectrum(
-                (self._unit * quarter).astype(SINGLE), -1 if pair == "xy" else 1
-            )
-            entries[pair] = response(transforms, pair, scaled)
+            inverse = KernelSpectrum(quarter, -1 if pair == "xy" else 1)
+            entries[pair] = response(transforms, pair, inverse)
         names = "".join(name for name in "xyz" + BINS if 2 * name in spectra)
-        self._apply_product = Product(transforms, entries, names, names, padded=False, dtype=SINGLE)
+        self._apply_product = Product(transforms, entries, names, names, padded=False)
 
     def __call__(self, displacements: Array) -> Array:
         """Compute approximate tractions that cause given surface displacements (components, nx,
         ny).
 
-        displacements  displacement components and bins (components, nx, ny), within the range of
-                       single precision
+        displacements  displacement components and bins (components, nx, ny)
         """
-        tractions = self._apply_product(np.asarray(displacements, dtype=SINGLE))
-        tractions *= 1 / self._unit
-        return tractions
+        return self._apply_product(displacements)
 
     def with_compliance(self, compliance: float) -> ApproximateInverse:
         """Return the approximate inverse for surfaces with an additional compliance in each cell.

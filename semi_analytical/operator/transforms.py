@@ -22,12 +22,10 @@ from scipy.fft import dct, dst, idct, idst, next_fast_len
 from semi_analytical.operator.domain import Pair, Parity, ReducedDomain
 
 Array = NDArray[Any]
-Dtype = np.dtype[Any]
 # Function of the amplitudes (columns, along x) of all components at some wavenumbers along y, and
 # of the slice of these wavenumbers.
 Multiply = Callable[[Sequence[Array], slice], Sequence[Array]]
 
-DOUBLE: Dtype = np.dtype(np.float64)
 # Size of the blocks of a component that are transformed along x and multiplied.
 BLOCK = 1 << 14
 # Cells along an axis up to which a matrix of cosines or sines is faster than an FFT.
@@ -45,17 +43,17 @@ class Convolutions:
     """
 
     count: float = 0.0
-    _memory: Array = field(default_factory=lambda: np.empty(0, dtype=np.complex128))
+    _memory: Array = field(default_factory=lambda: np.empty(0, dtype=complex))
 
-    def work_space(self, size: int, dtype: Dtype) -> Array:
+    def work_space(self, size: int, dtype: type[float] | type[complex]) -> Array:
         """Return scratch memory for the transforms of an operator, valid until the next call.
 
         size   number of array entries
-        dtype  data type of the entries
+        dtype  data type of the entries, float or complex
         """
-        if self._memory.nbytes < size * dtype.itemsize:
-            self._memory = np.empty(0, dtype=np.complex128)  # release before the new allocation
-            self._memory = np.empty(-(-size * dtype.itemsize // 16), dtype=np.complex128)
+        if self._memory.view(dtype).size < size:
+            self._memory = np.empty(0, dtype=complex)  # release before the new allocation
+            self._memory = np.empty(size if dtype is complex else (size + 1) // 2, dtype=complex)
         return self._memory.view(dtype)[:size]
 
 
@@ -67,7 +65,6 @@ class Waves:
     turned      True if amplitudes are i times the spectrum
     of_complex  True if values are complex, so that wavenumbers have both signs
     in_pairs    True if amplitudes are pairs of real numbers
-    dtype       precision of the transform
     """
 
     def __init__(
@@ -78,10 +75,8 @@ class Waves:
         *,
         of_complex: bool,
         in_pairs: bool,
-        dtype: Dtype,
     ) -> None:
         self._cells, self._period, self._has_factor_i = cells, period, turned
-        self._complex = np.result_type(dtype, np.complex64)
         self._forward = np.fft.fft if of_complex else np.fft.rfft
         self._back = np.fft.ifft if of_complex else np.fft.irfft
         self.count = (period if of_complex else period // 2 + 1) * (1 + in_pairs)
@@ -92,7 +87,7 @@ class Waves:
         values  field on the cells (…, cells)
         out     array for the amplitudes, which is returned (…, count)
         """
-        spectrum = out.view(self._complex)
+        spectrum = out.view(complex)
         self._forward(values, n=self._period, axis=-1, out=spectrum)
         if self._has_factor_i:
             spectrum *= 1j
@@ -103,7 +98,7 @@ class Waves:
 
         amplitudes  amplitudes by wavenumber (…, count)
         """
-        spectrum = np.ascontiguousarray(amplitudes).view(self._complex)
+        spectrum = np.ascontiguousarray(amplitudes).view(complex)
         if self._has_factor_i:
             spectrum = -1j * spectrum
         return np.asarray(self._back(spectrum, n=self._period, axis=-1)[..., : self._cells])
@@ -118,10 +113,9 @@ class MirroredWaves:
     cells   number of cells of the domain along the axis
     period  period of the window in cells
     sign    parity of the field about the plane: 1 for cosines, -1 for sines
-    dtype   precision of the transform
     """
 
-    def __init__(self, cells: int, period: int, sign: int, dtype: Dtype) -> None:
+    def __init__(self, cells: int, period: int, sign: int) -> None:
         self.count = m = period // 2
         self._cells, self._even = cells, sign > 0
         self._matrix: Array | None = None
@@ -129,7 +123,7 @@ class MirroredWaves:
             wave = 2 * (np.cos if self._even else np.sin)(np.pi / (2 * m) * np.arange(4 * m))
             numbers = [0 if self._even else m, *range(1, m)]
             at = np.outer(2 * np.arange(cells) + 1, numbers) % (4 * m)
-            self._matrix = wave[at].astype(dtype)
+            self._matrix = wave[at]
             self._inverse = self._matrix.T / (2 * m)
             self._inverse[0] /= 2
 
@@ -242,13 +236,12 @@ class Transforms:
         return component == "z" and self.whole
 
     def axis_transforms(
-        self, inputs: str, outputs: str, *, padded: bool = True, dtype: Dtype = DOUBLE
+        self, inputs: str, outputs: str, *, padded: bool = True
     ) -> tuple[list[Sides], list[Sides]]:
         """Return the transforms along x and along y of each input and each output component.
 
         inputs, outputs  names of the components, e.g. "xyz"
         padded           True for zero padding to twice the window
-        dtype            precision of the transforms
         """
         # Responses between scalars need no factor i on the full window.
         mixed = not (self.whole and {*inputs, *outputs} <= {"z"})
@@ -258,29 +251,26 @@ class Transforms:
             turned = mixed and self._has_factor_i(component)
             last = turned and not self.whole
             return (
-                self._axis_transform(component, 0, x, turned, dtype),
-                self._axis_transform(component, 1, y, last, dtype),
+                self._axis_transform(component, 0, x, turned),
+                self._axis_transform(component, 1, y, last),
             )
 
         return [of(one) for one in inputs], [of(one) for one in outputs]
 
-    def _axis_transform(
-        self, component: str, axis: int, period: int, turned: bool, dtype: Dtype
-    ) -> Side:
+    def _axis_transform(self, component: str, axis: int, period: int, turned: bool) -> Side:
         """Return the transform of one field component along one axis.
 
         component  name of the component
         axis       0 for x, 1 for y
         period     period of the transform in cells of the window
         turned     True if amplitudes are i times the spectrum
-        dtype      precision of the transform
         """
         sign, cells = self.parity(component)[axis], self.shape[axis]
         if sign:
-            return _mirrored(cells, period, sign, dtype)
+            return _mirrored(cells, period, sign)
         of_complex = self.whole and axis == 0
         in_pairs = not self.whole
-        return Waves(cells, period, turned, of_complex=of_complex, in_pairs=in_pairs, dtype=dtype)
+        return Waves(cells, period, turned, of_complex=of_complex, in_pairs=in_pairs)
 
     def filter_fields(
         self, values: Array, inputs: Sequence[Sides], outputs: Sequence[Sides], multiply: Multiply
@@ -298,14 +288,12 @@ class Transforms:
         (x, y), (nx, ny), most = inputs[0], self.shape, max(len(inputs), len(outputs))
         by_matrix = not self.whole and max(nx, ny) <= MAX_BY_MATRIX
         width = y.count if by_matrix else min(y.count, max(1, BLOCK // x.count))
-        size, dtype = nx * y.count, values.dtype
-        if self.whole:
-            dtype = np.result_type(dtype, np.complex64)
+        size, dtype = nx * y.count, complex if self.whole else float
         # Page faults of new memory would take longer than the products.
         work = self.counter.work_space(most * (size + width * x.count), dtype)
         lines = work[: most * size].reshape(most, nx, y.count)
         blocks = work[most * size :].reshape(most, width, x.count)
-        result = np.empty((len(outputs), nx, ny), dtype=values.dtype)
+        result = np.empty((len(outputs), nx, ny))
         if by_matrix:  # matrix products need no copy of the transpose
             each = zip(values, lines, blocks, inputs, strict=False)
             amplitudes = [x.forward(y.forward(one, a).T, b) for one, a, b, (x, y) in each]

@@ -110,7 +110,7 @@ class ShearZones:
         v        displacement (2, nx, ny)
         inverse  F⁻¹ of two components, then (f + d_j)⁻¹ of one component per bin
         """
-        given = np.empty((len(self._bin_weights) + 1, *v.shape[1:]), dtype=np.float32)
+        given = np.empty((len(self._bin_weights) + 1, *v.shape[1:]))
         np.multiply(self._unheld, v, out=given[:2])
         along = self._tangent[0] * v[0] + self._tangent[1] * v[1]
         np.multiply(self._bin_weights[1:], along, out=given[2:])

@@ -36,6 +36,7 @@ MAX_STEPS = 120
 ROUGHLY = 0.05
 # Least residual of a linear solve, relative to the tolerance.
 FINE = 0.3
+ROUND_OFF = np.finfo(float).eps
 # Changes of the energy below this fraction of the work of the shear may be round-off.
 LEVEL = 1e-12
 
@@ -183,7 +184,8 @@ def _line_search(
     A step is accepted if the energy decreases sufficiently. Close to the solution changes of the
     energy are below round-off. Only there a point is also accepted if its residual of the friction
     law is smaller than that of the accepted point. Elsewhere this criterion may increase the energy
-    and lead to cycles. Return the point and its natural map.
+    and lead to cycles. A point that differs from the accepted point by round-off is accepted: a
+    shortened step would be round-off again, without end. Return the point and its natural map.
 
     accepted  last accepted point and its residual of the friction law; None in the first step
     newton    point after the Newton step
@@ -197,11 +199,12 @@ def _line_search(
     d, d_u = newton.shear - q, newton.displacement - u
     slope, curvature = np.sum(d * gradient), np.sum(d * d_u)
     change = slope + 0.5 * curvature
-    level = change <= LEVEL * np.sum(np.abs(q * u))
-    if change <= 0.1 * slope or (level and natural.error < error):
+    work = np.sum(np.abs(q * u))
+    same = curvature <= ROUND_OFF**2 * work
+    level = change <= LEVEL * work
+    if same or change <= 0.1 * slope or (level and natural.error < error):
         return newton, natural
-    # Without curvature the points differ by round-off.
-    step = min(1.0, -slope / curvature) if curvature > 0 else 0.0
+    step = min(1.0, -slope / curvature)
     if step < 1e-3:
         d = problem.natural(Point(q, u), natural.motion).projected - q
         d_u = problem.displace(d)
