@@ -36,10 +36,11 @@ SMOOTHED = 2.0
 
 
 def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
-    """Compute the direction of the shear of slipping cells, and extend this direction to all cells.
+    """Compute the direction of the shear of slipping cells, and extend it to cells around them.
 
     The result (2, nx, ny) contains unit vectors. Other cells take the mean direction of adjacent
-    cells, layer by layer. Beyond LAYERS layers they take the direction of the nearest cell.
+    cells, layer by layer. Beyond LAYERS layers the vectors are zero: cells deep in the stick zone
+    do not follow the friction limit.
 
     q      shear of the cells (2, nx, ny)
     slips  slipping cells (nx, ny)
@@ -61,10 +62,7 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
         new[:] = False
         new.flat[cells] = True
         known |= new
-    nearest = distance_transform_edt(
-        ~known[1:-1, 1:-1], return_distances=False, return_indices=True
-    )
-    return n[:, nearest[0] + 1, nearest[1] + 1]
+    return n[:, 1:-1, 1:-1]
 
 
 @dataclass(frozen=True)
