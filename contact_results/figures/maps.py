@@ -137,7 +137,7 @@ def _cycle_fields(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, 
         # A power of ten, because a prefix of Pa would be squared.
         exponent = 3 * floor(log10(largest) / 3) if largest > 0 else 0
         name = f"$10^{{{exponent}}}$ Pa² m" if exponent else "Pa² m"
-        yield "Ruiz F₂ = σT τ δ", EngineeringUnit(10.0**exponent, name), cycle.ruiz_f2
+        yield "Ruiz F₂ = σₜ τ δ", EngineeringUnit(10.0**exponent, name), cycle.ruiz_f2
 
 
 def stick_slip_map(result: Result, cells: Above) -> Figure:
