@@ -9,8 +9,6 @@ from math import ceil
 from typing import Any, ClassVar, Self
 
 import numpy as np
-from scipy.fft import next_fast_len
-from scipy.ndimage import distance_transform_edt
 
 import semi_analytical
 from contact_errors.coarse_solves import (
@@ -32,6 +30,7 @@ from semi_analytical import Increment, Plan, Result, SurfaceGrid, memory
 from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.edge.film import film_law
 from semi_analytical.edge.fit import WIDE
+from semi_analytical.operator.transforms import fast_length
 from semi_analytical.plan import Coupling
 from semi_analytical.resolution import resolution, resolution_at
 from semi_analytical.solve import solve_within
@@ -230,7 +229,8 @@ def _distance_of_peak_to_edge(end: Increment) -> float:
     end  state at the end of a load step
     """
     place = np.unravel_index(np.argmax(end.pressure), end.pressure.shape)
-    return float(distance_transform_edt(end.in_contact)[place])
+    offsets = np.argwhere(~end.in_contact) - place
+    return float(np.sqrt(np.min(np.sum(offsets**2, axis=1))))
 
 
 def _may_hide_stick(end: Increment) -> bool:
@@ -256,5 +256,5 @@ def scale_cells(cells: tuple[int, int], factor: float) -> tuple[int, int]:
     cells   numbers of cells along x and y
     factor  factor of both numbers
     """
-    nx, ny = (2 * next_fast_len(ceil(round(factor * n, 6) / 2), real=True) for n in cells)
+    nx, ny = (2 * fast_length(ceil(round(factor * n, 6) / 2)) for n in cells)
     return nx, ny

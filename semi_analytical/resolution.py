@@ -8,17 +8,15 @@ from dataclasses import dataclass
 from math import pi
 
 import numpy as np
-from scipy import ndimage
 
 from contact_scene import HeightMap
-from contact_scene.array_types import Field, Mask
+from contact_scene.array_types import Field, Indices, Mask
 from contact_scene.solver_errors import ContactNotResolved, SolverError
 from semi_analytical.default_grid import fit_window
 from semi_analytical.fields import Increment, Result
 
 # Cells per contact radius from which peak pressure and approach are meaningful.
 ENOUGH = 8
-SQUARE = np.ones((3, 3), dtype=bool)  # cells that share a corner belong to one patch
 
 
 @dataclass(frozen=True)
@@ -128,11 +126,10 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
     load    load of each cell (nx, ny)
     area    area of all patches in cells, with sub-cell accuracy
     """
-    patches, number = ndimage.label(marked, SQUARE)
-    if number == 0:
+    if not np.any(marked):
         return 0.0
     i, j = np.nonzero(marked)
-    of = patches[i, j] - 1
+    of = _patches(marked)
     count = np.bincount(of)
     x, y = (at - (np.bincount(of, at) / count)[of] for at in (i, j))
     # 1/12 is the second moment of a cell.
@@ -140,9 +137,38 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
     mean, apart = (xx + yy) / 2, np.hypot((xx - yy) / 2, np.bincount(of, x * y) / count)
     flattening = np.sqrt((mean - apart) / (mean + apart))
     axes = np.sqrt(count * area / np.sum(count) / pi * flattening)
-    inner = np.bincount(of, ndimage.binary_erosion(marked)[i, j]) > 0
+    free = np.pad(~marked, 1, constant_values=True)
+    rim = free[:-2, 1:-1] | free[2:, 1:-1] | free[1:-1, :-2] | free[1:-1, 2:]
+    inner = np.bincount(of, ~rim[i, j]) > 0
     axes = np.where(inner, axes, axes / 2)
     return float(np.average(axes, weights=np.bincount(of, load[i, j])))
+
+
+def _patches(marked: Mask) -> Indices:
+    """Return the number of the patch of each marked cell, in the order of `np.nonzero`.
+
+    Cells that share a side or a corner belong to one patch. Of two adjacent cells with different
+    numbers, the cell whose index is the lower number takes the higher number, and with it all cells
+    of the lower number.
+
+    marked  cells of the patches (nx, ny)
+    """
+    framed = np.pad(marked, 1)
+    across, cells, number = framed.shape[1], np.flatnonzero(framed), np.arange(framed.size)
+    pairs = np.concatenate(
+        [
+            np.stack([cells, cells + step])[:, framed.flat[cells + step]]
+            for step in (1, across - 1, across, across + 1)
+        ],
+        axis=1,
+    )
+    while pairs.size:
+        first, second = number[pairs]
+        np.maximum.at(number, np.minimum(first, second), np.maximum(first, second))
+        while np.any(number != number[number]):
+            number = number[number]
+        pairs = pairs[:, number[pairs[0]] != number[pairs[1]]]
+    return np.unique(number[cells], return_inverse=True)[1]
 
 
 def _layer_cells(result: Result) -> float | None:
@@ -165,6 +191,8 @@ def _wavelength_cells(result: Result, touched: Mask) -> float | None:
     indenter = result.scene.indenter
     if not isinstance(indenter, HeightMap) or not np.any(touched):
         return None
+    from scipy import ndimage  # the import takes as long as a contact
+
     gap = indenter.initial_gap(*result.grid.coordinates())
     about = ndimage.find_objects(touched.astype(int))[0]
     # Gradients of gradients would vanish for a wavelength of two cells.

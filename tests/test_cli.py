@@ -138,6 +138,11 @@ def test_a_solver_is_used_without_the_other_and_without_the_harness(
     assert (out / SUMMARY).exists()
 
 
+def test_contact_without_friction_is_solved_without_scipy(tmp_path: Path) -> None:
+    run = ("run", "scenes/hertz.toml", "-o", tmp_path / "out", "--figures", "none", "--no-error")
+    assert "scipy" not in imported_after(run)[0]
+
+
 def test_package_runs_as_the_command() -> None:
     outcome = subprocess.run(
         [sys.executable, "-m", "slipstick", "--version"],

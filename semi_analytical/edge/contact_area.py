@@ -9,7 +9,6 @@ Mindlin and Deresiewicz 1953).
 """
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
 
 from contact_scene.array_types import Field, Mask
 from semi_analytical.edge.fit import Stencil, fit_about
@@ -69,6 +68,8 @@ def stuck_cells(shear: Field, bound: Field, in_stick: Mask) -> float:
     in_slip = (bound > 0) & ~in_stick
     if not np.any(in_slip):
         return covered_cells(bound, in_stick)
+    from scipy.ndimage import distance_transform_edt  # the import takes as long as a contact
+
     nearest = distance_transform_edt(~in_slip, return_distances=False, return_indices=True)
     q = shear[:, nearest[0], nearest[1]]
     direction = q / np.sqrt(q[0] ** 2 + q[1] ** 2)

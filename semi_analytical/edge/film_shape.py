@@ -24,7 +24,7 @@ from semi_analytical.edge.film import FilmLaw
 from semi_analytical.edge.fit import Fits, Stencil, fit_about
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.edge.shape import CUT_WEIGHT, MAX_FIT_DEPTH, EdgeShape
+from semi_analytical.edge.shape import CUT_WEIGHT, MAX_FIT_DEPTH, EdgeShape, inscribed_radius
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 # Depth of the cells along the edge, in cells.
@@ -165,29 +165,21 @@ class _Problem:
     domain: ReducedDomain
     exponent: Exponent
 
-    @property
-    def means_by_depth(self) -> Field:
-        """Initial guess of the cell means of φ in a contact of layered bodies (nx, ny).
-
-        φ is a power of the pressure that vanishes smoothly at the contact edge. The depth of a
-        cell, counted in cells, serves as its distance from the edge. Cells far from the edge keep
-        these values.
-        """
-        size = np.sqrt(np.prod(self.law.stretched))
-        s = np.maximum(self.depth - 0.5, 0.5) * size
-        curved = np.full(s.shape, -9 / 8 / (np.max(self.depth) * size))  # Hertz contact
-        return power(self.means / self.law.over_root(s, curved), np.divide(1, self.exponent))
-
     def initial_edge(self, i: Indices, j: Indices) -> EdgeLine:
         """Return the initial guess of the contact edge of layered bodies, from fits to inner cells.
 
-        Cells along the edge are not data, because their φ depends on the unknown position of the
-        edge.
+        The depth of a cell serves as its distance from the edge. Cells along the edge are not data,
+        because their φ depends on the unknown position of the edge.
 
         i, j  indices of the cells along the edge (n,)
         """
+        size = np.sqrt(np.prod(self.law.stretched))
+        s = np.maximum(self.depth - 0.5, 0.5) * size
+        radius = inscribed_radius(self.region, self.domain) * size
+        curved = np.full(s.shape, -9 / 8 / radius)  # Hertz contact
+        phi = power(self.means / self.law.over_root(s, curved), np.divide(1, self.exponent))
         inner = (self.region & (self.depth >= ALONG)).astype(float)
-        fits = fit_about(self.means_by_depth, inner, i, j, self.stencil, domain=self.domain)
+        fits = fit_about(phi, inner, i, j, self.stencil, domain=self.domain)
         line = EdgeLine.from_fits(fits.quadratic, self.law.stretched)
         return line.use_median_curvature().append_images(self.domain)
 
@@ -199,8 +191,8 @@ class _Problem:
 
         line  points of the given contact edge
         """
-        phi, weight = self.means_by_depth, self.region.astype(float)
-        sensitivity = np.zeros_like(phi)
+        phi, sensitivity = np.zeros((2, *self.means.shape))
+        weight = self.region.astype(float)
         i, j = np.nonzero(self.region & (self.depth < MAX_FIT_DEPTH + 1.5 * self.stencil.reach))
         local = line.geometry_at_cells(i, j)
         along_x, along_y = np.array(self.law.stretched)[:, None] * local.normal

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
 
 from contact_scene.array_types import Field, Indices, Mask
 from semi_analytical.edge.clipped_power_means import (
@@ -29,6 +28,8 @@ LEAST_DATA = 10
 LARGEST_RMS = 0.25
 # Depth in cells up to which fits can be evaluated.
 MAX_FIT_DEPTH = 3.5
+# Largest depth that is distinguished, in cells. Fits use shallower cells.
+DEEP = 13
 # Largest step towards the edge, and largest distance of the edge point, in cells.
 LONGEST_STEP, FARTHEST = 1.0, 2.0
 REFITS = 3
@@ -49,8 +50,8 @@ class EdgeShape:
     weight    weights of the cells in fits (nx, ny)
     exponent  exponent α, a number or (nx, ny)
     stencil   window and weights of the fits
-    depth     distance of each cell from the nearest cell outside the region (nx, ny), in cells;
-              zero outside
+    depth     distance of each cell from the nearest cell outside the region (nx, ny), in cells, at
+              most DEEP; zero outside
     domain    domain of all fields: full window or reduced domain
     """
 
@@ -66,6 +67,8 @@ class EdgeShape:
     def nearest_cells(self) -> Indices:
         """Indices (2, nx, ny) of the cell of the contact area or stick zone that is nearest to each
         cell."""
+        from scipy.ndimage import distance_transform_edt  # the import takes as long as a contact
+
         found = distance_transform_edt(self.depth == 0, return_distances=False, return_indices=True)
         return np.asarray(found)
 
@@ -276,10 +279,30 @@ def edge_shape(
 def depth_of(region: Mask, domain: ReducedDomain = WINDOW) -> Field:
     """Compute the distance of each cell of a region from the nearest cell outside the region.
 
-    The distance (nx, ny) is in cells, between cell centres, and zero outside the region. Cells
-    beyond the window count as outside.
+    The distance (nx, ny) is in cells, between cell centres, at most DEEP, and zero outside the
+    region. Cells beyond the window count as outside.
 
     region  cells of the region (nx, ny)
     domain  domain of `region`: full window or reduced domain
     """
-    return np.asarray(distance_transform_edt(domain.add_frame(region, 1))[1:-1, 1:-1])
+    squared = np.where(domain.add_frame(region, 1), DEEP**2, 0).astype(np.int16)
+    for _ in range(2):  # along x, then along y
+        nearest = squared.copy()
+        for k in range(1, DEEP):
+            np.minimum(nearest[k:], squared[:-k] + k**2, out=nearest[k:])
+            np.minimum(nearest[:-k], squared[k:] + k**2, out=nearest[:-k])
+        squared = nearest.T.copy()
+    return np.sqrt(squared[1:-1, 1:-1], dtype=float)
+
+
+def inscribed_radius(region: Mask, domain: ReducedDomain) -> float:
+    """Compute the radius of the largest circle inside a region, in cells.
+
+    The radius is the largest distance of a cell from the nearest cell outside.
+
+    region  cells of the region (nx, ny)
+    domain  domain of `region`: full window or reduced domain
+    """
+    from scipy.ndimage import distance_transform_edt  # the import takes as long as a contact
+
+    return float(np.max(distance_transform_edt(domain.add_frame(region, 1))))

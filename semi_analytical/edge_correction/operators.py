@@ -6,13 +6,11 @@ uniform in each cell.
 
 from functools import cached_property
 
-import numpy as np
-
 from contact_scene.array_types import Mask
 from semi_analytical.edge.displacement import EdgeOperator
 from semi_analytical.edge.film import FilmLaw, film_law
 from semi_analytical.edge.kernels import PART_OFFSETS, PARTS, EdgeKernels
-from semi_analytical.edge.shape import depth_of
+from semi_analytical.edge.shape import inscribed_radius
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import PARITY
 from semi_analytical.model import ContactModel
@@ -75,7 +73,7 @@ class EdgeOperators:
         domain   domain of `contact`: full window or reduced domain
         """
         law = self._film_law
-        return law if law and law.holds_within(np.max(depth_of(contact, domain))) else None
+        return law if law and law.holds_within(inscribed_radius(contact, domain)) else None
 
     @cached_property
     def _film_law(self) -> FilmLaw | None:

@@ -18,7 +18,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, gaussian_filter
 
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Field, Mask, VectorField
@@ -129,6 +128,11 @@ class FollowingShear:
         contact  cells in contact (nx, ny)
         beta     Dundurs' parameter β of the outermost materials
         """
+        from scipy.ndimage import (  # the import takes as long as a contact
+            distance_transform_edt,
+            gaussian_filter,
+        )
+
         depth = distance_transform_edt(contact) - distance_transform_edt(~contact)
         outward = -np.stack(np.gradient(gaussian_filter(depth, SMOOTHED)))
         size = magnitude(outward)

@@ -4,7 +4,6 @@ increment."""
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import binary_erosion
 
 from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_scene.bulk_strain import UNSTRAINED, Strain
@@ -215,6 +214,8 @@ def _new_contact_fraction(less: Field, more: Field, changes: Mask) -> Field:
                 (nx, ny)
     changes     cells that are in contact in `more` only (nx, ny)
     """
+    from scipy.ndimage import binary_erosion  # the import takes as long as a contact
+
     touched, largest = less > 0, np.max(more)
     p, grown = more / largest, (more / largest) ** 2 - (less / largest) ** 2
     if np.any(touched):

@@ -13,11 +13,11 @@ half.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import count
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.fft import dct, dst, idct, idst, next_fast_len
 
 from semi_analytical.operator.domain import Pair, Parity, ReducedDomain
 
@@ -28,8 +28,9 @@ Multiply = Callable[[Sequence[Array], slice], Sequence[Array]]
 
 # Size of the blocks of a component that are transformed along x and multiplied.
 BLOCK = 1 << 14
-# Cells along an axis up to which a matrix of cosines or sines is faster than an FFT.
-MAX_BY_MATRIX = 96
+# Cells along an axis up to which a matrix of cosines or sines replaces the FFT. The matrix is
+# faster up to 96 cells, and saves the import of scipy.fft up to 128.
+MAX_BY_MATRIX = 128
 
 
 @dataclass
@@ -135,7 +136,10 @@ class MirroredWaves:
         """
         if self._matrix is not None:
             np.matmul(values, self._matrix, out=out)
-        elif self._even:
+            return out
+        from scipy.fft import dct, dst  # the import takes longer than a small contact
+
+        if self._even:
             out[...] = dct(np.ascontiguousarray(values), type=2, n=self.count, axis=-1)
         else:
             found = dst(np.ascontiguousarray(values), type=2, n=self.count, axis=-1)
@@ -149,6 +153,8 @@ class MirroredWaves:
         """
         if self._matrix is not None:
             return np.asarray(amplitudes @ self._inverse)
+        from scipy.fft import idct, idst
+
         if self._even:
             return np.asarray(idct(amplitudes, type=2, axis=-1)[..., : self._cells])
         found = idst(np.roll(amplitudes, -1, axis=-1), type=2, axis=-1, overwrite_x=True)
@@ -167,8 +173,17 @@ def offsets_for(window: Pair) -> Pair:
 
     window  number of cells of the window along x and y
     """
-    x, y = (2 * int(next_fast_len((n + 1) // 2)) + 1 for n in window)
+    x, y = (2 * fast_length((n + 1) // 2, 2 * 3 * 5 * 7 * 11) + 1 for n in window)
     return x, y
+
+
+def fast_length(least: int, primes: int = 2 * 3 * 5) -> int:
+    """Return the smallest number of points that has only small prime factors, for a fast FFT.
+
+    least   lower limit of the number
+    primes  product of the allowed prime factors
+    """
+    return next(n for n in count(least) if pow(primes, n.bit_length(), n) == 0)
 
 
 class Transforms:
