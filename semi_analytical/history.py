@@ -266,6 +266,9 @@ def _reported_increment(
         stuck, sheared, pressed = _stick_zone(
             model, p, sheared, state.corrected, pressed, spreads=spreads
         )
+    if state.corrected and sheared.shift is not None and not np.any(sheared.in_stick):
+        # In gross slip the shear follows the corrected pressure, and so does its force.
+        sheared = replace(sheared, force=np.sum(sheared.shear, axis=(1, 2)) * cell)
     increment = replace(
         pressed,
         status=sheared.status if model.scene.friction else pressed.status,

@@ -285,3 +285,13 @@ def test_pushed_the_shear_carries_the_force_and_is_its_mirror_image():
     for field, sign in ((end.pressure, 1), (end.shear[0], 1), (end.shear[1], -1)):
         image = sign * field[:, ::-1]
         np.testing.assert_allclose(field, image, rtol=0, atol=1e-5 * np.max(end.pressure))
+
+
+@pytest.mark.parametrize("far", [(9.0, 0.0), (6.0, -6.0)])
+def test_gross_slip_under_a_shift_has_the_friction_limit_of_the_corrected_force(far):
+    """On 16 cells the normal forces before and after the correction differ by 0.2 %."""
+    controls = {"approach": APPROACH}
+    loading = controls, {"tangential_shift": tuple(APPROACH * np.array(far))}
+    end = solved(scene(*loading), grid=SurfaceGrid((16, 16), (WINDOW, WINDOW))).steps[-1]
+    assert end.edge_change is not None
+    assert np.hypot(*end.tangential_force) == pytest.approx(MU * end.normal_force, rel=1e-6)
