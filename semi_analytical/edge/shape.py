@@ -6,7 +6,6 @@ correction computes subcell tractions from these fits.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -36,6 +35,11 @@ REFITS = 3
 # Offsets to the cell itself, to side neighbours and to corner neighbours (2, 9, 1).
 STEPS = np.array([[0, 1, -1, 0, 0, 1, 1, -1, -1], [0, 0, 0, 1, -1, 1, -1, 1, -1]])[..., None]
 SIDES = 4
+# Offsets to the cells at most AROUND cells away, the nearest first (2, 1, number).
+AROUND = 8
+OFFSETS = np.mgrid[-AROUND : AROUND + 1, -AROUND : AROUND + 1].reshape(2, 1, -1)
+OFFSETS = OFFSETS[..., np.sum(OFFSETS[:, 0] ** 2, axis=0) <= AROUND**2]
+OFFSETS = OFFSETS[..., np.lexsort((*OFFSETS[:, 0], np.sum(OFFSETS[:, 0] ** 2, axis=0)))]
 
 
 @dataclass(frozen=True)
@@ -63,15 +67,6 @@ class EdgeShape:
     depth: Field
     domain: ReducedDomain = WINDOW
 
-    @cached_property
-    def nearest_cells(self) -> Indices:
-        """Indices (2, nx, ny) of the cell of the contact area or stick zone that is nearest to each
-        cell."""
-        from scipy.ndimage import distance_transform_edt  # the import takes as long as a contact
-
-        found = distance_transform_edt(self.depth == 0, return_distances=False, return_indices=True)
-        return np.asarray(found)
-
     def fits(self, i: Indices, j: Indices) -> Fits:
         """Fit quadratics to the cell means of φ = p^(1/α) about cells of the contact area or stick
         zone.
@@ -86,11 +81,16 @@ class EdgeShape:
         """Return the cells (2, n) of the contact area or stick zone that are nearest to given
         points.
 
+        Cells more than AROUND cells away are not found; the cell at the point itself is returned.
+
         x, y  points as cell indices, not necessarily whole numbers (n,)
         """
         last = np.array(self.means.shape) - 1
         i, j = (np.clip(np.rint(at), 0, n).astype(int) for at, n in zip((x, y), last, strict=True))
-        return self.nearest_cells[:, i, j]
+        inside = np.pad(self.depth > 0, AROUND)
+        at = np.stack([i, j])[..., None] + OFFSETS
+        found = np.argmax(inside[tuple(at + AROUND)], axis=1)
+        return np.take_along_axis(at, found[None, :, None], axis=2)[..., 0]
 
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
         """Compute the expansion of φ = p^(1/α) about points near the edge of the region, by local
@@ -285,14 +285,24 @@ def depth_of(region: Mask, domain: ReducedDomain = WINDOW) -> Field:
     region  cells of the region (nx, ny)
     domain  domain of `region`: full window or reduced domain
     """
-    squared = np.where(domain.add_frame(region, 1), DEEP**2, 0).astype(np.int16)
+    return distance_to(~domain.add_frame(region, 1))[1:-1, 1:-1]
+
+
+def distance_to(cells: Mask) -> Field:
+    """Compute the distance of each cell from the nearest cell of a set, between cell centres.
+
+    The distance (nx, ny) is in cells, and at most DEEP.
+
+    cells  cells of the set (nx, ny)
+    """
+    squared = np.where(cells, 0, DEEP**2).astype(np.int16)
     for _ in range(2):  # along x, then along y
         nearest = squared.copy()
         for k in range(1, DEEP):
             np.minimum(nearest[k:], squared[:-k] + k**2, out=nearest[k:])
             np.minimum(nearest[:-k], squared[k:] + k**2, out=nearest[:-k])
         squared = nearest.T.copy()
-    return np.sqrt(squared[1:-1, 1:-1], dtype=float)
+    return np.sqrt(squared, dtype=float)
 
 
 def inscribed_radius(region: Mask, domain: ReducedDomain) -> float:

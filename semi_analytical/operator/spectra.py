@@ -50,8 +50,19 @@ def kernel_spectrum(
     """
     quarter, (x, y) = values[reach].T, parity
     for axis, sign in ((1, x), (0, y)):
-        # The Hermitian transform of a real sequence is its cosine sum, of an imaginary one its sine
-        # sum.
-        sums = np.fft.hfft(quarter if sign > 0 else 1j * quarter, axis=axis)
-        quarter = sums.take(np.arange(quarter.shape[axis]), axis)
+        quarter = cosine_or_sine_sums(quarter, sign, axis)
     return KernelSpectrum(-quarter if x == y == -1 else quarter, x)
+
+
+def cosine_or_sine_sums(values: Field, parity: int, axis: int) -> Field:
+    """Compute the cosine or sine transform (DCT-I, DST-I) of even or odd values over one period.
+
+    The Hermitian transform of a real sequence is its cosine transform, that of an imaginary
+    sequence its sine transform.
+
+    values  values at offsets 0 … m along the axis; also the shape of the result
+    parity  1 for cosines (even), -1 for sines (odd)
+    axis    axis of the transform
+    """
+    sums = np.fft.hfft(values if parity > 0 else 1j * values, axis=axis)
+    return sums.take(np.arange(values.shape[axis]), axis)

@@ -163,7 +163,7 @@ class MirroredWaves:
 
 Side = Waves | MirroredWaves
 Sides = tuple[Side, Side]  # along x and y
-_mirrored = lru_cache(maxsize=64)(MirroredWaves)
+mirrored_waves = lru_cache(maxsize=64)(MirroredWaves)
 
 
 def offsets_for(window: Pair) -> Pair:
@@ -282,7 +282,7 @@ class Transforms:
         """
         sign, cells = self.parity(component)[axis], self.shape[axis]
         if sign:
-            return _mirrored(cells, period, sign)
+            return mirrored_waves(cells, period, sign)
         of_complex = self.whole and axis == 0
         in_pairs = not self.whole
         return Waves(cells, period, turned, of_complex=of_complex, in_pairs=in_pairs)

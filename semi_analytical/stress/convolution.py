@@ -9,9 +9,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.fft import dct, dst, fft, idct, idst, ifft, irfft, next_fast_len, rfft
 
-from contact_scene.array_types import Array, Field, Indices
+from contact_scene.array_types import Field, Indices
+from semi_analytical.operator.spectra import cosine_or_sine_sums
+from semi_analytical.operator.transforms import Array, MirroredWaves, fast_length, mirrored_waves
 from semi_analytical.stress.components import FIELDS, acting, each_response
 
 # Coefficients (FIELDS, acting tractions, offsets along x, along y) to fields.
@@ -81,9 +82,13 @@ class _AxisTransform:
         odd     True if the field changes its sign at the mirror plane
         """
         if not self.mirrored:
-            return (fft if np.iscomplexobj(values) else rfft)(values, 2 * self.half)
-        transformed = (dst if odd else dct)(values[..., self.cells // 2 :], type=2, n=self.half)
-        return np.pad(transformed, [(0, 0), (int(odd), int(not odd))])
+            forward = np.fft.fft if np.iscomplexobj(values) else np.fft.rfft
+            return forward(values, 2 * self.half)
+        amplitudes = np.zeros((len(values), self.half + 1), values.dtype)
+        found = np.empty((len(values), self.half), values.dtype)
+        upper = values[:, self.cells // 2 :]
+        amplitudes[:, self._numbers(odd)] = self._waves(odd).forward(upper, found)
+        return amplitudes
 
     def factor(self, odd_response: bool, odd_traction: bool) -> complex:
         """Return the phase factor in the product of the amplitudes of a traction and a response
@@ -106,12 +111,18 @@ class _AxisTransform:
         odd         True if the field changes its sign at the mirror plane
         """
         if not self.mirrored:
-            inverse = irfft if amplitudes.shape[-1] == self.half + 1 else ifft
+            inverse = np.fft.irfft if amplitudes.shape[-1] == self.half + 1 else np.fft.ifft
             return inverse(amplitudes, 2 * self.half)[..., : self.cells]
-        some = amplitudes[..., 1:] if odd else amplitudes[..., :-1]
-        upper = (idst if odd else idct)(some, type=2)[..., : self.cells // 2]
+        upper = self._waves(odd).back(amplitudes[:, self._numbers(odd)])
         lower = upper[..., ::-1]
         return np.concatenate([-lower if odd else lower, upper], axis=-1)
+
+    def _waves(self, odd: bool) -> MirroredWaves:
+        return mirrored_waves(self.cells // 2, 2 * self.half, -1 if odd else 1)
+
+    def _numbers(self, odd: bool) -> list[int]:
+        """Return the wavenumbers of the amplitudes of `_waves`."""
+        return [self.half if odd else 0, *range(1, self.half)]
 
 
 def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution:
@@ -125,7 +136,7 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
     offsets    number of offsets of the coefficients, at least those of `offsets_between`
     """
     x, y = (
-        _AxisTransform(cells, int(next_fast_len(count, real=True)), mirrored and cells % 2 == 0)
+        _AxisTransform(cells, fast_length(count), mirrored and cells % 2 == 0)
         for cells, count, mirrored in zip(
             tractions.shape[1:], offsets, mirror_planes(tractions), strict=True
         )
@@ -146,7 +157,8 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
             for spectrum, name in zip(spectra, names, strict=True):
                 response, (along_x, along_y) = next(responses)
                 padded[: offsets[0], : offsets[1]] = response
-                lines = _cosine_or_sine_sums(_cosine_or_sine_sums(padded, along_y).T, along_x)
+                lines = cosine_or_sine_sums(padded, along_y, 1)
+                lines = cosine_or_sine_sums(lines, along_x, 0).T
                 if spectrum.shape[-1] > lines.shape[-1]:
                     lines = np.concatenate([lines, along_x * lines[:, -2:0:-1]], axis=1)
                 factor = x.factor(along_x < 0, name == "x") * y.factor(along_y < 0, name == "y")
@@ -156,17 +168,6 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
         return fields
 
     return convolve
-
-
-def _cosine_or_sine_sums(response: Field, parity: int) -> Field:
-    """Compute the cosine or sine transform of an even or odd response coefficient over one period.
-
-    response  values at offsets >= 0 (…, half + 1); also the shape of the result
-    parity    1 for cosines (even), -1 for sines (odd)
-    """
-    if parity > 0:
-        return np.asarray(dct(response, type=1))
-    return np.pad(dst(response[:, 1:-1], type=1), [(0, 0), (1, 1)])
 
 
 def row_convolution(tractions: Field, rows: Indices) -> Convolution:
@@ -180,8 +181,8 @@ def row_convolution(tractions: Field, rows: Indices) -> Convolution:
     """
     nx = tractions.shape[1]
     columns = np.flatnonzero(tractions.any(axis=(0, 1)))
-    period = 2 * int(next_fast_len(offsets_between(tractions, rows)[0], real=True))
-    spectra = rfft(tractions[..., columns], period, axis=1)
+    period = 2 * fast_length(offsets_between(tractions, rows)[0])
+    spectra = np.fft.rfft(tractions[..., columns], period, axis=1)
     offsets = rows[:, None] - columns
 
     def convolve(coefficients: Field) -> Field:
@@ -193,12 +194,12 @@ def row_convolution(tractions: Field, rows: Indices) -> Convolution:
                 response, (along_x, along_y) = next(responses)
                 mirrored = along_x * response[:0:-1]
                 gap = np.zeros((period - len(response) - len(mirrored), response.shape[1]))
-                transformed = rfft(np.concatenate([response, gap, mirrored]), axis=0)
+                transformed = np.fft.rfft(np.concatenate([response, gap, mirrored]), axis=0)
                 sign = np.where(offsets < 0, along_y, 1)
                 for row in range(len(rows)):
                     facing = transformed[:, np.abs(offsets[row])] * sign[row]
                     total[:, row] += np.sum(facing * spectrum, axis=1)
-            field[:] = irfft(total, period, axis=0)[:nx]
+            field[:] = np.fft.irfft(total, period, axis=0)[:nx]
         return fields
 
     return convolve

@@ -10,13 +10,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
 
 from contact_scene.array_types import Field, Indices, Mask
 from semi_analytical.edge.clipped_power_means import mean_power
 from semi_analytical.edge.fit import Stencil, fit_about
 from semi_analytical.edge.quadratic import Quadratic
-from semi_analytical.edge.shape import EdgeShape, edge_shape
+from semi_analytical.edge.shape import EdgeShape, distance_to, edge_shape
 from semi_analytical.stress.patch import PATCH
 
 # Depth of the cells that are divided into subcells, and their largest distance from the contact.
@@ -125,7 +124,7 @@ def fit_edge_tractions(
     if shear is not None:
         cells[:2] = shear
     shape = edge_shape(pressure, region, stencil, rings=rings)
-    away = distance_transform_edt(~region)
+    away = distance_to(region)
     i, j = np.nonzero((shape.depth <= TAKEN_APART) & (away <= CUT))
     here, safe = shape.about(i.astype(float), j.astype(float))
     i, j, here = i[safe], j[safe], here.chosen(safe)

@@ -10,11 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.ndimage import binary_erosion, distance_transform_edt
 
 from contact_scene.array_types import Field, Mask
 from semi_analytical.edge.fit import NARROW, WIDE, WIDER, Stencil
 from semi_analytical.edge.quadratic import Quadratic
+from semi_analytical.edge.shape import distance_to
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import Stack
 from semi_analytical.grid import SurfaceGrid
@@ -122,7 +122,7 @@ class NearEdge:
         The stress of these cells uses the variation of the tractions within the edge cells.
         """
         shape = self.tractions.shape
-        away = distance_transform_edt(shape.depth == 0)
+        away = distance_to(shape.depth > 0)
         beside = (shape.depth <= BESIDE + 0.5) & (away <= BESIDE)
         inner = np.zeros_like(beside)
         inner[NODES:-NODES, NODES:-NODES] = True
@@ -200,14 +200,14 @@ def near_edge(
     """
     if shear is not None and np.max(np.abs(shear)) <= NO_SHEAR * np.max(pressure):
         shear = None
-    region = pressure > 0
     stuck = None if shear is None else _stick_cells(pressure, shear)
     stencils = CORRECTED_STENCILS if corrected else STENCILS
     try:
         one, other = (fit_edge_tractions(pressure, shear, stuck, *stencil) for stencil in stencils)
     except ValueError as error:
         raise EdgeNotSeen(str(error)) from None
-    i, j = np.nonzero(region & ~binary_erosion(region))
+    depth = one.shape.depth
+    i, j = np.nonzero(depth == 1)
     phi, safe = one.shape.edge_points(i, j)
     again, safe_again = other.shape.edge_points(phi.x, phi.y)
     both = safe & safe_again
@@ -219,7 +219,6 @@ def near_edge(
             if not (np.min(at) >= NODES and np.max(at) <= count - 1 - NODES):
                 raise EdgeNotSeen(f"the contact is within {NODES} cells of the window's border")
     plane = subsurface(stack, grid, pressure, shear, (0.0,)).stress[0]
-    depth = distance_transform_edt(np.pad(region, 1))[1:-1, 1:-1]
     slipping = np.inf if stuck is None or not np.any(stuck) else np.min(depth[stuck])
     found = NearEdge(stack, grid, one, _set_on_edge(phi), 0.0, 0.0, plane)
     some = np.flatnonzero(both)[:: max(1, np.count_nonzero(both) // COMPARED)]
