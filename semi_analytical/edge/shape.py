@@ -87,10 +87,12 @@ class EdgeShape:
         """
         last = np.array(self.means.shape) - 1
         i, j = (np.clip(np.rint(at), 0, n).astype(int) for at, n in zip((x, y), last, strict=True))
-        inside = np.pad(self.depth > 0, AROUND)
-        at = np.stack([i, j])[..., None] + OFFSETS
-        found = np.argmax(inside[tuple(at + AROUND)], axis=1)
-        return np.take_along_axis(at, found[None, :, None], axis=2)[..., 0]
+        cells, inside = np.stack([i, j]), np.pad(self.depth > 0, AROUND)
+        outside = self.depth[i, j] == 0
+        around = cells[:, outside, None] + OFFSETS
+        found = np.argmax(inside[tuple(around + AROUND)], axis=1)
+        cells[:, outside] = np.take_along_axis(around, found[None, :, None], axis=2)[..., 0]
+        return cells
 
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
         """Compute the expansion of φ = p^(1/α) about points near the edge of the region, by local

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field
+from semi_analytical.operator.transforms import cosine_or_sine_sums
 
 
 @dataclass(frozen=True)
@@ -48,21 +49,6 @@ def kernel_spectrum(
     parity  parity along x and y: 1 even, -1 odd
     reach   slices of the offsets along x and y that are transformed
     """
-    quarter, (x, y) = values[reach].T, parity
-    for axis, sign in ((1, x), (0, y)):
-        quarter = cosine_or_sine_sums(quarter, sign, axis)
+    x, y = parity
+    quarter = cosine_or_sine_sums(cosine_or_sine_sums(values[reach], y).T, x)
     return KernelSpectrum(-quarter if x == y == -1 else quarter, x)
-
-
-def cosine_or_sine_sums(values: Field, parity: int, axis: int) -> Field:
-    """Compute the cosine or sine transform (DCT-I, DST-I) of even or odd values over one period.
-
-    The Hermitian transform of a real sequence is its cosine transform, that of an imaginary
-    sequence its sine transform.
-
-    values  values at offsets 0 … m along the axis; also the shape of the result
-    parity  1 for cosines (even), -1 for sines (odd)
-    axis    axis of the transform
-    """
-    sums = np.fft.hfft(values if parity > 0 else 1j * values, axis=axis)
-    return sums.take(np.arange(values.shape[axis]), axis)

@@ -186,6 +186,22 @@ def fast_length(least: int, primes: int = 2 * 3 * 5) -> int:
     return next(n for n in count(least) if pow(primes, n.bit_length(), n) == 0)
 
 
+def cosine_or_sine_sums(values: Array, parity: int) -> Array:
+    """Compute the cosine or sine transform (DCT-I, DST-I) of even or odd values over one period.
+
+    The Hermitian transform of a real sequence is its cosine transform, that of an imaginary
+    sequence its sine transform. Blocks of rows avoid page faults of new memory.
+
+    values  values at offsets 0 … m along the last axis; also the shape of the result
+    parity  1 for cosines (even), -1 for sines (odd)
+    """
+    sums, points = np.empty(values.shape), values.shape[-1]
+    for rows in _block_slices(len(values), max(1, BLOCK // (2 * points))):
+        some = values[rows] if parity > 0 else 1j * values[rows]
+        sums[rows] = np.fft.hfft(some)[:, :points]
+    return sums
+
+
 class Transforms:
     """Transforms of scalar and vector fields on a box of cells, along x and y.
 

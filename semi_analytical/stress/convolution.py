@@ -11,8 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, Indices
-from semi_analytical.operator.spectra import cosine_or_sine_sums
-from semi_analytical.operator.transforms import Array, MirroredWaves, fast_length, mirrored_waves
+from semi_analytical.operator.transforms import (
+    Array,
+    MirroredWaves,
+    cosine_or_sine_sums,
+    fast_length,
+    mirrored_waves,
+)
 from semi_analytical.stress.components import FIELDS, acting, each_response
 
 # Coefficients (FIELDS, acting tractions, offsets along x, along y) to fields.
@@ -63,8 +68,8 @@ def mirror_planes(tractions: Field) -> tuple[bool, bool]:
 class _AxisTransform:
     """Fourier, sine or cosine transform along the last axis of a field, for the subsurface stress.
 
-    Amplitudes have the wavenumbers 0 … half for real fields, all wavenumbers of a period for
-    complex ones.
+    Amplitudes of a Fourier transform have the wavenumbers 0 … half for real fields, all wavenumbers
+    of a period for complex ones. Those of a mirrored field are those of `MirroredWaves`.
 
     cells     number of cells of the window along the axis
     half      half the period in cells
@@ -84,11 +89,22 @@ class _AxisTransform:
         if not self.mirrored:
             forward = np.fft.fft if np.iscomplexobj(values) else np.fft.rfft
             return forward(values, 2 * self.half)
-        amplitudes = np.zeros((len(values), self.half + 1), values.dtype)
-        found = np.empty((len(values), self.half), values.dtype)
-        upper = values[:, self.cells // 2 :]
-        amplitudes[:, self._numbers(odd)] = self._waves(odd).forward(upper, found)
-        return amplitudes
+        out = np.empty((len(values), self.half), values.dtype)
+        return self._waves(odd).forward(values[:, self.cells // 2 :], out)
+
+    def transform_response(self, response: Field, parity: int, odd: bool) -> Field:
+        """Transform a response coefficient to factors of the amplitudes of a traction.
+
+        response  values at offsets 0 … half along the last axis
+        parity    1 for an even response coefficient, -1 for an odd one
+        odd       True if the traction changes its sign at the mirror plane
+        """
+        sums = cosine_or_sine_sums(response, parity)
+        if not self.mirrored:
+            return sums
+        if odd:  # amplitudes of sines have the last wavenumber in the place of 0
+            sums[:, 0] = sums[:, -1]
+        return sums[:, :-1]
 
     def factor(self, odd_response: bool, odd_traction: bool) -> complex:
         """Return the phase factor in the product of the amplitudes of a traction and a response
@@ -113,16 +129,12 @@ class _AxisTransform:
         if not self.mirrored:
             inverse = np.fft.irfft if amplitudes.shape[-1] == self.half + 1 else np.fft.ifft
             return inverse(amplitudes, 2 * self.half)[..., : self.cells]
-        upper = self._waves(odd).back(amplitudes[:, self._numbers(odd)])
+        upper = self._waves(odd).back(amplitudes)
         lower = upper[..., ::-1]
         return np.concatenate([-lower if odd else lower, upper], axis=-1)
 
     def _waves(self, odd: bool) -> MirroredWaves:
         return mirrored_waves(self.cells // 2, 2 * self.half, -1 if odd else 1)
-
-    def _numbers(self, odd: bool) -> list[int]:
-        """Return the wavenumbers of the amplitudes of `_waves`."""
-        return [self.half if odd else 0, *range(1, self.half)]
 
 
 def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution:
@@ -157,8 +169,8 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
             for spectrum, name in zip(spectra, names, strict=True):
                 response, (along_x, along_y) = next(responses)
                 padded[: offsets[0], : offsets[1]] = response
-                lines = cosine_or_sine_sums(padded, along_y, 1)
-                lines = cosine_or_sine_sums(lines, along_x, 0).T
+                lines = y.transform_response(padded, along_y, name == "y").T
+                lines = x.transform_response(lines, along_x, name == "x")
                 if spectrum.shape[-1] > lines.shape[-1]:
                     lines = np.concatenate([lines, along_x * lines[:, -2:0:-1]], axis=1)
                 factor = x.factor(along_x < 0, name == "x") * y.factor(along_y < 0, name == "y")
