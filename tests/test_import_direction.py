@@ -51,8 +51,8 @@ ORDERS = {
     "semi_analytical.operator": (
         "domain",
         "box",
-        "spectra",
         "transforms",
+        "spectra",
         "slip_compliance_bins",
         "operator",
     ),
