@@ -32,6 +32,7 @@ from contact_errors.error_formula import (
     LARGEST_SHARE,
     ROOT,
     SMOOTH,
+    UNKNOWN,
     build_stated_error,
 )
 from contact_results.stress.below_contact import stress_below_contact
@@ -47,7 +48,6 @@ from contact_results.stress.stress_maxima import (
 from contact_scene import Body
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.quantities.stated_error import (
-    ErrorStatus,
     Part,
     StatedError,
     StatedErrors,
@@ -340,7 +340,7 @@ def _stress_errors_on_disc(
     try:
         again = stress_at_radii(state, x, y, levels, indenter=indenter, fineness=fineness).measures
     except UnsupportedScene:  # the finer fit has no edge: the errors are unknown
-        return (StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED),) * len(found)
+        return (UNKNOWN,) * len(found)
     errors = []
     for k, e in enumerate(found):
         size = abs(again[e.measure][k] - e.value) / abs(COARSE ** (-BELIEVED * SMOOTH) - 1)

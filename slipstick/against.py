@@ -134,9 +134,9 @@ class _Loop:
         gap = abs(float(apart[-1] - apart[0]))
         if cycles != 1 or not gap < GAP * length:
             raise NothingToCompare(
-                f"got {cycles:g} cycles with a gap of {gap:.3g} m between the last shift and the "
-                f"first, expected the points of 1 cycle in order and a gap below {GAP} of the "
-                f"range of {length:.3g} m"
+                f"cycles in the table: got {cycles:g}, expected the points of one cycle in order; "
+                f"gap between the last shift and the first: got {gap:.3g} m, expected less than "
+                f"{GAP * length:.3g} m"
             )
 
     @property

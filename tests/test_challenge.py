@@ -304,10 +304,11 @@ def test_a_claimed_order_is_held_to(claimed: float, status: Status) -> None:
     assert statuses(POINT, *answers, solver=who)["approach: order"] is status
 
 
-def test_who_gives_up_has_not_merely_omitted() -> None:
-    found = judged(POINT, Solver("stranger"), (Answer(1e-5, gave_up={0: "no convergence"}),))
-    assert found.exit_code() == 3
-    assert found.omitted == ()
+def test_who_gives_up_on_the_finest_level_has_no_class() -> None:
+    gave_up = Answer(1e-5, gave_up={0: "no convergence"})
+    for answers in ([gave_up], [exact(POINT, h=2e-5), gave_up]):
+        found = judged(POINT, Solver("stranger"), answers)
+        assert (found.exit_code(), found.grade, len(found.omitted)) == (3, "partial", 4)
     coarse, wrong = Answer(2e-5, gave_up={0: "no convergence"}), exact(POINT, off=0.5)
     assert judged(POINT, Solver("stranger"), [coarse, wrong]).exit_code() == 1
     assert "no convergence" in found.rows[0].because
@@ -528,11 +529,11 @@ def test_what_is_required_and_missing_is_no_class(
     ("row", "said"),
     [
         (("1", "1", "approach", "8.37", "N", ""), "answers.csv:2: got the unit 'N', expected"),
-        (("1", "1", "approach", "8.37", "", ""), "has no unit"),
+        (("1", "1", "approach", "8.37", "", ""), "got the unit ''"),
         (("1", "1", "aproach", "8.37", "um", ""), "'aproach' is not asked in step 1; asked: app"),
         (("1", "7", "approach", "8.37", "um", ""), "is not asked in step 7; asked: nothing"),
         (("2", "1", "approach", "8.37", "um", ""), "level '2' is not in levels.csv; there are 1"),
-        (("1", "1", "approach", "eight", "um", ""), "'eight' is no number"),
+        (("1", "1", "approach", "eight", "um", ""), "value is 'eight', expected a number"),
         (("1", "1", "approach", "8.37", "um", "-1"), "u is -1, expected"),
         (("1", "x", "approach", "8.37", "um", ""), "load_step 'x'"),
         (("1", "1", "approach", "", "um", ""), "nothing to judge"),

@@ -169,8 +169,11 @@ def _read_text_array(path: Path, name: str) -> NDArray[Any]:
                 raise refusal(f"{shown(name)} has no number in {shown(line)}", "") from None
     counts = {len(row) for row in rows}
     if len(counts) > 1 or counts == {3}:
-        got = f"the lines of {shown(name)} have {min(counts)} to {max(counts)} numbers"
-        raise refusal(got, "values alone, in rows and columns, equally many in every line")
+        few_to_many = " to ".join(map(str, sorted({min(counts), max(counts)})))
+        raise refusal(
+            f"the lines of {shown(name)} have {few_to_many} numbers",
+            f"values without their coordinates, equally many in every line, at least {_MIN_SIDE}",
+        )
     values = np.array(rows or [[]]).T[:, ::-1]
     if separator and last.endswith(separator):
         values = values[:-1]

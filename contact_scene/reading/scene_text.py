@@ -3,6 +3,7 @@
 from collections.abc import Container, Iterable, Iterator
 from typing import get_args
 
+import numpy as np
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
@@ -89,9 +90,9 @@ def _value_text(value: object, unit: str = "") -> str:
     if value is None or value == ():
         return ""
     if isinstance(value, ArrayFile):
-        low, high = value.values.min(), value.values.max()
+        low, high = np.nanmin(value.values), np.nanmax(value.values)
         points = " x ".join(map(str, value.shape))
-        return f"{value} ({low:.4g} to {high:.4g} in SI units, {points} values)"
+        return f"{value} ({points} values from {low:.4g} to {high:.4g})"
     if isinstance(value, BaseModel):
         return f"({_table_text(value)})"
     if isinstance(value, tuple):

@@ -200,10 +200,14 @@ def _point_rows(challenge: Challenge) -> Iterator[Sequence[Any]]:
 
 def _problem_text(challenge: Challenge) -> str:
     steps = [f"{ramp.step}. {', '.join(_prescribed_ends(ramp))}" for ramp in challenge.ramps]
+    window = (
+        f"\nA suitable window: {challenge.window * 1e3:g} mm square; what is cut to the contact "
+        "radius knows the answer.\n"
+    )
     return _template_text("problem.md").format(
         title=challenge.title, problem=challenge.problem,
         steps="\n".join(steps) or "1. the tractions as told above",
-        window=f"{challenge.window * 1e3:g} mm square", source=challenge.source,
+        window=window if steps else "", source=challenge.source,
         fields=_field_instructions(challenge),
         shares=challenge.shares or "nothing",
     )  # fmt: skip
@@ -516,7 +520,7 @@ def _read_levels(folder: Path, window: float) -> Iterator[tuple[str, dict[str, A
         unknowns, seconds = (
             _positive_number(where, k, row[k]) for k in ("unknowns", "cpu_seconds")
         )
-        h = _number_in_si(where, row["h"], row["h_unit"], LENGTH)
+        h = _parsed_number(where, "h", row["h"]) * _unit_factor(where, row["h_unit"], LENGTH)
         if not 0 < h <= coarser:
             than = "its window" if coarser == window else "the level before"
             raise Refused(
@@ -554,20 +558,16 @@ def _read_values(
             raise Refused(
                 f"{where}: {row['quantity']!r} is not asked in step {step}; asked: {known}"
             )
-        kind = KINDS[asked.unit]
-        value = _number_in_si(where, row["value"], row["unit"], kind)
+        factor = _unit_factor(where, row["unit"], KINDS[asked.unit])
+        value = factor * _parsed_number(where, "value", row["value"])
+        u = _positive_number(where, "u", row["u"])
         key = asked.quantity, step
         if isinstance(asked, AskedPoints):
             yield where, row["level"], key, _point_number(where, row.get(POINT, ""), asked), value
         elif row.get(POINT):
             raise Refused(f"{where}: {asked.quantity} is one number and has no points")
-        elif row["u"]:
-            u = _number_in_si(where, row["u"], row["unit"], kind)
-            if not 0 <= u < math.inf:
-                raise Refused(f"{where}: u is {row['u']}, expected a positive uncertainty, or none")
-            yield where, row["level"], key, 0, (value, u)
         else:
-            yield where, row["level"], key, 0, value
+            yield where, row["level"], key, 0, value if u is None else (value, factor * u)
 
 
 def _point_number(where: str, text: str, asked: AskedPoints) -> int:
@@ -582,11 +582,17 @@ def _step_number(where: str, text: str) -> int:
     return int(text)
 
 
-def _parsed_number(where: str, text: str) -> float:
+def _parsed_number(where: str, name: str, text: str) -> float:
+    """Read a number from a cell of a table of an answer. Raises Refused for other texts.
+
+    where  file and line, for the message
+    name   name of the column
+    text   content of the cell
+    """
     try:
         return float(text)
     except ValueError:
-        raise Refused(f"{where}: {text!r} is no number") from None
+        raise Refused(f"{where}: {name} is {text!r}, expected a number") from None
 
 
 def _positive_number(where: str, name: str, text: str) -> float | None:
@@ -600,27 +606,21 @@ def _positive_number(where: str, name: str, text: str) -> float | None:
     """
     if not text:
         return None
-    number = _parsed_number(where, text)
+    number = _parsed_number(where, name, text)
     if not 0 <= number < math.inf:
         raise Refused(f"{where}: {name} is {text}, expected a positive number, or none")
     return number
 
 
-def _number_in_si(where: str, text: str, unit: str, kind: Kind) -> float:
-    """Convert a number with a unit, from a table of an answer, to SI.
+def _unit_factor(where: str, unit: str, kind: Kind) -> float:
+    """Return the factor that converts a number in a unit to SI.
 
-    Raises Refused for a missing or unsuitable unit. A number that is not finite is returned and
-    fails later, in the judgement.
+    Raises Refused for a missing or unsuitable unit.
 
     where  file and line, for the message
-    text   number as text
-    unit   unit of the number, as text
+    unit   unit in a cell of a table of an answer
     kind   physical dimension that the required quantity has
     """
-    value = _parsed_number(where, text)
-    if not unit:
-        raise Refused(f"{where}: {text} has no unit; give one such as {kind.si}")
-    factor = kind.units.get(unit)
-    if factor is None:
+    if unit not in kind.units:
         raise Refused(f"{where}: got the unit {unit!r}, expected one of {', '.join(kind.units)}")
-    return value * float(factor)
+    return float(kind.units[unit])

@@ -156,20 +156,17 @@ def rows_of(
 def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
     """List the quantities of a challenge that the finest level of an answer does not contain.
 
-    Each item has the quantity, the load step, and True if the quantity is required. Load steps that
-    the solver gave up are not listed.
+    Each item has the quantity, the load step, and True if the quantity is required.
 
     answers  one answer per refinement level
     """
     finest = min(answers, key=lambda one: one.h)
-    if 0 in finest.gave_up:
-        return []
     asked = [(v.quantity, v.step, v.required) for v in challenge.numbers]
     asked += [(f.quantity, f.step, False) for f in challenge.fields]
     return [
         (quantity, step, required)
         for quantity, step, required in asked
-        if not finest.has((quantity, step)) and step not in finest.gave_up
+        if not finest.has((quantity, step))
     ]
 
 

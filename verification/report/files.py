@@ -14,6 +14,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from contact_results.directory.atomic_file import OutputRefused, atomic_file
+from contact_results.directory.run_directory import refuse_files_above
 from contact_results.directory.stop_signals import stop_signals_held
 from verification.running.report_record import EARLIER, PACKED_SUFFIX, Report, dump_report
 from verification.running.study import RECORD as STUDY_RECORD
@@ -36,6 +37,7 @@ def refuse_if_unwritable(directory: Path) -> None:
 
     Called before long computations. Raises OutputRefused.
     """
+    refuse_files_above(directory)
     try:
         directory.mkdir(parents=True, exist_ok=True)
         probe = directory / f".probe-{secrets.token_hex(4)}"

@@ -414,12 +414,8 @@ def uncovered_lines(report: Report) -> list[str]:
 
 def failure_lines(report: Report) -> list[str]:
     """Return one log line for each failed verdict, and for each failed study of the current source
-    code.
-
-    If the stated errors of the report fail as a whole, each that is too small has a line, too.
-    """
+    code."""
     lines = [failure_line(case.name, verdict, report.level) for case, verdict in report.failures]
-    lines += uncovered_lines(report) if report.errors_too_small else []
     return lines + [study_failure_line(study) for study in report.failed_studies]
 
 
@@ -463,13 +459,12 @@ def render_summary(report: Report) -> str:
 def _summary_lines(report: Report) -> Iterator[str]:
     yield f"# {_status_text(report.status)}: slipstick verify, {report.level}"
     yield ""
-    yield f"{counts_text(report)}, in {len(report.cases)} cases."
+    yield f"{counts_text(report)}. Cases: {len(report.cases)}."
     if age := age_text(report.provenance):
         yield f"The report is {age}."
     if power := power_text(report):
         yield f"{power}."
-    failed = report.status is Status.FAIL
-    lines = [f"`{line}`" for line in failure_lines(report)] if failed else uncovered_lines(report)
+    lines = [f"`{line}`" for line in (*failure_lines(report), *uncovered_lines(report))]
     if lines:
         yield ""
     yield from (f"- {line}" for line in lines[:MAX_LINES])

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from slipstick.cli.commands.report import read_report
-from slipstick.cli.options import optional
+from slipstick.cli.options import optional, refuse_unknown
 from slipstick.cli.terminal import print_table
 from verification.judging.outcome import commit_text
 from verification.regression.baseline import BASELINES, read_baselines
@@ -76,14 +76,15 @@ def baseline(
         return
     if because:
         raise typer.BadParameter("--because needs --accept; add --accept or omit --because")
+    accepted = read_baselines(folder)
+    refuse_unknown("baseline", names or (), accepted, f"slipstick maintain baseline --to {folder}")
     rows = [
         (case, level, commit_text(of.by.commit, changed=of.by.changed), of.by.date[:10],
          str(len(of.quantities)), of.by.reason)
-        for case, recorded in read_baselines(folder).items()
-        for level, of in recorded.levels.items()
-        if not names or case in names
+        for case in names or accepted
+        for level, of in accepted[case].levels.items()
     ]  # fmt: skip
     if rows:
         print_table(("case", "level", "commit", "date", "quantities", "reason"), rows)
     else:
-        typer.echo(f"no baseline yet in {folder}")
+        typer.echo(f"there are no baselines in {folder}")

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from contact_results.directory.machine import program_version
+from contact_results.directory.run_directory import refuse_files_above
 from slipstick.tables.catalogue import TABLES
 from slipstick.tables.table import Dataset, Table
 from verification.challenge.cases import challenges
@@ -39,6 +40,7 @@ def deposit(
     ],
 ) -> None:
     """Write all reference tables as CSV and JSON in an RO-Crate (CC-BY; 3 min)."""
+    refuse_files_above(output)
     if output.exists():
         raise typer.BadParameter(f"'{output}' exists; give a new directory")
     try:

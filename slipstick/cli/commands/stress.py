@@ -25,7 +25,7 @@ from contact_results.stress.points import StressField, StressIncrement
 from contact_results.stress.radial_body import is_sheared, refuse_infinite, refuse_turned
 from contact_results.stress.stress_maxima import extremes, maxima_columns
 from contact_results.stress_result import write_history, write_stress
-from contact_scene import Body, SceneFile, read_scene_file
+from contact_scene import Body, Scene, SceneFile, read_scene_file
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
 from contact_scene.quantities.stated_error import StatedErrors
 from contact_scene.reading.quantity import Length
@@ -164,6 +164,10 @@ def stress(
     )
     if not source.is_dir():
         contents = read_scene_file(source, overrides or ())
+        steps = len(contents.scene.loading)
+        if step is not None and step > steps:
+            raise typer.BadParameter(f"there is no step {step}; the scene has steps 1 to {steps}")
+        _parse_points(at or [], contents.scene, indenter)  # refuses before the solve
     if at or history:
         _write_points(source, contents, at or [], step, chosen, output, history, indenter)
         return
@@ -173,7 +177,7 @@ def stress(
         else:
             print_input_warnings(contents)
             request = read_requested_accuracy(contents, accuracy, most_seconds, error=error)
-            of_stress, steps = request and request.binds_stress, len(contents.scene.loading)
+            of_stress = request and request.binds_stress
             refuse_if(
                 (
                     (
@@ -184,10 +188,6 @@ def stress(
                         of_stress and chosen_depths is not None,
                         "an accuracy of max_principal needs all depths: omit --depths, or request "
                         "other quantities",
-                    ),
-                    (
-                        step is not None and step > steps,
-                        f"there is no step {step}; the scene has steps 1 to {steps}",
                     ),
                 )
             )
@@ -204,9 +204,7 @@ def stress(
                 result, stated = refined.level.result, refined.level.stated
                 reached = refined.accuracy
             state = state_of_result(result, step, stated)
-        which, body = ("indenter", state.indenter) if indenter else ("body", state.body)
-        if not body.deforms:
-            raise typer.BadParameter(f"the {which} is rigid and has no stress")
+        which, body = _elastic_body(state, indenter)
         field = _stress_field(state, chosen_depths, indenter=indenter, volume=volume)
         found = extremes(field, body)
         errors = stress_errors(state, field, found, indenter=indenter) if error else None
@@ -272,31 +270,47 @@ def _write_points(
         number, index, state = state if history else (state.step, None, state)
         if state is None:
             continue
-        title, body = state.title, (state.indenter if indenter else state.body)
-        x, y, levels = _parse_points(at, body)
+        title, (which, body) = state.title, _elastic_body(state, indenter)
+        x, y, levels = _parse_points(at, state, indenter)
         try:
             found = stress_at(state, x, y, levels, indenter=indenter)
             made.append(StressIncrement(number, index, *found))
         except UnsupportedScene as error:  # a contact too small for rings
             left_out = error
-            which = f"step {number}" if index is None else f"step {number}, increment {index}"
-            print_message(f"{which} is left out: {error}")
+            end = f"step {number}" if index is None else f"step {number}, increment {index}"
+            print_message(f"{end} is left out: {error}")
     if not made:
         raise left_out
-    title = f"{title or 'Stress'}: {'indenter' if indenter else 'body'}"
+    title = f"{title or 'Stress'}: {which}"
     write_history(made, body, output, OF_THE_INDENTER if indenter else CONVENTION, title)
     typer.echo(f"results in {output}")
 
 
-def _parse_points(at: list[str], body: Body) -> tuple[Any, Any, list[Any]]:
+def _elastic_body(bodies: Scene | LoadedBodies, indenter: bool) -> tuple[str, Body]:
+    """Return the name and the layers of the body in which the stress is computed.
+
+    Raises BadParameter if the body is rigid.
+
+    indenter  true for the indenter, false for the lower body
+    """
+    which, body = ("indenter", bodies.indenter) if indenter else ("body", bodies.body)
+    if not body.deforms:
+        raise typer.BadParameter(f"the {which} is rigid and has no stress")
+    return which, body
+
+
+def _parse_points(
+    at: list[str], bodies: Scene | LoadedBodies, indenter: bool
+) -> tuple[Any, Any, list[Any]]:
     """Read the points of the option `--at`: coordinates x and y (n,), and the depth levels.
 
-    A point at an interface gives two points, one on each side.
+    A point at an interface gives two points, one on each side. Raises BadParameter for other texts,
+    and for a rigid body.
 
-    at  texts such as "0.3 mm,0,20 um" or "0,0,interface 1"
+    at        texts such as "0.3 mm,0,20 um" or "0,0,interface 1"
+    indenter  true for points in the indenter, false for points in the lower body
     """
-    if not body.deforms:
-        raise typer.BadParameter("the body is rigid and has no stress")
+    _, body = _elastic_body(bodies, indenter)
     sides = {f"interface {k}": pair for k, pair in enumerate(interfaces(body), 1)}
     found = []
     for text in at:

@@ -219,9 +219,8 @@ def _print_outcome(report: Report, directory: Path) -> None:
     """Print failures, changes since the baseline, and the status of a verification report."""
     for line in failure_lines(report):
         typer.echo(line)
-    if not report.errors_too_small:
-        for line in uncovered_lines(report)[:MAX_WARNINGS]:
-            typer.echo(f"WARN {line}")
+    for line in uncovered_lines(report)[:MAX_WARNINGS]:
+        typer.echo(f"WARN {line}")
     failed = {(case.name, verdict.name, verdict.run) for case, verdict in report.failures}
     rows = [
         row
