@@ -72,7 +72,7 @@ def baseline(
             with_failures=with_failures,
             with_changes=with_changes,
         )
-        typer.echo(f"{len(files)} baselines of level {report.level} in {folder}")
+        typer.echo(f"baselines of level {report.level} in {folder}: {len(files)} accepted")
         return
     if because:
         raise typer.BadParameter("--because needs --accept; add --accept or omit --because")
