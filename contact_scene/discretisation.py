@@ -104,7 +104,7 @@ class RadialDiscretisation(Description):
 
     rings: Rings = 64
     """Number of output radii of the fields over the largest contact of the history, denser towards
-    its edge."""
+    its edge. A contact that is solved on rings is output at these rings instead."""
 
     tolerance: Tolerance = 1e-10
     """Limit of every dimensionless residual at the end of an increment."""

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from pydantic import Discriminator, Tag, model_validator
+from pydantic import Discriminator, StrictBool, Tag, model_validator
 
 from contact_scene.body import Body
 from contact_scene.height_map import (
@@ -365,7 +365,7 @@ class HeightMap(ShapedBody):
     height_unit: HeightUnit = 1.0
     """Unit of the heights, such as "um"; absent: metres."""
 
-    flip: bool = False
+    flip: StrictBool = False
     """True if heights are positive towards the body, as in a measurement of the indenter's
     surface; absent: positive away from the body."""
 

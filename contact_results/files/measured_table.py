@@ -79,6 +79,7 @@ def _read_cells(path: Path) -> list[list[str]]:
     for number, row in enumerate(rows, 1):
         if len(row) != len(rows[0]):
             raise ValueError(
-                f"{path}:{number}: {len(row)} values, expected {len(rows[0])} as in the first line"
+                f"{path}:{number}: the number of values between commas is {len(row)}, expected "
+                f"{len(rows[0])} as in the first line"
             )
     return rows

@@ -84,6 +84,8 @@ def _convert_error(document: Mapping[str, Any], detail: ErrorDetails) -> Problem
         return Problem(path, got, f"at most {most}" if least is None else f"at least {least}")
     if kind in ("string_type", "string_too_long"):
         return Problem(path, got, "a text of at most 500 characters")
+    if kind == "bool_type":
+        return Problem(path, got, "true or false")
     if kind == "literal_error":
         return Problem(path, got, context["expected"].replace("'", '"'))
     return Problem(path, f"{got}: {detail['msg']}")

@@ -707,7 +707,7 @@ def names_a_solver(text: str) -> bool:
 def named_solver(text: str) -> Callable[[Posed, int], Answer]:
     """Import the solver function that an argument FILE.py:FUNCTION or MODULE:FUNCTION names.
 
-    Raises Refused if there is no such function, and passes on any exception of the executed file.
+    Raises Refused if there is no such function, or if the execution of the file fails.
     """
     place, _, name = text.rpartition(":")
     module = module_of(Path(place)) if place.endswith(".py") else _import_module(place, text)
@@ -720,8 +720,8 @@ def named_solver(text: str) -> Callable[[Posed, int], Answer]:
 def module_of(path: Path) -> ModuleType:
     """Execute the Python file of a user's solver function and return its module.
 
-    The file can import modules of its own folder. Raises Refused if the file cannot be read or
-    imports a missing module.
+    The file can import modules of its own folder. Raises Refused if the file cannot be read or its
+    execution fails.
     """
     if not path.is_file():
         raise Refused(f"{path}: no such file; {EXPECTED}")
@@ -732,8 +732,8 @@ def module_of(path: Path) -> ModuleType:
     sys.path.insert(0, str(path.parent.resolve()))
     try:
         spec.loader.exec_module(module)
-    except (ImportError, SyntaxError) as error:
-        raise Refused(f"{path}: {error}") from error
+    except (Exception, SystemExit) as error:
+        raise Refused(f"{path}: {type(error).__name__}: {error}") from error
     return module
 
 

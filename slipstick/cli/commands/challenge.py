@@ -41,6 +41,8 @@ def challenge(
     """
     known = challenges()
     if action is Action.LIST:
+        if case or output or blind:
+            raise typer.BadParameter("'list' lists all challenges; omit CASE and options")
         rows = [
             (one.name, str(len(one.numbers)), str(len(one.fields)), one.title)
             for one in known.values()

@@ -136,7 +136,7 @@ def _judge_function(
     except CannotDo as reason:
         typer.echo(f"{case} | {name} | cannot: {reason}")
         raise typer.Exit(ExitCode.INCONCLUSIVE if strict else ExitCode.PASS) from None
-    except Exception:
+    except (Exception, SystemExit):
         traceback.print_exc()
         typer.echo(f"{case}: {name} raised; see above", err=True)
         raise typer.Exit(ExitCode.NOT_CONVERGED) from None

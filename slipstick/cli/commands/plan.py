@@ -1,8 +1,10 @@
 """Command `slipstick plan`: print effects, grid, time and memory of a solve."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated
 
 from contact_scene import Scene, SceneFile, read_scene_file
+from contact_scene.accuracy import AccuracyRequest
 from contact_scene.disk_cache import without_cache
 from contact_scene.reading.scene_file import read_accuracy
 from contact_scene.solver_errors import AccuracyOutOfReach, UnsupportedScene
@@ -45,6 +47,7 @@ def plan(
     rings. A scene that the solver does not support is refused as by 'run'. With --accuracy, the
     cost of each accuracy is estimated by a coarse solve with all increments.
     """
+    requests = {item: read_accuracy(item, "--accuracy") for item in accuracy or ()}
     contents = read_scene_file(scene, overrides or ())
     print_input_warnings(contents)
     chosen = solver.solver
@@ -57,8 +60,8 @@ def plan(
         print_table(("step", "increments", "why"), reasons)
     if solver is not SolverName.RADIAL and (how := radial_method(contents.scene)):
         print_pairs([("radial", f"--solver radial can solve this: {how}")])
-    if accuracy:
-        _print_prices(accuracy, chosen, contents)
+    if requests:
+        _print_prices(requests, chosen, contents)
 
 
 def radial_method(scene: Scene) -> str | None:
@@ -82,20 +85,21 @@ def radial_method(scene: Scene) -> str | None:
     return how[decided.circle]
 
 
-def _print_prices(items: list[str], solver: Solver, contents: SceneFile) -> None:
+def _print_prices(
+    requests: Mapping[str, AccuracyRequest], solver: Solver, contents: SceneFile
+) -> None:
     """Print the estimated cost of each requested accuracy, or the reason why no grid can meet it.
 
-    items  arguments of `--accuracy`
+    requests  requested accuracy by argument of `--accuracy`
     """
     from contact_errors.adaptive_refinement import targets_of
 
-    requests = [read_accuracy(item, "--accuracy") for item in items]
-    stress = any(request.binds_stress for request in requests)
+    stress = any(request.binds_stress for request in requests.values())
     levels = solver.levels(contents.scene, solver.fineness(contents), stress)
     with without_cache():
         first = levels.solve_first_level()
     rows, refused = [], []
-    for item, request in zip(items, requests, strict=True):
+    for item, request in requests.items():
         try:
             *_, last = targets_of(request, first, levels)
             seconds = first.processor_seconds

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import ExitStack
 from enum import StrEnum
 from pathlib import Path
@@ -147,7 +148,7 @@ def stress(
         given: dict[str, object] = {"--set": overrides, "--solver": solver}
         refuse_with_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
     else:
-        _refuse_beside_section(chosen, chosen_depths, volume)
+        _refuse_beside_section(chosen, chosen_depths, volume, at)
     without_points = {"--depths": depths, "--volume": volume, "--accuracy": accuracy}
     refuse_if(
         (
@@ -167,7 +168,9 @@ def stress(
         steps = len(contents.scene.loading)
         if step is not None and step > steps:
             raise typer.BadParameter(f"there is no step {step}; the scene has steps 1 to {steps}")
-        _parse_points(at or [], contents.scene, indenter)  # refuses before the solve
+        # Refuse before the solve.
+        _parse_points(at or [], contents.scene, indenter)
+        _depth_levels(contents.scene, indenter, chosen_depths or (), "--depths")
     if at or history:
         _write_points(source, contents, at or [], step, chosen, output, history, indenter)
         return
@@ -318,16 +321,29 @@ def _parse_points(
         if len(parts) != 3:
             raise typer.BadParameter(f"got --at {text}, expected X,Y,Z such as '0.3 mm,0,20 um'")
         x, y = (_parse_length(part, "--at") for part in parts[:2])
-        try:
-            if parts[2].startswith("interface") and parts[2] not in sides:
-                raise ValueError(f"expected {' or '.join(sides) or 'a depth: there is no layer'}")
-            levels = sides.get(parts[2]) or levels_of(
-                stack_of(body), [_parse_length(parts[2], "--at")]
-            )
-        except ValueError as error:
-            raise typer.BadParameter(f"--at {text}: {error}") from None
+        if parts[2].startswith("interface") and parts[2] not in sides:
+            expected = " or ".join(sides) or "a depth: there is no layer"
+            raise typer.BadParameter(f"--at {text}: expected {expected}")
+        levels = sides.get(parts[2]) or _depth_levels(
+            bodies, indenter, [_parse_length(parts[2], "--at")], f"--at {text}"
+        )
         found += [(x, y, level) for level in levels]
     return np.array([p[0] for p in found]), np.array([p[1] for p in found]), [p[2] for p in found]
+
+
+def _depth_levels(
+    bodies: Scene | LoadedBodies, indenter: bool, depths: Sequence[float], option: str
+) -> Sequence[Any]:
+    """Return the depths in a body with the materials there; raises BadParameter outside the body.
+
+    indenter  true for the indenter, false for the lower body
+    depths    depths below the surface [length]
+    option    name of the option, for the message
+    """
+    try:
+        return levels_of(stack_of(_elastic_body(bodies, indenter)[1]), depths)
+    except ValueError as error:
+        raise typer.BadParameter(f"{option}: {error}") from None
 
 
 def _solve_scene(
@@ -356,22 +372,25 @@ def _solve_scene(
         return result, chosen.errors(result)
 
 
-def _refuse_beside_section(solver: SolverName, depths: list[float] | None, volume: bool) -> None:
-    """Refuse `--depths` and `--volume` for solvers that compute the stress in one plane only.
+def _refuse_beside_section(
+    solver: SolverName, depths: list[float] | None, volume: bool, at: list[str] | None = None
+) -> None:
+    """Refuse options for solvers that compute the stress in one plane only.
 
-    Finite elements allow neither option. The radial solver does not allow `--volume`. Raises
+    Finite elements allow none of the options. The radial solver does not allow `--volume`. Raises
     BadParameter.
 
     solver  name of the solver
     depths  values of the option `--depths`, or None
     volume  value of the option `--volume`
+    at      values of the option `--at`, or None
     """
     refuse_if(
         (
             (
-                solver.is_fem and (depths is not None or volume),
-                "finite elements compute the stress at their nodes in one plane: omit --depths "
-                "and --volume",
+                solver.is_fem and (depths is not None or volume or at),
+                "finite elements compute the stress at their nodes in one plane: omit --at, "
+                "--depths and --volume",
             ),
             (
                 solver is SolverName.RADIAL and volume,
