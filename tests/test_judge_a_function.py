@@ -115,7 +115,10 @@ def test_a_file_imports_what_lies_beside_it(
     asked = ("--case", "hertz_point", "--levels", "1")
     assert judge(f"{beside}:right", *asked) == 0
     assert judge(f"{lost}:right", *asked) == 2
-    assert f"{lost.name}: No module named 'no_such_kernel'" in capsys.readouterr().err
+    assert (
+        f"{lost.name}: ModuleNotFoundError: No module named 'no_such_kernel'"
+        in capsys.readouterr().err
+    )
 
 
 @pytest.mark.parametrize(
