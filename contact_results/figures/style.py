@@ -43,9 +43,8 @@ CAPTION_SIZE = 7.5
 @contextmanager
 def figure_style() -> Iterator[None]:
     """Apply the style of all figures in the `with` block, without the matplotlibrc of the user."""
-    with matplotlib.rc_context():
-        matplotlib.rcdefaults()
-        matplotlib.rcParams.update(STYLE)
+    defaults: Any = {k: v for k, v in matplotlib.rcParamsDefault.items() if k != "backend"}
+    with matplotlib.rc_context(defaults | STYLE):  # rcdefaults would read all style files
         yield
 
 
