@@ -121,7 +121,9 @@ class _AxisTransform:
         return -1j if odd_response else 1.0
 
     def back(self, amplitudes: Array, odd: bool) -> Array:
-        """Transform amplitudes along one axis to values of a field on the window (…, cells).
+        """Transform amplitudes along one axis to values of a field on the window or its upper half.
+
+        The upper half (…, cells / 2) suffices with a mirror plane; see `extend`.
 
         amplitudes  amplitudes by wavenumber along the last axis
         odd         True if the field changes its sign at the mirror plane
@@ -129,9 +131,18 @@ class _AxisTransform:
         if not self.mirrored:
             inverse = np.fft.irfft if amplitudes.shape[-1] == self.half + 1 else np.fft.ifft
             return inverse(amplitudes, 2 * self.half)[..., : self.cells]
-        upper = self._waves(odd).back(amplitudes)
-        lower = upper[..., ::-1]
-        return np.concatenate([-lower if odd else lower, upper], axis=-1)
+        return self._waves(odd).back(amplitudes)
+
+    def extend(self, values: Array, odd: bool) -> Array:
+        """Extend values from `back` to the whole window (…, cells).
+
+        values  values along the last axis
+        odd     True if the field changes its sign at the mirror plane
+        """
+        if not self.mirrored:
+            return values
+        lower = values[..., ::-1]
+        return np.concatenate([-lower if odd else lower, values], axis=-1)
 
     def _waves(self, odd: bool) -> MirroredWaves:
         return mirrored_waves(self.cells // 2, 2 * self.half, -1 if odd else 1)
@@ -175,8 +186,9 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
                     lines = np.concatenate([lines, along_x * lines[:, -2:0:-1]], axis=1)
                 factor = x.factor(along_x < 0, name == "x") * y.factor(along_y < 0, name == "y")
                 total += spectrum * (factor * lines)
-            along = x.back(total, axes.count("x") % 2 == 1)
-            field[:] = y.back(along.T, axes.count("y") % 2 == 1)
+            odd_x, odd_y = (axes.count(axis) % 2 == 1 for axis in "xy")
+            values = y.extend(y.back(x.back(total, odd_x).T, odd_y), odd_y)
+            field[:] = x.extend(values.T, odd_x).T
         return fields
 
     return convolve
