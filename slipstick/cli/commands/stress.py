@@ -417,12 +417,8 @@ def _stress_field(
         _refuse_beside_section(SolverName.RADIAL, depths, volume)
     elif state.on_rings:
         _refuse_beside_section(SolverName.FEM, depths, volume)
-    try:
-        return stress_below_contact(state, indenter=indenter, depths=depths, volume=volume)
-    except ValueError as error:
-        if depths is None:
-            raise
-        raise typer.BadParameter(f"--depths: {error}") from None
+    _depth_levels(state, indenter, depths or (), "--depths")
+    return stress_below_contact(state, indenter=indenter, depths=depths, volume=volume)
 
 
 def _parse_length(text: str, option: str = "--depths") -> float:
