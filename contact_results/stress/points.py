@@ -26,6 +26,8 @@ MEASURES = {
     "interface_tensile_stress": "stress zz normal to an interface, tension positive",
 }
 ON_INTERFACES = frozenset({"interface_shear", "interface_tensile_stress"})
+# Relative difference of stresses that are equal by symmetry: round-off must not choose their place.
+EQUAL = 1e-9
 
 
 def layer_name(layer: int, layers: int) -> str:
@@ -35,6 +37,15 @@ def layer_name(layer: int, layers: int) -> str:
     layers  number of layers
     """
     return f"layer {layer + 1}" if layer < layers else "base"
+
+
+def index_of_largest(values: NDArray[np.float64]) -> int:
+    """Return the flat index of the first value that equals the largest up to round-off.
+
+    values  values of a stress measure; -inf in points that do not count
+    """
+    largest = np.max(values)
+    return int(np.argmax(values >= largest - EQUAL * abs(largest)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,7 +174,7 @@ class StressPoints:
 
         Returns one point per measure, as a flat array (measures,) without cells.
         """
-        return self.select(np.array([np.argmax(values) for values in self.measures.values()]))
+        return self.select(np.array([index_of_largest(one) for one in self.measures.values()]))
 
     def near(self, reach: float) -> StressPoints:
         """Select the cells that have a corner near the contact, with the points of these cells.

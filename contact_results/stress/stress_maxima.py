@@ -9,7 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.number_text import number_text, uncertainty
-from contact_results.stress.points import ON_INTERFACES, StressField, StressPoints, layer_name
+from contact_results.stress.points import (
+    ON_INTERFACES,
+    StressField,
+    StressPoints,
+    index_of_largest,
+    layer_name,
+)
 from contact_scene import Body, IsotropicMaterial
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.reading.engineering_units import engineering_unit
@@ -80,7 +86,7 @@ def _largest_in_regions(
             # These measures are continuous across an interface: one side suffices.
             if measure in ON_INTERFACES and not region.endswith("above"):
                 continue
-            k = int(np.argmax(np.where(inside, values, -np.inf)))
+            k = index_of_largest(np.where(inside, values, -np.inf))
             value, x, y, depth = (
                 float(field.flat[k]) for field in (values, points.x, points.y, points.depth)
             )
