@@ -470,15 +470,14 @@ def test_a_page_shows_levels_whose_numbers_are_not_finite(
     assert "approach" in page.read_text()
 
 
-@pytest.mark.parametrize("there", [False, True])
-def test_an_export_that_is_killed_leaves_all_files_or_none(there: bool, tmp_path: Path) -> None:
-    """At every call that publishes a file or a folder, the process stops for good."""
+def test_an_export_that_is_killed_leaves_all_files_or_none(tmp_path: Path) -> None:
+    """At every call that publishes a file or a folder, the process stops for good: where the folder
+    is new, and where it is there."""
     script = """
 import os, sys
 from pathlib import Path
 from verification.challenge.cases import challenges
 from verification.challenge.files import export
-left = int(sys.argv[1])
 def dying(call):
     def counted(*arguments, **named):
         global left
@@ -489,16 +488,26 @@ def dying(call):
     return counted
 for name in ("rename", "replace", "fsync", "mkdir", "unlink"):
     setattr(os, name, dying(getattr(os, name)))
-export(challenges()["hertz_point"], Path("out"), blind=False)
+whole = challenges()["hertz_point"]
+for folder in sys.argv[1:]:
+    left = int(Path(folder).name)
+    if not (child := os.fork()):
+        export(whole, Path(folder) / "out", blind=False)
+        os._exit(0)
+    print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
 """
-    for calls in (1, 3, 8, 12, 13, 1000):
-        folder = tmp_path / str(calls)
-        (folder / "out" if there else folder).mkdir(parents=True)
-        ran = subprocess.run([sys.executable, "-c", script, str(calls)], cwd=folder, check=False)
+    left = (1, 3, 8, 12, 13, 1000)
+    folders = [tmp_path / there / str(calls) for there in ("new", "old") for calls in left]
+    for folder in folders:
+        (folder / "out" if folder.parent.name == "old" else folder).mkdir(parents=True)
+    ran = subprocess.run(
+        [sys.executable, "-c", script, *folders], capture_output=True, text=True, check=True
+    )
+    for folder, code in zip(folders, ran.stdout.split(), strict=True):
         found = sorted(path.name for path in (folder / "out").glob("[!.]*"))
         assert len(found) in (0, 9), found
-        assert (ran.returncode == 0) is (calls == 1000)
-        assert found or ran.returncode
+        assert (code == "0") is (folder.name == "1000")
+        assert found or code != "0"
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,7 @@ from made_gallery import UnexpectedVerdict, refuse_unexpected  # noqa: E402
 from made_notebooks import notebook  # noqa: E402
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+LONG = ("granular_path", "identification")
 
 
 def assert_runs(script: Path, folder: Path) -> None:
@@ -34,7 +35,13 @@ def test_there_are_examples() -> None:
     assert EXAMPLES
 
 
-@pytest.mark.parametrize("script", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "script",
+    [
+        pytest.param(path, id=path.stem, marks=[pytest.mark.slow] * (path.stem in LONG))
+        for path in EXAMPLES
+    ],
+)
 def test_example_keeps_its_promise(script: Path, tmp_path: Path) -> None:
     assert_runs(script, tmp_path)
 
@@ -45,7 +52,7 @@ def test_python_in_the_readme_runs(tmp_path: Path) -> None:
     fine = "cells=(64, 64)"
     assert fine in block
     script = tmp_path / "readme.py"
-    script.write_text(block.replace(fine, "cells=(24, 24)"), encoding="utf-8")
+    script.write_text(block.replace(fine, "cells=(16, 16)"), encoding="utf-8")
     assert_runs(script, tmp_path)
 
 
