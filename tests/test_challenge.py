@@ -503,7 +503,9 @@ for folder in sys.argv[1:]:
     ran = subprocess.run(
         [sys.executable, "-c", script, *folders], capture_output=True, text=True, check=True
     )
-    for folder, code in zip(folders, ran.stdout.split(), strict=True):
+    codes = ran.stdout.split()
+    assert codes.count("0") == 2
+    for folder, code in zip(folders, codes, strict=True):
         found = sorted(path.name for path in (folder / "out").glob("[!.]*"))
         assert len(found) in (0, 9), found
         assert (code == "0") is (folder.name == "1000")
