@@ -106,6 +106,7 @@ def test_work_along_a_loop_is_stored_or_dissipated() -> None:
     assert lost[-1] == pytest.approx(5 * lost[0])
 
 
+@pytest.mark.slow
 def test_finer_cells_and_more_increments_agree_with_closed_forms() -> None:
     """The rule of finer cells, on a scene with ν = 0 that has a closed form."""
     posed = FAMILIES["pushed"].posed(np.random.default_rng(SEED))

@@ -42,6 +42,7 @@ FAST_RUNS = [
     for defect in DEFECTS.values()
     if (case := next((case for case in defect.cases if case in FAST), None))
 ]
+OF_INDENTER = ("fe-coated-indenter-uncoupled", "fe-coupling-of-the-indenter")
 Runs = dict[str, CaseRecord]
 
 
@@ -101,7 +102,13 @@ def test_healthy_solvers_pass(case: str) -> None:
     assert failed_verdicts(DefectRun(HEALTHY, case).compute()) == ()
 
 
-@pytest.mark.parametrize("run", FAST_RUNS, ids=lambda run: run.name)
+@pytest.mark.parametrize(
+    "run",
+    [  # the coupling of the indenter is one law of cells and elements, and quicker on cells
+        pytest.param(run, id=run.name, marks=[pytest.mark.slow] * (run.defect in OF_INDENTER))
+        for run in FAST_RUNS
+    ],
+)
 def test_defect_is_caught(run: DefectRun) -> None:
     assert failed_verdicts(run.compute())
 

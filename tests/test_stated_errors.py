@@ -683,11 +683,11 @@ def test_coarse_solves_are_cheap_and_their_tolerance_has_no_effect(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     posed = rubbed(push(0.6), body=Body(material=steel()), like=False)
-    result = package.solve(posed, "semi-analytical", cells(48))
+    result = package.solve(posed, "semi-analytical", cells(36))
     stated = stated_errors(result)
     work = [(solve.convolutions or 0) * np.prod(solve.cells) for solve in stated.coarse_solves]
     # The third coarse solve has (2/3)² of the cells.
-    assert sum(work) < (1 + 4 / 9) * sum(step.convolutions for step in result.increments) * 48**2
+    assert sum(work) < (1 + 4 / 9) * sum(step.convolutions for step in result.increments) * 36**2
     monkeypatch.setattr(coarse_solves, "NEGLIGIBLE", 0.0)
     for errors, of_tight in zip(stated.steps, stated_errors(result).steps, strict=True):
         for name in ("approach", "peak_pressure", "elastic_energy", "dissipated_energy"):

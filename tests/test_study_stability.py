@@ -85,9 +85,15 @@ def test_different_cells_have_different_names_and_files(tmp_path: object) -> Non
         # here cells let go one after the other below a film that lifts them,
         replace(ORDINARY, modulus_ratio=1e6, thickness=0.1, path=LoadingPath.PRESS, cells=32),
         # here it lifted them differently whenever the pressure was not solved for thoroughly,
-        replace(ORDINARY, modulus_ratio=1e6, thickness=0.03, friction=1.0, push=0.95, cells=24),
+        pytest.param(
+            replace(ORDINARY, modulus_ratio=1e6, thickness=0.03, friction=1.0, push=0.95, cells=24),
+            marks=pytest.mark.slow,
+        ),
         # here the shear's preconditioner was not positive,
-        replace(ORDINARY, modulus_ratio=1e3, thickness=0.003, poisson_ratio=0.5, cells=48),
+        pytest.param(
+            replace(ORDINARY, modulus_ratio=1e3, thickness=0.003, poisson_ratio=0.5, cells=48),
+            marks=pytest.mark.slow,
+        ),
         # and friction that is strong leaves no way here but on springs: neither parts of Newton's
         # steps nor turns of pressure and shear come near, of whole increments.
         replace(SOFT_FILM, friction=5.0, push=0.5, cells=48),

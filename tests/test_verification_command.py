@@ -6,8 +6,10 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import pytest
 from command import outcome, signalled
@@ -20,23 +22,32 @@ from verification.judging.case import Level
 from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
 from verification.report.files import EARLIER, FILES, PAGE, RECORD
+from verification.running.case_pool import ThisProcess
+
+
+@pytest.fixture(scope="module", autouse=True)
+def one_process() -> Iterator[None]:
+    """No worker is started, except by a verification that is to be killed."""
+    with patch("verification.running.case_pool.LocalWorkers", lambda processes: ThisProcess()):
+        yield
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("verify")
-    ended = outcome("verify", "dissimilar_bodies", "--output", "out/put", cwd=directory)
+    ended = outcome("verify", "hertz_approach_control", "--output", "out/put", cwd=directory)
     assert ended.returncode == 0, ended.stdout + ended.stderr
-    assert "dissimilar_bodies" in ended.stderr
+    assert "hertz_approach_control" in ended.stderr
     assert f"report: {Path('out/put') / PAGE}" in ended.stdout
     return directory / "out" / "put"
 
 
 def test_one_case_is_verified_and_reported(made: Path) -> None:
     record = json.loads((made / RECORD).read_text(encoding="utf-8"))
-    assert [case["name"] for case in record["cases"]] == ["dissimilar_bodies"]
+    assert [case["name"] for case in record["cases"]] == ["hertz_approach_control"]
     assert record["counts"]["fail"] == 0
-    assert record["provenance"]["command"] == "slipstick verify dissimilar_bodies --level quick"
+    (case,) = record["cases"]
+    assert record["provenance"]["command"] == f"slipstick verify {case['name']} --level quick"
 
 
 def test_report_is_rendered_again_from_its_record(made: Path) -> None:
@@ -87,24 +98,14 @@ def test_solver_that_gives_up_fails_and_the_rest_is_still_judged() -> None:
 
 ROOT = Path(__file__).resolve().parents[1]
 # Of every kind: on a surface grid, on a section, and without a solve.
-RESUMED_CASES = ("dissimilar_bodies", "fem_far_field", "tilted_punch", "worked_examples")
-PROGRAM = f"""
+RESUMED_CASES = ("hertz_approach_control", "fem_far_field", "tilted_punch", "worked_examples")
+KILLED = f"""
 import sys
 sys.path.insert(0, {str(ROOT)!r})
 from slipstick.cli import main
+{signalled("SIGKILL", saved=2)}
+main()
 """
-
-
-def started(directory: Path, *options: str, dying: str = "") -> "subprocess.Popen[str]":
-    code = PROGRAM + dying + "main()"
-    return subprocess.Popen(
-        [sys.executable, "-c", code, "verify", *RESUMED_CASES, "-o", str(directory), *options],
-        cwd=directory.parent, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-    )  # fmt: skip
-
-
-def ended(process: "subprocess.Popen[str]") -> tuple[str, str]:
-    return process.communicate(timeout=600)
 
 
 def records(directory: Path) -> dict[str, int]:
@@ -125,17 +126,19 @@ def report(directory: Path) -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     directory = tmp_path_factory.mktemp("verify") / "report"
-    process = started(directory, "--workers", "1")
-    _, log = ended(process)
-    assert process.returncode == 0, log
-    assert re.search(r"\(1 of 4, about \d+ s left\)", log)
+    whole = outcome("verify", *RESUMED_CASES, "-o", directory, cwd=directory.parent)
+    assert whole.returncode == 0, whole.stderr
+    assert re.search(r"\(1 of 4, about \d+ s left\)", whole.stderr)
     return directory
 
 
 def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_path: Path) -> None:
     for name in FILES:  # an earlier report, which must not pass for that of the killed one
         shutil.copy(uninterrupted / name, tmp_path)
-    ended(started(tmp_path, "--workers", "1", dying=signalled("SIGKILL", saved=2)))
+    subprocess.run(
+        [sys.executable, "-c", KILLED, "verify", *RESUMED_CASES, "-o", tmp_path, "--workers", "1"],
+        capture_output=True, timeout=600, check=False,
+    )  # fmt: skip
     kept = records(tmp_path)
     assert len(kept) == 2
     assert not any((tmp_path / name).exists() for name in FILES)
