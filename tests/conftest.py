@@ -82,6 +82,19 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     leave_figures_undrawn(monkeypatch)
 
 
+@pytest.fixture(scope="module")
+def one_process() -> Generator[None]:
+    """Cases of a sweep or verification are computed in the process of the test: for tests of
+    something else than workers."""
+    from verification.running.case_pool import ThisProcess
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(
+            "verification.running.case_pool.LocalWorkers", lambda processes: ThisProcess()
+        )
+        yield
+
+
 def _forbid_skip(report: pytest.TestReport | pytest.CollectReport) -> None:
     """Turn a skip into a failure when SLIPSTICK_NO_SKIP=1: there, every package is installed."""
     expected_failure = hasattr(report, "wasxfail")

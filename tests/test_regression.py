@@ -681,6 +681,7 @@ def test_every_accepted_tolerance_belongs_to_a_recorded_number(level: str) -> No
     assert {(case, key) for case, keys in named for key in keys} <= recorded
 
 
+@pytest.mark.usefixtures("one_process")
 def test_verify_judges_by_the_accepted_tolerances(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -13,6 +13,7 @@ from contact_results.figures import style
 from slipstick.sweep import Variation
 from slipstick.sweep_chart import SweptQuantity, write_sweep_chart
 
+pytestmark = pytest.mark.usefixtures("one_process")
 HERTZ = """
 title = "steel ball"
 [indenter]

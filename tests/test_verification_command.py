@@ -6,10 +6,8 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
-from unittest.mock import patch
 
 import pytest
 from command import outcome, signalled
@@ -22,14 +20,9 @@ from verification.judging.case import Level
 from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
 from verification.report.files import EARLIER, FILES, PAGE, RECORD
-from verification.running.case_pool import ThisProcess
 
 
-@pytest.fixture(scope="module", autouse=True)
-def one_process() -> Iterator[None]:
-    """No worker is started, except by a verification that is to be killed."""
-    with patch("verification.running.case_pool.LocalWorkers", lambda processes: ThisProcess()):
-        yield
+pytestmark = pytest.mark.usefixtures("one_process")
 
 
 @pytest.fixture(scope="module")
