@@ -21,7 +21,6 @@ from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
 from verification.report.files import EARLIER, FILES, PAGE, RECORD
 
-
 pytestmark = pytest.mark.usefixtures("one_process")
 
 
