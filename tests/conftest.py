@@ -32,18 +32,17 @@ settings.load_profile(
 
 # Files of more than ten CPU seconds begin first: who came last to one would let the others wait.
 LONGEST = (
-    "test_code_quality", "test_transcripts", "test_seeded_defects", "test_error_coverage_truths",
-    "test_accuracy",
-    "test_examples", "test_tables", "test_size_bombs",
-    "test_influence_layered", "test_fem_compliance", "test_work_precision", "test_study_running",
-    "test_threads", "test_run_output", "test_promises",
-    "test_stress_command", "test_cli", "test_memory_estimate", "test_stated_errors",
-    "test_verification_command", "test_checkpoint",
-    "test_energy_balance", "test_convergence_studies", "test_study_stability",
-    "test_stability_sections", "test_cli_run", "test_coupled_increment",
-    "test_radial", "test_fem_harmonics", "test_stress_influence",
-    "test_stress_on_disc", "test_hostile_outputs", "test_fem_pressing",
-    "test_from_python", "test_one_case",
+    "test_code_quality", "test_transcripts", "test_seeded_defects", "test_stated_errors",
+    "test_size_bombs", "test_error_coverage_truths", "test_examples", "test_bulk_strain",
+    "test_accuracy", "test_tables", "test_influence_layered", "test_fem_compliance",
+    "test_work_precision", "test_study_running", "test_threads", "test_run_output",
+    "test_convergence_studies", "test_promises", "test_adapters", "test_workers_and_order",
+    "test_stress_command", "test_cli", "test_memory_estimate", "test_friction",
+    "test_verification_command", "test_checkpoint", "test_stability_sections",
+    "test_energy_balance", "test_study_stability", "test_edge_correction", "test_cli_run",
+    "test_coupled_increment", "test_radial", "test_fem_harmonics", "test_stress_influence",
+    "test_stress_files", "test_stress_on_disc", "test_hostile_outputs", "test_fem_pressing",
+    "test_judge_action", "test_from_python", "test_one_case", "test_regression",
 )  # fmt: skip
 
 
