@@ -42,7 +42,11 @@ FAST_RUNS = [
     for defect in DEFECTS.values()
     if (case := next((case for case in defect.cases if case in FAST), None))
 ]
-OF_INDENTER = ("fe-coated-indenter-uncoupled", "fe-coupling-of-the-indenter")
+# A quicker defect is caught by the same law.
+SLOW = (
+    "fe-coated-indenter-uncoupled", "fe-coupling-of-the-indenter",
+    "force-taken-over", "increments-halved", "one-increment",
+)  # fmt: skip
 Runs = dict[str, CaseRecord]
 
 
@@ -104,8 +108,8 @@ def test_healthy_solvers_pass(case: str) -> None:
 
 @pytest.mark.parametrize(
     "run",
-    [  # the coupling of the indenter is one law of cells and elements, and quicker on cells
-        pytest.param(run, id=run.name, marks=[pytest.mark.slow] * (run.defect in OF_INDENTER))
+    [
+        pytest.param(run, id=run.name, marks=[pytest.mark.slow] * (run.defect in SLOW))
         for run in FAST_RUNS
     ],
 )
