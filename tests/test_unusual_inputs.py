@@ -287,7 +287,7 @@ def test_points_that_were_not_measured_are_never_lowest(word: str, tmp_path: Pat
         ("some\nwords\n", "shape"),
         ("1,2,3,4\n" * 3 + "1,x,3,4\n", 'no number in "1,x,3,4"'),
         ("1,2,3,4\n" * 3 + "1,2,3\n", "3 to 4 numbers"),
-        ("0 0 1\n" * 9, "values alone, in rows and columns"),
+        ("0 0 1\n" * 9, "have 3 numbers, expected values without their coordinates"),
         (("1," * 9 + "inf\n") * 9, "holds inf"),
         (("1" + "," * 9 + "\n") * 9, "no height at 89%"),
     ],

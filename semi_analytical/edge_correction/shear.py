@@ -56,7 +56,7 @@ class Deficit:
 
     shear  deficit, zero in the slip zone (2, nx, ny) [force/length^2]
     full   shear of gross slip (2, nx, ny) [force/length^2]
-    slip   direction of slip, zero deep in the stick zone (2, nx, ny)
+    slip   direction of slip, extended to all cells (2, nx, ny)
     stick  cells that may have a deficit (nx, ny)
     edge   subcell values of the magnitude of the deficit along the stick border
     """
@@ -153,7 +153,7 @@ class ShearProblem:
         stick border.
 
         None is returned if no stick border can be fitted. The direction of slip in the stick zone
-        is that of adjacent slipping cells, and zero far from them.
+        is that of adjacent slipping cells, and their mean far from them.
 
         q       shear (2, nx, ny) [force/length^2]
         bound   friction limit µp (nx, ny) [force/length^2]

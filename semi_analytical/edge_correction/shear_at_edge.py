@@ -35,11 +35,11 @@ SMOOTHED = 2.0
 
 
 def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
-    """Compute the direction of the shear of slipping cells, and extend it to cells around them.
+    """Compute the direction of the shear of slipping cells, and extend this direction to all cells.
 
     The result (2, nx, ny) contains unit vectors. Other cells take the mean direction of adjacent
-    cells, layer by layer. Beyond LAYERS layers the vectors are zero: cells deep in the stick zone
-    do not follow the friction limit.
+    cells, layer by layer. Beyond LAYERS layers they take the mean direction of all cells before, or
+    zero if these directions cancel (torsion).
 
     q      shear of the cells (2, nx, ny)
     slips  slipping cells (nx, ny)
@@ -61,6 +61,9 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
         new[:] = False
         new.flat[cells] = True
         known |= new
+    total = np.sum(n[:, known], axis=1)
+    if np.hypot(*total) > LEAST_COMMON * np.count_nonzero(known):
+        n[:, ~known] = (total / np.hypot(*total))[:, None]
     return n[:, 1:-1, 1:-1]
 
 
