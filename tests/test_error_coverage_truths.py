@@ -28,8 +28,7 @@ from verification.problems.drawn.families import (
 
 SEED = 2  # of draws that neither tried the rules nor judge them
 # Cheap families of all rules but that of finer cells.
-SLIDING = pytest.param("sliding", marks=pytest.mark.slow)
-CHEAP = "shapes", "tilted", "pushed-shapes", SLIDING, "twisted", "elements-pushed"
+CHEAP = "shapes", "tilted", "pushed-shapes", "twisted", "elements-pushed"
 COARSE, FINE = 16, 48  # cells along a side
 FEW, MANY = 6, 18  # elements per contact radius
 # Smooth errors fall by nine while cells become a third as large, square roots by 1.7. Each depends
@@ -60,7 +59,7 @@ def errors(known: KnownScene, *, fine: bool) -> Iterator[float]:
             yield max(beyond, 0.0) / abs(reference.value)
 
 
-@pytest.mark.parametrize("family", CHEAP)
+@pytest.mark.parametrize("family", [*CHEAP, pytest.param("sliding", marks=pytest.mark.slow)])
 def test_errors_fall_towards_the_answer(family: str) -> None:
     """All are small on fine cells, and their geometric mean falls, chance agreements aside."""
     known = drawn(family, SEED, 0)

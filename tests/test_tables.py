@@ -76,8 +76,7 @@ def test_pressing_with_friction_is_that_of_integral_equations(
 
     place  E1/E2, h/a_H, ν and µ"""
     monkeypatch.setattr(frictional, "PATH_INCREMENTS", frictional.PATH_INCREMENTS // 8)
-    axes = ("E1_over_E2", "h_over_aH", "nu", "mu")
-    chosen = {name: [value] for name, value in zip(axes, place, strict=True)}
+    chosen = {name: [value] for name, value in zip(TABLES["pressing"].axes, place, strict=True)}
     (found,) = TABLES["pressing"].rows(chosen)
     for name, left in OF_REFERENCE.items():
         assert abs(found[name] - reference[name]) <= found[f"{name}_uncertainty"] + left

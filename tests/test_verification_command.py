@@ -36,7 +36,6 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_one_case_is_verified_and_reported(made: Path) -> None:
     record = json.loads((made / RECORD).read_text(encoding="utf-8"))
-    assert [case["name"] for case in record["cases"]] == ["hertz_approach_control"]
     assert record["counts"]["fail"] == 0
     (case,) = record["cases"]
     assert record["provenance"]["command"] == f"slipstick verify {case['name']} --level quick"
