@@ -220,13 +220,15 @@ def radial_shear_errors(result: Any, problem: Problem) -> tuple[Field, NDArray[n
     [1].
 
     p_H is the Hertz peak pressure. Returns the largest error of all directions at each radius, and
-    a mask of the radii that lie less than two cells from the edge of the stick zone. On finite
-    elements the mask is false everywhere.
+    a mask of the radii that lie within two cells of the edge of the stick zone, at least the
+    nearest. On finite elements the mask is false everywhere.
     """
     r, exact = judged_radii(result, problem), problem.ends[-1]
     error = np.max(np.abs(shear_at(result, r) - exact.shear(r)[:, None]), axis=1)
-    width = EDGE_CELLS * result.grid.spacing[0] if hasattr(result, "grid") else 0.0
-    at_edge = np.abs(r - exact.stick_part * problem.radius) < width
+    distance, at_edge = np.abs(r - exact.stick_part * problem.radius), np.zeros(r.shape, bool)
+    if hasattr(result, "grid"):
+        width = max(EDGE_CELLS * result.grid.spacing[0], float(np.min(distance)))
+        at_edge = distance <= width
     return error / problem.scale(OVER_LIMIT), at_edge
 
 
@@ -245,7 +247,7 @@ def stick_edge_error(result: Any, _: int, problem: Problem) -> float:
     """Compute the largest error of the final radial shear within two cells of the stick edge
     [µp_H].
 
-    The points are radii of a reference table. The error is zero if the table has no radius there.
+    The points are radii of a reference table, at least the radius nearest to the edge.
     """
     error, at_edge = radial_shear_errors(result, problem)
-    return float(np.max(error, where=at_edge, initial=0.0))
+    return float(np.max(error[at_edge]))

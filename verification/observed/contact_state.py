@@ -84,11 +84,13 @@ class Imbalance(float):
         number      number of the increment, from 1
         largest     largest energy so far, the scale of the imbalance
         difference  energy difference that should vanish
-        terms       compared energies, by name
+        terms       compared energies, by name; none for a stated imbalance, a ratio
         """
         found = super().__new__(cls, abs(difference) / largest)
         texts = (f"{name.replace('_', ' ')} {energy:.6g} J" for name, energy in terms.items())
         found.terms = f"increment {number}: {', '.join(texts)}; difference {difference:.3g} J"
+        if not terms:
+            found.terms = f"increment {number}: stated imbalance {difference:.3g}"
         return found
 
 
@@ -347,7 +349,7 @@ def imbalances(states: Sequence[ContactState]) -> Iterator[Imbalance]:
                 terms = {"work": end.input_work, "stored": now.energy, "dissipated": lost}
                 yield Imbalance(number, largest, end.input_work - now.energy - lost, **terms)
         if end.energy_imbalance is not None:
-            yield Imbalance(number, 1.0, end.energy_imbalance, stated=end.energy_imbalance)
+            yield Imbalance(number, 1.0, end.energy_imbalance)
         if not now.open:  # otherwise the result lacks intermediate states
             for difference, terms in _energy_differences(before or now.at_rest(), now):
                 yield Imbalance(number, scale, difference, **terms)
