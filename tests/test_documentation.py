@@ -1,5 +1,7 @@
 """Tests of README and documentation: named files, commands, options, cases and studies exist."""
 
+import json
+import lzma
 import re
 import resource
 import shlex
@@ -8,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from command import slipstick
 
 from slipstick.cli.application import ALL_COMMANDS, MAINTAIN
 from verification.cases.catalogue import CASES
@@ -17,6 +20,10 @@ ROOT = Path(__file__).resolve().parents[1]
 README = ROOT / "README.md"
 PAGES = (README, *sorted((ROOT / "docs").rglob("*.md")))
 WRITTEN = [page for page in PAGES if "made" not in page.relative_to(ROOT).parts]
+REPORT = json.loads(lzma.decompress((ROOT / "reports/full/report.json.xz").read_bytes()))
+# Case, quantity, part of the names of the runs and largest error, in a row of a table.
+JUDGED = re.compile(r"\| `(\w+)` \| `([\w.]+)` \| ([^|]+) \| (\S+) \|$", re.MULTILINE)
+ERRORS = [row for page in PAGES for row in JUDGED.findall(page.read_text(encoding="utf-8"))]
 PLACEHOLDER = re.compile(r"SCENE|COMMAND|CASE|NAME|DIR|\$h|^tcp:|…")
 
 
@@ -52,6 +59,24 @@ def test_commands_of_the_pages_are_known(page: Path, words: list[str]) -> None:
         assert PLACEHOLDER.search(rest[0]) or rest[0] in CASES
 
 
+@pytest.mark.parametrize(("case", "quantity", "run", "error"), ERRORS)
+def test_errors_of_the_pages_are_those_of_the_stored_report(case, quantity, run, error) -> None:
+    verdicts = next(one["verdicts"] for one in REPORT["cases"] if one["name"] == case)
+    named = [v for v in verdicts if v["name"] == quantity and run in v["run"]]
+    assert f"{max(v['error'] for v in named if 'edge off' not in v['run']):.2g}" == error
+
+
+def test_the_result_of_the_readme_is_computed(tmp_path: Path) -> None:
+    number = r"`(\S+) ± (\S+)`"
+    stated = rf"`slipstick run (\S+)`.* approach {number} µm, peak pressure {number}\s+GPa"
+    scene, *numbers = re.search(stated, text_of(README)).groups()
+    assert slipstick("run", ROOT / scene, "-o", tmp_path, "--figures", "none") == 0
+    end = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["steps"][-1]
+    for name, unit in (("approach", 1e-6), ("peak_pressure", 1e9)):
+        for found in (end[name], end["errors"][name]["error"]):
+            assert found / unit == pytest.approx(float(numbers.pop(0)), abs=2e-7)
+
+
 @pytest.mark.slow
 def test_durations_of_the_readme_are_of_their_order_of_magnitude(tmp_path: Path) -> None:
     """CPU seconds of a process each, in the order of the page, as later ones read what earlier ones
@@ -74,13 +99,6 @@ def children_cpu() -> float:
     """CPU seconds of the processes that this one has waited for."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
-
-
-def test_cases_of_the_accuracy_table_are_known() -> None:
-    table = text_of(ROOT / "docs" / "theory" / "accuracy.md")
-    named = re.findall(r"\| `(\w+)` \|$", table, re.MULTILINE)
-    assert len(named) >= 6
-    assert set(named) <= set(CASES)
 
 
 @pytest.mark.parametrize("page", WRITTEN, ids=lambda page: page.relative_to(ROOT).as_posix())

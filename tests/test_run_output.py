@@ -20,7 +20,6 @@ from contact_scene.quantities.summary import (
     load_summary,
     summary_schema,
 )
-from contact_scene.reading.engineering_units import quantity
 from semi_analytical.fields import Result
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -88,22 +87,3 @@ def test_timing_counts_the_work_of_all_increments_of_a_step(tmp_path: Path) -> N
     assert [step["iterations"] for step in steps] == [ITERATIONS * number for number in numbers]
     assert [step["convolutions"] for step in steps] == [CONVOLUTIONS * n for n in numbers]
     assert [step["factorizations"] for step in steps] == [None] * len(numbers)
-
-
-@pytest.mark.parametrize(
-    ("value", "unit", "text"),
-    [
-        (3.17e9, "Pa", "3.17 GPa"),
-        (5e8, "Pa", "500 MPa"),
-        (1e-4, "m", "0.1 mm"),
-        (8e-7, "m", "0.8 µm"),
-        (1e-10, "m", "0.1 nm"),
-        (1e-9, "m", "1 nm"),
-        (1500.0, "m", "1500 m"),
-        (-90.0, "N", "-90 N"),
-        (0.0, "N", "0 N"),
-        (4.2e-13, "J", "0.00042 nJ"),
-    ],
-)
-def test_quantities_are_shown_in_engineering_units(value: float, unit: str, text: str) -> None:
-    assert quantity(value, unit) == text
