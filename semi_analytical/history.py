@@ -266,8 +266,11 @@ def _reported_increment(
         stuck, sheared, pressed = _stick_zone(
             model, p, sheared, state.corrected, pressed, spreads=spreads
         )
-    if state.corrected and sheared.shift is not None and not np.any(sheared.in_stick):
-        # In gross slip the shear follows the corrected pressure, and so does its force.
+    steps = model.scene.loading[: reached.place.step]
+    controls = [step for step in steps if step.tangential_force or step.tangential_shift]
+    shifted = controls and controls[-1].tangential_shift is not None
+    if state.corrected and shifted and not np.any(sheared.in_stick):
+        # Without stick zone the shear follows the corrected pressure, and so does its force.
         sheared = replace(sheared, force=np.sum(sheared.shear, axis=(1, 2)) * cell)
     increment = replace(
         pressed,
