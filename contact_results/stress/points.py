@@ -42,10 +42,11 @@ def layer_name(layer: int, layers: int) -> str:
 def index_of_largest(values: NDArray[np.float64]) -> int:
     """Return the flat index of the first value that equals the largest up to round-off.
 
+    A value that is not a number counts as the largest, so that it is not hidden.
+
     values  values of a stress measure; -inf in points that do not count
     """
-    largest = np.max(values)
-    return int(np.argmax(values >= largest - EQUAL * abs(largest)))
+    return int(np.argmax(np.isclose(values, np.max(values), EQUAL, 0.0, equal_nan=True)))
 
 
 @dataclass(frozen=True, eq=False)
