@@ -104,7 +104,7 @@ OVERSTATED = "libraries", "figures of five steps", "many increments", "tilted"
 
 def marks(name: str) -> list[pytest.MarkDecorator]:
     """Of one scene: dear ones wait for the night, and overstated ones must fail."""
-    overstated = [pytest.mark.xfail(strict=True, reason="SciPy is counted")]
+    overstated = [pytest.mark.xfail(strict=True, reason="SciPy is counted, but not imported")]
     return [pytest.mark.slow] * (name in DEAR) + overstated * (name in OVERSTATED)
 
 
