@@ -334,8 +334,9 @@ def compare_with_coarse_solves(
     Each discretisation parameter is changed in a separate comparison:
 
     - Increments, if a load step has an increment error: three solves on few cells, with the
-      increments of the result and with two other numbers. Load steps of fewer than 8 increments
-      are compared with 32 and 8 increments, and with the limit that these extrapolate to.
+      increments of the result and with two other numbers (one if both coarsen equally). Load steps
+      of fewer than 8 increments are compared with 32 and 8 increments, and with the limit that
+      these extrapolate to.
     - Cells, elements or rings: two solves with coarser discretisations, compared with the result;
       three for a small run on cells.
     - Other parameters of a mesh: one solve each, compared on the first coarse mesh.
@@ -386,7 +387,12 @@ def compare_with_coarse_solves(
     comparisons: list[Comparison] = []
 
     effects: list[Effect] = []
-    recuts = dict.fromkeys(coarse_increment_counts(run.increments, matters)) if any(matters) else ()
+    # Of two solves with equal coarsening factors, the one with fewer increments measures the same.
+    recuts = {
+        ratios(run.increments, counts, matters): counts
+        for counts in coarse_increment_counts(run.increments, matters)
+        if any(matters)
+    }.values()
     for few in (solver.few(replace(run, space=space), result) for space in spaces if recuts):
         if first := solved(f"few {solver.cells}", few):
             differs = f"few {solver.cells}, other increments"

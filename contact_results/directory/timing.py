@@ -14,6 +14,7 @@ from contact_results.directory.machine import library_versions, machine, program
 from contact_scene.quantities.increment import (
     COUNTERS,
     ReportedIncrement,
+    columns,
 )
 
 
@@ -65,8 +66,8 @@ def _counters_by_step(increments: Iterable[ReportedIncrement]) -> list[dict[str,
     for number, of_step in groupby(increments, lambda increment: increment.step):
         within = list(of_step)
         sums = {
-            name: None if None in (found := [getattr(i, name) for i in within]) else sum(found)
-            for name in COUNTERS
+            name: None if None in counts else sum(counts)
+            for name, counts in columns(within, COUNTERS).items()
         }
         steps.append({"step": number, "increments": len(within), **sums})
     return steps

@@ -22,6 +22,7 @@ from contact_scene.quantities.field_metadata import (
 )
 from contact_scene.quantities.increment import (
     SCALARS,
+    columns,
     components,
 )
 
@@ -133,9 +134,8 @@ def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
         attribute = "index" if name == "increment" else name
         values = [getattr(i, attribute) for i in increments]
         _write_dataset(group, name, values, Reported("", meaning), PER_INCREMENT)
-    for name, mark in SCALARS.items():
-        nothing = np.full(len(components(name)), np.nan)
-        given = (getattr(i, name) for i in increments)
+    for name, given in columns(increments, SCALARS).items():
+        mark, nothing = SCALARS[name], np.full(len(components(name)), np.nan)
         found = np.array([nothing if value is None else np.ravel(value) for value in given])
         if np.all(np.isnan(found)):
             continue

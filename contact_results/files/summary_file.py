@@ -13,7 +13,7 @@ from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_values import fields_digest
 from contact_results.result_warnings import warnings_of
 from contact_scene.quantities.field_metadata import Kind
-from contact_scene.quantities.increment import SCALARS
+from contact_scene.quantities.increment import SCALARS, columns
 from contact_scene.quantities.stated_error import (
     AccuracyReached,
     StatedError,
@@ -106,8 +106,8 @@ def _step_summary(
     }
     return StepSummary(
         **{
-            name: _step_value(mark.kind, [getattr(increment, name) for increment in within])
-            for name, mark in SCALARS.items()
+            name: _step_value(SCALARS[name].kind, values)
+            for name, values in columns(within, SCALARS).items()
         },
         **(cycle.numbers if cycle else {}),
         residuals=Residuals(**residuals),

@@ -5,7 +5,7 @@ A scalar is None if the solver does not compute it or its effect is off. This mo
 scalars; solvers pass their values where they create an increment.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, TypeAlias
 
@@ -311,6 +311,21 @@ class ReportedIncrement(Counters, Quality, State, WithFields):
 
 SCALARS: Mapping[str, Reported] = {**reported(State), **reported(Quality)}
 COUNTERS: Mapping[str, Reported] = reported(Counters)
+
+
+def columns(
+    increments: Iterable[State | Quality | Counters], names: Iterable[str]
+) -> dict[str, tuple[Any, ...]]:
+    """Return the values of reported scalars by name, one value for each increment.
+
+    The increments are read one after the other, since each may be stored in a file.
+
+    increments  results of at least one increment
+    names       names of the scalars, such as "tangential_force"
+    """
+    names = list(names)
+    rows = [[getattr(increment, name) for name in names] for increment in increments]
+    return dict(zip(names, zip(*rows, strict=True), strict=True))
 
 
 def _remove_sign_of_zero(value: Any) -> Any:
