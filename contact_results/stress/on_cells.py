@@ -172,7 +172,8 @@ def _stress_in_window(
     if see_edge:
         edge, why = _fit_edge(state, body, grid, levels, pressure, shear)
     how = _edge_record(edge, why)
-    rows = None if volume else _computed_rows(grid, pressure, shear, section_only)
+    columns, rows = _computed_cells(grid, pressure, shear, section_only)
+    rows = None if volume else rows
     if edge is not None and rows is not None:
         shown = (edge.phi.y >= rows[0]) & (edge.phi.y <= rows[-1])
         if np.any(shown):  # an edge that is fitted in part may have points on one side only
@@ -185,8 +186,7 @@ def _stress_in_window(
             bulk = state.bulk_stress(field.levels[0].layer, indenter)
             field = replace(field, stress=field.stress + bulk[:, None, None])
         sections.append(field.along_x())
-        points = _stress_points(field, grid)
-        largest.append(points.select_largest())
+        largest.append(_stress_points(field, grid, columns).select_largest())
         planes += [field] if volume else []
     plane = SubsurfaceField.joined(sections)
     fitted = None
@@ -211,13 +211,15 @@ def _stress_in_window(
     )
 
 
-def _computed_rows(
+def _computed_cells(
     grid: SurfaceGrid, pressure: Field, shear: Field | None, section_only: bool
-) -> Indices | None:
-    """Return the indices of the rows of cells along y on which the stress is computed.
+) -> tuple[slice, Indices | None]:
+    """Return the cells on which the stress is computed, and those where its maxima are searched.
 
-    The rows are those next to y = 0 for the section alone, and the rows from there to the largest y
-    if y = 0 is a mirror plane of the tractions. None means all rows.
+    The maxima are searched in a slice of the cells along x: those up to x = 0 if this is a mirror
+    plane of the tractions, otherwise all. The stress is computed on rows of cells along y. The rows
+    are those next to y = 0 for the section alone, and the rows from there to the largest y if y = 0
+    is a mirror plane of the tractions. None means all rows.
 
     pressure      pressure of the cells (nx, ny) [force/length^2]
     shear         shear of the cells (2, nx, ny) [force/length^2]; None without shear
@@ -227,10 +229,12 @@ def _computed_rows(
     from semi_analytical.stress.depths import line_weights
 
     at_section = np.flatnonzero(line_weights(grid.y, 0.0))
-    if section_only:
-        return at_section
     tractions = pressure[None] if shear is None else np.stack([*shear, pressure])
-    return np.arange(at_section[0], grid.cells[1]) if mirror_planes(tractions)[1] else None
+    along_x, along_y = mirror_planes(tractions)
+    columns = slice((grid.cells[0] + 1) // 2 if along_x else None)
+    if section_only:
+        return columns, at_section
+    return columns, np.arange(at_section[0], grid.cells[1]) if along_y else None
 
 
 def _fit_edge(
@@ -426,15 +430,18 @@ def _stress_levels(body: Body, depths: Sequence[float] | None, radius: float) ->
     return tuple(sorted({*asked, *sides}, key=lambda level: (level.depth, level.layer)))
 
 
-def _stress_points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
+def _stress_points(
+    field: SubsurfaceField, grid: SurfaceGrid, columns: slice = slice(None)
+) -> StressPoints:
     """Convert displacement and stress below the cells to stress points (levels, nx, ny).
 
     `at_edge` marks the points below the edge of the window.
 
-    field  displacement and stress at several depths, the levels
-    grid   surface grid of the window
+    field    displacement and stress at several depths, the levels
+    grid     surface grid of the window
+    columns  slice of the cells along x
     """
-    places = np.meshgrid(field.depths, field.x, field.y, indexing="ij", copy=False)
+    places = np.meshgrid(field.depths, field.x[columns], field.y, indexing="ij", copy=False)
     depth, x, y = places
     layers = np.array([level.layer for level in field.levels])
     return StressPoints(
@@ -442,8 +449,8 @@ def _stress_points(field: SubsurfaceField, grid: SurfaceGrid) -> StressPoints:
         y,
         depth,
         np.broadcast_to(layers[:, None, None], x.shape),
-        np.moveaxis(field.displacement, 1, 0),
-        np.moveaxis(field.stress, 1, 0),
+        np.moveaxis(field.displacement, 1, 0)[:, :, columns],
+        np.moveaxis(field.stress, 1, 0)[:, :, columns],
         at_edge=np.isin(x, grid.x[[0, -1]]) | np.isin(y, grid.y[[0, -1]]),
     )
 

@@ -195,7 +195,7 @@ def fields_by_level(
     each = depth_coefficients(stack, levels, grid.spacing, offsets, sheared=len(tractions) > 1)
     for level, coefficients in zip(levels, each, strict=True):
         fields = convolve(coefficients)[None]
-        fields = fields if few else fields[..., rows]
+        fields = fields if few else np.take(fields, rows, axis=-1)
         yield SubsurfaceField(
             grid.x, grid.y[rows], (level,), fields[:, DISPLACEMENT], fields[:, STRESS]
         )

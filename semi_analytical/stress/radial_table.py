@@ -10,8 +10,8 @@ and nine for shear (transforms along and across the wave, rotated to the axes of
 """
 
 from collections.abc import Iterator
-from functools import partial
-from math import hypot, pi
+from functools import lru_cache, partial
+from math import ceil, hypot, log2, pi
 
 import numpy as np
 from scipy.special import j0, j1
@@ -30,7 +30,7 @@ from semi_analytical.influence.layered_cells import MARGIN, cell_integrals
 from semi_analytical.influence.radial_table import RadialTable, tabulate
 from semi_analytical.stress.components import FIELDS, acting, empty_response, parity
 
-# Levels per table, so that its work space is some tens of megabytes.
+# Levels of the tables in memory, whose work space is some tens of megabytes.
 AT_ONCE = 64
 # Order of the Bessel function of each radial function.
 ORDERS = (1, 0, 0, 1, 0, 2, 0, 2, 1, 0, 2, 1, 1, 1, 3)
@@ -52,6 +52,15 @@ def clearance(stack: Stack, level: Level) -> float:
     return level.depth
 
 
+@lru_cache(maxsize=1)
+def _known_tables(stack: Stack, reach: float, sheared: bool) -> dict[Level, RadialTable]:
+    """Return the tables of one body that were computed already, by depth.
+
+    They are used again for the error estimate, with tractions in two other positions.
+    """
+    return {}
+
+
 def depth_tables(
     stack: Stack, levels: tuple[Level, ...], reach: float, *, sheared: bool = True
 ) -> list[RadialTable]:
@@ -67,11 +76,16 @@ def depth_tables(
     sheared  include the responses to shear
     """
     orders = ORDERS if sheared else ORDERS[:BY_PRESSURE]
-    nearest = min(clearance(stack, level) for level in levels)
-    edges, coefficients = tabulate(
-        partial(_hankel_transforms, stack, levels, orders), nearest, reach
-    )
-    return [RadialTable(edges, of_level) for of_level in coefficients]
+    known = _known_tables(stack, reach, sheared)
+    if len({*known, *levels}) > AT_ONCE:
+        known.clear()
+    missing = tuple(level for level in levels if level not in known)
+    if missing:
+        transforms = partial(_hankel_transforms, stack, missing, orders)
+        # No clearance is smaller than the thickness of the outermost layer.
+        edges, coefficients = tabulate(transforms, stack.layers[0].thickness, reach)
+        known.update(zip(missing, (RadialTable(edges, one) for one in coefficients), strict=True))
+    return [known[level] for level in levels]
 
 
 def _hankel_transforms(
@@ -208,6 +222,8 @@ def layered_coefficients(
              component
     """
     reach = hypot(*((n + MARGIN) * d for n, d in zip(shape, spacing, strict=True)))
+    thickness = stack.layers[0].thickness  # windows of similar size share their tables
+    reach = thickness * 2.0 ** ceil(log2(reach / thickness))
     parities = [parity(field, traction) for field in FIELDS for traction in acting(sheared)]
     for start in range(0, len(levels), AT_ONCE):
         batch = levels[start : start + AT_ONCE]
