@@ -35,9 +35,15 @@ def test_case_tells_bodies_apart(broken: bool) -> None:
         for verdict in outcome.verdicts
         if verdict.status is Status.FAIL
     }
-    names = "approach_difference", "pressure_difference"
-    expected = {(name, rings) for name in names for rings in (False, True)}
+    expected = {
+        (f"{of}_difference", rings) for of in ("approach", "pressure") for rings in (False, True)
+    }
     assert failed == (expected | {("stress_difference", False)} if broken else set())
+    assert [
+        1e-12 <= v.reference_uncertainty < 3e-3
+        for v in outcome.verdicts
+        if v.reference_kind == "other solver"
+    ] == [True] * 7
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """Tests of the judgement and the charts of convergence orders in verification cases."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from itertools import product
 from math import isnan, nan
@@ -111,12 +112,15 @@ def test_values_that_refinement_does_not_change_are_judged_exactly(
 
 
 def test_a_stated_error_covers_no_more_than_itself_and_that_of_the_reference() -> None:
-    run: Any = SimpleNamespace(label="run", spacing=1.0)
-    known = Reference(0.0, ReferenceKind.THEORY, "planted", 0.25)
-    quantity = Quantity("one", "", "", "run", float, known, Required(1.0, "planted"), 1.0)
-    case = Case("planted", "", "", (run,), (quantity,))
+    quantity = Quantity(
+        "one", "", "", "run", float, Reference(0.0, ReferenceKind.CLOSED_FORM, "planted", 0.25),
+        Required(1.0, "planted"), 1.0,
+    )  # fmt: skip
+    case = Case("planted", "", "", (), (quantity,))
     found = [judge_quantity(quantity, case, {"run": x}, 0.5).covered for x in (-0.74, 0.74, 0.76)]
     assert found == [True, True, False]
+    with pytest.raises(ValueError, match="needs an uncertainty > 0"):
+        replace(quantity, reference=replace(quantity.reference, uncertainty=0.0))
 
 
 def test_a_stated_error_is_that_of_the_judged_step_and_component() -> None:

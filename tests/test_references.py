@@ -52,12 +52,9 @@ def test_origins_of_references_exist():
         assert (ROOT / path).exists(), path
 
 
-def test_missing_reference_is_named():
+def test_missing_reference_is_named_and_the_folder_cannot_be_left():
     with pytest.raises(ValueError, match=r"no reference 'nope'; available: .*coated_fr.*, frf, "):
         load_reference("nope")
-
-
-def test_reference_folder_cannot_be_left():
     with pytest.raises(ValueError, match="no reference"):
         load_reference("../references/frf")
 

@@ -665,6 +665,7 @@ def sheared_increments(
                 "2 % from 4 to 8 increments, and half of that with each further doubling: first "
                 "order",
                 "the same solver with half the increments", ReferenceKind.OWN_REFINEMENT,
+                coarse=runs[-2].label,
             ),
         ),
         charts=(

@@ -236,6 +236,7 @@ def torsion(level: Level = Level.QUICK) -> Case:
 # Relative error of the semi-closed solution: its difference from the closed form for thick layers
 # and for layers of the base material.
 SEMI_CLOSED_ERROR = 1e-10
+ERROR_OF_CELLS = 3e-4  # of motions on 64 cells along a side, over the largest of a history
 COATED_PARTS = {1: 0.5, 2: 0.9}  # of the torque at gross slip, by load step
 # Two equal bodies of twice the moduli have the compliance of one under a rigid ball (E1/E2 = 2).
 BASE = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
@@ -607,8 +608,8 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
                 "motion", "largest difference of shift and twist", _motion_apart,
                 "the largest of the history",
             ),
-            7e-4, "set by hand: errors of about 3e-4 each of 64 cells along a side and of the "
-            "rings",
+            7e-4, f"set by hand: errors of about {ERROR_OF_CELLS:g} each of 64 cells along a side "
+            "and of the rings",
         ),
         Within(
             error_norm(
@@ -619,10 +620,10 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
         ),
     )  # fmt: skip
 
-    def beside_cells(scene: Scene) -> Problem:
+    def beside_cells(scene: Scene, uncertainty: float) -> Problem:
         return Problem(
             scene, (lambda: _solve_on_cells(scene, cells),), HERTZ.contact_radius,
-            f"{cells}² cells", ReferenceKind.OTHER_SOLVER,
+            f"{cells}² cells", ReferenceKind.OTHER_SOLVER, uncertainty,
         )  # fmt: skip
 
     return case(
@@ -636,8 +637,10 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
         judged(on_radii(TWISTED, "ball", at_points=True), of_ball),
         judged(on_radii(TORSION_LOOP, "to and fro", at_points=True), of_loop),
         *(
-            judged(on_radii(beside_cells(scene), name, laws=OVER_ANGLES), of_coated)
+            judged(on_radii(beside_cells(scene, known), name, laws=OVER_ANGLES), (row,))
             for name, scene in scenes.items()
+            # A stated error is two standard uncertainties, and at most the sum of both.
+            for row, known in zip(of_coated, (64 / cells * ERROR_OF_CELLS, 0.5), strict=True)
         ),
         quantities=(
             Quantity(

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from contact_scene import FiniteElementDiscretisation, Scene, SurfaceDiscretisation
 from contact_scene.discretisation import EdgeCorrection
 from verification.convergence.observed_order import ORDER_WIDTH
-from verification.problems.problem import Reference, ReferenceKind
+from verification.problems.problem import EXACT, NUMERICAL, Reference, ReferenceKind
 from verification.solver import Method, Solver
 
 if TYPE_CHECKING:
@@ -353,6 +353,10 @@ class Quantity:
     scalar      name, component and load step of a registered scalar, whose stated error is judged
                 in addition; None for other numbers
     runs        labels of the runs whose results are measured; None: the single run
+    coarse      label of a run that is coarser than the last of `runs`, from which the uncertainty
+                of a numerical reference follows; empty: the last run is solved on half its cells
+
+    Raises ValueError for a reference that is neither exact nor numerical and has no uncertainty.
     """
 
     name: str
@@ -366,6 +370,12 @@ class Quantity:
     scale_name: str = "the reference"
     scalar: tuple[str, int, int] | None = None
     runs: tuple[str, ...] | None = None
+    coarse: str = ""
+
+    def __post_init__(self) -> None:
+        kind, known = self.reference.kind, self.reference.uncertainty
+        if not (known > 0 or kind in EXACT or (kind in NUMERICAL and self.runs)):
+            raise ValueError(f"{self.name}: a reference of kind {kind} needs an uncertainty > 0")
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -383,6 +393,7 @@ def compare_runs(
     source: str,
     kind: ReferenceKind = ReferenceKind.IDENTITY,
     uncertainty: float = 0.0,
+    coarse: str = "",
 ) -> Quantity:
     """Create the judged difference of two runs that must agree, because both describe one problem.
 
@@ -393,12 +404,14 @@ def compare_runs(
     because      reason for this tolerance
     source       source that predicts the difference 0
     kind         kind of this source
-    uncertainty  standard uncertainty of the prediction, relative to the scale of the difference
+    uncertainty  standard uncertainty of the prediction, relative to the scale of the difference;
+                 that of another solver or refinement follows from a coarser solve if it is 0
+    coarse       label of this coarser solve; empty: the second run on half its cells
     """
     zero = Reference(0.0, kind, source, uncertainty)
     return Quantity(
         name, meaning, "", " and ".join(runs), difference, zero, Required(allowed, because), 1.0,
-        "the second run's", runs=runs,
+        "the second run's", runs=runs, coarse=coarse,
     )  # fmt: skip
 
 

@@ -9,11 +9,13 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from pkgutil import resolve_name
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
+from contact_errors.coarse_solves import DiscretisedSolver
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.quantities.stated_error import ErrorStatus, StatedErrors
 from contact_scene.quantities.summary import EffectSummary
@@ -57,8 +59,9 @@ from verification.judging.outcome import (
     order_status,
 )
 from verification.observed.contact_state import Imbalance, Observed, observed
-from verification.problems.problem import ReferenceKind, identity
+from verification.problems.problem import NUMERICAL, ROUNDING, ReferenceKind, identity
 from verification.quantities import largest_residual
+from verification.solver import Solver
 
 Results = Mapping[str, Any]
 
@@ -422,24 +425,47 @@ def stated_errors(case: Case, results: Mapping[str, Any]) -> dict[str, StatedErr
     """
     judged = {q.run for q in case.quantities if q.scalar is not None} & results.keys()
     return {
-        run.label: _solver_errors(run, results[run.label])
+        run.label: _discretised(run).stated_errors(results[run.label])
         for run in case.runs
         if run.label in judged and (not isinstance(run, Run) or run.edge == BY_DEFAULT)
     }
 
 
-def _solver_errors(run: AnyRun, result: Any) -> StatedErrors:
-    if isinstance(run, Run):
-        from contact_errors.on_cells import CellSolver
+# Solvers with variable discretisation; one that no run needs is not imported.
+DISCRETISED = {
+    Solver.CELLS: "contact_errors.on_cells:CellSolver",
+    Solver.ELEMENTS: "contact_errors.on_elements:ElementSolver",
+    Solver.RADII: "contact_errors.on_radii:RingSolver",
+}
 
-        return CellSolver.stated_errors(result)
-    if isinstance(run, RadiiRun):
-        from contact_errors.on_radii import RingSolver
 
-        return RingSolver.stated_errors(result)
-    from contact_errors.on_elements import ElementSolver
+def _discretised(run: AnyRun) -> type[DiscretisedSolver]:
+    found: type[DiscretisedSolver] = resolve_name(DISCRETISED[run.solver])
+    return found
 
-    return ElementSolver.stated_errors(result)
+
+def with_uncertainty(quantity: Quantity, case: Case, results: dict[str, Any]) -> Quantity:
+    """Return a quantity whose numerical reference has an uncertainty.
+
+    The reference is the last measured run. Its difference from a solve with half the cells,
+    elements or rings and equal increments bounds its error, if this falls with first or higher
+    order. The bound is the expanded uncertainty.
+
+    quantity  measured number, which is a difference of two runs
+    case      case of the quantity
+    results   results of the solved runs, by label of the run; a coarse solve is added to them
+    """
+    if quantity.reference.uncertainty or quantity.reference.kind not in NUMERICAL:
+        return quantity
+    label = quantity.labels[-1]
+    coarse = quantity.coarse or f"{label}, half as fine"
+    if coarse not in results:
+        solver = _discretised(case.run(label)).of(results[label])
+        space = solver.coarser(results[label], 1 / 2, 0)
+        results[coarse] = solver.solve(replace(solver.fineness_of(results[label]), space=space))
+    bound = quantity.measure(results[coarse], results[label])
+    known = replace(quantity.reference, uncertainty=max(ROUNDING, bound / COVERAGE))
+    return replace(quantity, reference=known)
 
 
 def error_of(quantity: Quantity, errors: StatedErrors | None) -> float | None:
@@ -461,7 +487,12 @@ def error_of(quantity: Quantity, errors: StatedErrors | None) -> float | None:
 
 
 def _judge_case(case: Case, results: Results) -> tuple[Verdict, ...]:
-    measured = [q for q in case.quantities if _required_runs(q) <= results.keys()]
+    solved = dict(results)
+    measured = [
+        with_uncertainty(q, case, solved)
+        for q in case.quantities
+        if _required_runs(q) <= results.keys()
+    ]
     stated = stated_errors(case, results)
     studied = [study for study in case.orders if set(study.levels) <= results.keys()]
     return (

@@ -286,6 +286,10 @@ class ReferenceKind(StrEnum):
     IDENTITY = "identity"  # holds exactly by a theorem or by the equations themselves
 
 
+EXACT = (ReferenceKind.IDENTITY, ReferenceKind.THEORY)
+NUMERICAL = (ReferenceKind.OTHER_SOLVER, ReferenceKind.OWN_REFINEMENT)
+
+
 @dataclass(frozen=True)
 class Reference:
     """Hold the reference value with which a measured number is compared.
