@@ -610,8 +610,9 @@ def test_accepted_tolerances_are_twice_the_largest_error_over_kernels(
     ]
     count = accept_tolerances(reports, "as  derived", tmp_path)
     known = read_tolerances("quick", tmp_path)
-    (acceptance,) = known.accepted
-    assert (acceptance.because, acceptance.kernels) == ("as derived", ("Haswell", "SkylakeX"))
+    assert [(one.because, one.kernels) for one in known.accepted] == [
+        ("as derived", ("Haswell", "SkylakeX"))
+    ]
     (held,) = held_to([outcome], known)
     assert count == sum(verdict.bound is not None for verdict in held.verdicts) > 1
     for verdict, was in zip(held.verdicts, outcome.verdicts, strict=True):
@@ -628,6 +629,14 @@ def test_accepted_tolerances_are_twice_the_largest_error_over_kernels(
     assert failed
     assert all(verdict.status is Status.FAIL for verdict in failed)
     assert proposed([report_of(held)]) == {}
+    # No less is accepted than the uncertainty of the reference.
+    assert [v.allowed for v in held_to([outcome.model_copy(update={"verdicts": [
+        v.model_copy(update={"reference_uncertainty": 0.6 * v.allowed * v.scale})
+        for v in outcome.verdicts
+    ]})], known)[0].verdicts] == [
+        0.6 * v.allowed if w.bound else v.allowed
+        for v, w in zip(outcome.verdicts, held.verdicts, strict=True)
+    ]  # fmt: skip
 
 
 def test_a_tolerance_allows_for_the_last_change_of_the_edge_correction(

@@ -861,7 +861,9 @@ def layered_reference(level: Level = Level.QUICK) -> Case:
                 "displacement", "",
                 f"{len(COEFFICIENT_ROWS)} rows",
                 lambda: max(map(_coefficient_error, COEFFICIENT_ROWS)),
-                exact(COEFFICIENT_SOURCE, 1e-12),
+                # Both programs, which share nothing, agree to rounding: the record is better than
+                # the 1e-12 that its integrals were asked for.
+                exact(COEFFICIENT_SOURCE, 1e-15),
                 Required(1e-14, "twenty times the rounding error"),
                 1.0, "1", runs=(),
             ),

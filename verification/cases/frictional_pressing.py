@@ -853,7 +853,10 @@ def spence_example(level: Level = Level.QUICK) -> Case:
             ),
             Quantity(
                 "stick_ratio", "√(cells that stick / cells in contact)", "", run.label, counted,
-                published(sqrt(stick_cells / contact_cells), 1 / stick_cells),
+                published(
+                    sqrt(stick_cells / contact_cells),
+                    0.5 / sqrt(stick_cells * contact_cells),  # one cell of the stick zone
+                ),
                 Required(
                     0.1 * side / radius, "both codes count cells: a tenth of a cell, where one "
                     "cell was the target"

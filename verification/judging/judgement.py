@@ -74,7 +74,8 @@ def judge_quantity(
 ) -> Verdict:
     """Judge a number against its reference.
 
-    A value that is not finite fails. A tolerance that is derived from refinement is computed first.
+    A value that is not finite fails. A pass with a tolerance below the uncertainty of the reference
+    is inconclusive. A tolerance that is derived from refinement is computed first.
 
     quantity  measured number, reference and tolerance
     case      case of the quantity
@@ -106,7 +107,8 @@ def _error_scale(quantity: Quantity) -> float:
 
 def _make_verdict(quantity: Quantity, value: float, kind: str, allowed: float) -> Verdict:
     reference, scale = quantity.reference, _error_scale(quantity)
-    error = abs(value - reference.value) / scale
+    error, least = abs(value - reference.value) / scale, reference.uncertainty / scale
+    passed = Status.PASS if least <= allowed else Status.INCONCLUSIVE
     return Verdict(
         name=quantity.name,
         run=quantity.run,
@@ -124,7 +126,7 @@ def _make_verdict(quantity: Quantity, value: float, kind: str, allowed: float) -
         scale_name=quantity.scale_name,
         tolerance_kind=kind,
         because=quantity.tolerance.because,
-        status=Status.PASS if error <= allowed else Status.FAIL,  # NaN compares as a failure
+        status=passed if error <= allowed else Status.FAIL,  # NaN compares as a failure
     )
 
 

@@ -271,6 +271,13 @@ class Verdict(Description):
         return (self.allowed if self.bound is None else self.bound) * self.scale
 
     @property
+    def least(self) -> float:
+        """Standard uncertainty of the reference over the scale [1]. A smaller error cannot be
+        judged.
+        """
+        return (self.reference_uncertainty or 0.0) / self.scale
+
+    @property
     def clearance(self) -> float | None:
         """Error over the accepted error [1]; a value above 1 is a failure.
 
@@ -303,7 +310,8 @@ def _contradiction(verdict: Verdict) -> str:
     if verdict.covered is not _error_is_covered(verdict):
         return f"it is covered: {verdict.covered}, but it states {verdict.stated_error}"
     status = _status_by_numbers(verdict)
-    if verdict.status is not status:
+    doubtful = verdict.status is Status.INCONCLUSIVE and verdict.allowed < verdict.least
+    if verdict.status is not status and not (doubtful and status is Status.PASS):
         return (
             f"its status is {verdict.status}, but an error of {verdict.error} where "
             f"{verdict.allowed} is allowed is {status}"

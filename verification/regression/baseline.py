@@ -818,7 +818,8 @@ def read_tolerances(level: str, directory: Path = TOLERANCES) -> Tolerances:
 def held_to(cases: Sequence[CaseOutcome], tolerances: Tolerances) -> tuple[CaseOutcome, ...]:
     """Judge the results of verification cases again by the accepted tolerances.
 
-    An accepted tolerance applies if it is stricter than the present tolerance of the verdict.
+    An accepted tolerance applies if it is stricter than the present tolerance of the verdict. It is
+    at least the uncertainty of the reference, because nobody can judge a smaller error.
     """
     return tuple(
         case.model_copy(
@@ -834,13 +835,16 @@ def held_to(cases: Sequence[CaseOutcome], tolerances: Tolerances) -> tuple[CaseO
 
 
 def _judge_by_tolerance(verdict: Verdict, known: tuple[Tolerance, Acceptance] | None) -> Verdict:
-    if known is None or known[0].allowed >= verdict.allowed:
+    if known is None:
         return verdict
     tolerance, acceptance = known
-    passes = verdict.error is not None and verdict.error <= tolerance.allowed
+    allowed = max(tolerance.allowed, verdict.least)
+    if allowed >= verdict.allowed:
+        return verdict
+    passes = verdict.error is not None and verdict.error <= allowed
     return verdict.model_copy(
         update={
-            "allowed": tolerance.allowed,
+            "allowed": allowed,
             "bound": verdict.allowed,
             "status": Status.PASS if passes else Status.FAIL,
             "because": f"{verdict.because}; of the bound {verdict.allowed:.2g} so much is allowed: "
@@ -868,6 +872,7 @@ def proposed(
     for case, key, verdicts, floor in _common_numbers(reports):
         bound, held = (verdicts[0].bound or verdicts[0].allowed), verdicts[0].allowed
         error = max(verdict.error or 0.0 for verdict in verdicts)
+        floor = max(floor, *(verdict.least for verdict in verdicts))
         allowed = float(f"{TIMES * error + floor:.2g}")
         slack = held > SLACK * max(error, floor) or error > held
         if slack and allowed < bound:
