@@ -572,8 +572,8 @@ def failure_line(case: str, verdict: Verdict, level: str) -> str:
 
 
 def failure_text(verdict: Verdict) -> str:
-    """Describe a failed verdict: measured value, expected value with tolerance, and
-    recorded value.
+    """Describe a failed verdict: measured value, expected value with tolerance, recorded value,
+    and the place in the run, such as the increment with its energies.
     """
     if verdict.name == SOLVED:
         return verdict.meaning + _was_text(verdict)
@@ -581,9 +581,8 @@ def failure_text(verdict: Verdict) -> str:
         value_text(value, verdict.unit) for value in (verdict.value, verdict.reference)
     )
     excess = "" if verdict.clearance is None else f" ({verdict.clearance:.2g} U)"
-    return (
-        f"{measured}, expected {reference} ± {_allowed_text(verdict)}{excess}{_was_text(verdict)}"
-    )
+    was, place = _was_text(verdict), "".join(verdict.meaning.partition(", increment ")[1:])
+    return f"{measured}, expected {reference} ± {_allowed_text(verdict)}{excess}{was}{place}"
 
 
 def _allowed_text(verdict: Verdict) -> str:
