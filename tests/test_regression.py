@@ -193,13 +193,13 @@ CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
     # How far below its tolerance a solve ends says nothing.
     ("largest_residual", 0.2, 0.7, SAME, 0, ""),
     ("largest_residual", 0.2, 2.0, OUTSIDE, 1, ""),
-    ("approach", {}, {"allowed": 0.5}, DRIFT, 5, "tolerance"),
+    ("approach", {}, {"allowed": 0.5}, WORSE, 7, "tolerance"),
     ("approach", {}, {"reference": 9e-6}, DRIFT, 5, "reference was"),
-    ("approach", {}, {"status": Status.INCONCLUSIVE}, DRIFT, 5, "pass -> inconclusive"),
+    ("approach", {}, {"status": Status.INCONCLUSIVE}, WORSE, 7, "pass -> inconclusive"),
     ("approach", {}, {"unit": "mm"}, DRIFT, 5, "unit was m"),
     # A bad solver scatters its levels, which widens the interval that it would be judged by.
     (ORDER, PASSED, {**LOST, "value": 1.4}, OUTSIDE, 1, "held to the recorded tolerance"),
-    (ORDER, PASSED, {**LOST, "value": 1.9}, DRIFT, 5, "held to the recorded tolerance"),
+    (ORDER, PASSED, {**LOST, "value": 1.9}, WORSE, 7, "held to the recorded tolerance"),
     (ORDER, LOST, {**LOST, "value": 0.5}, DRIFT, 5, ""),
     (ORDER, LOST, PASSED, DRIFT, 5, ""),
     (ORDER, FAILED, {**LOST, "value": 1.0, "error": 0.5}, BETTER, 5, "fail -> inconclusive"),

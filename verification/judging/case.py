@@ -374,7 +374,8 @@ class Quantity:
 
     def __post_init__(self) -> None:
         kind, known = self.reference.kind, self.reference.uncertainty
-        if not (known > 0 or kind in EXACT or (kind in NUMERICAL and self.runs)):
+        # An uncertainty that follows from a coarser solve is 0 at first, and never NaN.
+        if not (known > 0 or kind in EXACT or (known == 0 and kind in NUMERICAL and self.runs)):
             raise ValueError(f"{self.name}: a reference of kind {kind} needs an uncertainty > 0")
 
     @property

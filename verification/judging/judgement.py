@@ -466,7 +466,7 @@ def with_uncertainty(quantity: Quantity, case: Case, results: dict[str, Any]) ->
         space = solver.coarser(results[label], 1 / 2, 0)
         results[coarse] = solver.solve(replace(solver.fineness_of(results[label]), space=space))
     bound = quantity.measure(results[coarse], results[label])
-    known = replace(quantity.reference, uncertainty=max(ROUNDING, bound / COVERAGE))
+    known = replace(quantity.reference, uncertainty=max(bound / COVERAGE, ROUNDING))
     return replace(quantity, reference=known)
 
 

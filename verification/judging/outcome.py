@@ -41,7 +41,7 @@ class ChangeKind(StrEnum):
 
     WORSE = "worse"
     """The error has grown by half or more, and by more than the noise of machines, though it is
-    still allowed."""
+    still allowed; or its tolerance has, or the number is no longer judged."""
 
     DEARER = "dearer"
     """More iterations, convolutions or factorisations for the same."""

@@ -499,7 +499,7 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
     # This test comes before those of tolerances, because derived tolerances grow with the error.
     ends = verdict.name in ENDS_OF_SOLVES
     now = verdict.model_copy(update={"reference": was.reference})
-    if was.covered and not verdict.covered:
+    if (was.covered and not verdict.covered) or _is_judged_less(verdict, was):
         return ChangeKind.WORSE
     if not ends and grows(was, now, WORSE_BY, NOISE * verdict.scale):
         return ChangeKind.WORSE
@@ -511,6 +511,17 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
         return ChangeKind.UNCHANGED
     better = grows(verdict, was, BETTER_BY, BETTER_BY_PART * allowed)
     return ChangeKind.BETTER if better else ChangeKind.DRIFT
+
+
+def _is_judged_less(verdict: Verdict, was: RecordedQuantity) -> bool:
+    """Return True if a recorded number is no longer judged, or with a tolerance wider by half.
+
+    Tolerances of orders and of the worst run depend on results. Derived ones follow the noise.
+    """
+    lost = was.status is Status.PASS and verdict.status is Status.INCONCLUSIVE
+    fixed = verdict.tolerance_kind != "order" and verdict.name not in ENDS_OF_SOLVES
+    noise = NOISE * verdict.scale if verdict.tolerance_kind == "derived" else 0.0
+    return lost or (fixed and verdict.most_allowed > WORSE_BY * was.allowed + noise)
 
 
 def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:

@@ -57,9 +57,9 @@ def compare(
       tolerance
     - 2: the report contradicts itself, or has chosen cases only, without --chosen
     - 5: other changes within the tolerance: new, not recorded, much better, fewer iterations
-    - 7: a recorded verdict, finding, run or case is missing, an error grew by 50 %, a stated error
-      no longer covers the difference from the reference, or iterations, convolutions or
-      factorisations grew by 5 %
+    - 7: a recorded verdict, finding, run or case is missing, a verdict that passed is inconclusive,
+      an error or a tolerance grew by 50 %, a stated error no longer covers the difference from the
+      reference, or iterations, convolutions or factorisations grew by 5 %
 
     Differences of processors and versions are no change: 1e-6 of the scale of an error, and 1 % of
     the tolerance if the error grew by less than 50 %. The baselines are those of the report's
