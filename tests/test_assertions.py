@@ -10,10 +10,19 @@ TESTS = sorted(Path(__file__).parent.glob("test_*.py"))
 IMPORTED = ast.Constant("imported")
 
 
-def asserts(node: ast.AST) -> bool:
-    """An assertion itself: a statement, a context that expects an error, a call of assert_..."""
-    if isinstance(node, ast.Assert):
-        return True
+def asserts(node: ast.AST, known: dict[str, ast.expr]) -> bool:
+    """An assertion itself: a statement, a context that expects an error, a call of assert_...
+
+    One that holds for no entries, all(...) or not any(...), needs entries.
+    """
+    match node:
+        case (
+            ast.Assert(test=ast.Call(func=ast.Name(id="all"), args=[of]))
+            | ast.Assert(test=ast.UnaryOp(operand=ast.Call(func=ast.Name(id="any"), args=[of])))
+        ):
+            return runs(of, known)
+        case ast.Assert():
+            return True
     called = node.func if isinstance(node, ast.Call) else None
     name = getattr(called, "attr", getattr(called, "id", ""))
     return name.startswith(("assert", "refused")) or name in ("raises", "fail")
@@ -37,9 +46,13 @@ def runs(loop: ast.expr, known: dict[str, ast.expr]) -> bool:
             return runs(table, known)
         case ast.Call(func=ast.Name(id="sorted" | "map"), args=[*_, last]):
             return runs(last, known)
-        case ast.ListComp(generators=[one]) | ast.DictComp(generators=[one]):
-            return not one.ifs and runs(one.iter, known)
-        case ast.Call(func=function):
+        case (
+            ast.ListComp(generators=all_of)
+            | ast.DictComp(generators=all_of)
+            | ast.GeneratorExp(generators=all_of)
+        ):
+            return all(not one.ifs and runs(one.iter, known) for one in all_of)
+        case ast.Call(func=function) if ast.unparse(loop) != "range(0)":
             return getattr(function, "id", getattr(function, "attr", "")) in ("range", "linspace")
     return isinstance(loop, ast.Constant)
 
@@ -55,13 +68,13 @@ def certain(body: list[ast.stmt], known: dict[str, ast.expr]) -> bool:
                 return True
         elif isinstance(statement, ast.With | ast.Try):
             heads = statement.items if isinstance(statement, ast.With) else ()
-            if any(asserts(node) for item in heads for node in ast.walk(item)):
-                return True
-            if certain(statement.body, known):
+            if any(asserts(node, known) for item in heads for node in ast.walk(item)) or certain(
+                statement.body, known
+            ):
                 return True
         elif isinstance(statement, ast.FunctionDef | ast.ClassDef | ast.While):
             continue
-        elif any(asserts(node) for node in ast.walk(statement)):
+        elif any(asserts(node, known) for node in ast.walk(statement)):
             return True
     return False
 
@@ -88,12 +101,15 @@ def uncertain(tree: ast.Module) -> Iterator[str]:
             yield node.name
 
 
+LIMITS = {"rel": 1.0, "rtol": 1.0, "abs": 2.0, "atol": 2.0}
+
+
 def admitting(tree: ast.Module) -> Iterator[int]:
-    """Lines of relative tolerances of one and more."""
+    """Lines of relative tolerances of one and more, and of absolute ones of two and more."""
     for node in ast.walk(tree):
         for option in node.keywords if isinstance(node, ast.Call) else ():
             value = getattr(option.value, "value", 0)
-            if option.arg in ("rel", "rtol") and isinstance(value, int | float) and value >= 1:
+            if isinstance(value, int | float) and value >= LIMITS.get(option.arg or "", 1e99):
                 yield node.lineno
 
 
@@ -109,6 +125,9 @@ def test_what_may_pass_unseen_is_found() -> None:
         "def test_loop():\n  for x in found():\n    assert x\n"
         "def test_branch():\n  if found():\n    assert 1\n"
         "def test_sure():\n  for x in (1, 2):\n    assert x == approx(1, rel=2)\n"
+        "def test_none():\n  for x in range(0):\n    assert x\n"
+        "def test_all():\n  assert all(x for x in found())\n  assert not any(found())\n"
+        "def test_each():\n  assert all(x for x in (1, 2))\n  assert 1 == approx(2, abs=1e9)\n"
     )
-    assert [*uncertain(tree)] == ["test_loop", "test_branch"]
-    assert [*admitting(tree)] == [9]
+    assert [*uncertain(tree)] == ["test_loop", "test_branch", "test_none", "test_all"]
+    assert {*admitting(tree)} == {9, 18}

@@ -131,4 +131,4 @@ def test_an_edge_at_the_border_of_coarse_tractions_has_no_stress() -> None:
     known = drawn("films", 86243, 30)
     result = semi_analytical.solve_discretised(known.scene, known.fineness.asked)
     found = stress_maxima(result, len(known.scene.loading))
-    assert all(value > 0 and error.error for value, error in found.values())
+    assert min(min(value, error.error) for value, error in found.values()) > 0

@@ -131,7 +131,7 @@ def test_what_is_not_a_positive_length_is_refused_with_an_example(written: Any) 
     ],
 )
 def test_bounds_hold(kind: Any, inside: list[Any], outside: list[Any]) -> None:
-    assert all(math.isfinite(value_of(kind, written)) for written in inside)
+    assert min(math.isfinite(value_of(kind, written)) for written in inside)
     for written in outside:
         with pytest.raises(ValidationError):
             value_of(kind, written)

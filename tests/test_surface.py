@@ -122,7 +122,7 @@ def test_weights_integrate_over_the_surface() -> None:
         for surface in (rings(radii, 9), rings(radii[1:], 9)):
             both.append(integrals(surface, on_rings(surface, *parts)))
         both.append(integrals(rings(radii, None), on_rings(rings(radii, None), "along_load")))
-        assert all(np.all(np.abs(found - exact) <= allowed) for found in both)
+        assert np.max(np.abs(np.array(both) - exact) / allowed) <= 1
 
 
 def test_rings_stand_for_the_disc_they_reach() -> None:
