@@ -117,8 +117,17 @@ def test_a_stated_error_covers_no_more_than_itself_and_that_of_the_reference() -
         Required(1.0, "planted"), 1.0,
     )  # fmt: skip
     case = Case("planted", "", "", (), (quantity,))
-    found = [judge_quantity(quantity, case, {"run": x}, 0.5).covered for x in (-0.74, 0.74, 0.76)]
-    assert found == [True, True, False]
+    found = [
+        judge_quantity(
+            replace(quantity, tolerance=Required(allowed, "planted")), case, {"run": x}, 0.5
+        ).model_dump()
+        for x, allowed in ((-0.74, 1.0), (0.74, 1.0), (0.76, 1.0), (0.1, 0.2), (0.3, 0.2))
+    ]
+    assert [(v.covered, v.status) for v in map(Verdict.model_validate, found)] == [
+        *((True, Status.PASS), (True, Status.PASS), (False, Status.PASS)),
+        # nobody can judge to less than the uncertainty of the reference, 0.25
+        *((True, Status.INCONCLUSIVE), (True, Status.FAIL)),
+    ]
     with pytest.raises(ValueError, match="needs an uncertainty > 0"):
         replace(quantity, reference=replace(quantity.reference, uncertainty=0.0))
 
