@@ -859,7 +859,11 @@ def _judge_by_tolerance(verdict: Verdict, known: tuple[Tolerance, Acceptance] | 
             "bound": verdict.allowed,
             "status": Status.PASS if passes else Status.FAIL,
             "because": f"{verdict.because}; of the bound {verdict.allowed:.2g} so much is allowed: "
-            f"{TIMES:g} times the error {tolerance.error:.2g} ({acceptance.because})",
+            + (
+                f"{TIMES:g} times the error {tolerance.error:.2g} ({acceptance.because})"
+                if allowed == tolerance.allowed
+                else "the uncertainty of the reference"
+            ),
         }
     )
 
