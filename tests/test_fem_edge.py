@@ -12,6 +12,7 @@ from scipy.linalg import toeplitz
 
 from contact_scene import Body, IsotropicMaterial
 from fem_reference.compliance.ring_edge import (
+    GaussEdge,
     HatEdge,
     beyond_pressure,
     stick_area,
@@ -65,6 +66,14 @@ def test_edge_of_plane_contact_is_found_within_its_element(beyond: float) -> Non
     # So far out a circle is as good as straight.
     assert HatEdge().radius(np.arange(len(p)) + 1e6, p, last) == pytest.approx(1e6 + a, abs=3e-3)
     assert last + 0.5 != pytest.approx(a, abs=3e-3) or beyond == 0.5
+
+
+@pytest.mark.parametrize("step", [1, -1])
+def test_a_square_root_at_gauss_points_ends_where_its_parabola_does(step: int) -> None:
+    r = (np.arange(40)[:, None] + 0.5 + np.array([-0.387, 0.0, 0.387])).ravel()
+    p = np.sqrt(np.maximum(step * (20.3**4 - r**4), 0.0))
+    last = int(np.flatnonzero(p)[-1 if step > 0 else 0])
+    assert GaussEdge(1.0).radius(r, p, last, step) == pytest.approx(20.3, rel=1e-9)
 
 
 @pytest.mark.parametrize("elements", [16, 32])
@@ -155,12 +164,9 @@ def test_solution_is_optimal_from_any_guess(program: PressureProgram, code: int)
 @given(programs())
 def test_descent_alone_finds_the_same(program: PressureProgram) -> None:
     free = np.ones(len(program.right), bool)
-    steps = pressure_program.MAX_STEPS
-    try:
-        pressure_program.MAX_STEPS = 0
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pressure_program, "MAX_STEPS", 0)
         slow = solve_program(program, free)
-    finally:
-        pressure_program.MAX_STEPS = steps
     assert_optimal(program, slow)
     assert slow.values == pytest.approx(solve_program(program, free).values, abs=1e-8)
 
@@ -169,6 +175,4 @@ def test_who_rests_at_a_bound_without_being_pulled_stays_there() -> None:
     """Its gradient is zero: it could be free as well, and then would be told so."""
     program = PressureProgram(np.array([[4.0, 1.0], [1.0, 2.0]]), np.array([4.0, 1.0]))
     found = solve_program(program, np.array([True, False]))
-    assert found.values.tolist() == [1.0, 0.0]
-    assert found.free.tolist() == [True, False]
-    assert found.steps == 1
+    assert (found.values.tolist(), found.free.tolist(), found.steps) == ([1, 0], [True, False], 1)

@@ -41,7 +41,7 @@ from semi_analytical.model import ContactModel
 from semi_analytical.operator.box import box_around
 from semi_analytical.operator.domain import QUARTER, WINDOW, ReducedDomain
 from semi_analytical.operator.operator import BINS, DisplacementOperator, inverse_2x2
-from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
+from semi_analytical.operator.slip_compliance_bins import COMPLIANCES, RATIO, beyond, shares
 from semi_analytical.operator.transforms import MAX_BY_MATRIX, Convolutions, offsets_for
 from semi_analytical.plan import MIRROR_PLANES
 from verification.problems.problem import ShiftedGrid
@@ -116,6 +116,16 @@ def test_operators_and_preconditioners_are_symmetric_and_positive(shape, seed):
 def sheared(of):
     """The approximate inverse for cells that stick."""
     return lambda u: of.shear_inverse(np.concatenate([u, np.zeros_like(u)[: len(COMPLIANCES)]]))[:2]
+
+
+def test_bins_share_a_slipping_cell_and_hand_over_beyond_the_last_one():
+    """The squared weights have the sum 1 up to the last bin; one bin beyond it none is left."""
+    d = COMPLIANCES[-1] * RATIO ** np.array([-9, -1.4, -0.3, 0, 0.25, 1, 9])
+    np.testing.assert_allclose(
+        [*np.sum(shares(d[:4]) ** 2, axis=0), *beyond(d)],
+        [1] * 4 + [0] * 4 + [0.25, 1, 1],
+        atol=1e-14,
+    )
 
 
 @pytest.mark.parametrize("which", [0, 1], ids=["pressure", "shear"])

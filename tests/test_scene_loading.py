@@ -21,6 +21,7 @@ from contact_scene import (
     Sphere,
     VectorControl,
 )
+from contact_scene.stepping.load_path import along_one_line, first_direction
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 FORCE, DISPLACEMENT = ControlKind.FORCE, ControlKind.DISPLACEMENT
@@ -51,8 +52,9 @@ def test_what_a_step_does_not_name_is_held_under_its_last_control() -> None:
         {"approach": 2e-6, "tangential_shift": (0.0, 0.0)},
         {"normal_force": 50.0},
     ).load_path()
-    assert [ramp.step for ramp in path] == [1, 2, 3, 4, 5, 6, 7]
-    assert [ramp.increments for ramp in path] == [None, 3, None, None, None, None, None]
+    assert [(ramp.step, ramp.increments) for ramp in path] == [
+        (step, 3 if step == 2 else None) for step in range(1, 8)
+    ]
     assert [ramp.normal for ramp in path] == [
         ScalarControl(FORCE, 0.0, 100.0),
         ScalarControl(FORCE, 100.0, 100.0),
@@ -164,8 +166,23 @@ def test_rotations_that_no_step_has_named_are_held_at_zero() -> None:
         VectorControl(DISPLACEMENT, None, (0.0, 0.0)),
     ]
     (first,) = scene({"normal_force": 100.0, "moment": (0.1, 0.0), "torque": 0.3}).load_path()
-    assert first.tilting == VectorControl(FORCE, (0.0, 0.0), (0.1, 0.0))
-    assert first.twisting == ScalarControl(FORCE, 0.0, 0.3)
+    assert (first.tilting, first.twisting) == (
+        VectorControl(FORCE, (0.0, 0.0), (0.1, 0.0)),
+        ScalarControl(FORCE, 0.0, 0.3),
+    )
+
+
+@pytest.mark.parametrize(
+    ("last", "straight"),
+    [((-6.0, -8.0), True), ((0.0, 0.0), True), ((4.0, 4.0), False), ((3.0, -4.0), False)],
+)
+def test_the_direction_is_that_of_the_first_push_and_a_line_goes_both_ways(
+    last: tuple[float, float], straight: bool
+) -> None:
+    ramps = scene(
+        {"normal_force": 200.0}, {"tangential_force": (3.0, 4.0)}, {"tangential_force": last}
+    ).load_path()
+    assert (first_direction(ramps), along_one_line(ramps)) == ((0.6, 0.8), straight)
 
 
 @pytest.mark.parametrize("key", ["torque", "twist"])
@@ -192,21 +209,16 @@ def test_a_frictionless_contact_takes_no_torsion(key: str) -> None:
 def test_a_moment_that_tips_a_flat_punch_over_is_refused(
     steps: list[dict[str, Any]], key: str | None
 ) -> None:
-    def punch() -> Scene:
-        return Scene(
+    with pytest.raises(SceneError) if key else nullcontext() as caught:
+        Scene(
             indenter=FlatPunch(radius=0.002, material=STEEL),
             body=Body(material=STEEL),
             loading=tuple(LoadStep(**step) for step in steps),
         )
-
-    if key is None:
-        punch()
-        return
-    with pytest.raises(SceneError) as caught:
-        punch()
-    (problem,) = caught.value.problems
-    assert problem.key == key
-    assert "tips over" in problem.message
+    found = caught.value.problems if caught else ()
+    assert [(problem.key, "tips over" in problem.message) for problem in found] == [
+        (one, True) for one in (key,) if one
+    ]
 
 
 def test_a_moment_tips_a_map_over_its_shorter_side_alone() -> None:
