@@ -375,6 +375,8 @@ def _change_row(
 
 MAX_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
 TIMES = (3.0, 10.0)  # factors of an error that a verdict should detect
+# Smaller errors, relative to the scale of their verdict, are round-off of sums over 10⁴ cells.
+ROUND_OFF = 1e-12
 OUTSIDE = {
     ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.THEORY,
     ReferenceKind.EXTERNAL_CODE,
@@ -423,8 +425,8 @@ def power_text(report: Report) -> str:
     """Describe the sensitivity of the verdicts of a report to larger errors, in one line.
 
     The text states the share of verdicts that would still pass if the error were 3 or 10 times as
-    large. Only passed verdicts with an independent reference count. Without such verdicts the text
-    is empty.
+    large. Only passed verdicts with an independent reference and an error above round-off count.
+    Without such verdicts the text is empty.
     """
     judged = [
         (verdict.error, verdict.allowed)
@@ -432,6 +434,7 @@ def power_text(report: Report) -> str:
         for verdict in case.verdicts
         if verdict.status is Status.PASS and verdict.tolerance_kind != "order"
         and verdict.reference_kind in OUTSIDE and verdict.error is not None
+        and verdict.error > ROUND_OFF * verdict.scale
     ]  # fmt: skip
     if not judged:
         return ""
@@ -443,10 +446,10 @@ def power_text(report: Report) -> str:
         for least in (float("inf"), NOISE)
     )  # fmt: skip
     return (
-        f"Of {len(judged)} numbers with a reference from outside, {passing[0]:.0%} would pass "
-        f"with an error three times as large and {passing[1]:.0%} with ten times; "
-        f"{hidden[0]:.0%} and {hidden[1]:.0%} without that the comparison with baselines tells it "
-        "as worse"
+        f"Of {len(judged)} numbers with a reference from outside and an error above round-off, "
+        f"{passing[0]:.0%} would pass with an error three times as large and {passing[1]:.0%} with "
+        f"ten times; {hidden[0]:.0%} and {hidden[1]:.0%} without that the comparison with "
+        "baselines tells it as worse"
     )
 
 
