@@ -223,6 +223,7 @@ def test_an_infinite_pressure_has_no_limit(name: str, tmp_path: Path) -> None:
     assert any("the exact value is infinite" in one.measured for one in found.statements)
 
 
+@pytest.mark.usefixtures("one_process")
 @pytest.mark.parametrize(
     ("share", "cells", "exit_code"), [(1e-4, (48,), 0), (1e-7, (48,), 1), (1e-3, (), 0)]
 )

@@ -66,17 +66,17 @@ def close(one: Any, other: Any, exponent: int) -> bool:
 @pytest.mark.parametrize("name", HISTORIES)
 def test_return_is_a_virgin_contact(name: str, solver: str) -> None:
     history = HISTORIES[name]
-    lifted = solved(history.before, solver, history.friction)
-    again = solved((*history.before, *history.after), solver, history.friction).steps
-    virgin = solved(history.virgin, solver, history.friction).steps
-    apart, before = lifted.steps[-1], lifted.steps[1 if history.friction else 0]
+    whole = solved((*history.before, *history.after), solver, history.friction)
+    virgin, again = solved(history.virgin, solver, history.friction).steps, whole.steps
+    lifted = len(history.before)
+    apart, before = again[lifted - 1], again[1 if history.friction else 0]
 
     assert apart.status is ContactStatus.SEPARATED
     assert apart.normal_force == apart.approach == apart.contact_area == apart.elastic_energy == 0
     assert not apart.pressure.any()
     assert 0 <= np.min(apart.gap) < 2e-3 * APPROACH
     with pytest.raises(NoSuchState, match="separated"):
-        state_of_result(lifted, None)
+        state_of_result(whole, lifted)
     if history.friction:
         assert apart.input_work == apart.dissipated_energy > before.dissipated_energy > 0
         assert apart.stick_area == (apart.torque or 0.0) == 0
@@ -85,7 +85,7 @@ def test_return_is_a_virgin_contact(name: str, solver: str) -> None:
     if name == "moved while apart":
         assert close(apart.tangential_shift, slide(2)["tangential_shift"], -12)
 
-    for end, new in zip(again[len(history.before) :], virgin, strict=False):
+    for end, new in zip(again[lifted:], virgin, strict=False):
         assert end.status is new.status
         for field in UNCHANGED:
             if getattr(new, field, None) is not None:

@@ -768,26 +768,14 @@ def test_stress_counts_what_increments_leave_wrong_in_the_tractions(tmp_path: Pa
         assert maximum["error"]["error"] == pytest.approx(sum(parts.values()))
 
 
-@pytest.fixture(scope="module")
-def runs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[str, Any], str]]:
-    """Summary of a run and its output, with errors and without."""
-    folder = tmp_path_factory.mktemp("runs")
-    (folder / "scene.toml").write_text(FRETTING, encoding="utf-8")
-    found = {}
-    for option in ("--error", "--no-error"):
-        asked = ("run", "scene.toml", "-o", option, "--figures", "none", option)
-        ended = outcome(*asked, cwd=folder)
-        assert ended.returncode == 0, ended.stderr
-        written = (folder / option / "summary.json").read_text(encoding="utf-8")
-        with h5py.File(folder / option / "result.h5") as file:
-            last = dict(file["last_cycle"].attrs)
-        table = rows(folder / option / "cycles.csv")
-        found[option] = json.loads(written), ended.stdout, table, last
-    return found
-
-
-def test_a_cycle_has_the_numbers_and_errors_of_the_step_that_closes_it(runs: Any) -> None:
-    summary, _, cycles, last = runs["--error"]
+def test_a_cycle_has_the_numbers_and_errors_of_the_step_that_closes_it(tmp_path: Path) -> None:
+    (tmp_path / "scene.toml").write_text(FRETTING, encoding="utf-8")
+    ended = outcome("run", "scene.toml", "-o", "out", "--figures", "none", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
+    with h5py.File(tmp_path / "out" / "result.h5") as file:
+        last = dict(file["last_cycle"].attrs)
+    cycles = rows(tmp_path / "out" / "cycles.csv")
     assert [(row["start_step"], row["end_step"]) for row in cycles] == [("2", "4")]
     assert (last["start_step"], last["end_step"]) == (2, 4)
     end = summary["steps"][3]
