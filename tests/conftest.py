@@ -10,10 +10,10 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 # Elasticity on a grid takes its time; a deadline per example would only measure the machine.
-settings.register_profile("dev", max_examples=25, deadline=None)
+settings.register_profile("dev", max_examples=15, deadline=None)
 settings.register_profile(
     "ci",
-    max_examples=25,  # every night draws eighty times as many
+    max_examples=15,  # every night draws a hundred times as many
     deadline=None,
     derandomize=True,  # a submission is judged by its change, not by its luck
     print_blob=True,

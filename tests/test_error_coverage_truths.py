@@ -98,7 +98,7 @@ def test_a_push_of_balls_is_that_of_mindlin() -> None:
 def test_work_along_a_loop_is_stored_or_dissipated() -> None:
     balls = similar_balls()
     top = 0.8 * balls.mu * balls.load
-    way = np.concatenate([np.linspace(top, -top, 1001), np.linspace(-top, top, 1001)[1:]])
+    way = np.concatenate([np.linspace(top, -top, 301), np.linspace(-top, top, 301)[1:]])
     shift, stick, lost, stored = np.transpose([*balls.along(way.tolist())])
     work = np.cumsum((way[1:] + way[:-1]) / 2 * np.diff(shift))
     assert lost[1:] + stored[1:] - lost[0] - stored[0] == pytest.approx(work, abs=1e-4 * work[-1])

@@ -33,7 +33,7 @@ def bare() -> SectionField:
 
 @pytest.fixture(scope="module", params=[OUTWARD, AROUND, ALONG], ids=["out", "around", "along"])
 def coated(request: pytest.FixtureRequest) -> tuple[SurfaceTractions, SectionField]:
-    return request.param, subsurface(COATED, request.param, elements(16))
+    return request.param, subsurface(COATED, request.param, elements(12))
 
 
 def test_stress_below_hertz_is_hubers(bare: SectionField) -> None:

@@ -168,7 +168,7 @@ def test_impossible_materials_are_named(layers, base, message):
 # ---- The laws that any surface FRF obeys
 
 
-LAWS = {law.name: replace(law, draws=20) for law in SYMMETRY_LAWS + LIMIT_LAWS}
+LAWS = {law.name: replace(law, draws=10) for law in SYMMETRY_LAWS + LIMIT_LAWS}
 
 
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)

@@ -217,7 +217,7 @@ def test_a_contact_grows_with_the_load(shape, approach, modulus) -> None:
 
 
 @given(ALL)
-@settings(max_examples=30)
+@settings(max_examples=15)
 def test_finite_elements_take_what_says_it_is_of_revolution_and_refuse_the_rest(shape) -> None:
     asked = on(shape)
     if not shape.is_of_revolution:
@@ -234,7 +234,7 @@ def test_finite_elements_take_what_says_it_is_of_revolution_and_refuse_the_rest(
 
 
 @given(ALL)
-@settings(max_examples=30)
+@settings(max_examples=15)
 def test_the_semi_analytical_solver_solves_or_refuses_any_shape(shape) -> None:
     try:
         solved = solve_discretised(on(shape), SurfaceDiscretisation(cells=(16, 16)))

@@ -175,7 +175,7 @@ def test_a_load_that_goes_straight_between_alike_bodies_takes_one():
     assert counts(scene(PRESS, push(0.9), push(-0.9), slide(1.0))) == (1, 1, 1, 1)
 
 
-def path_error(described, cells: int | SurfaceGrid = 32, accuracy: float = DEFAULT) -> float:
+def path_error(described, cells: int | SurfaceGrid = 24, accuracy: float = DEFAULT) -> float:
     """Σ|q - q_exact| / Σµp at the end, from four times the increments, first order taken off."""
     planned = plan(described, accuracy)
     window = cells
