@@ -280,7 +280,7 @@ def test_both_meshers_agree_within_the_stated_errors() -> None:
         solve(
             scene,
             solver="fem",
-            discretisation=FiniteElementDiscretisation(elements_per_radius=8, mesher=mesher),
+            discretisation=FiniteElementDiscretisation(elements_per_radius=12, mesher=mesher),
         )
         for mesher in ("tensor", "gmsh")
     )
