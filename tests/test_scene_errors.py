@@ -337,8 +337,8 @@ EXAMPLE = (Path(__file__).resolve().parents[1] / "scenes" / "fretting_loop.toml"
 
 # The profile says how much: dev and ci 25 -> 100 and 500, nightly 2 000 -> 8 000 and 40 000
 # examples.
-STRUCTURED = settings(max_examples=4 * settings().max_examples)
-BYTES = settings(max_examples=20 * settings().max_examples)
+STRUCTURED = settings(max_examples=7 * settings().max_examples)
+BYTES = settings(max_examples=35 * settings().max_examples)
 LONGEST = 0.05  # seconds of CPU; of 1 250 examples half took 0.5 ms, the longest 4 ms
 
 JUNK: st.SearchStrategy[Any] = st.recursive(
