@@ -29,6 +29,8 @@ ROOT = Path(__file__).resolve().parents[1]
 MEGABYTE = 1_000_000
 MAX_MEMORY = 200 * MEGABYTE  # of a whole process, Python and its libraries included
 SOON = 1.0  # seconds of CPU
+# Limit over the time of an empty scene, since processors differ: 10 MB of text take 2 to 5 times.
+AT_ONCE = 8
 CLAIM = "too many for a file of"
 HUGE = 1 << 14  # cells along a side, the most there can be: 2 GB for one field
 LONGEST_MESSAGE = 1000
@@ -126,9 +128,10 @@ def test_huge_scene_is_refused_at_once(
     assert words in ended.said
     assert len(ended.said) < LONGEST_MESSAGE
     assert ended.memory < MAX_MEMORY
-    if ended.seconds - refusal_of_nothing.seconds >= SOON:  # others on the core slow it, too
+    soon = AT_ONCE * refusal_of_nothing.seconds
+    if ended.seconds >= soon:  # others on the core slow it, too
         ended = slipstick("check", tmp_path / "scene.toml")
-    assert ended.seconds - refusal_of_nothing.seconds < SOON
+    assert ended.seconds < soon
 
 
 # ---- within a process ----------------------------------------------------------------------------
