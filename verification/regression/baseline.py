@@ -829,8 +829,8 @@ def read_tolerances(level: str, directory: Path = TOLERANCES) -> Tolerances:
 def held_to(cases: Sequence[CaseOutcome], tolerances: Tolerances) -> tuple[CaseOutcome, ...]:
     """Judge the results of verification cases again by the accepted tolerances.
 
-    An accepted tolerance applies if it is stricter than the present tolerance of the verdict. It is
-    at least the uncertainty of the reference, because nobody can judge a smaller error.
+    An accepted tolerance applies if it is smaller than the present tolerance of the verdict. It is
+    at least the uncertainty of the reference: smaller errors cannot be distinguished from it.
     """
     return tuple(
         case.model_copy(
