@@ -1,6 +1,5 @@
 """Tests of seeded defects: the verification detects them, and they are removed afterwards."""
 
-from types import FunctionType
 from typing import Any
 
 import pytest
@@ -50,21 +49,24 @@ SLOW = (
 Runs = dict[str, CaseRecord]
 
 
-def namespaces() -> dict[tuple[str, str], Any]:
+def namespaces() -> dict[str, dict[str, Any]]:
     """What every name of the product stands for: of its modules, and of their classes."""
-    found: dict[tuple[str, str], Any] = {}
-    for module in (*product_modules(), case_store):
-        for name, value in vars(module).items():
-            if isinstance(value, type) and value.__module__ == module.__name__:
-                place = f"{module.__name__}.{name}"
-                found |= {(place, inner): held for inner, held in vars(value).items()}
-            if isinstance(value, type | FunctionType):
-                found[module.__name__, name] = value
+    found = {module.__name__: vars(module).copy() for module in (*product_modules(), case_store)}
+    for place, names in list(found.items()):
+        for name, value in names.items():
+            if isinstance(value, type) and value.__module__ == place:
+                found[f"{place}.{name}"] = dict(vars(value))
     return found
 
 
-def different(one: dict[tuple[str, str], Any], other: dict[tuple[str, str], Any]) -> set[Any]:
-    return {key for key in one | other if one.get(key) is not other.get(key)}
+def different(one: dict[str, dict[str, Any]], other: dict[str, dict[str, Any]]) -> set[Any]:
+    """Names of one that stand for something else in the other, or for nothing."""
+    return {
+        (place, name)
+        for place, names in one.items() if names != other.get(place)
+        for name, value in names.items()
+        if value is not other.get(place, {}).get(name)
+    }  # fmt: skip
 
 
 def test_defects_are_many_and_name_cases_of_the_catalogue() -> None:
@@ -77,21 +79,21 @@ def test_defects_are_many_and_name_cases_of_the_catalogue() -> None:
 
 
 @pytest.fixture(scope="module")
-def left() -> list[dict[tuple[str, str], Any]]:
+def left() -> list[dict[str, dict[str, Any]]]:
     """What names stood for when the last defect had been taken out."""
     return [namespaces()]
 
 
 @pytest.mark.parametrize("name", DEFECTS)
 def test_defect_changes_something_and_leaves_nothing_behind(
-    name: str, left: list[dict[tuple[str, str], Any]]
+    name: str, left: list[dict[str, dict[str, Any]]]
 ) -> None:
     with planted(DEFECTS[name]):
         during = namespaces()
     after, before = namespaces(), left.pop()
     left.append(after)
-    assert different(before, during)
-    assert not different(before, {key: after[key] for key in before})
+    assert different(during, before)
+    assert not different(before, after)
 
 
 def test_defect_is_taken_out_when_something_goes_wrong_under_it() -> None:

@@ -118,8 +118,9 @@ def test_good_settings_pass_and_poor_or_lost_ones_fail() -> None:
     ],
 )
 def test_all_but_the_clock_is_the_same_at_every_run(
-    method: Method, options: dict[str, Any]
+    method: Method, options: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("verification.running.cold_cache.ENOUGH_SECONDS", 0.0)
     fineness = OWN if method is Method.RADIAL else 8 if "elements" in method else 16
     case = PrecisionCase("coated", method, fineness, **options)
     first, second = case.compute(), case.compute()

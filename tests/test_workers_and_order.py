@@ -115,7 +115,9 @@ def test_address_that_is_none_is_refused_with_what_one_looks_like() -> None:
             ClusterWorkers(address)
 
 
-@pytest.mark.parametrize("command", [["verify"], ["maintain", "study", "coated-tractions"]])
+@pytest.mark.parametrize(
+    "command", [["verify", "hertz_point"], ["maintain", "study", "coated-tractions"]]
+)
 def test_command_refuses_before_any_work(command: list[str], tmp_path: Path) -> None:
     ended = outcome(*command, "--scheduler", "localhost:8786", cwd=tmp_path)
     assert ended.returncode == 2
