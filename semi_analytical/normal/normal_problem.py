@@ -220,10 +220,7 @@ def _line_search(
         if _decreases_energy(target - p, target_u - u, g):
             return target, target_u, 0
         step /= 2
-    lower, lower_u, spent = _remove_tension(newton, newton_u, problem, p, u, g)
-    if np.sum((lower - p) * g) < 0:
-        return lower, lower_u, spent
-    return *_gradient_step(problem, p, u, g), spent
+    return _remove_tension(newton, newton_u, problem, p, u, g)
 
 
 def _remove_tension(
@@ -281,17 +278,3 @@ def _decreases_energy(d: Field, d_u: Field, g: Field) -> bool:
     """
     slope = np.vdot(d, g)
     return bool(slope + 0.5 * np.vdot(d, d_u) <= LEAST_FALL * slope)
-
-
-def _gradient_step(problem: _Problem, p: Field, u: Field, g: Field) -> tuple[Field, Field]:
-    """Move the pressure along the projected gradient of the contact energy by an exact line search.
-
-    Used if a Newton step fails. The step length is at most 1. Return pressure and displacement.
-
-    p, u, g  pressure, displacement and gap of the last accepted point (nx, ny)
-    """
-    unit = np.sum(p) / np.sum(np.abs(u))
-    d = problem.load.admissible(np.where(problem.allowed, p - unit * g, 0.0)) - p
-    d_u = problem.displace(d)
-    step = min(1.0, -np.sum(d * g) / np.sum(d * d_u))
-    return p + step * d, u + step * d_u
