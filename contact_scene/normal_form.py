@@ -57,6 +57,8 @@ def _merge_equal_layers(body: B) -> B:
 
     body  layered body, which is not changed
     """
+    if not body.layers:
+        return body
     equal = groupby(body.layers, key=lambda layer: layer.material)
     layers = [
         Layer(thickness=sum(layer.thickness for layer in reversed([*some])), material=material)
