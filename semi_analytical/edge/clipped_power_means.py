@@ -21,8 +21,11 @@ STRAIGHT = 1e-4
 # Value at the centre over the sum of the slopes above which the binomial series is used.
 DEEP = 3.0
 POINTS, WEIGHTS = (half / 2 for half in np.polynomial.legendre.leggauss(4))
+# Positions of the four corners of a cell along the larger and the smaller slope.
+HALVES = np.array([[1, -1, 1, -1], [1, -1, -1, 1]])[..., None] / 2
 MAX_NEWTON_STEPS = 80
-FIXED_POINT_STEPS = 5
+# From an error of at most 2e-3 these steps reach that of the series, 1e-9 for deep cells.
+FIXED_POINT_STEPS = 3
 # Relative Newton step at which the iteration stops; convergence is quadratic.
 SETTLED = 1e-3
 
@@ -110,14 +113,16 @@ def _series_terms(b: Field, c: Field, a: Exponent) -> tuple[Field, Field, Field]
     b, c  slopes of the linear function: change across a cell
     a     exponent
     """
-    b, c = b**2, c**2
+    b, c = b * b, c * c
+    total, product = b + c, b * c
+    square = total * total
     second = a * (a - 1) / 2
     fourth = second * (a - 2) * (a - 3) / 12
     sixth = fourth * (a - 4) * (a - 5) / 30
     return (
-        np.asarray(second * (b + c) / 12),
-        np.asarray(fourth * ((b**2 + c**2) / 80 + b * c / 24)),
-        np.asarray(sixth * ((b**3 + c**3) / 448 + b * c * (b + c) / 64)),
+        np.asarray(second / 12 * total),
+        np.asarray(fourth / 80 * (square + 4 / 3 * product)),
+        np.asarray(sixth / 448 * total * (square + 4 * product)),
     )
 
 
@@ -189,12 +194,11 @@ def _oblique_means(f: Field, b: Field, c: Field, a: Exponent) -> tuple[Field, Fi
     b, c  larger and smaller slope, positive (n,)
     a     exponent
     """
-    outer, inner = (b + c) / 2, (b - c) / 2
-    corners = np.maximum(np.array([f + outer, f - outer, f + inner, f - inner]), 0.0)
-    of_corners = power(corners, a + 1)
-    slope = _corner_differences(of_corners) / ((a + 1) * b * c)
+    corners = np.maximum(f + (HALVES[0] * b + HALVES[1] * c), 0.0)
+    of_corners, divisor = power(corners, a + 1), (a + 1) * (b * c)
+    slope = _corner_differences(of_corners) / divisor
     of_corners *= corners
-    return _corner_differences(of_corners) / ((a + 1) * (a + 2) * b * c), slope
+    return _corner_differences(of_corners) / ((a + 2) * divisor), slope
 
 
 def _corner_differences(corners: Field) -> Field:
@@ -274,15 +278,21 @@ def _cut_centre(target: Field, b: Field, c: Field, a: Exponent, near: Field | No
     """
     half = (b + c) / 2
     low, high = -half, target + half
-    f = _initial_centre(target, b, c, a) if near is None else np.clip(near, low, high)
-    for _ in range(MAX_NEWTON_STEPS):
-        found, slope = _cut_with_slope(f, b, c, a)
-        value = power(found, np.divide(1, a))
-        residual = target - value
-        low, high = np.where(residual > 0, f, low), np.where(residual > 0, high, f)
-        with np.errstate(divide="ignore", invalid="ignore"):
+    f = (
+        _initial_centre(target, b, c, a)
+        if near is None
+        else np.minimum(np.maximum(near, low), high)
+    )
+    inverse, limit = np.divide(1, a), SETTLED * (target + half)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for _ in range(MAX_NEWTON_STEPS):
+            found, slope = _cut_with_slope(f, b, c, a)
+            value = power(found, inverse)
+            residual = target - value
+            below = residual > 0
+            low, high = np.where(below, f, low), np.where(below, high, f)
             newton = f + residual * a * found / (value * slope)
-        last, f = f, np.where((newton >= low) & (newton <= high), newton, (low + high) / 2)
-        if np.all(np.abs(f - last) <= SETTLED * (target + half)):
-            break
+            last, f = f, np.where((newton >= low) & (newton <= high), newton, (low + high) / 2)
+            if np.all(np.abs(f - last) <= limit):
+                break
     return f

@@ -8,7 +8,7 @@ subcell centres. `semi_analytical.edge.displacement` uses the kernels.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 
@@ -89,9 +89,8 @@ class EdgeKernels:
         [length^3/force].
         """
         K = self.parts[self.component][:PART_OFFSETS, :PART_OFFSETS]
-        x, one = part_centres(), np.ones(PARTS)
-        along_x, along_y = (_subcell_sums(x, parity) for parity in self.parity)
-        across_x, across_y = (_subcell_sums(one, parity) for parity in self.parity)
+        along_x, along_y = (_subcell_sums(1, parity) for parity in self.parity)
+        across_x, across_y = (_subcell_sums(0, parity) for parity in self.parity)
         by_both = along_x @ K @ across_y.T, across_x @ K @ along_y.T
         # Constant subcells have a smaller moment than a linear function.
         return np.stack(by_both) / (1 - 1 / PARTS**2)
@@ -112,20 +111,22 @@ class EdgeKernels:
         return np.asarray(sign_x[:, None, :, None] * sign_y[:, None] * near)
 
 
-def _subcell_sums(weights: Field, parity: int) -> Field:
+@cache
+def _subcell_sums(moment: int, parity: int) -> Field:
     """Return the matrix that sums influence coefficients of weighted subcells over one side of a
     cell.
 
     The matrix (NEAR + 1, PART_OFFSETS) maps coefficients at subcell offsets >= 0 to sums at cell
     offsets >= 0. Coefficients at negative offsets follow from the parity.
 
-    weights  weight of each subcell along the side of the cell (PARTS,)
-    parity   parity of the coefficients along this side: 1 even, -1 odd
+    moment  exponent of the weights: 1 for the positions of the subcells along the side, 0 for ones
+    parity  parity of the coefficients along this side: 1 even, -1 odd
     """
     offsets = PARTS * np.arange(NEAR + 1)[:, None] - np.arange(PARTS) + PARTS // 2
     sums = np.zeros((NEAR + 1, PART_OFFSETS))
     rows = np.broadcast_to(np.arange(NEAR + 1)[:, None], offsets.shape)
-    np.add.at(sums, (rows, np.abs(offsets)), weights * np.where(offsets < 0, parity, 1))
+    weights = part_centres() ** moment * np.where(offsets < 0, parity, 1)
+    np.add.at(sums, (rows, np.abs(offsets)), weights)
     return sums
 
 
@@ -139,8 +140,8 @@ def _coefficient_slope(values: Field, axis: int, parity: int) -> Field:
     axis    0 for x, 1 for y
     parity  parity of the coefficients along the axis: 1 even, -1 odd
     """
-    v = np.moveaxis(values, axis, 0)
+    v = values.T if axis else values
     v = np.concatenate([parity * v[2:0:-1], v])
-    slope = np.gradient(v, axis=0)
-    slope[2:-2] = (8 * (v[3:-1] - v[1:-3]) - (v[4:] - v[:-4])) / 12
-    return np.moveaxis(slope[2:], 0, axis)
+    inner = (8 * (v[3:-1] - v[1:-3]) - (v[4:] - v[:-4])) / 12
+    slope = np.concatenate([inner, [(v[-1] - v[-3]) / 2, v[-1] - v[-2]]])
+    return slope.T if axis else slope

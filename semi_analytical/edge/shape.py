@@ -122,11 +122,11 @@ class EdgeShape:
         error = np.where(fits.count < LEAST_DATA, np.inf, fits.rms)
         error /= np.maximum(fits.quadratic.slope, np.finfo(float).tiny)
         each = fits.quadratic.chosen(adjacent.which).about(*adjacent.at)
-        means = [
-            np.bincount(adjacent.place, value * adjacent.share, adjacent.count).astype(float)
-            for value in (*vars(each).values(), error[adjacent.which])
-        ]
-        return Quadratic(*means[:-1]), means[-1]
+        values = np.stack([*vars(each).values(), error[adjacent.which]])
+        rows = adjacent.count * np.arange(len(values))[:, None]
+        sums = np.bincount((rows + adjacent.place).ravel(), (values * adjacent.share).ravel())
+        *means, error = sums.astype(float).reshape(len(values), adjacent.count)
+        return Quadratic(*means), error
 
     def edge_points(self, x: Field | Indices, y: Field | Indices) -> tuple[Quadratic, Mask]:
         """Find the edge point nearest to each of n given points, and fit φ = p^(1/α) about the edge
@@ -172,16 +172,15 @@ class AdjacentCells:
         depth  distance of each cell from the nearest cell outside the region, in cells (nx, ny)
         i, j   indices of the given cells (n,)
         """
-        last = np.array(depth.shape)[:, None, None] - 1
-        at = np.stack([i, j])[:, None] + STEPS
-        inside = np.all((at >= 0) & (at <= last), axis=0)
-        inside &= depth[tuple(np.clip(at, 0, last))] > 0
+        region = WINDOW.add_frame(depth > 0, 1)
+        across = region.shape[1]
+        number = (i + 1) * across + j + 1 + (across * STEPS[0] + STEPS[1])
+        inside = region.take(number)
         inside[1:, inside[0]] = False
         inside[1 + SIDES :, np.any(inside[: 1 + SIDES], axis=0)] = False
         step, self.place = np.nonzero(inside)
-        number = np.ravel_multi_index(tuple(at[:, step, self.place]), depth.shape)
-        cells, self.which = np.unique(number, return_inverse=True)
-        self.fitted = np.unravel_index(cells, depth.shape)
+        cells, self.which = np.unique(number[step, self.place], return_inverse=True)
+        self.fitted = cells // across - 1, cells % across - 1
         self.at = i[self.place].astype(float), j[self.place].astype(float)
         self.share = 1 / np.sum(inside, axis=0)[self.place]
         self.count = len(i)
@@ -257,18 +256,18 @@ def edge_shape(
         )
     band = data & (depth < MAX_FIT_DEPTH + 1.5 * stencil.reach)
     of_band = exponent[band] if isinstance(exponent, np.ndarray) else exponent
-    phi, weight = power(means, np.divide(1, exponent)), inner.astype(float)
-    # Deeper cells use differences of φ as slopes, because φ hardly depends on them there.
-    i, j = np.nonzero(band & (depth < max(rings, 1) + 2))
-    near = None if before is None else before[0][band]
-    if before is not None:
-        phi, rounds = before[0], 2
+    weight = inner.astype(float)
+    if before is None:
+        phi, near = power(means, np.divide(1, exponent)), None
+        # Deeper cells use differences of φ as slopes, because φ hardly depends on them there.
+        i, j = np.nonzero(band & (depth < max(rings, 1) + 2))
+    else:
+        phi, fit = before
+        near, rounds = phi[band], 2
+        i, j = fit.x.astype(int), fit.y.astype(int)
     for _ in range(rounds - 1):
         if before is None:
             fit = fit_about(phi, weight, i, j, stencil, domain=domain).quadratic
-        else:
-            fit = before[1]
-            i, j = fit.x.astype(int), fit.y.astype(int)
         slopes = domain.differences(phi)
         slopes[:, i, j] = fit.f_x, fit.f_y
         phi = phi.copy()

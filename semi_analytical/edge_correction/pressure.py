@@ -143,7 +143,8 @@ def relaxation_factor(factor: float, last: Field, change: Field) -> float:
     change  change of the traction in the present iteration, before relaxation (…, nx, ny)
     """
     fall = last - change
-    return float(np.clip(factor * np.sum(last * fall) / np.sum(fall**2), LEAST_FACTOR, 1.0))
+    found = factor * float(np.sum(last * fall) / np.sum(fall**2))
+    return max(LEAST_FACTOR, min(found, 1.0))
 
 
 def radius_change(before: SubcellTractions, after: SubcellTractions) -> float:

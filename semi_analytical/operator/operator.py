@@ -43,12 +43,9 @@ def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Res
     row, column = pair[0], pair[1]
     factor = 1j if row != "z" == column else 1.0
     sign = round((transforms.phase(row).conjugate() * factor * transforms.phase(column)).real)
-    lines = sign * spectrum.quarter
-    for axis, (a, b) in enumerate(
-        zip(transforms.parity(row), transforms.parity(column), strict=True)
-    ):
-        lines = np.moveaxis(_sort_factors(np.moveaxis(lines, 1 - axis, 0), a, b), 0, 1 - axis)
-    return np.ascontiguousarray(lines)
+    x, y = zip(transforms.parity(row), transforms.parity(column), strict=True)
+    along_x = _sort_factors(sign * spectrum.quarter.T, *x)
+    return np.ascontiguousarray(_sort_factors(along_x.T, *y))
 
 
 def _sort_factors(lines: Field, one: int, other: int) -> Field:
