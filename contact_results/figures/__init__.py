@@ -1,1 +1,7 @@
 """Figures of a run and of a stress, drawn with matplotlib, and their HTML pages."""
+
+from matplotlib.artist import Artist
+
+# matplotlib writes the documentation of each of its 100 artist classes when it is imported. This
+# takes a third of the import, about 10 % of the run of a small contact; the figures do not use it.
+Artist._update_set_signature_and_docstring = classmethod(lambda cls: None)  # type: ignore[attr-defined]

@@ -18,7 +18,7 @@ ROUND_OFF = 1e-14
 
 @dataclass(frozen=True)
 class LeastResidual:
-    """Solution of the linear system A v + E m = r by GMRES.
+    """Solution of the linear system A v + E m = r by right-preconditioned GMRES.
 
     In Newton's method v are changes of tractions, m changes of rigid motions and r the residual.
 
@@ -37,19 +37,20 @@ class LeastResidual:
 
 
 def least_residual(
-    apply: Callable[[Vector], tuple[Vector, Vector]],
+    apply: Callable[[Vector], tuple[Vector, Vector, Vector]],
     right: Vector,
     free: Matrix,
     extra: int,
     depth: float,
     most: int,
 ) -> LeastResidual:
-    """Solve the linear system A v + E m = r for the vectors v and m by GMRES.
+    """Solve the linear system A v + E m = r for v = M w and m by right-preconditioned GMRES.
 
     Newton's method uses this function: v are changes of tractions, m changes of rigid motions. The
     rounding does not depend on the number of threads (no matrix products).
 
-    apply  function v -> (A v, B v), with B another linear map, to vectors of the size `extra`
+    apply  function w -> (v, A v, B v), with v = M w, preconditioner M and another linear map B, to
+           vectors of the size `extra`
     right  right-hand side r (n,)
     free   columns of E as rows (k, n); they may be linearly dependent
     extra  size of B v
@@ -59,7 +60,7 @@ def least_residual(
     rows, combination = orthonormal(free)
     k = len(rows)
     basis = np.empty((k + most + 1, right.size))
-    extras = np.empty((most, extra), dtype=np.float32)
+    changes, extras = np.empty((most, right.size)), np.empty((most, extra), dtype=np.float32)
     basis[:k] = rows
     del free, rows  # release the memory of many vectors
     first, r = _orthogonalise(right, basis[:k])
@@ -72,7 +73,7 @@ def least_residual(
         np.multiply(
             r, 1 / hessenberg[end - 1, number - 1] if number else 1 / size, out=basis[end - 1]
         )
-        image, extras[number] = apply(basis[end - 1])
+        changes[number], image, extras[number] = apply(basis[end - 1])
         hessenberg[:end, number], r = _orthogonalise(image, basis[:end])
         hessenberg[end, number] = np.sqrt(np.sum(r * r))
         within = hessenberg[k : end + 1, : number + 1]
@@ -85,7 +86,7 @@ def least_residual(
     components = hessenberg[: k + count, :count] @ weights
     image = np.einsum("i,ik->k", components, basis[: k + count])
     return LeastResidual(
-        np.einsum("i,ik->k", weights, basis[k : k + count]),
+        np.einsum("i,ik->k", weights, changes[:count]),
         image + weights[-1] * r if count else image,
         np.einsum("i,ik->k", weights, extras[:count]),
         combination @ (first - components[:k]),

@@ -146,16 +146,16 @@ class LinearisedIncrement:
         """
         zones, problem = self._zones, self._problem
 
-        def apply_operator(v: Vector) -> tuple[Vector, Vector]:
-            free = self._preconditioned_change(v)
+        def apply_operator(rows: Vector) -> tuple[Vector, Vector, Vector]:
+            free = self._preconditioned_change(rows)
             u = problem.together(zones.tractions(free))
-            return zones.free(u) + zones.slip_terms(free), zones.restrict_to_fixed(u)
+            return free, zones.free(u) + zones.slip_terms(free), zones.restrict_to_fixed(u)
 
         extra = 3 * zones.contact.size - zones.size
         found = least_residual(
             apply_operator, residual, self._free_units(), extra, depth, MAX_ITERATIONS
         )
-        free = self._preconditioned_change(found.solution)
+        free = found.solution
         closing = zip(found.motion[len(self._shifts) :], self._closures, strict=True)
         return Step(
             zones.tractions(free),
@@ -213,20 +213,19 @@ class BinnedPreconditioner:
 
         rows  residual, one row per free unknown
         """
-        zones, slip, shares = self._zones, self._zones.slip, self._shares
-        shape = zones.contact.shape
-        v = np.zeros((2 + len(shares), zones.contact.size))
-        v[:3] = zones.field(rows).reshape(3, -1)
-        along = zones.split_unknowns(rows)[1]
-        for one in v[:2]:
-            one[slip] *= shares[0]
-        for one, share in zip(v[3:], shares[1:], strict=True):
+        zones, slip = self._zones, self._zones.slip
+        first, *others = self._shares
+        weighted = rows.copy()
+        along = zones.split_unknowns(weighted)[1]
+        bins = np.zeros((len(others), zones.contact.size))
+        for one, share in zip(bins, others, strict=True):
             one[slip] = share * along
-        u = self._inverse(v.reshape(-1, *shape)).reshape(v.shape)
-        for one in u[:2]:
-            one[slip] *= shares[0]
+        along *= first
+        v = np.concatenate([zones.field(weighted), bins.reshape(-1, *zones.contact.shape)])
+        u = self._inverse(v)
         free = zones.free(u[:3])
         along = zones.split_unknowns(free)[1]
-        for one, share in zip(u[3:], shares[1:], strict=True):
+        along *= first
+        for one, share in zip(u[3:].reshape(bins.shape), others, strict=True):
             along += share * one[slip]
         return free

@@ -13,8 +13,8 @@ from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.model import ContactModel
 from semi_analytical.tangential.admissible_shear import everywhere
 
-# Largest number of cells at equal distance from a cell, for distances up to eight cells.
-EQUALLY_FAR = 12
+# Number of distances between cells that are computed at once, which limits the memory.
+PAIRS = 1 << 16
 
 
 @dataclass(frozen=True)
@@ -235,11 +235,9 @@ def _mean_at_nearest_cells(values: Field, known: Mask, wanted: Mask) -> Field:
     known   cells with a value (nx, ny)
     wanted  cells that need a value (nx, ny)
     """
-    from scipy.spatial import KDTree  # as long to import as a small contact takes
-
-    tree = KDTree(np.argwhere(known))
-    distance, which = tree.query(np.argwhere(wanted), k=EQUALLY_FAR)
-    nearest = distance < distance[:, :1] * (1 + 1e-9)
-    # If fewer than k cells are known, the tree returns an index past the end at infinite distance.
-    found = np.where(nearest, np.append(values[known], 0.0)[which], 0.0)
-    return np.asarray(np.sum(found, axis=1) / np.count_nonzero(nearest, axis=1))
+    at, to, data, means = np.argwhere(known), np.argwhere(wanted), values[known], []
+    for some in np.array_split(to, 1 + len(to) * len(at) // PAIRS):
+        squared = np.sum((some[:, None] - at) ** 2, axis=-1)
+        nearest = squared == np.min(squared, axis=1, keepdims=True)
+        means.append(np.sum(nearest * data, axis=1) / np.count_nonzero(nearest, axis=1))
+    return np.concatenate(means)
