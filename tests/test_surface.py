@@ -156,6 +156,7 @@ SOFT = IsotropicMaterial(young_modulus=2.6, poisson_ratio=0.3)
 FILM = Layer(thickness=0.5, material=IsotropicMaterial(young_modulus=5.2, poisson_ratio=0.3))
 COATED = Body(material=SOFT, layers=(FILM,))
 FRICTION = 0.5
+DEPTHS = [0.15, 0.25, 0.35, 0.45, 0.6, 0.8, 1.1, 1.5]
 
 
 def pressed_and_pushed(axes: dict[str, np.ndarray], pressure: np.ndarray) -> LoadedBodies:
@@ -180,7 +181,7 @@ def on_section() -> StressField:
 def stress_by_cells() -> StressField:
     x = (np.arange(33) - 16) * 2.4 / 33
     pressure = np.sqrt(np.maximum(1 - x[:, None] ** 2 - x**2, 0))
-    return stress_on_cells(pressed_and_pushed({"x": x, "y": x}, pressure))
+    return stress_on_cells(pressed_and_pushed({"x": x, "y": x}, pressure), depths=DEPTHS)
 
 
 def test_cells_and_rings_draw_the_same_picture(

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+from command import slipstick
 from processes import results, run
 
 SCENE = (Path(__file__).resolve().parents[1] / "scenes" / "coated_ball.toml").read_text("utf-8")
@@ -24,7 +25,7 @@ def folder(tmp_path: Path) -> Path:
 )
 def test_stress_of_a_run_has_the_same_bytes_by_two_threads(folder: Path, solver: str) -> None:
     """Of a run that is read back: the libraries are loaded by the stress itself."""
-    run(folder, "run", "scene.toml", "--solver", solver, "-o", "run", *QUICK)
+    slipstick("run", folder / "scene.toml", "--solver", solver, "-o", folder / "run", *QUICK)
     found = []
     for threads in (1, 2):
         out = f"stress-{threads}"
