@@ -3,5 +3,5 @@
 from matplotlib.artist import Artist
 
 # matplotlib writes the documentation of each of its 100 artist classes when it is imported. This
-# takes a third of the import, about 10 % of the run of a small contact; the figures do not use it.
+# takes about .1 s, a quarter of the import; the figures do not use it.
 Artist._update_set_signature_and_docstring = classmethod(lambda cls: None)  # type: ignore[attr-defined]
