@@ -16,8 +16,8 @@ from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 # Relative regularisation of coefficients that the data do not determine.
 RIDGE = 1e-13
-# Number of fits at a time, limited by the processor cache.
-CHUNK = 256
+# Number of fits at a time: their arrays stay in the cache and in memory that is used again.
+CHUNK = 128
 # Sum of the weights used in place of zero.
 LEAST_TOTAL = 1e-30
 
@@ -92,40 +92,45 @@ def fit_about(
     rms, mean, count = np.empty(len(i)), np.empty(len(i)), np.empty(len(i), dtype=int)
     for first in range(0, len(i), CHUNK):
         some = slice(first, first + CHUNK)
-        at = i[some], j[some], stencil
-        given, w = (values_in_windows(field, *at) for field in (data, weight))
+        at = window_indices(i[some], j[some], stencil, data.shape[1])
+        given, w = data.take(at), weight.take(at)
         w *= fade
         normal = (w @ products.T).reshape(len(w), *2 * basis.shape[:1])
-        fit = (w * given) @ basis.T
+        weighted = w * given
+        fit = weighted @ basis.T
+        total = np.maximum(normal[:, 0, 0], LEAST_TOTAL)
+        mean[some] = fit[:, 0] / total
         if sensitivity is not None:
-            c, to = values_in_windows(factor, *at), foot[some]
+            c, to = factor.take(at), foot[some]
             mixed = (w * c) @ basis.T
             normal += mixed[:, None] * to[:, :, None] + to[:, None] * mixed[:, :, None]
             normal += np.sum(w * c**2, axis=1)[:, None, None] * to[:, None] * to[:, :, None]
             fit += to * np.sum(w * c * given, axis=1)[:, None]
         fit = solution(normal, fit)
         found[: len(basis), some] = fit.T
-        total = np.maximum(np.sum(w, axis=1), LEAST_TOTAL)
-        mean[some] = np.sum(w * given, axis=1) / total
-        given -= fit @ basis
+        given -= np.matmul(fit, basis, out=weighted)
         if sensitivity is not None:
             given -= c * np.sum(fit * to, axis=1)[:, None]
-        rms[some] = np.sqrt(np.sum(w * given**2, axis=1) / total)
-        count[some] = np.count_nonzero(w, axis=1)
+        given *= given
+        given *= w
+        rms[some] = np.sqrt(np.sum(given, axis=1) / total)
+        count[some] = np.sum(w > 0, axis=1, dtype=np.int16)
     return Fits(Quadratic(i.astype(float), j.astype(float), *found), rms, mean, count)
 
 
-def values_in_windows(padded: Field, i: Indices, j: Indices, stencil: Stencil) -> Field:
-    """Return the values of a field in the square window about each of n cells (n, (2 reach + 1)²).
+def window_indices(i: Indices, j: Indices, stencil: Stencil, across: int) -> Indices:
+    """Return the flat indices of the cells in the square window about each of n cells.
 
-    padded   field with a margin of `stencil.reach` cells on each side
+    The indices (n, (2 reach + 1)²) select from a field with a margin of `stencil.reach` cells on
+    each side.
+
     i, j     indices of the central cells in the field without margin (n,)
     stencil  size of the windows
+    across   number of cells of the field with margin along y
     """
     dx, dy = _window_offsets(stencil)
-    across = padded.shape[1]
-    at = ((i + stencil.reach) * across + j + stencil.reach)[:, None] + (dx * across + dy)
-    return np.asarray(padded.take(at))
+    centre = (i + stencil.reach) * across + j + stencil.reach
+    return np.asarray(centre[:, None] + (dx * across + dy))
 
 
 @cache

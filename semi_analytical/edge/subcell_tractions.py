@@ -19,7 +19,7 @@ from semi_analytical.edge.contact_area import near
 from semi_analytical.edge.edge_geometry import EdgeLine
 from semi_analytical.edge.film import FilmLaw
 from semi_analytical.edge.film_shape import FilmShape, film_shape
-from semi_analytical.edge.fit import NEXT, WIDER, Stencil, values_in_windows
+from semi_analytical.edge.fit import NEXT, WIDER, Stencil, window_indices
 from semi_analytical.edge.kernels import PARTS, part_centres
 from semi_analytical.edge.quadratic import Quadratic
 from semi_analytical.edge.shape import LARGEST_RMS, AdjacentCells, EdgeShape, depth_of, edge_shape
@@ -285,7 +285,8 @@ def tractions_by_differences(
     fade    weight of the second differences, from 1 near the edge to 0 inside (n,)
     domain  domain of `means`: full window or reduced domain
     """
-    about = values_in_windows(domain.add_frame(means, 1), i, j, NEXT)
+    framed = domain.add_frame(means, 1)
+    about = framed.take(window_indices(i, j, NEXT, framed.shape[1]))
     first, lower, second, left, centre, right, third, upper, last = about.T
     corners = last + first - third - second
     f_xx, f_yy = fade * (lower + upper - 2 * centre), fade * (left + right - 2 * centre)

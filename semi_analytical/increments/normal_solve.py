@@ -90,7 +90,8 @@ class NormalTarget:
         """
         if self.tilt is None:
             return model.gap
-        return model.gap - plane(model, self.tilt) - self._first_touch(model)
+        tilted = model.gap - plane(model, self.tilt)
+        return tilted - np.min(tilted)
 
     def _first_touch(self, model: ContactModel) -> float:
         """Return the approach at which the indenter, tilted as prescribed, first touches a cell.
@@ -145,8 +146,9 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
     """Solve the normal problem of a contact model for a prescribed normal load, without shear.
 
     The solver works in a box of cells around the contact. A convolution over the whole domain
-    checks the solution. If the bodies overlap outside the box, the box becomes the whole domain. If
-    a residual exceeds the tolerance otherwise, the solve is repeated with a tighter tolerance.
+    checks the solution outside the box. If the bodies overlap there, the box becomes the whole
+    domain. If a residual exceeds the tolerance otherwise, the solve is repeated with a tighter
+    tolerance.
 
     tolerance  limit of complementarity and penetration residuals, dimensionless
     raises     ContactAtWindowEdge, ContactNotResolved, NotConverged
@@ -171,8 +173,10 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
         )
         iterations += solution.iterations
         p = box.embed(solution.pressure, whole.shape)
-        u = model.operator(whole.shape).normal(p)
-        g = np.where(allowed, gap, np.inf) + u - load.closure(solution.motion)
+        u = solution.displacement
+        if box != whole:
+            u = model.operator(whole.shape).normal(p)
+        g = gap + u - load.closure(solution.motion)
         overlap = load.overlap(solution.motion, gap, allowed)
         measures = (complementarity(p, g, overlap), penetration(g, overlap))
         residual = worst(*measures)

@@ -29,9 +29,10 @@ def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) 
     area     area of a cell with its mirror images [length^2]
     """
     touchable = np.isfinite(gap)
+    gaps = np.sort(gap[touchable], kind="stable")  # rows in order: faster than np.unique
     # Cells of equal gap bear together: the initial guess does not depend on the domain.
-    gaps, counts = np.unique(gap[touchable], return_counts=True)
-    radii = np.sqrt(area / pi * np.cumsum(counts))
+    last = np.flatnonzero(np.diff(gaps, append=np.inf))
+    gaps, radii = gaps[last], np.sqrt(area / pi * (last + 1))
     depth = load.bearing_depth(gaps, 8 / 3 * modulus / area * radii)
     bearing = gap < depth
     if modulus <= 0 or not load.touches(np.where(bearing, gap, np.inf)):

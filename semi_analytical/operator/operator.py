@@ -91,6 +91,7 @@ class Product:
         names = [["".join(sorted(row + column)) for column in inputs] for row in outputs]
         self._rows = [[(k, name) for k, name in enumerate(row) if name in entries] for row in names]
         self._entries = {name: entries[name] for row in self._rows for _, name in row}
+        self._columns, self._some = slice(0), dict[str, Array]()
 
     def __call__(self, values: Array) -> Array:
         """Compute the convolution of fields with the matrix of kernels (outputs, nx, ny).
@@ -104,14 +105,20 @@ class Product:
 
         The results are the amplitudes of the output fields.
 
-        amplitudes  amplitudes of each input field at some wavenumbers along y
+        amplitudes  amplitudes of each input field at some wavenumbers along y; may be overwritten
         columns     slice of these wavenumbers
         """
-        some = {name: entry[columns] for name, entry in self._entries.items()}
+        if columns != self._columns:  # a small grid is one block, whose factors are kept
+            self._columns, kind = columns, amplitudes[0].dtype
+            self._some = {
+                n: one[columns].astype(kind, copy=False) for n, one in self._entries.items()
+            }
+        some = self._some
         found = []
         for row in self._rows:
             (first, name), *others = row
-            total = some[name] * amplitudes[first]
+            out = amplitudes[first] if len(self._rows) == 1 else None
+            total = np.multiply(some[name], amplitudes[first], out=out)
             for k, name in others:
                 total += some[name] * amplitudes[k]
             found.append(total)

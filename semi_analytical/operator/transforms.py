@@ -10,7 +10,7 @@ Amplitudes of Fourier transforms are complex on the full window and pairs of rea
 half.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import count
@@ -97,12 +97,14 @@ class Waves:
     def back(self, amplitudes: Array) -> Array:
         """Transform Fourier amplitudes along one axis to values of the cells (…, cells).
 
-        amplitudes  amplitudes by wavenumber (…, count)
+        amplitudes  amplitudes by wavenumber (…, count); may be overwritten
         """
         spectrum = np.ascontiguousarray(amplitudes).view(complex)
         if self._has_factor_i:
             spectrum = -1j * spectrum
-        return np.asarray(self._back(spectrum, n=self._period, axis=-1)[..., : self._cells])
+        out = spectrum if self._back is np.fft.ifft else None
+        found = self._back(spectrum, n=self._period, axis=-1, out=out)
+        return np.asarray(found[..., : self._cells])
 
 
 class MirroredWaves:
@@ -347,5 +349,6 @@ class Transforms:
         return result
 
 
-def _block_slices(count: int, width: int) -> Iterator[slice]:
-    return (slice(first, min(first + width, count)) for first in range(0, count, width))
+@lru_cache(maxsize=64)
+def _block_slices(count: int, width: int) -> tuple[slice, ...]:
+    return tuple(slice(first, min(first + width, count)) for first in range(0, count, width))
