@@ -150,8 +150,8 @@ def _solve_on(
 ) -> tuple[Field, Field, int]:
     """Solve for the pressure that closes the gap on a fixed contact set.
 
-    The linear problem of one Newton step is solved: pressures may become negative. The iteration
-    stops at the reduction MOVING if the contact set of the iterate differs. Return pressure,
+    The linear problem of one Newton step is solved: pressures may become negative. From the
+    reduction MOVING on, an iterate with another contact set ends the iteration. Return pressure,
     displacement and number of conjugate-gradient iterations.
 
     contact  contact set, which contains all cells under pressure (nx, ny)
@@ -189,8 +189,8 @@ def close_gap(
                   forces
     p, u, g       pressure, displacement and gap at the start (nx, ny)
     depth         reduction of the residual norm at which the iteration stops
-    changed       function of pressure and displacement, called at the reduction MOVING: True stops
-                  the iteration. None: the iteration continues
+    changed       function of pressure and displacement, called from the reduction MOVING on: True
+                  stops the iteration. None: the iteration continues
     """
     p, u, r = p.copy(), u.copy(), projected(-g)
     t = z = projected(precondition(r))
@@ -206,10 +206,8 @@ def close_gap(
         z = projected(precondition(r))
         rz, last = np.vdot(r, z), rz
         t = z + (rz / last) * t
-        if changed is not None and rz <= MOVING**2 * first:
-            if changed(p, u):
-                break
-            changed = None
+        if rz <= MOVING**2 * first and changed is not None and changed(p, u):
+            break
     return p, u, iterations
 
 
