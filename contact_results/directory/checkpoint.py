@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from itertools import count, takewhile
 from pathlib import Path
 from typing import Any
 
@@ -48,7 +49,7 @@ class CheckpointDirectory:
         self._written = 0.0
         self._open, self._read = True, False
         self._standing: Checkpoint | None = None
-        self._parts = self._kept = 0
+        self._ends: list[int] = []  # number of increments up to the end of each file
         self._extent: Any = None
 
     def last(self) -> Checkpoint | None:
@@ -64,7 +65,7 @@ class CheckpointDirectory:
                 self._say(f"{self._directory} is a link: no checkpoint is read or written")
             elif self._directory.is_dir():
                 self._standing = self._read_parts()
-                self._drop_from(self._parts)
+                self._drop_from(len(self._ends))
         return self._standing
 
     def keep(self, standing: Checkpoint) -> None:
@@ -81,20 +82,21 @@ class CheckpointDirectory:
             return
         try:
             self._directory.mkdir(mode=0o700, exist_ok=True)
-            again = len(standing.increments) <= self._kept
+            before = max(self._ends, default=0)
+            again = len(standing.increments) <= before
             if again or standing.extent != self._extent:  # restarted on a larger grid or mesh
                 self._drop_from(0)
-                self._kept = 0
-            new = replace(standing, increments=standing.increments[self._kept :])
-            with atomic_file(self._part_path(self._parts)) as temporary:
-                write_checkpoint_file((self._kept, new), self._identity, temporary)
+                before = 0
+            path = self._part_path(len(self._ends))
+            new = replace(standing, increments=standing.increments[before:])
+            self._ends.append(len(standing.increments))  # first: a signal may follow the write
+            with atomic_file(path) as temporary:
+                write_checkpoint_file((before, new), self._identity, temporary)
         except (OSError, OutputRefused) as error:
             self._say(f"cannot write a checkpoint into {self._directory}: {error}")
             self._open = False
             return
-        self._parts += 1
-        self._kept, self._extent = len(standing.increments), standing.extent
-        self._written = time.monotonic()
+        self._extent, self._written = standing.extent, time.monotonic()
         taken = max(0.0, self._written - began)
         self._pause = max(SECONDS_BETWEEN, min(taken / SHARE, MAX_BETWEEN))
 
@@ -107,9 +109,14 @@ class CheckpointDirectory:
 
         The message is empty if no increment is stored.
         """
-        if not (self._kept and self._parts):
+        if not (kept := self._kept()):
             return ""
-        return f"the same command goes on after increment {self._kept}, kept in {self._directory}"
+        return f"the same command goes on after increment {kept}, kept in {self._directory}"
+
+    def _kept(self) -> int:
+        """Return the number of increments in the files, up to the first that is missing."""
+        files = takewhile(Path.exists, map(self._part_path, count()))
+        return max((end for end, _ in zip(self._ends, files, strict=False)), default=0)
 
     def _read_parts(self) -> Checkpoint | None:
         """Read the last checkpoint from the sequence of files; None if there is none.
@@ -120,7 +127,7 @@ class CheckpointDirectory:
         standing: Checkpoint | None = None
         increments: list[Any] = []
         fields = FieldStore()
-        while (path := self._part_path(self._parts)).exists():
+        while (path := self._part_path(len(self._ends))).exists():
             try:
                 match read_checkpoint_file(path, self._identity):
                     case (int(before), Checkpoint() as part) if before == len(increments):
@@ -131,10 +138,10 @@ class CheckpointDirectory:
                 self._say(f"{error}; computed again")
                 break
             standing = replace(part, increments=tuple(increments))
-            self._parts += 1
-            self._kept, self._extent = len(increments), part.extent
+            self._ends.append(len(increments))
+            self._extent = part.extent
         if standing is not None:
-            self._say(f"going on after increment {self._kept} of an interrupted run "
+            self._say(f"going on after increment {self._kept()} of an interrupted run "
                       f"({self._directory})")  # fmt: skip
         return standing
 
@@ -147,7 +154,7 @@ class CheckpointDirectory:
         for name in os.listdir(self._directory) if self._directory.is_dir() else ():
             if name not in kept:
                 (self._directory / name).unlink(missing_ok=True)
-        self._parts = first
+        del self._ends[first:]
 
     def _part_path(self, number: int) -> Path:
         """Return the path of the checkpoint file with this number, from 0."""
