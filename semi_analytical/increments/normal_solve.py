@@ -146,9 +146,8 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
     """Solve the normal problem of a contact model for a prescribed normal load, without shear.
 
     The solver works in a box of cells around the contact. A convolution over the whole domain
-    checks the solution outside the box. If the bodies overlap there, the box becomes the whole
-    domain. If a residual exceeds the tolerance otherwise, the solve is repeated with a tighter
-    tolerance.
+    checks the solution. If the bodies overlap outside the box, the box becomes the whole domain. If
+    a residual exceeds the tolerance otherwise, the solve is repeated with a tighter tolerance.
 
     tolerance  limit of complementarity and penetration residuals, dimensionless
     raises     ContactAtWindowEdge, ContactNotResolved, NotConverged
@@ -173,9 +172,7 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
         )
         iterations += solution.iterations
         p = box.embed(solution.pressure, whole.shape)
-        u = solution.displacement
-        if box != whole:
-            u = model.operator(whole.shape).normal(p)
+        u = model.operator(whole.shape).normal(p)
         g = gap + u - load.closure(solution.motion)
         overlap = load.overlap(solution.motion, gap, allowed)
         measures = (complementarity(p, g, overlap), penetration(g, overlap))
