@@ -8,6 +8,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from itertools import pairwise
 from pathlib import Path
+from signal import SIGINT
 from tempfile import TemporaryDirectory
 from typing import Any
 
@@ -299,6 +300,16 @@ def test_checkpoint_stays_only_where_it_is_of_use(
         if error is not None:
             raise error
     assert (tmp_path / ".out.checkpoint").is_dir() is stays
+
+
+def test_signal_just_after_a_write_leaves_the_written_increment_counted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rename, store = os.replace, checkpoint(tmp_path, [])
+    monkeypatch.setattr(os, "replace", lambda *a: (rename(*a), os.kill(os.getpid(), SIGINT)))
+    with pytest.raises(KeyboardInterrupt):
+        SOLVES["similar"](store)
+    assert "goes on after increment 1," in store.how_to_go_on()
 
 
 # ---- Fields of a long history lie in a file: no result shows it, and little is in memory.
