@@ -224,10 +224,6 @@ def test_motions_of_the_elements_return_from_a_file(motion: Any, tmp_path: Path)
     assert read_checkpoint_file(tmp_path / "motion", "this solve") == motion
 
 
-def changed(content: bytes) -> bytes:
-    return content[:-40] + bytes([content[-40] ^ 1]) + content[-39:]
-
-
 def packed(value: Any) -> bytes:
     with TemporaryDirectory() as folder:
         write_checkpoint_file(value, "this solve", Path(folder) / "part")
@@ -237,7 +233,7 @@ def packed(value: Any) -> bytes:
 @pytest.mark.parametrize(
     ("damage", "problem"),
     [
-        (changed, "is damaged"),
+        (lambda content: content[:-40] + bytes([content[-40] ^ 1]) + content[-39:], "is damaged"),
         (lambda content: content[:-1], "is damaged"),
         (lambda content: b"", "is not a checkpoint of this version"),
         (lambda content: b"PK" + content, "is not a checkpoint of this version"),
