@@ -8,7 +8,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from itertools import pairwise
 from pathlib import Path
-from signal import SIGINT
+from signal import SIGINT, default_int_handler
 from tempfile import TemporaryDirectory
 from typing import Any
 
@@ -302,7 +302,7 @@ def test_signal_just_after_a_write_leaves_the_written_increment_counted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     rename, store = os.replace, checkpoint(tmp_path, [])
-    monkeypatch.setattr(os, "replace", lambda *a: (rename(*a), os.kill(os.getpid(), SIGINT)))
+    monkeypatch.setattr(os, "replace", lambda *a: (rename(*a), default_int_handler(SIGINT, None)))
     with pytest.raises(KeyboardInterrupt):
         SOLVES["similar"](store)
     assert "goes on after increment 1," in store.how_to_go_on()
