@@ -30,14 +30,18 @@ def optional(*flags: str, help: str, **more: Any) -> OptionInfo:
 
 def directory(help: str) -> OptionInfo:
     """Return the option `--output` for a directory with a default, which the help text states."""
-    return optional("--output", "-o", metavar="DIR", help=help)
+    return optional("--output", "-o", metavar="DIR", parser=_directory_path, help=help)
+
+
+def _directory_path(given: str) -> Path:
+    """Return the path of an output directory; an empty name (an unset variable) is refused."""
+    if not given or "\0" in given:
+        raise typer.BadParameter(f"{given!r} names no directory; '.' is the current one")
+    return Path(given)
 
 
 OutputOption: TypeAlias = Annotated[
-    Path,
-    typer.Option(
-        "--output", "-o", metavar="DIR", help="Directory of the results; created if missing."
-    ),
+    Path, directory("Directory of the results; created if missing.")
 ]
 
 
