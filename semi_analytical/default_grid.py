@@ -166,8 +166,9 @@ def refuse_small_window(scene: Scene, grid: SurfaceGrid) -> None:
         try:
             press(model, replace(load, force=force, approach=approach), SCOUT_TOLERANCE)
         except ContactAtWindowEdge as error:
-            prescribed = f"normal_force {load.force:.4g} N"
-            if load.approach is not None:
+            if load.approach is None:
+                prescribed = f"normal_force {load.force:.4g} N"
+            else:
                 prescribed = f"approach {load.approach:.4g} m"
             raise ContactAtWindowEdge(f"under {prescribed}, {error}") from None
         except SolverError:  # on too few cells; left to the solution of the history
