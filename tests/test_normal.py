@@ -89,20 +89,28 @@ def test_a_stop_above_the_tolerance_is_an_error(rng, monkeypatch, limit):
     assert caught.value.residual > caught.value.tolerance == TOLERANCE
 
 
-@pytest.mark.parametrize("shape", [(20, 1), (12, 12)])
-def test_cells_that_lift_others_take_few_iterations(shape, rng):
+@pytest.mark.parametrize(
+    ("shape", "most", "touching"),
+    [((20, 1), 70, False), ((12, 12), 70, False), ((12, 12), 30, True)],
+)
+def test_cells_that_lift_others_take_few_iterations(shape, most, touching, rng):
     """A compliance that oscillates, as below stiff films: cutting off tension may raise the energy.
 
-    With other descent rules it takes hundreds of iterations or does not converge."""
+    With other descent rules it takes hundreds of iterations or does not converge. If half of the
+    cells touch without pressure, contact sets alternate where solves on a wrong set go on."""
     at = np.indices(shape).reshape(2, -1)
     far = np.hypot(*(at[:, :, None] - at[:, None]))
     A = np.exp(-far / 20) * np.cos(far / 1.5)
     A += (1e-3 - min(np.linalg.eigvalsh(A)[0], 0)) * np.eye(len(A))
-    gap = 3 * rng.random(shape)
-    inputs = as_map(A), rough_inverse(A), gap, FixedApproach(1.0), np.ones(shape), TOLERANCE
+    u = A @ np.maximum(rng.random(len(A)) - 0.5, 0)
+    gap = np.reshape(np.max(u) - u if touching else 3 * rng.random(len(A)), shape)
+    inputs = (
+        as_map(A), rough_inverse(A), gap, FixedApproach(float(np.max(u)) if touching else 1.0),
+        np.ones(shape), TOLERANCE,
+    )  # fmt: skip
     solution = solve_normal(*inputs)
     assert_contact(A, gap.ravel(), solution)
-    assert solution.iterations < 70  # 29 and 56; 37 and 82 if each step is solved to the end
+    assert solution.iterations < most
 
 
 # ---- The shear solver against the conditions of stick and slip, and against a general optimis

@@ -91,7 +91,7 @@ class Product:
         names = [["".join(sorted(row + column)) for column in inputs] for row in outputs]
         self._rows = [[(k, name) for k, name in enumerate(row) if name in entries] for row in names]
         self._entries = {name: entries[name] for row in self._rows for _, name in row}
-        self._columns, self._some = slice(0), dict[str, Array]()
+        self._block = slice(0), dict[str, Array]()
 
     def __call__(self, values: Array) -> Array:
         """Compute the convolution of fields with the matrix of kernels (outputs, nx, ny).
@@ -108,12 +108,11 @@ class Product:
         amplitudes  amplitudes of each input field at some wavenumbers along y; may be overwritten
         columns     slice of these wavenumbers
         """
-        if columns != self._columns:  # a small grid is one block, whose factors are kept
-            self._columns, kind = columns, amplitudes[0].dtype
-            self._some = {
-                n: one[columns].astype(kind, copy=False) for n, one in self._entries.items()
-            }
-        some = self._some
+        known, some = self._block
+        if columns != known:  # a small grid is one block, whose factors are kept
+            kind = amplitudes[0].dtype
+            some = {n: one[columns].astype(kind, copy=False) for n, one in self._entries.items()}
+            self._block = columns, some  # at once: a signal leaves no factors of other columns
         found = []
         for row in self._rows:
             (first, name), *others = row
