@@ -91,7 +91,7 @@ def test_a_stop_above_the_tolerance_is_an_error(rng, monkeypatch, limit):
 
 @pytest.mark.parametrize(
     ("shape", "most", "touching"),
-    [((20, 1), 70, False), ((12, 12), 70, False), ((12, 12), 30, True)],
+    [((20, 1), 60, False), ((12, 12), 60, False), ((12, 12), 30, True)],
 )
 def test_cells_that_lift_others_take_few_iterations(shape, most, touching, rng):
     """A compliance that oscillates, as below stiff films: cutting off tension may raise the energy.
@@ -110,7 +110,7 @@ def test_cells_that_lift_others_take_few_iterations(shape, most, touching, rng):
     )  # fmt: skip
     solution = solve_normal(*inputs)
     assert_contact(A, gap.ravel(), solution)
-    assert solution.iterations < most
+    assert solution.iterations < most  # 43, 51, 20; 105, 63, 20 if each step is solved to the end
 
 
 # ---- The shear solver against the conditions of stick and slip, and against a general optimis

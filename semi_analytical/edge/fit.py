@@ -16,7 +16,7 @@ from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 # Relative regularisation of coefficients that the data do not determine.
 RIDGE = 1e-13
-# Number of fits at a time: their arrays stay in the cache and in memory that is used again.
+# Number of fits at a time, whose arrays stay in the processor cache.
 CHUNK = 128
 # Sum of the weights used in place of zero.
 LEAST_TOTAL = 1e-30

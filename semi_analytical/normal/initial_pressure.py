@@ -29,7 +29,7 @@ def bearing_pressure(gap: Field, load: NormalLoad, modulus: float, area: float) 
     area     area of a cell with its mirror images [length^2]
     """
     touchable = np.isfinite(gap)
-    gaps = np.sort(gap[touchable], kind="stable")  # rows in order: faster than np.unique
+    gaps = np.sort(gap[touchable], kind="stable")  # fast, as runs of gaps are sorted
     # Cells of equal gap bear together: the initial guess does not depend on the domain.
     last = np.flatnonzero(np.diff(gaps, append=np.inf))
     gaps, radii = gaps[last], np.sqrt(area / pi * (last + 1))

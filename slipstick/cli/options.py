@@ -29,7 +29,7 @@ def optional(*flags: str, help: str, **more: Any) -> OptionInfo:
 
 
 def directory(help: str) -> OptionInfo:
-    """Return the option `--output` for a directory with a default, which the help text states."""
+    """Return the option `--output` for a directory; the help text states its default, if any."""
     return optional("--output", "-o", metavar="DIR", parser=_directory_path, help=help)
 
 
