@@ -1,6 +1,7 @@
 """Arrays of a scene that are read from files: height maps and friction maps."""
 
 import hashlib
+import re
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Annotated, Any
@@ -18,6 +19,8 @@ from contact_scene.reading.scene_error import (
 _MIN_SIDE, _MAX_SIDE = 4, 16384
 _MAX_VALUES = 4096 * 4096  # 134 MB, more than the largest grid
 _MAX_TEXT = 1 << 28  # bytes
+# Field of a text file that is a number.
+_NUMBER = re.compile(r"\s*[-+]?(\d+\.?|\.\d)\d*(e[-+]?\d+)?\s*", re.IGNORECASE)
 # Fields of a text file for points without a measurement, in lower case.
 _MISSING = {"", "nan", "bad", "na", "n/a", "null", "***", "---"}
 
@@ -147,8 +150,9 @@ def _read_text_array(path: Path, name: str) -> NDArray[Any]:
     """Read a height map or friction map from a text file in the orientation of a top view.
 
     x points to the right and y upwards. Fields are separated by semicolons, tabs, commas or spaces.
-    Lines before the first numbers are skipped. Fields for missing values, such as "nan", become
-    NaN.
+    Lines before the first row of numbers are skipped as headings. A line with as many fields as the
+    rows and a number among them is no heading, and is refused if another field is no number. Fields
+    for missing values, such as "nan", become NaN.
 
     path  path of the file
     name  name of the file in the scene, for messages
@@ -159,14 +163,17 @@ def _read_text_array(path: Path, name: str) -> NDArray[Any]:
     lines = [line for line in lines if line.strip() and line.strip()[0] not in "#%"]
     last = lines[-1] if lines else ""
     separator = next((mark for mark in ";\t," if mark in last), None)
-    rows: list[list[float]] = []
+    rows, width = list[list[float]](), len(last.split(separator))
     for line in lines:
         fields = (line if separator == "," else line.replace(",", ".")).split(separator)
         try:
             rows.append([np.nan if f.strip().lower() in _MISSING else float(f) for f in fields])
         except ValueError:
-            if rows:
+            # A heading: numbers in as many fields as those of the rows would be a row of the map.
+            if rows or (len(fields) == width and any(map(_NUMBER.fullmatch, fields))):
                 raise refusal(f"{shown(name)} has no number in {shown(line)}", "") from None
+    if not rows:
+        raise refusal(f"{shown(name)} contains no numbers", "equally many numbers in every line")
     counts = {len(row) for row in rows}
     if len(counts) > 1 or counts == {3}:
         few_to_many = " to ".join(map(str, sorted({min(counts), max(counts)})))
@@ -174,7 +181,7 @@ def _read_text_array(path: Path, name: str) -> NDArray[Any]:
             f"the lines of {shown(name)} have {few_to_many} numbers",
             f"values without their coordinates, equally many in every line, at least {_MIN_SIDE}",
         )
-    values = np.array(rows or [[]]).T[:, ::-1]
+    values = np.array(rows).T[:, ::-1]
     if separator and last.endswith(separator):
         values = values[:-1]
     return np.ascontiguousarray(values)
