@@ -43,12 +43,12 @@ class Result:
 
     @property
     def tolerance(self) -> float:
-        """Return the tolerance of the solve, an upper bound of all residuals of all increments."""
+        """Tolerance of the solve, an upper bound of all residuals of all increments."""
         return self.fineness.tolerance
 
     @property
     def steps(self) -> tuple[Increment, ...]:
-        """Return the contact states at the ends of the load steps, in order.
+        """Contact states at the ends of the load steps, in order.
 
         They are the last increments of the load steps.
         """

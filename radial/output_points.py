@@ -100,7 +100,7 @@ class StepsOnRings:
 
     @property
     def most_spent(self) -> float:
-        """Return the work of the solver above which an increment is not bisected again.
+        """Work of the solver above which an increment is not bisected again.
 
         Load stepping divides an increment that does not converge into halves, until the work for
         the increment exceeds this value. The work is the increase of `spent`. The value 0 sets no

@@ -72,7 +72,7 @@ class Plan:
 
     @property
     def rings(self) -> int:
-        """Return the number of rings inside the largest contact, for a solve at points on rings.
+        """Number of rings inside the largest contact, for a solve at points on rings.
 
         A solve at points on rings treats a tangential load or torsion. The number does not include
         the dense rings at contact edges.
@@ -81,7 +81,7 @@ class Plan:
 
     @property
     def highest(self) -> int:
-        """Return the highest angular harmonic of pressure and shear in a solve at points on rings.
+        """Highest angular harmonic of pressure and shear in a solve at points on rings.
 
         A solve at points on rings treats a tangential load or torsion.
         """
@@ -89,7 +89,7 @@ class Plan:
 
     @property
     def angles(self) -> int:
-        """Return the number of angles on a ring, for a solve at points on rings.
+        """Number of angles on a ring, for a solve at points on rings.
 
         A solve at points on rings treats a tangential load or torsion. The number is 0 without such
         a solve.
@@ -98,7 +98,7 @@ class Plan:
 
     @property
     def has_shear(self) -> bool:
-        """Return true if the surfaces carry shear by friction, torsion or a tangential load."""
+        """True if the surfaces carry shear by friction, torsion or a tangential load."""
         return self.coupled or self.twists or self.pushed
 
 

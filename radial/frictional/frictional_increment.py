@@ -60,7 +60,7 @@ class FrictionalState:
 
     @property
     def normal_force(self) -> float:
-        """Return the normal force on the indenter [force].
+        """Normal force on the indenter [force].
 
         The value is the prescribed force, or the computed force under a prescribed approach.
         """
@@ -68,7 +68,7 @@ class FrictionalState:
 
     @property
     def approach(self) -> float:
-        """Return the approach of the indenter since first contact, prescribed or computed [length].
+        """Approach of the indenter since first contact, prescribed or computed [length].
 
         With a spring in the rig (test machine) the value is the approach of the far end of the
         spring.

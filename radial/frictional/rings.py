@@ -54,12 +54,12 @@ class Rings:
 
     @property
     def count(self) -> int:
-        """Return the number n of elements of the radius, the intervals between its n + 1 nodes."""
+        """Number n of elements of the radius, the intervals between its n + 1 nodes."""
         return len(self.x) - 1
 
     @cached_property
     def places(self) -> Array:
-        """Return the radii at which displacements are evaluated, over the contact radius (rows,).
+        """Radii at which displacements are evaluated, over the contact radius (rows,).
 
         They are the n + 1 nodes, then points outside the contact. The rows of all response matrices
         belong to these radii.
@@ -68,7 +68,7 @@ class Rings:
 
     @cached_property
     def weights(self) -> Array:
-        """Return the weights of nodal tractions in integrals over the contact area (n + 1,) [1].
+        """Weights of nodal tractions in integrals over the contact area (n + 1,) [1].
 
         A weight is ∫ φ x dx, with the hat function φ of the node, which contains the factor
         √(1-x²), and x = r/a. The normal force ∫ p dA is 2πa² times the sum of the products of
@@ -89,7 +89,7 @@ class Rings:
 
     @cached_property
     def direct_responses(self) -> tuple[Array, Array]:
-        """Compute the direct responses of half-spaces to tractions on rings (rows, columns).
+        """Direct responses of half-spaces to tractions on rings (rows, columns).
 
         They are the normal displacement by pressure, ∫ G₀ φ s ds, and the radial displacement by
         radial shear, ∫ G₁ φ s ds. φ is the hat function of a node. The kernel G_m = ∫₀^∞ J_m(kx)
@@ -123,7 +123,7 @@ class Rings:
 
     @cached_property
     def coupling_responses(self) -> tuple[Array, Array]:
-        """Compute the coupling responses of half-spaces to tractions on rings (rows, columns).
+        """Coupling responses of half-spaces to tractions on rings (rows, columns).
 
         They are the normal displacement by radial shear, ∫ₓ¹ φ ds, and the radial displacement by
         pressure, (1/x) ∫₀ˣ φ s ds. φ is the hat function of a node. The kernel ∫₀^∞ J₀(kr) J₁(ks)

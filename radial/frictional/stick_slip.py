@@ -83,12 +83,12 @@ class FrictionalContact:
 
     @property
     def radius(self) -> float:
-        """Return the radius a of the contact area, which is prescribed in this solve [length]."""
+        """Radius a of the contact area, which is prescribed in this solve [length]."""
         return self.contact.radius
 
     @property
     def approach(self) -> float:
-        """Return the approach δ of the indenter since first contact, with friction [length].
+        """Approach δ of the indenter since first contact, with friction [length].
 
         The value is the approach without friction plus its change by the shear.
         """
@@ -96,12 +96,12 @@ class FrictionalContact:
 
     @property
     def load(self) -> float:
-        """Return the normal force W with friction, the integral of the pressure [force]."""
+        """Normal force W with friction, the integral of the pressure [force]."""
         return self.contact.load + self.integrate_over_contact(self.pressure_change)
 
     @cached_property
     def pressure(self) -> Array:
-        """Return the pressure p of the contact with friction at the nodes (n + 1,) [force/length²].
+        """Pressure p of the contact with friction at the nodes (n + 1,) [force/length²].
 
         The pressure is infinite at the axis below a tip.
         """

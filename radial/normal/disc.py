@@ -83,7 +83,7 @@ class Disc:
 
     @property
     def load(self) -> float:
-        """Return the normal force of the contact, W = 2 E* a ∫₀¹ G dt [force].
+        """Normal force of the contact, W = 2 E* a ∫₀¹ G dt [force].
 
         G(t) is the function of which the pressure is the Abel transform, E* the contact modulus, a
         the contact radius. t is 0 at the axis and 1 at the contact edge.
@@ -93,7 +93,7 @@ class Disc:
 
     @property
     def elastic_energy(self) -> float:
-        """Compute the elastic energy of both bodies, ½ ∫ p u_z dA [force length].
+        """Elastic energy of both bodies, ½ ∫ p u_z dA [force length].
 
         The energy is E* a ∫₀¹ G (δ - S) dt, with the contact modulus E* and the contact radius a.
         G(t) is the function of which the pressure is the Abel transform, δ the approach, and S the
@@ -107,7 +107,7 @@ class Disc:
 
     @property
     def edge(self) -> float:
-        """Return the strength G(1) of the singularity of the pressure at a rim [length].
+        """Strength G(1) of the singularity of the pressure at a rim [length].
 
         Near the edge of the contact p = (E*/π a) G(1)/√(1-x²), with the contact modulus E*, the
         contact radius a and x = r/a. The strength is 0 at a smooth edge, where the pressure is
@@ -175,7 +175,7 @@ class _Galerkin:
 
     @cached_property
     def cholesky_factor(self) -> Any:
-        """Compute the Cholesky factor of the Galerkin matrix of the layer coefficients.
+        """Cholesky factor of the Galerkin matrix of the layer coefficients.
 
         The matrix is positive definite because the normal response of the bodies is positive. The
         unknowns are the Legendre coefficients of the contribution of the layers to the pressure.

@@ -69,7 +69,7 @@ class Target:
 
     @property
     def prescribed_value(self) -> float:
-        """Return the prescribed value: the normal force [force], or the approach [length].
+        """Prescribed value: the normal force [force], or the approach [length].
 
         The approach is that of the far end of the rig's spring.
         """
@@ -130,7 +130,7 @@ class NormalContact:
 
     @property
     def normal_force(self) -> float:
-        """Return the normal force on the indenter [force].
+        """Normal force on the indenter [force].
 
         The value is the prescribed force, or the computed force under a prescribed approach.
         """
@@ -138,7 +138,7 @@ class NormalContact:
 
     @property
     def approach(self) -> float:
-        """Return the approach of the indenter [length].
+        """Approach of the indenter [length].
 
         With a spring in the rig (test machine) the value is the approach of the far end of the
         spring. It is the prescribed approach, or the computed one under a prescribed force.

@@ -57,7 +57,7 @@ class Profile:
 
     @property
     def abel_at_edge(self) -> float:
-        """Return the Abel transform S(1) of the undeformed gap at the contact edge [length].
+        """Abel transform S(1) of the undeformed gap at the contact edge [length].
 
         S(1) is the approach at which the pressure between half-spaces is zero at the contact edge.
         """
@@ -65,7 +65,7 @@ class Profile:
 
     @cached_property
     def rate(self) -> Array:
-        """Compute the Legendre coefficients of the rate dS/dt of the gap's Abel transform S.
+        """Legendre coefficients of the rate dS/dt of the gap's Abel transform S.
 
         S(t) is the Abel transform of the undeformed gap, with t from 0 at the axis to 1 at the
         contact edge. The polynomials have the argument 2t - 1. The unit of the coefficients is

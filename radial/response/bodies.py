@@ -57,7 +57,7 @@ class Bodies:
 
     @property
     def stiffest(self) -> float:
-        """Return an upper bound of the moduli of all materials of both bodies [force/length²].
+        """Upper bound of the moduli of all materials of both bodies [force/length²].
 
         The bound is the largest of E* and of 4 times the shear modulus of every material in the
         bodies with layers. Used for an initial guess of the contact radius from below.
@@ -67,7 +67,7 @@ class Bodies:
 
     @property
     def thickness(self) -> float:
-        """Return the smallest thickness of the outermost layers of both bodies [length].
+        """Smallest thickness of the outermost layers of both bodies [length].
 
         The thickness determines the number of wavenumbers. It is infinite if no body has layers.
         """

@@ -49,7 +49,7 @@ class Waves(NamedTuple):
     @property
     @cache_within_bytes(MAX_CACHED)
     def rule(self) -> tuple[Array, Array]:
-        """Return the Gauss points κ and the weights of the quadrature over wavenumbers, each (n,).
+        """Gauss points κ and the weights of the quadrature over wavenumbers, each (n,).
 
         κ = k a is the wavenumber k times the contact radius a. Integrals over κ give the
         contributions of layers to displacement and pressure.

@@ -40,12 +40,12 @@ class LoadedCircle:
 
     @property
     def is_round(self) -> bool:
-        """Return true if the tractions of the circle are axisymmetric and stored at one angle."""
+        """True if the tractions of the circle are axisymmetric and stored at one angle."""
         return self.smooth.shape[2] == 1
 
     @property
     def load(self) -> float:
-        """Compute the normal force on the circle, the integral ∫ p dA of the pressure [force]."""
+        """Normal force on the circle, the integral ∫ p dA of the pressure [force]."""
         eta, area = self.disc_rule(LOAD_POINTS)
         return float(2 * np.pi * self.radius**2 * self.harmonics(eta, HARMONICS)[2][0].real @ area)
 

@@ -54,7 +54,7 @@ class ContactPoints:
 
     @property
     def count(self) -> int:
-        """Return the number of angles at which each ring has a point.
+        """Number of angles at which each ring has a point.
 
         Fields at the points of n rings have the shape (n count,).
         """
@@ -62,12 +62,12 @@ class ContactPoints:
 
     @property
     def highest(self) -> int:
-        """Return the highest angular harmonic J by which tractions on a ring are represented."""
+        """Highest angular harmonic J by which tractions on a ring are represented."""
         return len(self.energies) - 1
 
     @cached_property
     def angles(self) -> Array:
-        """Return the angles of the points on each ring about the axis (count,) [radian].
+        """Angles of the points on each ring about the axis (count,) [radian].
 
         The angle θ = 0 is the direction of the tangential load.
         """
@@ -75,7 +75,7 @@ class ContactPoints:
 
     @cached_property
     def areas(self) -> Array:
-        """Return the area of the contact that each point represents (n count,) [length²].
+        """Area of the contact that each point represents (n count,) [length²].
 
         The area of a point is the integral of its hat function over the radius and over its share
         of the full circle. If the angles cover half a circle, the area includes that of the mirror
@@ -85,7 +85,7 @@ class ContactPoints:
 
     @cached_property
     def gap_areas(self) -> Array:
-        """Return the undeformed gap at first contact at every point, times its area [length³].
+        """Undeformed gap at first contact at every point, times its area [length³].
 
         The shape is (n count,) for n rings with `count` angles each.
         """
@@ -93,7 +93,7 @@ class ContactPoints:
 
     @cached_property
     def levers(self) -> Array:
-        """Return the distance of every point from the axis, times its area (n count,) [length³].
+        """Distance of every point from the axis, times its area (n count,) [length³].
 
         The levers multiply the circumferential shear in the torque.
         """
@@ -110,7 +110,7 @@ class ContactPoints:
 
     @cached_property
     def rigid_motions(self) -> Array:
-        """Return the displacements r, θ of all points by unit rigid motions, times their areas.
+        """Displacements r, θ of all points by unit rigid motions, times their areas.
 
         The shape is (3, 2 n count) for n rings with `count` angles each. The motions are a shift
         along θ = 0, a shift across it, and a twist about the axis. Motions that symmetry excludes
@@ -129,7 +129,7 @@ class ContactPoints:
 
     @cached_property
     def compliance(self) -> Array:
-        """Return the compliance matrix of all points: displacement times area by unit traction.
+        """Compliance matrix of all points: displacement times area by unit traction.
 
         The displacements and tractions have the components r, θ, z. The shape is
         (3 n count, 3 n count) for n rings with `count` angles each, the unit is [length^5/force].
@@ -138,7 +138,7 @@ class ContactPoints:
 
     @cached_property
     def diagonal_compliance(self) -> Array:
-        """Return the displacement of each point, times its area, by a unit traction at the point.
+        """Displacement of each point, times its area, by a unit traction at the point.
 
         The values are the diagonal of the compliance matrix (3 n count,) [length^5/force], with the
         components r, θ, z as the slow index. The entries r and θ of a point are replaced by their
@@ -161,7 +161,7 @@ class ContactPoints:
 
     @cached_property
     def inverse_compliance(self) -> Callable[[int], Array]:
-        """Return a function that computes the inverse compliance matrix of the innermost rings.
+        """Function that computes the inverse compliance matrix of the innermost rings.
 
         The argument of the function is the number of rings. The inverse (3 rings count, 3 rings
         count) maps displacements times areas to tractions, if the other rings carry no traction.
@@ -200,7 +200,7 @@ class ContactPoints:
 
     @cached_property
     def _harmonic_transform(self) -> Array:
-        """Return the matrices that map values at the angles of a ring to amplitudes of harmonics.
+        """Matrices that map values at the angles of a ring to amplitudes of harmonics.
 
         The shape is (3, families × (J + 1), count): components r, θ, z, harmonics 0 … J of each
         family, and `count` angles. In the symmetric family p and q_r are ∝ cos mθ and q_θ ∝ sin mθ.
@@ -210,7 +210,7 @@ class ContactPoints:
 
     @cached_property
     def _harmonic_energies(self) -> Array:
-        """Return the Galerkin compliance matrices between nodes, times the norm of each harmonic.
+        """Galerkin compliance matrices between nodes, times the norm of each harmonic.
 
         The shape is (families × (J + 1), 3, 3, n, n), for the harmonics 0 … J of the symmetric and,
         on a full circle, of the antisymmetric family. The norm is the integral over the circle, π
@@ -241,7 +241,7 @@ class ContactPoints:
 
     @cached_property
     def axisymmetric(self) -> ContactPoints:
-        """Return the points of an axisymmetric contact: rings of equal radii, with one angle each.
+        """Points of an axisymmetric contact: rings of equal radii, with one angle each.
 
         Used as long as no tangential load acts.
         """
@@ -361,7 +361,7 @@ class ContactPoints:
 
     @property
     def output_angles(self) -> Array:
-        """Return the angles at which fields on the rings are output [radian].
+        """Angles at which fields on the rings are output [radian].
 
         They include the direction θ = 0 of the load, unlike the angles of the points.
         """

@@ -32,7 +32,7 @@ class Loads:
 
     @property
     def drop_shear_loads(self) -> Loads:
-        """Return the prescribed loads with zero tangential force and zero torque.
+        """Prescribed loads with zero tangential force and zero torque.
 
         Prescribed motions and the normal load are unchanged. Used to solve the contact whose
         friction limit determines the limit load of gross slip.
@@ -86,12 +86,12 @@ class PointState:
 
     @property
     def pressure(self) -> Array:
-        """Return the pressure p at all N points on the rings (N,) [force/length²]."""
+        """Pressure p at all N points on the rings (N,) [force/length²]."""
         return self.tractions[2 * len(self.share) :]
 
     @property
     def shear(self) -> Array:
-        """Return the shear q at all N points on the rings (2, N) [force/length²].
+        """Shear q at all N points on the rings (2, N) [force/length²].
 
         The components are the radial shear q_r and the circumferential shear q_θ on the lower body.
         """
@@ -99,7 +99,7 @@ class PointState:
 
     @property
     def approach(self) -> float:
-        """Return the approach of the indenter to the lower body since first contact [length]."""
+        """Approach of the indenter to the lower body since first contact [length]."""
         return float(self.motion[NORMAL])
 
     def repeat_angles(self, points: ContactPoints) -> PointState:

@@ -74,7 +74,7 @@ class TangentialState:
 
     @property
     def forces(self) -> tuple[float, ...]:
-        """Return the four loads on the indenter: prescribed, or computed from the tractions.
+        """Four loads on the indenter: prescribed, or computed from the tractions.
 
         They are the tangential forces along and across θ = 0 [force], the torque [force length] and
         the normal force [force].
@@ -83,7 +83,7 @@ class TangentialState:
 
     @property
     def motions(self) -> tuple[float, ...]:
-        """Return the four rigid motions of the indenter: prescribed, or computed.
+        """Four rigid motions of the indenter: prescribed, or computed.
 
         They are the shifts along and across θ = 0 [length], the twist [radian] and the approach
         [length].
@@ -92,7 +92,7 @@ class TangentialState:
 
     @property
     def status(self) -> ContactStatus:
-        """Return the contact status: full stick, partial slip, gross slip, or no stick area left.
+        """Contact status: full stick, partial slip, gross slip, or no stick area left.
 
         If points slip and the rings do not resolve the stick zone, the status is partial slip. If
         all points slip, the status is gross slip under a prescribed shift or twist, otherwise no

@@ -84,7 +84,7 @@ class TangentialSteps(StepsOnRings):
 
     @property
     def most_spent(self) -> float:
-        """Return the number of Newton steps above which a failed increment is not bisected again.
+        """Number of Newton steps above which a failed increment is not bisected again.
 
         Load stepping compares this number with the Newton steps of all attempts to solve the
         increment.

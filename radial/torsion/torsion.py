@@ -94,7 +94,7 @@ class Torsion:
 
     @cached_property
     def friction_limit(self) -> FrictionLimit:
-        """Return the transform N(t)/t of the circumferential shear q = µp at the friction limit.
+        """Transform N(t)/t of the circumferential shear q = µp at the friction limit.
 
         The shear is the Abel transform of N: q(a x) = -G d/dx ∫ₓ¹ N/√(t²-x²) dt, with the torsional
         modulus G and the contact radius a. t runs from 0 at the axis to 1 at the contact edge.
@@ -103,7 +103,7 @@ class Torsion:
 
     @cached_property
     def incipient_slip(self) -> PartialSlip:
-        """Return the state of monotonic torsion at incipient slip: the whole contact still sticks.
+        """State of monotonic torsion at incipient slip: the whole contact still sticks.
 
         States with a smaller twist are proportional to this state. Its stick radius is the contact
         radius, the upper end of the search for the stick radius of a prescribed twist or torque.
@@ -112,7 +112,7 @@ class Torsion:
 
     @cached_property
     def least_stick(self) -> PartialSlip:
-        """Return the state of monotonic torsion with the smallest stick radius that is solved.
+        """State of monotonic torsion with the smallest stick radius that is solved.
 
         The state is close to gross slip. Its stick radius is the lower end of the search for the
         stick radius of a prescribed twist or torque.
@@ -121,7 +121,7 @@ class Torsion:
 
     @cached_property
     def gross_slip_torque(self) -> float:
-        """Return the torque at which the whole contact slips, the limit of friction [force length].
+        """Torque at which the whole contact slips, the limit of friction [force length].
 
         All points then carry the shear µp.
         """
@@ -129,7 +129,7 @@ class Torsion:
 
     @cached_property
     def waves(self) -> tuple[Array, Array]:
-        """Return the wavenumbers at which layers contribute to torsion, and their weights (κ,).
+        """Wavenumbers at which layers contribute to torsion, and their weights (κ,).
 
         The first array contains the wavenumbers κ, multiplied by the contact radius. The second
         array contains quadrature weights times Y - 1, the contribution of the layers to the
@@ -263,7 +263,7 @@ class PartialSlip:
 
     @property
     def _disc_panels(self) -> list[Panel]:
-        """Return an interval that covers the stick disc, with the transform N of the shear.
+        """Interval that covers the stick disc, with the transform N of the shear.
 
         N(t) is the function whose Abel transform is the circumferential shear. The result is a list
         with one interval, or an empty list without stick disc, because torque and energy are sums
@@ -277,7 +277,7 @@ class PartialSlip:
 
     @cached_property
     def torque(self) -> float:
-        """Compute the torque of the circumferential shear, 4π G a³ ∫₀¹ N t dt [force length].
+        """Torque of the circumferential shear, 4π G a³ ∫₀¹ N t dt [force length].
 
         N(t) is the function whose Abel transform is the shear, G the torsional modulus, a the
         contact radius. t runs from 0 at the axis to 1 at the contact edge.
@@ -287,7 +287,7 @@ class PartialSlip:
 
     @cached_property
     def transform(self) -> Array:
-        """Compute the sine transform ∫₀¹ N sin κt dt of the transform N of the shear (κ,).
+        """Sine transform ∫₀¹ N sin κt dt of the transform N of the shear (κ,).
 
         N(t) is the function whose Abel transform is the circumferential shear. The displacement by
         the layers is an integral of this transform over the wavenumber κ, multiplied by the contact
@@ -299,7 +299,7 @@ class PartialSlip:
 
     @cached_property
     def elastic_energy(self) -> float:
-        """Compute the elastic energy of both bodies by the circumferential shear q [force length].
+        """Elastic energy of both bodies by the circumferential shear q [force length].
 
             ½ ∫ q u dA = π G a³ [(π/2) ∫ N² dt + ∫ (Y - 1) N~² dκ]
 
@@ -316,7 +316,7 @@ class PartialSlip:
 
     @property
     def work(self) -> float:
-        """Compute the work ∫ M dφ of the torque M from twist 0 to this state [force length].
+        """Work ∫ M dφ of the torque M from twist 0 to this state [force length].
 
         φ is the twist of the indenter, which increases monotonically. The work is the elastic
         energy plus the dissipated energy.
@@ -325,7 +325,7 @@ class PartialSlip:
 
     @property
     def dissipated(self) -> float:
-        """Return the energy dissipated by friction since the start of the twist [force length].
+        """Energy dissipated by friction since the start of the twist [force length].
 
         The energy is 2π a² ∫ µp |s| x dx: points of the slip annulus carry the shear µp from the
         start of their slip s. It is computed as the work of the torque minus the elastic energy.

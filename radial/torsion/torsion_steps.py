@@ -44,7 +44,7 @@ class TorsionState:
 
     @property
     def torque(self) -> float:
-        """Return the torque on the indenter about the axis [force length].
+        """Torque on the indenter about the axis [force length].
 
         The value is the prescribed torque, or the computed torque under a prescribed twist.
         """
@@ -53,7 +53,7 @@ class TorsionState:
 
     @property
     def twist(self) -> float:
-        """Return the twist of the indenter about the axis [radian].
+        """Twist of the indenter about the axis [radian].
 
         The value is the prescribed twist, or the computed twist under a prescribed torque.
         """

@@ -76,7 +76,7 @@ class TwistPath:
 
     @property
     def twist(self) -> float:
-        """Return the twist φ of the indenter at the end of the history of torsion [radian].
+        """Twist φ of the indenter at the end of the history of torsion [radian].
 
         The twist is the sum of the changes between load reversals.
         """
@@ -84,7 +84,7 @@ class TwistPath:
 
     @property
     def torque(self) -> float:
-        """Return the torque M on the indenter at the end of the history of torsion [force length].
+        """Torque M on the indenter at the end of the history of torsion [force length].
 
         The torque is the sum of the changes between load reversals.
         """
@@ -92,7 +92,7 @@ class TwistPath:
 
     @property
     def stick(self) -> float:
-        """Return the stick radius of the current branch of the twist, over the contact radius.
+        """Stick radius of the current branch of the twist, over the contact radius.
 
         The stick radius is 1 (full stick) before the first twist and at a load reversal. 0 is gross
         slip.
