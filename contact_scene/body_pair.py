@@ -1,5 +1,4 @@
-"""Elastic properties of the two bodies in contact: coupling, contact modulus, contrast of
-materials."""
+"""Elastic properties of the two bodies: coupling, contact modulus, contrast of materials."""
 
 from contact_scene.body import Body
 from contact_scene.material import IsotropicMaterial, Material

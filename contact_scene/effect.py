@@ -1,5 +1,4 @@
-"""Physical effects that a scene may contain, such as layers and friction, with reasons for the
-user.
+"""Physical effects of a scene, such as layers and friction, with reasons for the user.
 
 The plan of each solver lists these effects, whether they act in the scene or not.
 """

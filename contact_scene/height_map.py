@@ -1,5 +1,4 @@
-"""Interpolation of maps: cubic convolution of heights, bilinear interpolation of friction
-coefficients."""
+"""Interpolation of maps: heights by cubic convolution, friction coefficients bilinearly."""
 
 from functools import reduce
 from typing import Annotated, Any

@@ -1,5 +1,4 @@
-"""Load stepping of the semi-analytical solver: solve increments, add energies, correct the
-edges."""
+"""Load stepping of the semi-analytical solver: increments, energies, edge correction."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace

@@ -1,5 +1,4 @@
-"""Discrete contact model: gap, friction limit and operators of a scene on a grid, and coarser
-models."""
+"""Discrete contact model: gap, friction limit and operators on a grid; coarser models."""
 
 from functools import cached_property
 

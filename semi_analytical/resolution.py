@@ -1,5 +1,4 @@
-"""Resolution of a result: sizes of contact, stick zone, layers and surface waves in numbers of
-cells.
+"""Resolution of a result: contact, stick zone, layers and surface waves in cells.
 
 Residuals do not measure resolution: a contact of one cell fulfils the equations of the grid.
 """

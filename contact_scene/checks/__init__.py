@@ -1,2 +1,1 @@
-"""Checks of a scene: contradictions between tables, implausible numbers, limits of linear
-theory."""
+"""Checks of a scene: contradictions, implausible numbers, limits of linear theory."""

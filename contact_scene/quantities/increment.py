@@ -1,5 +1,4 @@
-"""Scalars of an increment, such as forces, areas and energies, with unit and meaning, for all
-solvers.
+"""Scalars of an increment for all solvers: forces, areas, energies, with unit and meaning.
 
 A scalar is None if the solver does not compute it or its effect is off. This module alone lists the
 scalars; solvers pass their values where they create an increment.

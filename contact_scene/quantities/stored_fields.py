@@ -1,5 +1,4 @@
-"""Storage of the results of a long load history in a temporary file, from which they are read on
-access.
+"""Storage of the results of a long load history in a temporary file, read on access.
 
 The file has no name: the operating system deletes the file with the last value that refers to it.
 """

@@ -1,5 +1,4 @@
-"""Conversion of pydantic's validation errors into problems of a scene, by the keys of the scene
-file."""
+"""Conversion of pydantic's validation errors into problems of a scene, by its keys."""
 
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches

@@ -1,5 +1,4 @@
-"""Load history of a scene, resolved into load ramps: linear changes of all controls in each load
-step."""
+"""Load history of a scene as load ramps: linear changes of all controls in each load step."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

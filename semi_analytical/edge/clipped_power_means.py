@@ -1,5 +1,4 @@
-"""Cell means of a power of the positive part of a linear function, and the inverse of this
-relation.
+"""Cell means of a power of the positive part of a linear function, and their inverse.
 
 The mean of (f + f_x x + f_y y)_+^a over the unit cell is the second difference of F(s) =
 s_+^(a+2)/((a+1)(a+2) b c) over the corners f ± b/2 ± c/2, with b = |f_x|, c = |f_y|. The edge
@@ -54,8 +53,7 @@ def mean_power(f: Field, f_x: Field, f_y: Field, exponent: Exponent) -> Field:
 
 
 def power(base: Field, exponent: Exponent) -> Field:
-    """Compute base^exponent element by element, by square roots if the exponent is a multiple of
-    1/2.
+    """Compute base^exponent element by element, by square roots for multiples of 1/2.
 
     Square roots and products are faster than a general power.
     """

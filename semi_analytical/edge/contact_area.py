@@ -21,8 +21,7 @@ LEAST_FALL = 0.9
 
 
 def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -> float:
-    """Compute the area of a contact or stick zone in cells, with covered fractions of its edge
-    cells.
+    """Compute the area of a contact or stick zone in cells, with fractions of its edge cells.
 
     The fractions come from local fits to the squared values. An edge cell counts as 1 or 0 by its
     centre where the region is too thin for a fit, or where the values do not fall towards the edge
@@ -89,8 +88,7 @@ def _box_with_edge(marked: Mask) -> tuple[slice, ...]:
 
 
 def near(marked: Mask) -> Mask:
-    """Return a mask of the cells that belong to a set or touch a cell of the set at a side or a
-    corner.
+    """Return a mask of the cells of a set and of all cells that touch them, also at a corner.
 
     The mask has the shape (nx - 2, ny - 2): it omits the outermost layer of cells of the input.
 

@@ -1,5 +1,4 @@
-"""Results of the edge correction of a contact state: corrected pressure and shear, and their
-errors."""
+"""Results of the edge correction of a contact state: pressure, shear and their errors."""
 
 from dataclasses import dataclass
 
@@ -40,8 +39,7 @@ class CorrectedShear:
 
 @dataclass(frozen=True)
 class EdgeReport:
-    """Outcome of the edge correction of a contact state: cause of a failure, or errors of the
-    iteration.
+    """Outcome of the edge correction of a state: cause of a failure, or errors of the iteration.
 
     All errors are relative and are caused by the finite number of iterations.
 

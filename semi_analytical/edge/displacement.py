@@ -31,8 +31,7 @@ LINEAR = np.stack([np.ones(PARTS**2), X, Y], axis=-1)
 
 @dataclass(frozen=True)
 class Within:
-    """Variation of one traction component about its cell means: slopes, and a remainder in edge
-    cells.
+    """Variation of one traction component within cells: slopes, and remainders in edge cells.
 
     The component is the pressure or one component of the shear. Edge cells are the cells along the
     edge of the contact or stick zone, with PARTS x PARTS subcells.
@@ -75,8 +74,7 @@ class Within:
         return cls(slopes, i, j, rest.reshape(parts.shape))
 
     def along(self, n: Field, component: Field) -> Within:
-        """Return the variation within cells of one component of the shear, from that of its
-        magnitude.
+        """Return the variation of one shear component within cells, from that of the magnitude.
 
         The present object is the variation of the magnitude, the friction limit. The direction of
         the shear is smooth. In edge cells the result is n times the present variation; in other
@@ -100,8 +98,7 @@ class Within:
         return cls(np.zeros((2, *cells)), none, none, np.zeros((0, PARTS, PARTS)))
 
     def extend_to_window(self, domain: ReducedDomain) -> Within:
-        """Extend the variation of a traction within cells from the reduced domain to the full
-        window.
+        """Extend the variation within cells from the reduced domain to the full window.
 
         The traction is even about the mirror planes, as a pressure.
 
@@ -119,8 +116,7 @@ class Within:
 
     @classmethod
     def combine(cls, slopes: Field, terms: Sequence[tuple[Field, Within]]) -> Within:
-        """Return a variation within cells with given slopes and a weighted sum of several
-        remainders.
+        """Return a variation within cells with given slopes and a weighted sum of remainders.
 
         Used for the shear, which combines the friction limit in the slip zone with the shear of
         preceding increments in the stick zone. Remainders of the same cell are added, so that the
@@ -141,8 +137,7 @@ class Within:
 
 
 class EdgeOperator:
-    """Operator from variations of tractions within cells to surface displacements at the cell
-    centres.
+    """Operator from variations of tractions within cells to displacements at the cell centres.
 
     The edge correction applies this operator in each iteration. One application costs half a
     convolution per displacement component and one per traction component.
@@ -193,8 +188,7 @@ class EdgeOperator:
         ]
 
     def __call__(self, *within: Within) -> Field:
-        """Compute the surface displacements [length] that the variations of tractions within cells
-        cause.
+        """Compute the surface displacements [length] by variations of tractions within cells.
 
         The result (components, nx, ny) is at the cell centres. Cell means of the tractions do not
         contribute.

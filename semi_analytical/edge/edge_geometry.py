@@ -1,5 +1,4 @@
-"""Contact edge as a set of points with normals and curvatures, and distances of other points from
-it.
+"""Contact edge as points with normals and curvatures, and distances of other points from it.
 
 The edge pressure law of layered bodies needs the distance of each cell from the edge.
 """
@@ -24,8 +23,7 @@ MIN_SLOPE_RATIO, MIN_JACOBIAN = 0.1, 0.3
 
 @dataclass(frozen=True)
 class LocalEdge:
-    """Distance from the contact edge and geometry of the edge near given points, all arrays of one
-    shape.
+    """Distance from the contact edge and geometry of the edge near points, arrays of one shape.
 
     φ = p^(1/α) is a smooth function that vanishes at the edge, with the pressure p ~ s^α at the
     distance s from the edge.
@@ -109,8 +107,7 @@ class EdgeLine:
         )
 
     def use_median_curvature(self) -> EdgeLine:
-        """Replace the curvature and the ratio bend/slope of each edge point by their medians over
-        the edge.
+        """Replace the curvature and the ratio bend/slope of the edge points by their medians.
 
         Used for the first approximations of the edge, whose second derivatives are not yet
         reliable.
@@ -120,8 +117,7 @@ class EdgeLine:
         return replace(self, bend=bend, curvature=curvature)
 
     def append_images(self, domain: ReducedDomain) -> EdgeLine:
-        """Append the mirror images of the edge points beyond the symmetry planes of a reduced
-        domain.
+        """Append the mirror images of the edge points beyond the planes of a reduced domain.
 
         domain  reduced domain; without mirror planes the edge is returned unchanged
         """
@@ -147,8 +143,7 @@ class EdgeLine:
         return replace(self, at=at, x=places[0], y=places[1], normal=normal)
 
     def geometry_at_cells(self, i: Indices, j: Indices) -> LocalEdge:
-        """Compute the distance of cell centres from the contact edge, and the geometry of the edge
-        near them.
+        """Compute the distance of cell centres from the edge, and the edge geometry near them.
 
         The results are weighted means over the values of the NEIGHBOURS nearest edge points.
 
@@ -170,8 +165,7 @@ class EdgeLine:
     def geometry_at_places(
         self, which: Indices | slice, x: Field | Indices, y: Field | Indices
     ) -> LocalEdge:
-        """Compute the distance of points from the contact edge, and the geometry of the edge near
-        them.
+        """Compute the distance of points from the edge, and the edge geometry near them.
 
         Each point uses one edge point, near which the edge is a circular arc. Distances are of
         first order in the curvature of the arc.

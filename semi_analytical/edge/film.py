@@ -124,8 +124,7 @@ class FilmLaw:
     def means_over_root(
         self, s: Field, along: Field, across: Field, c: Field
     ) -> tuple[Field, Field]:
-        """Compute the ratio of the mean of the edge pressure law to the mean of √s over n
-        rectangles.
+        """Compute the mean of the edge pressure law over that of √s, on each of n rectangles.
 
         The rectangles are cells or subcells. The second result is the derivative d ln(ratio) / d
         ln(mean of √s), which Newton's method for the edge requires. For rectangles outside the

@@ -65,8 +65,7 @@ class EdgeKernels:
 
     @cached_property
     def moments(self) -> Field:
-        """Surface displacement by linear tractions on the cell at the origin (2, nx, ny)
-        [length^3/force].
+        """Displacement by linear tractions on the cell at the origin (2, nx, ny) [length^3/force].
 
         The tractions are x (first row) and y (second row), in cells from the cell centre. Entry (i,
         j) is the displacement at the centre of the cell with the offset i, j >= 0.
@@ -81,8 +80,7 @@ class EdgeKernels:
 
     @cached_property
     def near_moments(self) -> Field:
-        """Surface displacement by linear tractions on the cell at the origin, at the centres of
-        near cells.
+        """Displacement at near cell centres by linear tractions on the cell at the origin.
 
         The shape is (2, NEAR + 1, NEAR + 1), for the tractions x and y and offsets from 0 to NEAR
         cells along each axis. The displacements are sums over the subcells of the loaded cell
@@ -97,8 +95,7 @@ class EdgeKernels:
 
     @cached_property
     def near(self) -> Field:
-        """Surface displacement at near cell centres by a unit traction on one subcell
-        [length^3/force].
+        """Displacement at near cell centres by unit traction on one subcell [length^3/force].
 
         The shape is (2 REACH + 1, 2 REACH + 1, PARTS, PARTS). The first two axes are the offsets
         -REACH … REACH of the displaced cell. The last two axes are the loaded subcell of the cell

@@ -94,8 +94,7 @@ class Quadratic:
         )
 
     def cell_mean(self, exponent: float | Field) -> Field:
-        """Compute the mean of φ_+^exponent over the unit cell about the expansion point of each
-        quadratic φ.
+        """Compute the mean of φ_+^exponent over the unit cell about each expansion point.
 
         Negative φ counts as zero. φ is taken as linear over the cell, with its mean and its slopes
         at the centre. The exponent 0 yields the fraction of the cell with positive φ.
@@ -106,8 +105,7 @@ class Quadratic:
 
     @property
     def cut(self) -> Mask:
-        """True if the zero line of a quadratic function cuts the unit cell about its expansion
-        point.
+        """True if the line φ = 0 of a quadratic cuts the unit cell about its expansion point.
 
         The function is taken as linear over the cell. With φ = p^(1/α) of the pressure p the zero
         line is the contact edge.

@@ -150,8 +150,7 @@ class SubcellTractions:
 
     @cached_property
     def means(self) -> Field:
-        """Mean of the traction over each cell along the edge, from its subcells (nx, ny)
-        [force/length^2].
+        """Mean of the traction over each cell along the edge (nx, ny) [force/length^2].
 
         The means of the other cells are zero.
         """

@@ -63,8 +63,7 @@ class NotFitted(Exception):
 def edge_pressure(
     operators: EdgeOperators, state: State, shear: FollowingShear | None, *, coupled: bool
 ) -> Corrected:
-    """Correct the pressure of a solved state for a contact edge that cuts cells, by deferred
-    correction.
+    """Correct the pressure of a state for an edge that cuts cells, by deferred correction.
 
     operators  surface displacements by tractions that vary within cells
     state      solved state with uniform pressure in each cell, on the full window for coupled
@@ -267,8 +266,7 @@ class _Problem:
         return approach if self.state.target.approach is None else float(np.sum(p))
 
     def solve(self, p: Field, edge: SubcellTractions) -> _NormalResult:
-        """Solve the normal problem for a fixed contact edge that cuts cells, by conjugate
-        gradients.
+        """Solve the normal problem for a fixed contact edge, by conjugate gradients.
 
         The problem is linear, because the edge determines the cells in contact. Partly covered
         cells whose centre lies outside the edge have the fitted pressure. The cells in contact

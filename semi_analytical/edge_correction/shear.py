@@ -100,8 +100,7 @@ def sliding_shear(
 
 @dataclass(frozen=True)
 class ShearProblem:
-    """Tangential problem of one increment of uncoupled bodies at the pressure of the edge
-    correction.
+    """Tangential problem of an increment of uncoupled bodies at the edge-corrected pressure.
 
     The previous state is the corrected state from which the shear and the stick border of this
     increment follow. All fields are on the full window.
@@ -128,8 +127,7 @@ class ShearProblem:
     tolerance: float
 
     def gross_slip_shear(self, bound: Field, slip: VectorField, before: VectorField) -> VectorField:
-        """Return the shear (2, nx, ny) that gross slip would cause at the pressure of the edge
-        correction.
+        """Return the shear (2, nx, ny) in gross slip at the edge-corrected pressure.
 
         The shear is µp n, or q' + µp (n - n') after a load reversal from the shear q' with the
         direction of slip n'.
@@ -149,8 +147,7 @@ class ShearProblem:
         stick: Mask,
         edge: SubcellTractions | None,
     ) -> Deficit | None:
-        """Compute the shear deficit (shear of gross slip minus actual shear) and fit it at the
-        stick border.
+        """Compute the shear deficit (gross slip minus actual shear), fitted at the stick border.
 
         None is returned if no stick border can be fitted. The direction of slip in the stick zone
         is that of adjacent slipping cells, and their mean far from them.
@@ -210,8 +207,7 @@ class ShearProblem:
     def solve(
         self, q: VectorField, motion: Field, deficit: Deficit, u: VectorField
     ) -> TangentialSolution:
-        """Solve the tangential problem for a given displacement by the shear variation within
-        cells.
+        """Solve the tangential problem for a given displacement by shear variation within cells.
 
         The solution is computed on the reduced domain and extended to the full window. In cells
         that the stick border cuts and whose centre slips, the fitted deficit lowers the friction
@@ -251,8 +247,7 @@ class ShearProblem:
 def edge_shear(
     problem: ShearProblem, solved: TangentialState, before: VectorField
 ) -> CorrectedShear | None:
-    """Correct the shear of a solved state for a stick border that cuts cells, by fixed-point
-    iteration.
+    """Correct the shear of a state for a stick border that cuts cells, by fixed-point iteration.
 
     None is returned if the stick border cannot be fitted or the iteration does not converge.
 

@@ -1,5 +1,4 @@
-"""Shear as a function of the pressure, and the exponent of both tractions at a slipping contact
-edge.
+"""Shear as a function of the pressure, and exponent of both tractions at a slipping edge.
 
 The shear is q = µp n - d with the pressure p, the coefficient of friction µ, the direction of slip
 n and the deficit d from gross slip. The edge correction changes p only. The deficit d is that of
@@ -69,8 +68,7 @@ def direction_of_slip(q: VectorField, slips: Mask) -> VectorField:
 
 @dataclass(frozen=True)
 class FollowingShear:
-    """Shear of a solved state as a function of the pressure, for the edge correction of the
-    pressure.
+    """Shear of a solved state as a function of the pressure, for the edge correction.
 
     All fields are on the full window.
 
@@ -123,8 +121,7 @@ class FollowingShear:
         return np.asarray(q * np.where(size > limit, limit / np.where(size > 0, size, 1.0), 1.0))
 
     def exponent(self, contact: Mask, beta: float) -> Field:
-        """Compute the exponent α of pressure and shear at the contact edge nearest to each cell
-        (nx, ny).
+        """Compute the exponent α of the tractions at the edge nearest to each cell (nx, ny).
 
         Both tractions fall like s^α at the distance s from an edge at which coupled bodies slip.
 

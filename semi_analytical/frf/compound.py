@@ -19,8 +19,7 @@ OPAQUE = 1e4
 
 
 class Waves(NamedTuple):
-    """Hyperbolic functions of x in one layer, all multiplied by one scale, for the compound
-    recursion.
+    """Hyperbolic functions of x in a layer, multiplied by one scale, for the compound recursion.
 
     x is the wavenumber times the thickness of the layer. With the scale exp(-2x) the functions are
     bounded for every x. The names of the fields are the functions; `one` is the scale and `xx` is
@@ -73,8 +72,7 @@ def _thin_series(x: Array) -> tuple[Array, Array]:
 
 
 def echo_waves(x: Array) -> Waves:
-    """Compute the hyperbolic functions of a layer without their limit for an infinitely thick
-    layer.
+    """Compute the hyperbolic functions of a layer minus their limits for a thick layer.
 
     These limits, such as exp(2x)/4 of sinh^2 x, cancel in the difference between the compliance of
     a layered body and that of a half-space of its outermost material. The functions have the scale

@@ -50,8 +50,7 @@ class DepthScalars(NamedTuple):
 
 
 class PlaneScalars(NamedTuple):
-    """Stresses in a horizontal plane at one depth, per unit surface traction, as Fourier
-    amplitudes.
+    """Fourier amplitudes of the stresses in a horizontal plane, per unit surface traction.
 
     The axes are s along the wave vector and t across it. The surface tractions are Q along the wave
     vector, t_t across it, and the pressure p.
@@ -184,8 +183,7 @@ def material_at(stack: Stack, level: Level) -> HalfSpace:
 
 
 def in_plane_stresses(fields: DepthScalars, material: HalfSpace, alpha: Array) -> PlaneScalars:
-    """Compute the stresses in a horizontal plane at one depth by Hooke's law, as Fourier
-    amplitudes.
+    """Compute the stresses in a horizontal plane by Hooke's law, as Fourier amplitudes.
 
     Poisson's ratio may be 1/2.
 

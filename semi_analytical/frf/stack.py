@@ -38,8 +38,7 @@ class Film(NamedTuple):
 
 @dataclass(frozen=True)
 class Stack:
-    """Layered body: layers, outermost first, bonded to each other and to a half-space or a rigid
-    base.
+    """Layered body: bonded layers, outermost first, on a half-space or a rigid base.
 
     Plain tuples are accepted. A rigid base without layers is a rigid body.
 

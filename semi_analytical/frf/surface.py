@@ -67,8 +67,7 @@ def half_space_scalars(material: HalfSpace, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
-    """Compute the surface compliance of layers on a half-space or a rigid base at given
-    wavenumbers.
+    """Compute the surface compliance of layers on a half-space or rigid base by wavenumber.
 
     The compound recursion is used. The error is a few units in the last place, for c12 relative to
     sqrt(c11 c22).
@@ -93,8 +92,7 @@ def scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
 
 
 def remainder_scalars(stack: Stack, alpha: ArrayLike) -> SurfaceScalars:
-    """Compute the surface compliance of a body minus that of a half-space of its outermost
-    material.
+    """Compute the surface compliance minus that of a half-space of the outermost material.
 
     The differences vanish as exp(-2 alpha h), with the thickness h of the outermost layer, and are
     computed with full relative accuracy. They are exactly zero without layers.
@@ -186,8 +184,7 @@ def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
 
 
 def compliance_above(below: Compliance, nu: float, x: Array) -> Compliance:
-    """Compute the compliance below a horizontal plane from that below a deeper plane, in one
-    material.
+    """Compute the compliance below a plane from that below a deeper plane in one material.
 
     below  compliance of the material below the deeper plane
     nu     Poisson's ratio of the material between the planes

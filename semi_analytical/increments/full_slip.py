@@ -1,5 +1,4 @@
-"""Tangential states without a solve: force control at the friction limit, contacts without
-friction."""
+"""Tangential states without a solve: at the friction limit under force, or frictionless."""
 
 from dataclasses import replace
 

@@ -1,5 +1,4 @@
-"""Solution of the normal problem of a contact model: nested grids, then a box around the
-contact."""
+"""Solution of the normal problem: nested grids, then a box of cells around the contact."""
 
 from dataclasses import dataclass
 
@@ -58,8 +57,7 @@ class NormalState:
     tilt: Pair | None = None
 
     def closure(self, model: ContactModel) -> float | Field:
-        """Compute the reduction of the undeformed gap by approach and tilt of the indenter
-        [length].
+        """Compute the reduction of the gap by approach and tilt of the indenter [length].
 
         The gap is undeformed gap plus displacement minus this reduction. The result is a number, or
         a field (nx, ny) with tilt.

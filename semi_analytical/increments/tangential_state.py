@@ -1,5 +1,4 @@
-"""Tangential part of a converged state, and the displacement that stick requires in the next
-increment."""
+"""Tangential part of a converged state, and the displacement that stick requires."""
 
 from dataclasses import dataclass
 

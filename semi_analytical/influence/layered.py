@@ -107,8 +107,7 @@ class LayeredCoefficients:
 
 @cache
 def sources_digest(package: Path = PACKAGE) -> str:
-    """Compute a digest of the source files of the influence coefficients, for the key of their
-    cache.
+    """Compute a digest of the source files of the influence coefficients, for cache keys.
 
     The digest includes the versions of the libraries. Coefficients of other sources are not reused.
 

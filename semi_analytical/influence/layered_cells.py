@@ -45,8 +45,7 @@ def cell_integrals(
     shape: tuple[int, int],
     clearance: float = 0.0,
 ) -> Field:
-    """Integrate the response of a layered body to a point force over cells at offsets i < nx, j <
-    ny.
+    """Integrate a layered point-force response over cells at offsets i < nx, j < ny.
 
     The result has the shape (components, nx, ny). Without a clearance the integral over the cell at
     the origin, which contains the singularity, is not computed.

@@ -25,8 +25,7 @@ from semi_analytical.influence.radial_table import RadialTable, tabulate
 
 
 def remainder_table(stack: Stack, reach: float) -> RadialTable:
-    """Compute a table of the surface displacement under a point force that layers add to a
-    half-space.
+    """Tabulate the displacement under a point force that layers add to a half-space.
 
     The table holds four functions of the distance from the force: zz (normal displacement by a
     normal force), mean and twist (tangential by tangential), cross (normal by tangential). Their
@@ -64,8 +63,7 @@ def half_space_response(material: HalfSpace) -> Array:
 def point_response(
     component: str, remainder: RadialTable, half_space: Array, x: Field, y: Field
 ) -> Field:
-    """Compute one component of the surface displacement at points (x, y) by a unit force at the
-    origin.
+    """Compute one component of the displacement at (x, y) by a unit force at the origin.
 
     The result has the shape (1, *x.shape) and the dimension [length/force]. At the origin the
     displacement of the half-space is not defined; a finite number is returned.

@@ -59,8 +59,7 @@ class RadialTable:
 
 
 def tabulate(transforms: Transforms, clearance: float, reach: float) -> tuple[Array, Array]:
-    """Compute the table of functions of the distance from a point force, given as Hankel
-    transforms.
+    """Tabulate functions of the distance from a point force, given as Hankel transforms.
 
     Return the panel bounds (panels + 1,) and the Chebyshev coefficients (..., panels, NODES,
     functions).

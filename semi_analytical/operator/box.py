@@ -60,8 +60,7 @@ class Box:
 
 
 def box_around(cells: Mask, margin: int, domain: ReducedDomain = WINDOW) -> Box:
-    """Return the smallest box that contains given cells and a margin, with sides in multiples of
-    16.
+    """Return the smallest box around cells with a margin, with sides in multiples of QUANTUM.
 
     Convolutions are restricted to this box. A side that does not fit becomes the side of the
     window. On a reduced domain the box surrounds the cells and their mirror images and is then

@@ -66,8 +66,7 @@ class ReducedDomain:
 
     @property
     def vector(self) -> tuple[Parity, Parity]:
-        """Parities of the x and the y component of tangential fields about the planes x = 0 and y =
-        0.
+        """Parities of the x and y components of tangential fields about x = 0 and y = 0.
 
         1 is even, -1 is odd, 0 means that the plane is not a mirror plane.
         """
@@ -134,8 +133,7 @@ class ReducedDomain:
         )
 
     def extend_fields(self, record: Record) -> Record:
-        """Return a copy of a dataclass whose fields are extended from the reduced domain to the
-        window.
+        """Return a copy of a dataclass with its fields extended to the full window.
 
         Arrays of two axes are scalar fields, arrays of three axes tangential fields. Other
         attributes do not change.
@@ -168,8 +166,7 @@ class ReducedDomain:
         return np.concatenate([values[rows].ravel(), values[:, columns].ravel()])
 
     def add_frame(self, field: AnyField, width: int) -> AnyField:
-        """Add a frame of cells around a scalar field: mirror images beyond mirror planes, else
-        zeros.
+        """Add a frame of cells around a field: mirror images beyond mirror planes, else zeros.
 
         field  scalar field (nx, ny)
         width  number of cells of the frame on each side

@@ -27,8 +27,7 @@ BINS = "".join(str(number) for number in range(len(COMPLIANCES)))
 
 
 def response(transforms: Transforms, pair: str, spectrum: KernelSpectrum) -> Response:
-    """Compute the real factors from the amplitudes of a traction component to those of a
-    displacement.
+    """Compute the real factors from traction amplitudes to displacement amplitudes.
 
     Fields are represented by Fourier, cosine or sine amplitudes. The factors follow from the
     spectrum of the influence coefficients.
@@ -151,24 +150,21 @@ class DisplacementOperator:
         self._products: dict[tuple[str, str], Product] = {}
 
     def normal(self, pressure: Field) -> Field:
-        """Compute the normal surface displacement u_z of each cell caused by a pressure (nx, ny)
-        [length].
+        """Compute the normal displacement u_z (nx, ny) by a pressure (nx, ny) [length].
 
         pressure  pressure of the cells (nx, ny) [force/length^2]
         """
         return self._apply_product("z", "z", pressure[None])[0]
 
     def tangential(self, shear: Field) -> Field:
-        """Compute the tangential surface displacement of each cell caused by a shear (2, nx, ny)
-        [length].
+        """Compute the tangential displacement (2, nx, ny) by a shear (2, nx, ny) [length].
 
         shear  shear of the cells (2, nx, ny) [force/length^2]
         """
         return self._apply_product("xy", "xy", shear)
 
     def normal_by_shear(self, shear: Field) -> Field:
-        """Compute the normal surface displacement u_z of each cell caused by a shear (nx, ny)
-        [length].
+        """Compute the normal displacement u_z (nx, ny) by a shear (2, nx, ny) [length].
 
         The displacement is zero for two identical bodies.
 
@@ -177,8 +173,7 @@ class DisplacementOperator:
         return self._apply_product("xy", "z", shear)[0]
 
     def tangential_by_pressure(self, pressure: Field) -> Field:
-        """Compute the tangential surface displacement of each cell caused by a pressure (2, nx, ny)
-        [length].
+        """Compute the tangential displacement (2, nx, ny) by a pressure [length].
 
         The displacement is zero for two identical bodies.
 
@@ -187,8 +182,7 @@ class DisplacementOperator:
         return self._apply_product("z", "xy", pressure[None])
 
     def together(self, tractions: Field) -> Field:
-        """Compute all three surface displacements of each cell caused by all tractions (3, nx, ny)
-        [length].
+        """Compute all surface displacements (3, nx, ny) by all tractions (3, nx, ny) [length].
 
         The displacements are (u_x, u_y, u_z). The cost is that of six transforms.
 
@@ -344,8 +338,7 @@ class ApproximateInverse:
 
 
 def positive_inverse(spectrum: Field) -> Field:
-    """Compute 1/|S| of a Fourier spectrum S, with a lower bound on |S| that keeps the result
-    finite.
+    """Compute 1/|S| of a Fourier spectrum S, finite by a lower bound on |S|.
 
     Used for preconditioners: conjugate gradients require a positive matrix. Values of S can be
     negative for films much stiffer than their base, because the displacements reach beyond the

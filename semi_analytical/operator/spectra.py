@@ -1,5 +1,4 @@
-"""Fourier spectra of influence coefficients on a zero-padded grid, for the convolution of
-tractions.
+"""Fourier spectra of influence coefficients on a zero-padded grid, for convolutions.
 
 The coefficients are even or odd along each axis. Their transforms are therefore real or imaginary,
 and even or odd. One quarter of a real array represents each transform.
@@ -38,8 +37,7 @@ class KernelSpectrum:
 def kernel_spectrum(
     values: Field, parity: tuple[int, int], reach: tuple[slice, slice]
 ) -> KernelSpectrum:
-    """Compute the real Fourier spectrum S of influence coefficients that are even or odd along each
-    axis.
+    """Compute the real spectrum S of influence coefficients, even or odd along each axis.
 
     The Fourier spectrum is S if both parities are equal, else -i S. The convolution does not use
     the last offset; its true value makes the periodic continuation of even kernels continuous, and

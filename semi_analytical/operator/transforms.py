@@ -226,8 +226,7 @@ class Transforms:
 
     @property
     def reach(self) -> tuple[slice, slice]:
-        """Slices of the cell offsets along x and y whose influence coefficients a convolution
-        needs."""
+        """Slices of the cell offsets along x and y whose coefficients a convolution needs."""
         m_x, m_y = self.half_period
         return slice(m_x + 1), slice(m_y + 1)
 
@@ -308,8 +307,7 @@ class Transforms:
     def filter_fields(
         self, values: Array, inputs: Sequence[Sides], outputs: Sequence[Sides], multiply: Multiply
     ) -> Array:
-        """Apply a filter to fields: transform them, multiply the amplitudes, and transform the
-        products back.
+        """Transform fields, multiply their amplitudes by a filter, and transform them back.
 
         With the spectra of influence coefficients as factors, the filter is a convolution.
 

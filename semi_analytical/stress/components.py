@@ -17,8 +17,7 @@ PRESSURE = TRACTIONS[2:]
 
 
 def acting(sheared: bool) -> tuple[str, ...]:
-    """Return the names of the traction components that act: "z" for pressure alone, or all of
-    `TRACTIONS`.
+    """Return the names of the acting traction components: "z" for pressure, or `TRACTIONS`.
 
     The names select the responses that are computed.
 
@@ -43,8 +42,7 @@ def parity(field: str, traction: str) -> tuple[int, int]:
 def each_response(
     coefficients: NDArray[np.float64],
 ) -> Iterator[tuple[NDArray[np.float64], tuple[int, int]]]:
-    """Iterate over the response of each displacement or stress component to each traction
-    component.
+    """Iterate over the responses of displacement and stress components to tractions.
 
     Each response (nx, ny) is yielded with its parity along x and y: 1 even, -1 odd.
 

@@ -27,8 +27,7 @@ ROUND_OFF = 1e-14  # between mirror images, relative to the largest traction
 
 
 def offsets_between(tractions: Field, rows: Indices) -> tuple[int, int]:
-    """Return the number of cell offsets along x and y at which displacement and stress are
-    required.
+    """Return the number of cell offsets along x and y at which fields are required.
 
     These are the offsets, from 0, between loaded cells and the cells of some rows. Response
     coefficients are computed at these offsets.
@@ -107,8 +106,7 @@ class _AxisTransform:
         return sums[:, :-1]
 
     def factor(self, odd_response: bool, odd_traction: bool) -> complex:
-        """Return the phase factor in the product of the amplitudes of a traction and a response
-        coefficient.
+        """Return the phase factor of a traction amplitude times a response coefficient.
 
         Response coefficients are represented by sums of cosines (even) or sines (odd) along the
         axis.

@@ -1,5 +1,4 @@
-"""Depths of displacements and stresses below the surface, and the layer to which each depth
-belongs."""
+"""Depths of displacements and stresses, and the layer to which each depth belongs."""
 
 from collections.abc import Sequence
 

@@ -1,5 +1,4 @@
-"""Surface stress by tractions that fall like a square root at the contact edge, integrated along
-rays.
+"""Surface stress by root-like tractions at the contact edge, integrated along rays.
 
 The observer is the point at which the stress is computed. Near the observer φ = p², with the
 pressure p, is a quadratic. Along a ray of direction e at the distance r, φ is Q = f + b r + c r²,
@@ -25,8 +24,7 @@ STRAIGHT = 1e-9
 
 
 def stress_by_root(phi: Quadratic, box: Field, slip: Field, nu: float) -> Field:
-    """Compute the surface stress (6, n) at n points by root-like tractions in a box about each
-    point.
+    """Compute the surface stress (6, n) at points by root-like tractions in boxes about them.
 
     The tractions are the pressure p = √φ, zero where φ is negative, and the shear q = slip p. The
     sides of the box are parallel to x and y.

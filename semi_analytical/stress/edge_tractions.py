@@ -27,8 +27,7 @@ UNSURE, STUCK = 0.05, 1e-8
 
 @dataclass(frozen=True)
 class EdgedTractions:
-    """Tractions (q_x, q_y, p) of a contact with their variation within the cells at the contact
-    edge.
+    """Tractions (q_x, q_y, p) of a contact with their variation within the edge cells.
 
     The pressure near the edge is √φ with a fitted function φ.
 
@@ -53,8 +52,7 @@ class EdgedTractions:
     slip: Field
 
     def slip_at(self, x: Field, y: Field) -> Field:
-        """Compute the ratio of shear to pressure (2, n) at points near the contact edge, by linear
-        fits.
+        """Compute shear over pressure (2, n) at points near the contact edge, by linear fits.
 
         x, y  points as cell indices (n,)
         """

@@ -39,8 +39,7 @@ FIXED = 100 << 20
 
 @dataclass(frozen=True)
 class SubsurfaceField:
-    """Displacement and stress in one body below the cell centres of a surface grid, at several
-    levels.
+    """Displacement and stress in one body below the cell centres of a grid, at several levels.
 
     A level is a depth in one layer. Each side of an interface is a separate level. z points into
     the body.
@@ -92,8 +91,7 @@ class SubsurfaceField:
         )
 
     def below(self, x: float = 0.0, y: float = 0.0) -> tuple[Field, Field]:
-        """Interpolate displacement (nz, 3) and stress (nz, 6) to the vertical line below one
-        surface point.
+        """Interpolate displacement (nz, 3) and stress (nz, 6) to the vertical line below a point.
 
         Cubic interpolation between cell centres is used. The rows are the levels.
 

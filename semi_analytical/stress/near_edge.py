@@ -154,8 +154,7 @@ class NearEdge:
         return replace(field, stress=stress)
 
     def reaches(self, level: Level) -> bool:
-        """Return True if the stress at a depth is corrected for the variation of tractions at the
-        contact edge.
+        """Return True if the stress at a depth includes the variation at the contact edge.
 
         The depth must be in the outermost layer and near the surface.
 
@@ -165,8 +164,7 @@ class NearEdge:
 
 
 def near_surface(depth: float, spacing: tuple[float, float]) -> bool:
-    """Return True if the stress at a depth is corrected for the variation of tractions in edge
-    cells.
+    """Return True if the stress at a depth includes the variation within edge cells.
 
     The surface is corrected. Other depths are not corrected if they are too deep for an effect, or
     so close to the surface that the subcells are too coarse.
@@ -186,8 +184,7 @@ def near_edge(
     *,
     corrected: bool = False,
 ) -> NearEdge:
-    """Fit the pressure at the edge of a smooth contact, for the surface stress at and near the
-    edge.
+    """Fit the pressure at the edge of a smooth contact, for the surface stress near it.
 
     The pressure must fall like a square root towards the edge. Raises EdgeNotSeen, and the errors
     of `subsurface`.

@@ -26,8 +26,7 @@ def stress_from_beyond(
     material: HalfSpace,
     spacing: tuple[float, float],
 ) -> Field:
-    """Compute the surface stress (6, n) at n points by the cells outside a square patch about each
-    point.
+    """Compute the surface stress (6, n) at points by cells outside a patch about each.
 
     The patch is centred at the nearest cell, which is at least NODES cells from the border of the
     grid.

@@ -64,8 +64,7 @@ def _known_tables(stack: Stack, reach: float, sheared: bool) -> dict[Level, Radi
 def depth_tables(
     stack: Stack, levels: tuple[Level, ...], reach: float, *, sheared: bool = True
 ) -> list[RadialTable]:
-    """Compute tables of the displacement and stress of a layered body under a point force, at some
-    depths.
+    """Tabulate displacement and stress of a layered body under a point force, by depth.
 
     Each table holds the radial functions of one depth up to a distance from the force. In the
     outermost layer the response of a half-space of its material is excluded.
@@ -161,8 +160,7 @@ def integrands(fields: DepthScalars, plane: PlaneScalars) -> Array:
 
 
 def in_scene_axes(functions: Array, cos: Array, sin: Array) -> Array:
-    """Compute displacement and stress by unit forces in the scene's axes from their radial
-    functions.
+    """Convert radial functions to displacement and stress by unit forces in scene axes.
 
     The result (9, tractions, *cos.shape) has 3 displacements and 6 stresses by each force
     component.
@@ -207,8 +205,7 @@ def layered_coefficients(
     *,
     sheared: bool,
 ) -> Iterator[Field]:
-    """Iterate over displacement and stress in a layered body by unit tractions on one cell, by
-    depth.
+    """Yield displacement and stress of a layered body by unit tractions on a cell, by depth.
 
     Displacements [length^3/force] and stresses [1] are those at all cell offsets >= 0. At a depth
     in the outermost layer, the response of a half-space of its material is excluded.

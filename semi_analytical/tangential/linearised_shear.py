@@ -1,5 +1,4 @@
-"""Tangential problem linearised in given stick and slip zones, solved by projected conjugate
-gradients.
+"""Tangential problem in given stick and slip zones, by projected conjugate gradients.
 
 Rigid motions of prescribed force are additional unknowns, and all iterates preserve these forces.
 Where all cells slip in one direction, the force along this direction cannot be preserved: the
