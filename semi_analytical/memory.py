@@ -66,10 +66,10 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
 
 
 def _domain_share(grid: SurfaceGrid, plan: Plan) -> float:
-    """Return the ratio of the cells solved for to the cells of the window.
+    """Return the ratio of the cells of the solved domain to the cells of the window.
 
-    With mirror planes only a half or a quarter of the window is solved for. The ratio is 1 without
-    mirror planes. Used to count the arrays in memory.
+    With mirror planes, the domain is a half or a quarter of the window. Without mirror planes, the
+    ratio is 1. Used to count the arrays in memory.
     """
     return 1 / plan.symmetry.images if grid.even else 1.0
 

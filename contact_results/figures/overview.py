@@ -128,7 +128,7 @@ def section_stress(result: Result) -> StressField | None:
 
 
 def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
-    """Average the tractions over blocks of cells, up to `most` cells along a side.
+    """Compute means of the tractions over blocks of cells, for up to `most` cells along a side.
 
     The averages preserve the forces. The result has more cells if the cell numbers have no common
     divisor 2, 3, 5 or 7.

@@ -88,7 +88,7 @@ def _disc_mesh(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
 
 
 def _add_zero_depth(places: Places) -> Places:
-    """Append the depth coordinate z = 0 to points on the surface.
+    """Add the depth coordinate z = 0 to points on the surface.
 
     places  coordinates x and y (n, 2) [length]
 

@@ -133,7 +133,7 @@ class StressPoints:
 
     @staticmethod
     def concatenate(parts: Sequence[StressPoints]) -> StressPoints:
-        """Concatenate several arrays of stress points along their last index.
+        """Combine several arrays of stress points along their last index.
 
         Cells between the points are omitted.
         """

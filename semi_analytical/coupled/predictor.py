@@ -61,7 +61,7 @@ class Dilation:
         return cls((x, y), factor, domain)
 
     def __call__(self, values: Field) -> Field:
-        """Dilate a field by bilinear interpolation between cell centres.
+        """Compute the dilation of a field by bilinear interpolation between cell centres.
 
         The field is constant beyond the outermost cell centres.
 
@@ -73,7 +73,7 @@ class Dilation:
         return np.stack([self._dilate_component(one, parity) for one, parity in components])
 
     def _dilate_component(self, values: Field, parity: Parity) -> Field:
-        """Dilate a scalar field or one component of a vector field (nx, ny).
+        """Compute the dilation of a scalar field or one component of a vector field (nx, ny).
 
         values  field (nx, ny)
         parity  for x and y: -1 if the field is odd about the mirror plane, 1 if even, 0 without a

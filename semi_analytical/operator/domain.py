@@ -232,7 +232,7 @@ class ReducedDomain:
 
 
 def _extend_by_parity(field: AnyField, parity: Parity) -> AnyField:
-    """Append mirror images to a field beyond the planes x = 0 and y = 0.
+    """Extend a field by its mirror images beyond the planes x = 0 and y = 0.
 
     field   field on the reduced domain (nx, ny)
     parity  sign of the mirror image about each plane; 0 without a mirror plane

@@ -64,7 +64,7 @@ def _known_tables(stack: Stack, reach: float, sheared: bool) -> dict[Level, Radi
 def depth_tables(
     stack: Stack, levels: tuple[Level, ...], reach: float, *, sheared: bool = True
 ) -> list[RadialTable]:
-    """Tabulate displacement and stress of a layered body under a point force, by depth.
+    """Compute tables of displacement and stress of a layered body under a point force.
 
     Each table holds the radial functions of one depth up to a distance from the force. In the
     outermost layer the response of a half-space of its material is excluded.

@@ -179,7 +179,7 @@ def _line_search(
     newton: Point,
     motion: Vector,
 ) -> tuple[Point, NaturalShear]:
-    """Accept the Newton step of the tangential problem, a shortened step, or a gradient step.
+    """Choose the Newton step of the tangential problem, a shortened step, or a gradient step.
 
     A step is accepted if the energy decreases sufficiently. Close to the solution changes of the
     energy are below round-off. Only there a point is also accepted if its residual of the friction
