@@ -21,5 +21,5 @@ def one_thread(*, always: bool = False) -> None:
 
 
 def is_one_thread() -> bool:
-    """Return True if all environment variables limit BLAS and OpenMP to one thread."""
+    """Return True if every environment variable of `VARIABLES` sets the limit of one thread."""
     return all(os.environ.get(name) == ONE for name in VARIABLES)

@@ -79,8 +79,8 @@ class FrettingCycle(WithFields):
     def numbers(self) -> dict[str, Any]:
         """Scalars of the load cycle for the summary of a run.
 
-        The names are those of `contact_scene.quantities.summary.Closed`. A field is represented by
-        its largest value on the surface.
+        The names are those of `contact_scene.quantities.summary.ClosedCycle`. A field is
+        represented by its largest value on the surface.
         """
         f2 = self.ruiz_f2
         return {

@@ -43,7 +43,7 @@ def loop_numbers(
     friction    friction law of the scene; None without friction
     surface     surface grid of the increments
 
-    Returns the numbers by the names of `contact_scene.quantities.summary.Closed`. A cycle with
+    Returns the numbers by the names of `contact_scene.quantities.summary.ClosedCycle`. A cycle with
     constant tangential force has only the regime and the stick centre.
     """
     end = path[-1]

@@ -125,7 +125,7 @@ class CoulombFriction(Description):
     """Coulomb's law: the shear does not exceed coefficient times pressure and opposes the slip.
 
     `limit` and `slope` define the law. The limit is 0 at pressure 0 and does not decrease with the
-    pressure; the slope is its derivative. All other properties follow from these two.
+    pressure; the slope is its derivative.
     """
 
     coefficient: Coefficient

@@ -161,8 +161,10 @@ class SmoothTip(ShapedBody):
     def contact_at(self, approach: float) -> Pair:
         """Estimate the square of the half width a of the contact along x and y at an approach.
 
-        The estimate a^2 = R delta is an upper bound, with the radius of curvature R of the tip
-        along the axis and the approach delta. The results [length^2] are for x and for y.
+        The estimate is a^2 = R delta, with the radius of curvature R of the tip along the axis and
+        the approach delta. It is exact for equal radii (Johnson 1985, Eq. 4.23). For half-spaces
+        and unequal radii, a^2 is up to twice the estimate along the axis with the larger radius,
+        and smaller along the other axis. The results [length^2] are for x and for y.
 
         approach  delta, approach of the bodies [length]
         """
@@ -172,8 +174,8 @@ class SmoothTip(ShapedBody):
     def contact_under(self, force: float, modulus: float) -> Pair:
         """Estimate the cube of the half width a of the contact along x and y under a normal force.
 
-        The estimate is a^3 = 3 W R / 4 E* by Hertz theory, with the larger radius of curvature R of
-        the tip. The results [length^3] for x and y are equal.
+        The estimate is a^3 = 3 W R / 4 E* by Hertz theory (Johnson 1985, Eq. 4.22), with the larger
+        radius of curvature R of the tip. The results [length^3] for x and y are equal.
 
         force    W, normal force [force]
         modulus  E*, contact modulus [force/length^2]
@@ -417,7 +419,7 @@ class HeightMap(ShapedBody):
 
     @property
     def lowest_on_rim(self) -> bool:
-        """True if the point of first contact lies on the boundary of the height map."""
+        """True if first contact is on an outermost row or column of points of the height map."""
         *_, place = _interpolated_surface(self.file, self.height_unit, self.flip)
         return any(at in (0.0, n - 1.0) for at, n in zip(place, self.file.shape, strict=True))
 

@@ -84,9 +84,10 @@ def fill_missing_heights(heights: NDArray[np.float64]) -> NDArray[np.float64]:
 def interpolate(
     heights: NDArray[np.float64], spacing: tuple[float, float], x: ArrayLike, y: ArrayLike
 ) -> NDArray[np.float64]:
-    """Interpolate a map by cubic convolution (Keys 1981, IEEE ASSP 29, Eq. 15).
+    """Interpolate a height map by cubic convolution (Keys 1981, IEEE ASSP 29, Eq. 15).
 
-    Beyond its rim, the map is continued by parabolas, which retains the third order there.
+    Between its outermost points and the border of their cells, the map is extrapolated by
+    parabolas, so that the interpolation has the third order there as well.
 
     Parameters
     ----------

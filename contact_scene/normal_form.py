@@ -26,10 +26,11 @@ Unnamed = dict[str, tuple[str, object]]
 def normal_form(scene: Scene) -> Scene:
     """Return the scene without inputs that have no effect; the same object if there are none.
 
-    - Layers with the material below them are merged into it.
+    - Adjacent layers of one material become one layer. A lowest layer of the substrate's material
+      becomes part of the substrate.
     - An ellipsoid with equal radii becomes a paraboloid.
     - A control that is zero in all load steps becomes the default control of its coordinate (free
-      shift, fixed twist, fixed tilt) if both are equal by symmetry.
+      shift, fixed twist, fixed tilt) if both are equal by symmetry or without friction.
     - Friction that is zero everywhere is removed if no load shears the contact.
     """
     indenter, ramps = scene.indenter, scene.load_path()

@@ -142,6 +142,6 @@ def read_dataset(dataset: h5py.Dataset, row: int | None = None) -> NDArray[Any]:
 
 
 def read_text(dataset: h5py.Dataset) -> str:
-    """Read a dataset that contains a text, such as the scene; raise the errors of `values`."""
+    """Read a dataset that contains a text, such as the scene. Raises errors of `read_dataset`."""
     content: Any = read_dataset(dataset)
     return content.decode() if isinstance(content, bytes) else str(content)

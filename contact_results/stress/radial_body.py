@@ -77,8 +77,8 @@ class RadialBody:
 
         state     bodies and tractions that cause the stress
         indenter  True for the indenter, False for the lower body
-        fineness  multiple of the numbers of polynomials and quadrature points; above 1 the contact
-                  edge has another fit
+        fineness  multiple of the numbers of polynomials and quadrature points; above 1, tractions
+                  that depend on the angle have another fit near the contact edge
 
         Raises UnsupportedScene for too few rings, for shear with infinite pressure, and for a
         tangential load that changes direction.
@@ -132,8 +132,8 @@ class RadialBody:
 
         state     bodies and tractions that cause the stress
         indenter  True for the indenter, False for the lower body
-        fineness  multiple of the numbers of polynomials and quadrature points; above 1 the contact
-                  edge has another fit
+        fineness  multiple of the numbers of polynomials and quadrature points; above 1, tractions
+                  that depend on the angle have another fit near the contact edge
         body      the body in which the stress is computed
         stack     the elastic layers and the base of this body
         """

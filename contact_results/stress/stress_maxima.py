@@ -29,7 +29,7 @@ class Extreme:
     """Largest value of a stress measure in a region of a body, at a computed point.
 
     region          whole body, surface, a layer, the base, or a side of an interface
-    measure         name of the stress measure, see `MEASURES`
+    measure         name of the stress measure, see `points.MEASURES`
     value           largest value [force/length^2]
     x, y, depth     place of the point [length]
     at_window_edge  True if the point is at the edge of the computed region, so that the true

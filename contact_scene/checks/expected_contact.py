@@ -106,7 +106,8 @@ class ExpectedContact:
     def stiffness(self) -> float:
         """Normal stiffness of the expected contact [force/length].
 
-        The tangential stiffness is up to 30 % smaller.
+        The tangential stiffness is smaller by the factor 2 (1 - ν)/(2 - ν) for equal materials:
+        2/3 to 1 for Poisson's ratios ν of 1/2 to 0 (Johnson 1985, section 7.2).
         """
         return 2 * self.modulus * self.radius
 

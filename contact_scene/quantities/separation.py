@@ -58,15 +58,15 @@ def separated_increment(
 ) -> Reported:
     """Return the results of separated bodies at the end of an increment without contact.
 
-    Tractions, forces and elastic energy are 0. The gap, the position of the indenter and the
-    dissipated energy are kept or follow from the loads.
+    Tractions, forces and elastic energy are 0. The displacements of the indenter follow from the
+    loads (see `position`). Slip and dissipated energy are those of the preceding increment.
 
     last      results of the preceding increment
     ramp      load ramp of the load step
     fraction  fraction of the ramp at the end of the increment
-    gap       undeformed gap at the approach 0 and the tilt of `position` [length]
-    place     load step, increment and number of increments
-    approach  prescribed approach [length]; None for the approach of first contact
+    gap       undeformed gap at zero approach and at the tilt that `position` returns [length]
+    place     load step, increment and number of increments, by the names of the results
+    approach  prescribed approach [length]; None for the approach of first contact at this tilt
     """
     before: Any = last
     found = {f.name: _zero_of_type(getattr(before, f.name)) for f in fields(before) if f.init}

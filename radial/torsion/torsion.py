@@ -335,8 +335,8 @@ class PartialSlip:
     def shear(self, x: Array, limit: Array) -> Array:
         """Compute the circumferential shear q_θ at radii within the contact (n,) [force/length²].
 
-        In the slip annulus the shear is the friction limit. In the stick disc it is the Abel
-        integral over both zones.
+        In the slip annulus the shear is the friction limit. In the stick disc the shear is the Abel
+        transform of N over stick disc and slip annulus, see `PartialSlip`.
 
         x      radii over the contact radius, below 1 (n,)
         limit  friction limit µp at these radii (n,) [force/length²]

@@ -186,8 +186,9 @@ def monotonic_state(
 ) -> PartialSlip:
     """Find the state of monotonic torsion of the virgin contact that has a given twist or torque.
 
-    The stick radius is the unknown of a root search. A twist or torque beyond the smallest stick
-    radius gives gross slip.
+    Up to incipient slip, the state is proportional to the twist. Beyond, a root search finds the
+    stick radius. A twist or torque of at least that of the smallest stick radius `NO_STICK` gives
+    gross slip.
 
     torsion  contact under torsion
     of       "twist" or "torque", the prescribed quantity

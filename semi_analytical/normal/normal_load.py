@@ -43,8 +43,9 @@ class NormalLoad(Protocol):
         The guess follows from Hertz theory: cells whose undeformed gap is below the bearing depth
         are in contact.
 
-        gaps       undeformed gaps of all cells, in ascending order [length]
-        stiffness  Σp over the depth, as a function of the number of these cells [force/length^3]
+        gaps       distinct finite undeformed gaps of the cells, ascending (k,) [length]
+        stiffness  Σp divided by the bearing depth, if all cells up to each of these gaps are in
+                   contact (k,) [force/length^3]
         """
 
     def motion(self, p: Field, s: Field) -> Motion:
@@ -140,8 +141,9 @@ class PressureSum(NormalLoad):
         In the initial guess of the pressure, cells whose undeformed gap is below this depth are in
         contact.
 
-        gaps       undeformed gaps of all cells, in ascending order [length]
-        stiffness  Σp over the depth, as a function of the number of these cells [force/length^3]
+        gaps       distinct finite undeformed gaps of the cells, ascending (k,) [length]
+        stiffness  Σp divided by the bearing depth, if all cells up to each of these gaps are in
+                   contact (k,) [force/length^3]
         """
         bearing = int(np.searchsorted(stiffness * gaps, self.total))
         return float(self.total / stiffness[max(bearing - 1, 0)])
@@ -224,7 +226,7 @@ class FixedApproach(NormalLoad):
         """Return half of the prescribed approach, the bearing depth of Hertz theory [length].
 
         In the initial guess of the pressure, cells whose undeformed gap is below this depth are in
-        contact.
+        contact. The arguments have no effect.
         """
         return 0.5 * self.approach
 

@@ -89,8 +89,9 @@ class PressureMoments:
         In the initial guess of the pressure, cells whose undeformed gap is below this depth are in
         contact.
 
-        gaps       undeformed gaps of all cells, in ascending order [length]
-        stiffness  Σp over the depth, as a function of the number of these cells [force/length^3]
+        gaps       distinct finite undeformed gaps of the cells, ascending (k,) [length]
+        stiffness  Σp divided by the bearing depth, if all cells up to each of these gaps are in
+                   contact (k,) [force/length^3]
         """
         if self.total is None:
             return FixedApproach(self.approach or 0.0).bearing_depth(gaps, stiffness)
