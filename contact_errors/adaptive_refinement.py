@@ -130,8 +130,8 @@ class RefinementLevel:
         """Compute the relative error of one scalar at this refinement level.
 
         The relative error is the largest estimated error over the largest absolute value of the
-        scalar. Both maxima are over the ends of all load steps. The result is None if any of the
-        errors is unknown or has not converged.
+        scalar, both at the ends of load steps. Ends at which the scalar is zero with round-off are
+        left out. The result is None if an error is unknown or has not converged.
 
         name  name of the scalar, such as "peak_pressure"
         """
@@ -212,11 +212,12 @@ class Levels:
     def solve_first_level(self, run: Fineness | None = None) -> RefinementLevel:
         """Solve the first level: the coarsest discretisation whose cells resolve the contact.
 
-        The cells are doubled up to `MAX_DOUBLINGS` times while the solver raises
-        ContactNotResolved. Other errors of the solver are raised.
+        While the solver raises ContactNotResolved, the cells are doubled, at most `MAX_DOUBLINGS`
+        times. The error of the last solve, and any other SolverError, is raised.
 
-        run  discretisation of a run whose CPU time is to be estimated; the first level then has few
-             increments and at most the cells of the run. None without a time estimate
+        run  discretisation of a run whose CPU time is to be estimated; None without a time
+             estimate. The first level then has few increments. If the run has fewer unknowns, the
+             first level has its cells, which are not doubled
         """
         fineness = Fineness(
             self.solver.first_space(),

@@ -61,7 +61,7 @@ Effect: TypeAlias = tuple[Sequence[Values], Sequence[Values]]
 
 @dataclass(frozen=True)
 class Fineness:
-    """Hold the discretisation parameters of one solve: grid or mesh, increments and tolerance.
+    """Discretisation parameters of one solve: grid or mesh, increments and tolerance.
 
     Error estimates compare solves whose parameters differ in one of these values.
 
@@ -228,7 +228,7 @@ class DiscretisedSolver(ABC):
 
     @abstractmethod
     def record_entry(self, space: Any) -> Mapping[str, Any]:
-        """Return name and value that describe a grid or mesh in records such as summary.json.
+        """Return the key and the value of a grid or mesh in records such as summary.json.
 
         The mapping has one entry, for example cells: (64, 64) or elements_per_radius: 16.
 
@@ -479,6 +479,7 @@ def add_effects(found: Sequence[Values], effects: Sequence[Effect]) -> Sequence[
 
     found    scalars of the coarse solve at the end of each load step, by name
     effects  scalars of a finer and of a coarser solve, one pair for each corrected parameter
+    returns  corrected scalars at the end of each load step, by name
     """
     for effect in effects:
         found = [

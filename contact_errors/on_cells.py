@@ -94,9 +94,10 @@ class CellSolver(DiscretisedSolver):
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve the scene on a grid of surface cells.
 
-        If the contact reaches the edge of the window, the scene is solved on a larger window with
-        cells of equal size. A window that is prescribed or that is the extent of a height map is
-        not enlarged.
+        If the contact reaches the border of the window, the scene is solved on a larger window with
+        cells of equal size, at most `MAX_ENLARGEMENTS` times. A window that is prescribed or that
+        is the extent of a height map is not enlarged. Raises the errors of the last solve, such as
+        ContactAtWindowEdge.
 
         fineness  grid, increments and tolerance
         progress  function that is called after every increment, or None
@@ -132,9 +133,9 @@ class CellSolver(DiscretisedSolver):
     def few(self, coarse: Fineness, result: Result) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.
 
-        The grid has at most about 11 cells per contact radius, which suffice to measure the effect
-        of the increments. The edge correction is off, because it has no effect on the shear of
-        later increments.
+        The grid has at most half of the result's cells along a side, and at most about 11 cells
+        (`PER_RADIUS`) per contact radius. These suffice to measure the effect of the increments.
+        The edge correction is off, because it has no effect on the shear of later increments.
 
         coarse  discretisation with the cells of a coarse solve
         result  result whose errors are estimated

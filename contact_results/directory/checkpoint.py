@@ -71,7 +71,9 @@ class CheckpointDirectory:
     def keep(self, standing: Checkpoint) -> None:
         """Store a checkpoint if enough time has passed since the last one was stored.
 
-        A failed write disables further checkpoints of this solve, and the user gets a message.
+        The pause is such that writing takes at most the part SHARE of the run time, but at least
+        SECONDS_BETWEEN and at most MAX_BETWEEN. A failed write disables further checkpoints of this
+        solve, and the user gets a message.
 
         standing  state of the solve after an increment
         """

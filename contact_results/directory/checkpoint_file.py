@@ -72,7 +72,8 @@ def read_checkpoint_file(path: Path, identity: str) -> Any:
 
     identity  digest of the input and the code of the solve that the file must have
 
-    Raises Unusable if the file is damaged, belongs to another solve, or exceeds the free memory.
+    Raises Unusable if the file cannot be read, is damaged, exceeds the free memory, or belongs to
+    another solve or version.
     """
     try:
         with open_own(path) as file:

@@ -64,6 +64,7 @@ class RingsAbove:
 
         Returns None if the increment has no such field.
 
+        step  increment of the result
         name  name of the field, an attribute of the increment
         """
         rings, fields = self.rings.full_circle(step)
@@ -78,6 +79,7 @@ class RingsAbove:
 
         Returns None if the increment has no such vector.
 
+        step  increment of the result
         name  "shear" or "slip"
         """
         rings, fields = self.rings.full_circle(step)

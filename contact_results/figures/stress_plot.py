@@ -41,6 +41,10 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
     """Draw four stresses on the section, z downward, with dashed interfaces.
 
     The stresses are von Mises, σxx, σxz and the tensile stress. Call within `figure_style`.
+
+    field  stress in one body
+    body   this body, whose interfaces are drawn
+    title  title of the figure
     """
     points = field.section
     panels = {
@@ -68,6 +72,10 @@ def line_plot(field: StressField, body: Body, title: str) -> Figure:
     """Draw stresses over depth on the z axis and below the trailing edge, and along the surface.
 
     The trailing edge is the edge with the larger σxx at the surface. Call within `figure_style`.
+
+    field  stress in one body
+    body   this body, whose interfaces are drawn
+    title  title of the figure
     """
     figure = _titled_figure(11.0, 4.4, title)
     place = {"left": 0.06, "right": 0.97, "bottom": 0.12, "top": 0.84, "wspace": 0.25}
@@ -81,9 +89,11 @@ def line_plot(field: StressField, body: Body, title: str) -> Figure:
 def draw_surface(ax: Any, field: StressField) -> None:
     """Draw σxx and σyy at the surface z = 0, with dotted lines at the contact edges.
 
-    The stress at a fitted contact edge is included.
+    The stress at a fitted contact edge is included. If no contact edge was fitted, the dotted lines
+    are at the contact radius.
 
-    ax  axes of matplotlib
+    ax     axes of matplotlib
+    field  stress in one body
     """
     reach = field.shown[0]
     length = engineering_unit(reach, "m")

@@ -56,9 +56,9 @@ def write_fields(
     bytes.
 
     The first array index is the increment for scalars. For fields, it is the load step, or the
-    increment with `all_fields`. A field has one chunk per value of this index. An effect that is
-    off has no dataset. If some increments have angles, fields that depend on the radius alone are
-    repeated at every angle.
+    increment with `all_fields`. A field has one chunk per value of this index. Quantities of an
+    effect that the solve omits, such as the shear without friction, have no dataset. If some
+    increments have angles, fields that depend on the radius alone are repeated at every angle.
 
     cycles      closed load cycles of the result
     directory   directory of the run

@@ -46,7 +46,7 @@ class Reported:
 
     unit      SI unit; empty if dimensionless
     meaning   meaning of the value in a sentence
-    kind      relation between the value of a load step and those of its increments
+    kind      rule for the value of a load step from the values of its increments
     key       True for the main results
     physical  True for properties of the contact, which have an error; False for numerical measures
     """

@@ -57,6 +57,8 @@ def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
 
     value  file name, path or array
     info   key of the value, and context of the validation
+
+    Raises a validation error for other values, and for a file that cannot be read.
     """
     if isinstance(value, ArrayFile):
         return value

@@ -15,7 +15,10 @@ MAX_TITLE = 500  # characters
 
 
 class Description(BaseModel):
-    """Frozen, hashable model that refuses unknown keys and numbers that are not finite."""
+    """Base class of the models of a scene, which are immutable and hashable.
+
+    Validation refuses unknown keys, sets, and numbers that are not finite.
+    """
 
     model_config = ConfigDict(
         frozen=True,

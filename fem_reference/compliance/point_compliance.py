@@ -16,13 +16,14 @@ Scalar = TypeVar("Scalar", np.float64, np.bool_)
 
 @dataclass(frozen=True)
 class PointCompliance:
-    """Displacements of all surface points by tractions on all surface points.
+    """Compliance of the surface points: displacements of all points by tractions on all points.
 
     A point lies on a ring, a circle of radius r_i around the axis, at the angle θ_j. It represents
-    the area w_ij = Δθ_j ∫ φ_i r dr with the basis function φ_i of the ring, and displacements are
-    weighted with this area. On a grid of several angles, the first ring is the axis and is one
-    point with one traction. Fields on points are flat (points,): first the axis, then ring by ring.
-    Vectors (2, points) have the components r and θ, on the axis of several angles x and y.
+    the area w_ij = Δθ_j ∫ φ_i r dr with the basis function φ_i of the ring. Displacements are
+    weighted with this area. On a grid of several angles, the first ring is the axis, which is one
+    point with one traction. Scalar fields have the shape (points,): first the axis, then ring by
+    ring. Vectors (2, points) have the components r and θ. On the axis of a grid of several angles,
+    the components are x and y.
 
     rings, grid  radii and angles of the points, with the compliance of the rings
     springs      compliance of penalty springs between the surfaces, equal in the normal and

@@ -59,13 +59,14 @@ FEWEST = 5
 def beyond_pressure(*bodies: Body) -> Beyond:
     """Compute the polynomial that locates the contact edge beyond the last ring with pressure.
 
-    The argument of the polynomial is the ratio of the pressures of the last two rings with
-    pressure. Its value is the distance of the edge from the last of these rings, in elements. The
-    result contains the coefficients, lowest power first. They depend on Poisson's ratio of the
-    outermost materials, because finite elements deviate from a half-plane at the edge.
+    The argument of the polynomial is the pressure at the last ring with pressure over that at the
+    ring before. The value is the distance of the edge from the last ring with pressure, in
+    elements. The coefficients depend on Poisson's ratio of the outermost materials, because finite
+    elements deviate from a half-plane at the edge.
 
-    bodies  the bodies in contact, at least one of them deformable; their corrections are averaged
-            with weights proportional to their compliances
+    bodies   the bodies in contact, at least one of them deformable; their corrections are averaged
+             with weights proportional to 1/E' = (1 - ν²)/E of the outermost materials
+    returns  coefficients of the cubic (4,), lowest power first
     """
     outermost = [body.elastic_materials[0] for body in bodies if body.deforms]
     gives = np.array([1.0 / m.plane_strain_modulus for m in outermost])

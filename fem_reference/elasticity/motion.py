@@ -64,10 +64,10 @@ class Motion:
 def boussinesq(r: Field, z: Field, material: IsotropicMaterial) -> Field:
     """Compute the displacement of a half-space by a unit normal force at the origin (n = 0).
 
-    Return the amplitudes u_r, u_theta and u_z (3, ...) at the points (r, z). Boussinesq 1885;
-    Johnson, Contact Mechanics (1985), Eq. 3.18.
+    Return the amplitudes u_r, u_theta and u_z (3, ...) at the points (r, z) [length/force].
+    Boussinesq 1885; Johnson, Contact Mechanics (1985), Eq. 3.18.
 
-    r, z      distance from the axis and depth of the points (...)
+    r, z      distance from the axis and depth of the points (...) [length]
     material  elastic constants of the half-space
     """
     G, nu = material.shear_modulus, material.poisson_ratio
@@ -81,9 +81,9 @@ def cerruti(r: Field, z: Field, material: IsotropicMaterial) -> Field:
     """Compute the displacement of a half-space by a unit tangential force at the origin (n = 1).
 
     The force acts along theta = 0. Return the amplitudes u_r, u_theta and u_z (3, ...) at the
-    points (r, z). Cerruti 1882; Johnson, Contact Mechanics (1985), Eq. 3.75.
+    points (r, z) [length/force]. Cerruti 1882; Johnson, Contact Mechanics (1985), Eq. 3.75.
 
-    r, z      distance from the axis and depth of the points (...)
+    r, z      distance from the axis and depth of the points (...) [length]
     material  elastic constants of the half-space
     """
     G, nu = material.shear_modulus, material.poisson_ratio
@@ -97,11 +97,11 @@ def cerruti(r: Field, z: Field, material: IsotropicMaterial) -> Field:
 def point_torque(r: Field, z: Field, material: IsotropicMaterial) -> Field:
     """Compute the displacement of a half-space by a unit torque about z at the origin (n = 0).
 
-    Return the amplitudes u_r, u_theta and u_z (3, ...) at the points (r, z). The plane z = 0 of a
-    full space under Kelvin's point couple is free of traction, so that each half carries half of
-    the couple.
+    Return the amplitudes u_r, u_theta and u_z (3, ...) at the points (r, z) [1/force]. With R^2 =
+    r^2 + z^2, u_theta = r / (4 pi G R^3), and the others are zero. The plane z = 0 of a full space
+    under Kelvin's point couple is free of traction, so that each half carries half of the couple.
 
-    r, z      distance from the axis and depth of the points (...)
+    r, z      distance from the axis and depth of the points (...) [length]
     material  elastic constants of the half-space
     """
     R = np.hypot(r, z)

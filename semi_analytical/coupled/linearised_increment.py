@@ -28,9 +28,11 @@ UNDETERMINED = 1e-12
 class Step:
     """Newton step of a coupled increment: changes of the iterate.
 
-    tractions, displacements  changes of tractions and surface displacements (3, nx, ny)
-    closure                   change of the reduction of the gap by the rigid normal motion [length]
-    iterations                GMRES iterations of the linear solve
+    tractions      changes of the tractions (q_x, q_y, p) (3, nx, ny) [force/length^2]
+    displacements  changes of the surface displacements (3, nx, ny) [length]
+    closure        change of the reduction of the gap by approach and tilt, a number or a field (nx,
+                   ny) [length]
+    iterations     GMRES iterations of the linear solve
     """
 
     tractions: Tractions
@@ -75,7 +77,7 @@ class LinearisedIncrement:
         self._inverse = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
 
     def carriers_in(self, zones: Zones) -> Matrix:
-        """Transfer the carriers to the free unknowns of other zones of contact, stick and slip.
+        """Map the carriers to the free unknowns of other zones of contact, stick and slip.
 
         Carriers are tractions that change the prescribed forces. The result (k, unknowns) has one
         row per prescribed force.

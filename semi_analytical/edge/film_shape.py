@@ -42,11 +42,10 @@ FAR = 5.0
 
 @dataclass(frozen=True, kw_only=True)
 class FilmShape(EdgeShape):
-    """Cell means of φ in a contact of layered bodies, and fits to these means near the contact
-    edge.
+    """Cell means of φ in a contact of layered bodies, and fits to them near the contact edge.
 
-    φ is a power of the pressure over the ratio of the pressure law to √s, s the distance from the
-    edge. φ vanishes smoothly at the edge.
+    φ is a power of the pressure divided by the ratio of the pressure law to √s, with the distance s
+    from the edge. φ vanishes smoothly at the edge.
 
     sensitivity  derivative of the data `phi` with respect to φ at the nearest edge point (nx, ny)
     line         contact edge from which `phi` was computed
@@ -58,8 +57,7 @@ class FilmShape(EdgeShape):
     law: FilmLaw
 
     def fits(self, i: Indices, j: Indices) -> Fits:
-        """Fit quadratics to the cell means of φ about cells near the contact edge of layered
-        bodies.
+        """Fit quadratics to the cell means of φ about cells near the contact edge.
 
         φ vanishes smoothly at the edge. The data depend on the position of the edge. Their model is
         therefore φ at the cell plus `sensitivity` times φ at the nearest edge point.
@@ -78,11 +76,12 @@ class FilmShape(EdgeShape):
         )
 
     def parts_over_root(self, phi: Quadratic) -> Field:
-        """Compute the ratio of the edge pressure law of layered bodies to √s in each subcell of n
-        cells.
+        """Compute the ratio of the edge pressure law to √s in each subcell of n cells.
 
-        The result has the shape (n, PARTS, PARTS); s is the distance from the contact edge.
-        Subcells near the edge use the ratio of the means, other subcells the ratio at the centre.
+        The result has the shape (n, PARTS, PARTS); s is the distance from the contact edge. Within
+        FAR subcell widths of the edge, the ratio is that of the mean of the law over the subcell to
+        the mean of √s. Farther inside, it is the ratio at the subcell centre; farther outside, it
+        is 1.
 
         phi  quadratic fits of φ about the cells (n,)
         """

@@ -27,8 +27,7 @@ CURVED = 0.1
 
 @dataclass(frozen=True)
 class Stencil:
-    """Square window of (2 reach + 1)² cells for a local least-squares fit, with weights of the
-    cells.
+    """Square window of (2 reach + 1)² cells for a local least-squares fit, with weights.
 
     reach  number of cells from the centre of the window to its sides
     width  decay length of the Gaussian weights exp(-r²/(2 width²)) at the distance r from the
@@ -44,8 +43,7 @@ NARROW, WIDE, WIDER = Stencil(3, 1.7), Stencil(5, 2.5), Stencil(6, 3.0)
 
 @dataclass(frozen=True)
 class Fits:
-    """Quadratics fitted to cell means about several cells, one fit per cell; all arrays of one
-    shape.
+    """Quadratics fitted to cell means about n cells, one fit per cell; all arrays are (n,).
 
     quadratic  fitted quadratics, expanded about the cell centres
     rms        weighted root mean square of the differences between data and fit
@@ -69,8 +67,7 @@ def fit_about(
     domain: ReducedDomain = WINDOW,
     sensitivity: tuple[Field, Field] | None = None,
 ) -> Fits:
-    """Fit a polynomial to the cell means in the window about each of n cells, by weighted least
-    squares.
+    """Fit a polynomial to the cell means about each of n cells by weighted least squares.
 
     data         cell means (nx, ny)
     weight       weights of the cells (nx, ny), multiplied by those of the stencil
@@ -78,9 +75,9 @@ def fit_about(
     stencil      window and weights of the fits
     degree       degree of the polynomials, 1 or 2
     domain       domain of all fields: full window or reduced domain
-    sensitivity  factor (nx, ny) and vectors in cells (2, n) from the central cells to another
-                 point. The model of the data is the polynomial plus the factor times the polynomial
-                 at this point. None: the model is the polynomial
+    sensitivity  factor (nx, ny), and vectors (2, n) from the central cells to other points, in
+                 cells. The model of the data is then the polynomial, of degree 2, plus the factor
+                 times its value at the other point. None: the model is the polynomial alone
     """
     data, weight = (domain.add_frame(field, stencil.reach) for field in (data, weight))
     fade, basis = stencil_weights(stencil), monomials(stencil)[: 3 * degree]

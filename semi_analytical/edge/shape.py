@@ -68,8 +68,7 @@ class EdgeShape:
     domain: ReducedDomain = WINDOW
 
     def fits(self, i: Indices, j: Indices) -> Fits:
-        """Fit quadratics to the cell means of φ = p^(1/α) about cells of the contact area or stick
-        zone.
+        """Fit quadratics to the cell means of φ = p^(1/α) about cells of the region.
 
         φ is a smooth function of the traction p and vanishes at the edge of the region.
 
@@ -78,10 +77,10 @@ class EdgeShape:
         return fit_about(self.phi, self.weight, i, j, self.stencil, domain=self.domain)
 
     def nearest_to(self, x: Field, y: Field) -> Indices:
-        """Return the cells (2, n) of the contact area or stick zone that are nearest to given
-        points.
+        """Return the cells (2, n) of the region that are nearest to given points.
 
-        Cells more than AROUND cells away are not found; the cell at the point itself is returned.
+        If all cells of the region are more than AROUND cells away, the cell at the point itself is
+        returned.
 
         x, y  points as cell indices, not necessarily whole numbers (n,)
         """
@@ -95,8 +94,7 @@ class EdgeShape:
         return cells
 
     def about(self, x: Field, y: Field) -> tuple[Quadratic, Mask]:
-        """Compute the expansion of φ = p^(1/α) about points near the edge of the region, by local
-        fits.
+        """Compute the expansion of φ = p^(1/α) about points near the edge, by local fits.
 
         φ is a smooth function of the traction p and vanishes at the edge. A point outside the
         region uses the fit about the nearest cell of the region, because a fit centred outside has
@@ -129,8 +127,7 @@ class EdgeShape:
         return Quadratic(*means), error
 
     def edge_points(self, x: Field | Indices, y: Field | Indices) -> tuple[Quadratic, Mask]:
-        """Find the edge point nearest to each of n given points, and fit φ = p^(1/α) about the edge
-        points.
+        """Find the edge points nearest to n given points, and fit φ = p^(1/α) about them.
 
         φ is a smooth function of the traction p and vanishes at the edge. Newton steps along the
         gradient of φ find the edge points, with new fits in the first REFITS steps. The second
@@ -150,8 +147,7 @@ class EdgeShape:
 
 
 class AdjacentCells:
-    """Assignment of local fits of φ to cells in a region or next to its edge, as pairs of a cell
-    and a fit.
+    """Assignment of local fits of φ to cells in or next to a region, as pairs of cell and fit.
 
     φ is a function of the traction that vanishes at the edge of the region. A cell of the region
     uses the fit about itself. A cell outside uses the mean of the fits about its side neighbours in
@@ -292,7 +288,7 @@ def depth_of(region: Mask, domain: ReducedDomain = WINDOW) -> Field:
 def distance_to(cells: Mask) -> Field:
     """Compute the distance of each cell from the nearest cell of a set, between cell centres.
 
-    The distance (nx, ny) is in cells, and at most DEEP.
+    The distance (nx, ny) is in cells. Larger distances than DEEP are replaced by DEEP.
 
     cells  cells of the set (nx, ny)
     """

@@ -50,8 +50,7 @@ HALF_SQUARE = np.mean(X**2) / 2
 
 @dataclass(frozen=True)
 class EdgeCells:
-    """Cells along the edge of a contact area or stick zone, grouped by the method for their
-    subcells.
+    """Cells along the edge of a contact area or stick zone, by the method for their subcells.
 
     region  cells of the contact area or stick zone (nx, ny)
     domain  domain of the region: full window or reduced domain
@@ -61,15 +60,14 @@ class EdgeCells:
     domain: ReducedDomain
 
     def __getstate__(self) -> dict[str, object]:
-        """Return the state of the edge cells for a checkpoint, without fields that follow from the
-        region."""
+        """Return the state for a checkpoint, without fields that follow from the region."""
         return {"region": self.region, "domain": self.domain}
 
     @cached_property
     def depth(self) -> Field:
         """Distance of each cell of the region from the nearest cell outside (nx, ny), in cells.
 
-        The distance is zero outside the region.
+        The distance is at most DEEP of `shape`, and zero outside the region.
         """
         return depth_of(self.region, self.domain)
 
@@ -86,17 +84,19 @@ class EdgeCells:
 
     @cached_property
     def adjacent(self) -> AdjacentCells:
-        """Assignment of local fits of φ to the `fitted` cells, inside the region and next to its
-        edge.
+        """Local fits of φ that determine φ in each of the `fitted` cells.
 
-        φ is a function of the traction that vanishes at the edge of the region.
+        φ is a function of the traction that vanishes at the edge of the region. A cell inside the
+        region has the fit about itself, and a cell next to the region those about its neighbours.
         """
         return AdjacentCells(self.depth, *self.fitted)
 
     @cached_property
     def deep(self) -> tuple[Indices, Indices]:
-        """Indices of the cells farther inside, whose subcell tractions come from differences of
-        cell means."""
+        """Indices of the cells farther inside, with subcell tractions by differences of cell means.
+
+        Their depth is above FITTED and at most INSIDE.
+        """
         i, j = np.nonzero((self.depth > FITTED) & (self.depth <= INSIDE))
         return i, j
 
@@ -167,10 +167,9 @@ def fit_edge(
     domain: ReducedDomain = WINDOW,
     film: FilmLaw | None = None,
 ) -> SubcellTractions | None:
-    """Fit the edge of a contact area or stick zone and compute the subcell tractions along the
-    edge.
+    """Fit the edge of a contact area or stick zone, and compute the subcell tractions there.
 
-    None is returned if the region is too thin for a fit.
+    None is returned if no cell of the region is deeper than THICK, which is too thin for a fit.
 
     means     mean of the pressure or shear deficit over each cell (nx, ny) [force/length^2]
     loaded    cells with a positive traction (nx, ny)

@@ -101,8 +101,7 @@ def edge_pressure(
 
 
 def next_change(changes: Sequence[float]) -> float:
-    """Predict the relative change of pressure or shear in the next iteration of the edge
-    correction.
+    """Predict the relative change of a traction in the next iteration of the edge correction.
 
     The iteration ends if this change is small. The prediction multiplies the last change by the
     ratio of the last two changes, at most 1. The first change is excluded from the ratio, because

@@ -77,8 +77,10 @@ class Stack:
 
     @property
     def outer(self) -> HalfSpace:
-        """Half-space of the outermost material of the body, which determines the response to short
-        waves."""
+        """Half-space of the outermost material, which determines the response to short waves.
+
+        Raises ValueError for a rigid body.
+        """
         if self.layers:
             return HalfSpace(self.layers[0].shear_modulus, self.layers[0].poisson_ratio)
         if self.base is None:

@@ -34,7 +34,8 @@ def stress_at_surface(
     """Compute the surface stress (6, n) [force/length^2] at n points near the contact edge.
 
     edged     tractions with their variation within the edge cells
-    phi       quadratics of φ about the points, as cell indices; the pressure is √φ
+    phi       quadratics of φ about the n points, whose positions are cell indices; the pressure is
+              √φ
     plane     surface stress at the cell centres caused by the uniform tractions `edged.cells` (6,
               nx, ny)
     material  outermost material of the body
@@ -55,10 +56,9 @@ def stress_at_surface(
 def change_at_depth(
     edged: EdgedTractions, x: Field, y: Field, depth: float, material: HalfSpace, spacing: Spacing
 ) -> Field:
-    """Compute the change of the stress (6, n) at a depth caused by the variation of tractions in
-    cells.
+    """Compute the change of the stress (6, n) at a depth by the variation of tractions in cells.
 
-    The change is relative to the stress by tractions that are uniform in each cell.
+    The change [force/length^2] is relative to the stress by uniform tractions in each cell.
 
     edged     tractions with their variation within the edge cells
     x, y      points as cell indices (n,)

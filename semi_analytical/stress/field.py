@@ -207,8 +207,7 @@ def depth_coefficients(
     *,
     sheared: bool = True,
 ) -> Iterator[Field]:
-    """Iterate over displacement and stress in a body by unit tractions on one surface cell, by
-    depth.
+    """Yield displacement and stress in a body by unit tractions on a cell, for each depth.
 
     A closed form is used in the outermost material, to which layers add their contribution. Below
     the outermost material the whole response is tabulated. Entry (i, j) belongs to the offset (i
@@ -302,7 +301,8 @@ def required_bytes(cells: tuple[int, int], levels: int, numbers: int = 0) -> int
 
     cells    number of cells along x and y
     levels   number of depths
-    numbers  largest count of numbers per point derived from the fields, fields included
+    numbers  values per point that the caller stores of each depth, fields included; 0 for the
+             fields alone
     """
     arrays = max(WORK + len(FIELDS) * levels, numbers * levels)
     return DOUBLE * cells[0] * cells[1] * arrays + FIXED
@@ -313,7 +313,8 @@ def refuse_beyond_memory(cells: tuple[int, int], levels: int, numbers: int = 0) 
 
     cells    number of cells along x and y
     levels   number of depths
-    numbers  largest count of numbers per point derived from the fields, fields included
+    numbers  values per point that the caller stores of each depth, fields included; 0 for the
+             fields alone
     """
     required, available = required_bytes(cells, levels, numbers), available_bytes()
     if required > available:

@@ -21,13 +21,13 @@ from semi_analytical.stress.components import empty_response
 
 
 class AxisPotentials:
-    """Integrals over a loaded rectangle of derivatives of three potentials along one surface axis
-    s.
+    """Integrals over a loaded rectangle of derivatives of three potentials along a surface axis s.
 
     The potentials are A = 1/ρ, B = -ln(ρ + z) and C = z ln(ρ + z) - ρ, with the distance ρ from the
-    source point. Displacement and stress in a half-space are sums of such integrals. The property
-    `b_sso` is the integral of the derivative of B twice along s and once along the other axis o,
-    divided by 2π. Each integral has the shape (…, nx, ny).
+    source point. Displacement and stress in a half-space are sums of such integrals. The name of a
+    property states the potential and the variables of its derivative: `b_sso` is the integral of
+    the derivative of B twice along s and once along the other axis o, divided by 2π. Each integral
+    has the shape (…, nx, ny).
 
     s, o   corner offsets of the observers along this and the other axis, which broadcast [length]
     depth  z >= 0 [length]
@@ -41,8 +41,7 @@ class AxisPotentials:
 
     @cached_property
     def log(self) -> Field:
-        """Primitive of the derivative A_s of the potential A = 1/ρ, at the corners of a loaded
-        rectangle.
+        """Primitive of the derivative A_s of the potential A = 1/ρ, at the corners.
 
         s is the coordinate along the axis and ρ the distance from the source point. The difference
         over the corners is the integral of A_s over the rectangle.
@@ -51,12 +50,11 @@ class AxisPotentials:
 
     @cached_property
     def angle(self) -> Field:
-        """Primitive of the derivative -B_ss of the potential B = -ln(ρ + z), at the corners of a
-        rectangle.
+        """Primitive of the derivative -B_ss of the potential B = -ln(ρ + z), at the corners.
 
         s is the coordinate along the axis and ρ the distance from the source point. The difference
-        over the corners is the integral of -B_ss over the loaded rectangle. The formula contains ρ
-        - z without cancellation.
+        over the corners is the integral of -B_ss over the rectangle. The formula has the factor
+        ρ - z as (s² + o²)/(ρ + z), without cancellation.
         """
         s, o, z, rho = self._s, self._o, self._z, self._rho
         return np.arctan(s * o * (s**2 + o**2) / (self._deep * (s**2 * rho + o**2 * z)))
@@ -105,8 +103,7 @@ class AxisPotentials:
 
 
 def _corner_differences(primitive: Field) -> Field:
-    """Evaluate an integral over a loaded rectangle, divided by 2π, from its primitive at the
-    corners.
+    """Evaluate an integral over a loaded rectangle, divided by 2π, from its corner primitive.
 
     The result is the second difference of the primitive along the last two axes.
 

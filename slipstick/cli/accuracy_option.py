@@ -121,8 +121,11 @@ def solve_to_accuracy(
     Checkpoints of the current solve are stored next to the output directory. They are removed after
     the block of the `with` statement, which writes the results. A run that is resumed after it was
     killed solves the levels before the current one again; they take a small fraction of the time.
+    Raises the errors of `contact_errors.adaptive_refinement.refine`.
 
     request       requested relative errors
+    solver        chosen solver
+    contents      scene and settings of the solver
     output        output directory
     most_seconds  limit of the total time [s]; None for no limit
     step          load step at whose end the stress is required, from 1; None for the last
