@@ -182,7 +182,8 @@ class DiscretisedSolver(ABC):
     def coarser(self, result: Any, share: float, more: int) -> Any:
         """Return the discretisation of a coarse solve: a coarser grid or mesh, or fewer rings.
 
-        The radial solver returns more rings instead where its accuracy does not depend on them.
+        Where the accuracy of the radial solver does not depend on rings, the discretisation is
+        finer instead.
 
         result  result whose errors are estimated
         share   fraction of the cells of the result along a side, or of its elements or rings

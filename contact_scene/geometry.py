@@ -352,7 +352,10 @@ class FlatPunch(ShapedBody):
 
 
 class HeightMap(ShapedBody):
-    """Measured or computed surface: heights above the plane on a grid centred on the origin."""
+    """Measured or computed surface: heights above the plane on a grid centred on the origin.
+
+    Between its points, the surface is interpolated by cubic convolution (see `interpolate`).
+    """
 
     shape: Literal["height_map"] = "height_map"
     file: FileKey

@@ -64,7 +64,8 @@ def target(scene: Scene, force: float | None, approach: float | None) -> Target:
 
     scene     contact problem, whose rig (test machine) can have a normal spring
     force     normal force; None under a prescribed approach [force]
-    approach  approach of the far end of the normal spring; None under a prescribed force [length]
+    approach  approach of the actuator, the far end of the normal spring; None under a prescribed
+              force [length]
     """
     return Target(force, approach, compliances(scene.rig)[0])
 

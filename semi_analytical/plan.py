@@ -105,7 +105,8 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     scene          scene to solve
     path_accuracy  allowed increment error of the shear, relative to Σµp
     edge           increments at whose end the edge correction is requested
-    raises         UnsupportedScene for a ratio of shear moduli above MAX_CONTRAST
+    raises         UnsupportedScene for a body with a ratio of shear moduli above MAX_CONTRAST, and
+                   for a sphere that is pressed to its equator
     """
     scene = normal_form(scene)
     refuse_equator(scene)

@@ -235,8 +235,11 @@ def sweep_points(
     SweepError for repeated keys, samples of different length and too many points, and SceneError if
     no point has a valid scene.
 
+    file        path of the scene file
     overrides   arguments of `--set` that apply to all points
+    variations  varied keys with their values
     wanted      names of the requested quantities
+    solver      name of the solver
     with_error  true to estimate errors
     """
     samples = [each for each in variations if each.is_sample]

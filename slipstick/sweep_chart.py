@@ -74,6 +74,11 @@ def write_sweep_chart(
 
     A panel is a curve for one spaced key, a map for two keys, and a cumulative distribution without
     spaced keys.
+
+    keys        spaced keys, at most two
+    quantities  values of the quantities at all points of the sweep
+    path        path of the image file
+    title       title of the chart
     """
     if not keys:
         quantities = [quantity.in_order for quantity in quantities]

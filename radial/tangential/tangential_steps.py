@@ -1,6 +1,7 @@
-"""Solver of load steps of a contact at points (rings × angles).
+"""Solver of load steps under normal load, tangential load and torsion, at points of rings.
 
-The loads are a normal load, a tangential load and torsion.
+The points lie at several angles on each ring. Every increment is solved by `solve_increment` of
+`ring_friction`, a semismooth Newton method.
 """
 
 from __future__ import annotations

@@ -111,10 +111,11 @@ def one_iteration(
     shear. The result is an initial guess for Newton's method. The last value returned is the number
     of inner iterations.
 
-    problem   operators, loads and friction law of the increment
-    pressure  initial guess of the pressure (nx, ny)
-    motion    initial guess of the rigid tangential motion
-    raises    NotConverged
+    problem    operators, loads and friction law of the increment
+    pressure   initial guess of the pressure (nx, ny)
+    motion     initial guess of the rigid tangential motion
+    tolerance  limit of the dimensionless residuals
+    raises     NotConverged
     """
     zero = np.zeros_like(problem.target)
     start = Point(zero, zero)

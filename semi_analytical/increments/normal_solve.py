@@ -147,8 +147,10 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
     checks the solution. If the bodies overlap outside the box, the box becomes the whole domain. If
     a residual exceeds the tolerance otherwise, the solve is repeated with a tighter tolerance.
 
+    model      contact model
+    target     prescribed force or approach, with moment or tilt
     tolerance  limit of complementarity and penetration residuals, dimensionless
-    raises     ContactAtWindowEdge, ContactNotResolved, NotConverged
+    raises     ContactAtWindowEdge; ContactNotResolved; NotConverged after MAX_ATTEMPTS solves
     """
     refuse_unresolved_contact(model, target)
     start, iterations = nested_initial_guess(model, target)

@@ -78,8 +78,9 @@ class ReducedDomain:
         """Parity about x = 0 and y = 0 of the shear changes in bins of slip compliance.
 
         The preconditioner of the tangential problem uses these bins. A bin holds changes of the
-        shear perpendicular to the slip, whose sign is that of a rotation. The parity is therefore
-        -1 (odd) about a mirror plane, and 0 without one.
+        shear along t, the slip direction turned by 90 degrees. A mirror image of t is opposite to
+        the turned mirror image of the slip. The parity is therefore -1 (odd) about a mirror plane,
+        and 0 without one.
         """
         x, y = self.scalar
         return -x, -y

@@ -110,8 +110,8 @@ class Solver(ABC):
         """Estimate the CPU time of a run with its error estimate, from the first refinement level.
 
         The level is solved for the first load steps, with few increments. Returns the word "time"
-        and the text of the estimate. Raises ContactNotResolved if no coarse discretisation
-        resolves the contact.
+        and the text of the estimate, or the reason why there is none. Raises ContactNotResolved if
+        no coarse discretisation resolves the contact.
 
         fineness  discretisation settings
         space     grid, mesh or ring factor of the run
