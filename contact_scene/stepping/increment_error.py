@@ -1,13 +1,9 @@
 """Load steps with an increment error: their end state depends on the number of increments.
 
-The direction of slip is constant within an increment. Three cases are proved to have no such error:
-
-- No shear has acted so far.
-- A torsion of bodies of revolution under constant pressure, without any other shear.
-- A straight push at constant pressure of two uncoated bodies of one material with ν = 0.
-
-With ν > 0 the direction of slip rotates while the stick zone shrinks. A layer responds differently
-along and across a wave even at ν = 0. In both cases the result depends on the increments.
+The direction of slip is constant within an increment. `has_increment_error` lists the cases that
+are proved to have no such error. With ν > 0 the direction of slip rotates while the stick zone
+shrinks. A layer responds differently along and across a wave even at ν = 0. In both cases the
+result depends on the increments.
 """
 
 from __future__ import annotations
@@ -34,7 +30,7 @@ def has_increment_error(scene: Scene) -> tuple[bool, ...]:
 
     The result is False in three cases, which are proved:
 
-    - No shear has acted so far.
+    - No shear has acted so far, or there is no friction.
     - A torsion of bodies of revolution without tilt, under constant pressure, with uniform
       friction and without any other shear.
     - A straight push at constant pressure of two uncoated bodies of one material with ν = 0.
