@@ -69,7 +69,7 @@ class Fineness:
                 rings
     increments  number of increments of each load step
     tolerance   limit of every relative residual of the contact equations
-    edges       false to omit the sub-cell edge correction of the semi-analytical solver
+    edges       false to omit the subcell edge correction of the semi-analytical solver
     """
 
     space: Any

@@ -108,7 +108,7 @@ class Features:
                   causes in the middle of an element)
     slides        true in gross slip, if no stick zone can be hidden within a cell
     left          relative errors of scalars, by name, that remain when the iteration of the edge
-                  correction (sub-cell pressure at the contact edge) stops
+                  correction (subcell pressure at the contact edge) stops
     """
 
     contact: float

@@ -206,7 +206,7 @@ class CellSolver(DiscretisedSolver):
 def _remaining_edge_errors(report: EdgeReport) -> Mapping[str, float]:
     """Return the relative errors of scalars, by name, that remain after the edge correction.
 
-    The edge correction computes the pressure at the contact edge with sub-cell resolution. Its
+    The edge correction computes the pressure at the contact edge with subcell resolution. Its
     iteration stops at a finite error.
 
     report  outcome of the edge correction at the end of a load step

@@ -103,7 +103,7 @@ class ContactModel:
         return self.scene.friction or FRICTIONLESS
 
     def gap(self, r: Field) -> Field:
-        """Compute the gap between the undeformed surfaces at first touch, at given radii [length].
+        """Compute the gap between the undeformed surfaces at first contact, at radii [length].
 
         The gap follows from the shape of the indenter.
 

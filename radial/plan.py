@@ -156,9 +156,9 @@ def _choose_circle(
 ) -> RingAngles | None:
     """Choose the angles on a ring at which a contact with tangential load or torsion is solved.
 
-    A tangential load needs half a circle, or a full one if the load turns or acts with torsion.
-    Torsion alone needs one angle, unless its shear has a closed form. The result is None if no
-    solve at points (rings × angles) is necessary.
+    A tangential load needs half a circle, or a full one if it changes direction or acts together
+    with torsion. Torsion alone needs one angle, unless its shear has a closed form. The result is
+    None if no solve at points (rings × angles) is necessary.
 
     scene       contact problem with its load history
     frictional  true if friction acts under a normal load alone

@@ -153,8 +153,8 @@ class _Solver:
         The edge correction is added if the plan requires it for this increment.
 
         ramp      controls of the load step
-        start     state at the start of the load step; None before first touch
-        before    state of the previous increment; None before first touch
+        start     state at the start of the load step; None before first contact
+        before    state of the previous increment; None before first contact
         fraction  completed fraction of the ramp at the end of the increment, 0 to 1
         """
         normal = normal_target(ramp, start, fraction, self.plan.tilt)
@@ -290,7 +290,7 @@ def _reported_increment(
 
 
 def _contact_cells(model: ContactModel, state: State) -> float:
-    """Compute the contact area of a state in cells of the window, with sub-cell accuracy.
+    """Compute the contact area of a state in cells of the window, with subcell accuracy.
 
     model  contact model
     state  converged state, with the edge-corrected state if there is one
@@ -353,7 +353,7 @@ def _stick_zone(
     *,
     spreads: bool,
 ) -> tuple[float, TangentialState, Increment]:
-    """Compute the stick area of a state as a number of cells, with sub-cell accuracy.
+    """Compute the stick area of a state as a number of cells, with subcell accuracy.
 
     Return the area, the tangential state with edge-corrected shear, and the increment. Force, shift
     and their work are not corrected.

@@ -24,7 +24,7 @@ COUPLED_ARRAYS = {
     2: ((81, 50), (141, 85)),
     4: ((60, 37), (120, 54)),
 }
-# Edge correction: spectra of sub-cell responses, and data of the edge cells, about one per cell of
+# Edge correction: spectra of subcell responses, and data of the edge cells, about one per cell of
 # a side; more where loads change direction, as earlier edges are stored. Spectra for shear are on
 # the window, in the work space of shear. Those of coupled bodies are counted as above, in addition
 # to the arrays between increments.

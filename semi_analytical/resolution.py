@@ -125,7 +125,7 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
 
     marked  cells of the patches (nx, ny)
     load    load of each cell (nx, ny)
-    area    area of all patches in cells, with sub-cell accuracy
+    area    area of all patches in cells, with subcell accuracy
     """
     if not np.any(marked):
         return 0.0

@@ -161,7 +161,7 @@ def resumable_increments(
     earlier: Sequence[Any] = since.increments if since else ()
     last: Report | None = earlier[-1] if earlier else None
     apart = next((i for i in reversed(earlier) if i.status is ContactStatus.SEPARATED), None)
-    # `here` is the last increment of this contact, counted from its first touch.
+    # `here` is the last increment of this contact, counted from its first contact.
     state, done, here = point.state if point else None, 0, point.last if point else None
     for ramp, count in zip(scene.load_path(), counts, strict=True):
         completed = point.completed_in_step(done, count) if point else 0

@@ -103,7 +103,7 @@ class ContactMethod:
 
     @property
     def undeformed_gap(self) -> NDArray[np.float64]:
-        """Gap between the undeformed surfaces at first touch, at the rings (rings,) [length].
+        """Gap between the undeformed surfaces at first contact, at the rings (rings,) [length].
 
         A ring is a circle around the axis on the surface. The value of a ring is the weighted mean
         over its basis function.

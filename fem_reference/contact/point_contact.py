@@ -49,7 +49,7 @@ class PointContact:
 
     @property
     def gap(self) -> Vector:
-        """Gap between the undeformed surfaces at first touch, at the points (points,) [length].
+        """Gap between the undeformed surfaces at first contact, at the points (points,) [length].
 
         The value of a point is the weighted mean over its ring, a circle around the axis.
         """

@@ -316,7 +316,7 @@ class ContactPoints:
         """Compute the area of the stick zone, with its border between the points [length²].
 
         The stick zone of an axisymmetric contact ends where `share`, interpolated linearly in r, is
-        1. The border in other contacts is found from the distance of the shear from full slip
+        1. The border in other contacts is found from the distance of the shear from gross slip
         (`stick_border`).
 
         share  trial shear |q - Δs/d| over the friction limit, with the slip Δs of the increment and

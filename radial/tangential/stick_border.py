@@ -1,6 +1,6 @@
 """Area of the stick zone of a contact with tangential load, with its border between the points.
 
-The distance from full slip is d = µp - q·n, with n the direction of the shear in the slip zone. d
+The distance from gross slip is d = µp - q·n, with n the direction of the shear in the slip zone. d
 is zero at the border. It is proportional to the root of the distance from the border where slip
 spreads (Cattaneo 1938), and to its power of 3/2 where stick spreads. The ratio of d at the last
 sticking points determines the position of the border between two points: from plane contact of a
@@ -70,7 +70,7 @@ def _border_positions(
 
     Points are adjacent on the first axis. The position of the border is 0 at the first and 1 at the
     second of two points. The position has no meaning where both points stick or both do not. It
-    follows from the distance from full slip d = µp - q·n of the last sticking points, where q is
+    follows from the distance from gross slip d = µp - q·n of the last sticking points, where q is
     the shear and n the direction of the shear in the slip zone.
 
     directions  angle of the shear of each point (n, …) [radian]
@@ -111,7 +111,7 @@ def _distance_from_slip(
     j: NDArray[np.intp],
     direction: Array,
 ) -> Array:
-    """Compute the distance from full slip d = µp - q·n of sticking points [force/length²].
+    """Compute the distance from gross slip d = µp - q·n of sticking points [force/length²].
 
     q is the shear and n the direction of the shear in the slip zone. d is zero at the border of the
     stick zone, which is found from d. The value is NaN for points that do not stick.
@@ -134,7 +134,7 @@ def _border_distance(
     """Estimate the distance of the border of the stick zone from the last sticking point (k,) [1].
 
     The unit is the distance between this point and the next one. d = µp - q·n is the distance of a
-    point from full slip: friction limit minus the component of the shear in the direction of slip.
+    point from gross slip: friction limit minus the component of the shear in the direction of slip.
     d is proportional to the power 1/2 or 3/2 of the distance from the border. Without data the
     result is 0.5.
 

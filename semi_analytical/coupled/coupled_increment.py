@@ -73,7 +73,7 @@ def solve_coupled_increment(
     the whole domain with new convolutions.
 
     model               contact model
-    before              state at the start of the increment; None before first touch
+    before              state at the start of the increment; None before first contact
     normal, tangential  prescribed loads at the end of the increment
     tolerance           limit of all dimensionless residuals
     raises              NotConverged, GrossSliding, ContactAtWindowEdge, ContactNotResolved

@@ -1,4 +1,4 @@
-"""Sub-cell geometry of contact edges, and displacements by tractions that vary within cells.
+"""Subcell geometry of contact edges, and displacements by tractions that vary within cells.
 
 Towards the edge of a smooth contact the pressure falls like a power α of the distance. The function
 φ = p^(1/α) passes smoothly through zero and can be fitted by quadratics. On layers thinner than a

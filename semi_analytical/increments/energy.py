@@ -69,7 +69,7 @@ class Configuration:
 
     @classmethod
     def unloaded(cls, gap: Field, after: Configuration) -> Configuration:
-        """Return the configuration of the bodies before first touch, with zero tractions.
+        """Return the configuration of the bodies before first contact, with zero tractions.
 
         gap    undeformed gap (nx, ny) [length]
         after  configuration of the first increment, which determines the shapes of the fields

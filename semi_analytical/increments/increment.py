@@ -156,7 +156,7 @@ def solve_increment(
     The normal problem is not solved again if its load is unchanged.
 
     model       contact model
-    before      state at the start of the increment; None before first touch
+    before      state at the start of the increment; None before first contact
     normal      prescribed normal load
     tangential  prescribed tangential load; None without shear
     tolerance   residual tolerance of both problems
@@ -194,7 +194,7 @@ def normal_target(
     The prescribed force or approach changes linearly along the load step (ramp).
 
     ramp      controls of the load step
-    start     state at the start of the load step; None before first touch
+    start     state at the start of the load step; None before first contact
     fraction  completed fraction of the ramp at the end of the increment, 0 to 1
     tilts     True to include the prescribed tilt or moment
     """
@@ -217,7 +217,7 @@ def tangential_target(
     included.
 
     ramp      controls of the load step
-    start     state at the start of the load step; None before first touch
+    start     state at the start of the load step; None before first contact
     fraction  completed fraction of the ramp at the end of the increment, 0 to 1
     twists    True to include the prescribed twist or torque
     """

@@ -82,9 +82,9 @@ class NormalTarget:
     tilt: Pair | None = None
 
     def gap(self, model: ContactModel) -> Field:
-        """Return the undeformed gap of the bodies at first touch (nx, ny) [length].
+        """Return the undeformed gap of the bodies at first contact (nx, ny) [length].
 
-        For a prescribed tilt, the gap is that of the tilted indenter at its first touch.
+        For a prescribed tilt, the gap is that of the tilted indenter at its first contact.
         """
         if self.tilt is None:
             return model.gap
@@ -94,7 +94,7 @@ class NormalTarget:
     def _first_touch(self, model: ContactModel) -> float:
         """Return the approach at which the indenter, tilted as prescribed, first touches a cell.
 
-        The approach [length] counts from first touch without tilt. It is 0 without prescribed tilt.
+        The approach [length] counts from first contact without tilt. It is 0 without a tilt.
         """
         return 0.0 if self.tilt is None else float(np.min(model.gap - plane(model, self.tilt)))
 
@@ -123,8 +123,8 @@ class NormalTarget:
     def reached(self, model: ContactModel, motion: Motion) -> tuple[float, Pair | None]:
         """Convert the rigid motion found by the normal solver to approach [length] and tilt.
 
-        motion  approach relative to first touch of the tilted indenter, or (approach, tilt x, tilt
-                y) under a prescribed moment
+        motion  approach relative to first contact of the tilted indenter, or (approach, tilt x,
+                tilt y) under a prescribed moment
         """
         if self.moment is None:
             return float(motion) + self._first_touch(model), self.tilt

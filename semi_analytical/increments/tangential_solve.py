@@ -22,7 +22,8 @@ class TangentialTarget:
                    one is given
     torque, twist  torque M_z [force length] or twist: exactly one is given; both None without
                    torsion
-    strain         bulk strain (xx, yy, xy) of the lower body since first touch; None without strain
+    strain         bulk strain (xx, yy, xy) of the lower body since first contact; None
+                   without strain
     """
 
     force: Vector | None = None

@@ -39,7 +39,7 @@ class TangentialState:
     residuals          residuals of friction law and equilibrium
     iterations         iterations of the tangential solver
     twist, torque      twist and torque of the indenter; None without torsion
-    strain             bulk strain of the lower body since first touch; None without strain
+    strain             bulk strain of the lower body since first contact; None without strain
     """
 
     shear: VectorField
@@ -68,7 +68,7 @@ class TangentialState:
 
 
 def untouched_state(cells: tuple[int, int]) -> TangentialState:
-    """Return the tangential state of the contact before first touch: no shear, no shift, no slip.
+    """Return the tangential state of the contact before first contact: no shear, no shift, no slip.
 
     The first increment starts from this state.
 

@@ -210,7 +210,7 @@ class FixedApproach(NormalLoad):
 
     The normal force follows from the solution.
 
-    approach  approach, counted from first touch [length]
+    approach  approach, counted from first contact [length]
     """
 
     approach: float
