@@ -27,6 +27,7 @@ MAX_KEYS, MAX_TICKS = 2, 8
 class SweptQuantity:
     """Values of one quantity at all points of a parameter sweep, to draw the chart of the sweep.
 
+    name, unit      name of the quantity and its SI unit
     values, errors  values and stated errors (..., sample), with one index for each spaced key and
                     the last index for the sample of distributed keys [unit]; NaN where the scene
                     has no solution

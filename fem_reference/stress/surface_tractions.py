@@ -43,12 +43,16 @@ class SurfaceTractions:
     linear interpolant. This form matters for the stress near an edge, which depends on the
     tractions of the last element.
 
-    radii   radii of the rings, circles around the axis on the surface (rings,) [length]
-    angles  None for axisymmetric fields (rings,), or angles of the rays (angles,) for fields
-            (rings, angles)
-    rooted  True if pressure and shear decrease to zero like the root of the distance from the edge
-    edge    coefficients of the polynomial from the ratio of the last two pressures to the distance
-            of the edge from the last ring with pressure, in elements
+    radii     radii of the rings, circles around the axis on the surface (rings,) [length]
+    pressure  pressure (rings,) or (rings, angles) [force/length^2]
+    angles    None for axisymmetric fields (rings,), or angles of the rays (angles,) for fields
+              (rings, angles)
+    shear_radial, shear_circumferential, shear_along_load
+              components of the shear, of the shape of the pressure; None for zero [force/length^2]
+    rooted    True if pressure and shear decrease to zero like the root of the distance from the
+              edge
+    edge      coefficients of the polynomial from the ratio of the last two pressures to the
+              distance of the edge from the last ring with pressure, in elements
     """
 
     radii: Field

@@ -124,7 +124,7 @@ class FilmLaw:
     def means_over_root(
         self, s: Field, along: Field, across: Field, c: Field
     ) -> tuple[Field, Field]:
-        """Compute the mean of the edge pressure law over that of √s, on each of n rectangles.
+        """Compute the ratio of the mean edge pressure law to the mean of √s on n rectangles.
 
         The rectangles are cells or subcells. The second result is the derivative d ln(ratio) / d
         ln(mean of √s), which Newton's method for the edge requires. For rectangles outside the
