@@ -133,8 +133,8 @@ class CellSolver(DiscretisedSolver):
     def few(self, coarse: Fineness, result: Result) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.
 
-        The grid has at most half of the result's cells along a side, and at most about 11 cells
-        (`PER_RADIUS`) per contact radius. These suffice to measure the effect of the increments.
+        The grid has at most about half of the result's cells along a side, and at most about 11
+        cells (`PER_RADIUS`) per contact radius, which suffice to measure the effect of increments.
         The edge correction is off, because it has no effect on the shear of later increments.
 
         coarse  discretisation with the cells of a coarse solve

@@ -162,9 +162,10 @@ class SmoothTip(ShapedBody):
         """Estimate the square of the half width a of the contact along x and y at an approach.
 
         The estimate is a^2 = R delta, with the radius of curvature R of the tip along the axis and
-        the approach delta. It is exact for equal radii (Johnson 1985, Eq. 4.23). For half-spaces
-        and unequal radii, a^2 is up to twice the estimate along the axis with the larger radius,
-        and smaller along the other axis. The results [length^2] are for x and for y.
+        the approach delta. It is exact for a paraboloid of revolution on half-spaces (Johnson 1985,
+        Eq. 4.23). For unequal radii, a^2 is up to twice the estimate along the axis with the larger
+        radius, and less than the estimate along the other axis. The results [length^2] are for x
+        and for y.
 
         approach  delta, approach of the bodies [length]
         """
@@ -352,10 +353,7 @@ class FlatPunch(ShapedBody):
 
 
 class HeightMap(ShapedBody):
-    """Measured or computed surface: heights above the plane on a grid centred on the origin.
-
-    Between its points, the surface is interpolated by cubic convolution (see `interpolate`).
-    """
+    """Measured or computed surface: heights above the plane on a grid centred on the origin."""
 
     shape: Literal["height_map"] = "height_map"
     file: FileKey
