@@ -61,44 +61,54 @@ class AxisPotentials:
 
     @cached_property
     def a_s(self) -> Field:
+        """Integral of A_s over the rectangle, divided by 2π (…, nx, ny) [1]."""
         return _corner_differences(self.log)
 
     @cached_property
     def a_ss(self) -> Field:
+        """Integral of A_ss over the rectangle, divided by 2π (…, nx, ny) [1/length]."""
         return -_corner_differences(self._s * self._o / (self._rho * self._sz))
 
     @cached_property
     def a_sz(self) -> Field:
+        """Integral of A_sz over the rectangle, divided by 2π (…, nx, ny) [1/length]."""
         return -_corner_differences(self._o * self._z / (self._rho * self._sz))
 
     @cached_property
     def b_s(self) -> Field:
+        """Integral of B_s over the rectangle, divided by 2π (…, nx, ny) [length]."""
         log_deep = np.log(self._deep)
         return -_corner_differences(self._o * log_deep + self._z * self.log + self._s * self.angle)
 
     @cached_property
     def b_ss(self) -> Field:
+        """Integral of B_ss over the rectangle, divided by 2π (…, nx, ny) [1]."""
         return -_corner_differences(self.angle)
 
     @cached_property
     def b_sss(self) -> Field:
+        """Integral of B_sss over the rectangle, divided by 2π (…, nx, ny) [1/length]."""
         s, o, z, rho = self._s, self._o, self._z, self._rho
         return _corner_differences(o * (s**2 - z * rho) / (rho * self._deep * self._sz))
 
     @cached_property
     def b_sso(self) -> Field:
+        """Integral of B_sso over the rectangle, divided by 2π (…, nx, ny) [1/length]."""
         return -_corner_differences(self._s / (self._rho * self._deep))
 
     @cached_property
     def c_ss(self) -> Field:
+        """Integral of C_ss over the rectangle, divided by 2π (…, nx, ny) [length]."""
         return _corner_differences(self._z * self.angle - self._s * self.log)
 
     @cached_property
     def c_sss(self) -> Field:
+        """Integral of C_sss over the rectangle, divided by 2π (…, nx, ny) [1]."""
         return _corner_differences(self._o / self._deep - self.log)
 
     @cached_property
     def c_sso(self) -> Field:
+        """Integral of C_sso over the rectangle, divided by 2π (…, nx, ny) [1]."""
         return -_corner_differences(self._s / self._deep)
 
 
