@@ -19,10 +19,13 @@ from contact_scene.reading.scene_error import (
 _MIN_SIDE, _MAX_SIDE = 4, 16384
 _MAX_VALUES = 4096 * 4096  # 134 MB, more than the largest grid
 _MAX_TEXT = 1 << 28  # bytes
-# Field of a text file that is a number.
-_NUMBER = re.compile(r"\s*[-+]?(\d+\.?|\.\d)\d*(e[-+]?\d+)?\s*", re.IGNORECASE)
-# Fields of a text file for points without a measurement, in lower case.
-_MISSING = {"", "nan", "bad", "na", "n/a", "null", "***", "---"}
+# Fields of a text file for points without a measurement, in lower case. Spreadsheets write the last
+# ones, which begin no comment.
+_MISSING = {
+    *("", "nan", "bad", "na", "n/a", "null", "***", "---"),
+    *("#n/a", "#num!", "#div/0!", "#value!", "#ref!"),
+}
+_COMMENT = re.compile(r"\s*(?:%|#(?!N/A|[A-Z/0]+!))", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -152,9 +155,9 @@ def _read_text_array(path: Path, name: str) -> NDArray[Any]:
     """Read a height map or friction map from a text file in the orientation of a top view.
 
     x points to the right and y upwards. Fields are separated by semicolons, tabs, commas or spaces.
-    Lines before the first row of numbers are skipped as headings. A line with as many fields as the
-    rows and a number among them is no heading, and is refused if another field is no number. Fields
-    for missing values, such as "nan", become NaN.
+    Lines that begin with "#" or "%" are skipped, and headings before the first row of numbers. A
+    line with as many fields as the last one and a number among them is no heading. Fields for
+    missing values, such as "nan", become NaN. Raises a validation error for other contents.
 
     path  path of the file
     name  name of the file in the scene, for messages
@@ -162,20 +165,27 @@ def _read_text_array(path: Path, name: str) -> NDArray[Any]:
     if path.stat().st_size > _MAX_TEXT:
         raise refusal(f"the file {shown(name)} is too long", "a .npy file for this array")
     lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
-    lines = [line for line in lines if line.strip() and line.strip()[0] not in "#%"]
-    last = lines[-1] if lines else ""
+    lines = [line for line in lines if not _COMMENT.match(line)]
+    last = next((line for line in reversed(lines) if line.strip()), "")
     separator = next((mark for mark in ";\t," if mark in last), None)
-    rows, width = list[list[float]](), len(last.split(separator))
+    rows, width, ends_empty = list[list[float | None]](), len(last.split(separator)), True
     for line in lines:
+        # A line of tabs alone is a row of missing values if it has as many fields.
+        if not line.strip() and not (separator == "\t" and line.count("\t") + 1 == width):
+            continue
         fields = (line if separator == "," else line.replace(",", ".")).split(separator)
-        try:
-            rows.append([np.nan if f.strip().lower() in _MISSING else float(f) for f in fields])
-        except ValueError:
-            # A heading: numbers in as many fields as those of the rows would be a row of the map.
-            if rows or (len(fields) == width and any(map(_NUMBER.fullmatch, fields))):
-                raise refusal(f"{shown(name)} has no number in {shown(line)}", "") from None
+        row = [_read_number(field) for field in fields]
+        known = any(number is not None and number == number for number in row)
+        if None not in row and (rows or known or len(row) == width):
+            rows.append(row)
+            ends_empty = ends_empty and not fields[-1].strip()
+        elif rows or (known and len(row) == width):
+            raise refusal(
+                f"{shown(name)} has a field that is no number in the line {shown(line)}",
+                'a number or "nan" in every field, and "#" at the start of a heading',
+            )
     if not rows:
-        raise refusal(f"{shown(name)} contains no numbers", "equally many numbers in every line")
+        raise refusal(f"{shown(name)} has no numbers", "equally many numbers in every line")
     counts = {len(row) for row in rows}
     if len(counts) > 1 or counts == {3}:
         few_to_many = " to ".join(map(str, sorted({min(counts), max(counts)})))
@@ -183,10 +193,17 @@ def _read_text_array(path: Path, name: str) -> NDArray[Any]:
             f"the lines of {shown(name)} have {few_to_many} numbers",
             f"values without their coordinates, equally many in every line, at least {_MIN_SIDE}",
         )
-    values = np.array(rows).T[:, ::-1]
-    if separator and last.endswith(separator):
-        values = values[:-1]
-    return np.ascontiguousarray(values)
+    values = np.array(rows, dtype=np.float64).T[:, ::-1]
+    return np.ascontiguousarray(values[:-1] if ends_empty else values)
+
+
+def _read_number(field: str) -> float | None:
+    """Return the number in a field of a text file, NaN for a missing value, or None for a word."""
+    text = field.strip(' \t"').lower()
+    try:
+        return np.nan if text in _MISSING else float(text)
+    except ValueError:
+        return None
 
 
 def _array_name(name: str) -> str:

@@ -20,8 +20,8 @@ _MAX_SIZE = 10_000_000
 _MAX_SIGNS = 7 * MAX_STEPS
 _MAX_DIGITS = sys.int_info.default_max_str_digits
 _LONG_NUMBER = re.compile(rf"[0-9](?:_?[0-9]){{{_MAX_DIGITS},}}+")
-# A value with a unit but without quotes, such as 1.5 kN.
-_BARE_UNIT = re.compile(r"=\s*([-+]?[0-9][0-9.eE+-]* *[A-Za-zµ%][A-Za-zµ%/^0-9]*)")
+# A number and the letter after it, at which reading stops: a value with a unit but without quotes.
+_BARE_UNIT = re.compile(r"[=,\[]\s*[-+]?\d[\d._]*(?:[eE][-+]?\d+)?[ \t]*[A-Za-zµμ°%]$")
 MAX_DEPTH = 100
 
 # Possessive repeats (`*+`) need no memory for backtracking.
@@ -60,8 +60,9 @@ def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
         if (long := _LONG_NUMBER.search(text)) and "int_max_str_digits" in reason:
             line = text.count("\n", 0, long.start()) + 1
             reason = f"a whole number of more than {_MAX_DIGITS} digits"
-        bare = _BARE_UNIT.search(text.split("\n")[line - 1])
-        expected = f'a value with a unit in quotes: "{bare[1]}"' if bare else ""
+        expected = ""
+        if place and _BARE_UNIT.search(text.split("\n")[line - 1][: int(place[2])]):
+            expected = 'values with units in quotes, such as "1 kN"'
         raise _file_error(file, f"not valid TOML: {reason}{column}", expected, line) from None
 
 
