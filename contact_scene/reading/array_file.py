@@ -175,6 +175,7 @@ def _read_text_array(path: Path, name: str) -> NDArray[Any]:
             continue
         fields = (line if separator == "," else line.replace(",", ".")).split(separator)
         row = [_read_number(field) for field in fields]
+        # Missing values alone are a row only if as wide as one: dashes may underline headings.
         known = any(number is not None and number == number for number in row)
         if None not in row and (rows or known or len(row) == width):
             rows.append(row)
