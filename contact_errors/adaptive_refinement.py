@@ -15,7 +15,7 @@ least 2.
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -25,8 +25,9 @@ from contact_errors.coarse_solves import (
     Fineness,
     Refinement,
     compare_with_coarse_solves,
+    solve_coarsest,
 )
-from contact_errors.cost_estimate import Work, coarse_increments, estimated_run_seconds
+from contact_errors.cost_estimate import Work, estimated_run_seconds
 from contact_errors.error_formula import (
     BELIEVED,
     ORDERS,
@@ -48,7 +49,7 @@ from contact_scene.quantities.stated_error import (
     StatedError,
     StatedErrors,
 )
-from contact_scene.solver_errors import AccuracyOutOfReach, ContactNotResolved, SolverError
+from contact_scene.solver_errors import AccuracyOutOfReach, SolverError
 
 # Function from a discretisation to the context of its solve, which yields an observer of increments
 # or a checkpoint store.
@@ -62,8 +63,6 @@ SPARE = 1.15
 # Largest and least refinement factor of the cells per level, and their factor for a scalar whose
 # error has not converged.
 MAX_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
-# Largest number of doublings of the cells until the first level resolves the contact.
-MAX_DOUBLINGS = 5
 MAX_ROUNDS = 7
 # Factor by which the first level may overestimate an error, and largest refinement factor from the
 # first to the last level.
@@ -209,31 +208,18 @@ class Levels:
     watching: InContext = lambda _: nullcontext()
     keeping: InContext = lambda _: nullcontext()
 
-    def solve_first_level(self, run: Fineness | None = None) -> RefinementLevel:
+    def solve_first_level(self) -> RefinementLevel:
         """Solve the first level: the coarsest discretisation whose cells resolve the contact.
 
-        While the solver raises ContactNotResolved, the cells are doubled, at most `MAX_DOUBLINGS`
-        times. The error of the last solve, and any other SolverError, is raised.
-
-        run  discretisation of a run whose CPU time is to be estimated; None without a time
-             estimate. The first level then has few increments. If the run has fewer unknowns, the
-             first level has its cells, which are not doubled
+        Raises the SolverError of the solve.
         """
         fineness = Fineness(
             self.solver.first_space(),
             self.solver.plan.increments,
             self.solver.discretisation.tolerance,
         )
-        if run is not None:
-            fineness = replace(fineness, increments=coarse_increments(fineness.increments))
-            if self.solver.work(run).unknowns < self.solver.work(fineness).unknowns:
-                return self.solve_level(replace(fineness, space=run.space))
-        for _ in range(MAX_DOUBLINGS):
-            try:
-                return self.solve_level(fineness)
-            except ContactNotResolved:
-                fineness = self.solver.refine_fineness(fineness, {self.solver.part: UNCONVERGED})
-        return self.solve_level(fineness)
+        level: RefinementLevel = solve_coarsest(self.solver, fineness, self.solve_level)
+        return level
 
     def solve_level(self, fineness: Fineness) -> RefinementLevel:
         """Solve the scene with one discretisation, and estimate the errors of its scalars.

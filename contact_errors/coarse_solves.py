@@ -8,7 +8,7 @@ the effect of the increments is known from a separate comparison.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import ceil, log
 from typing import Any, ClassVar, Self, TypeAlias
@@ -32,7 +32,7 @@ from contact_scene.quantities.stated_error import (
     StatedErrors,
 )
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.solver_errors import SolverError
+from contact_scene.solver_errors import ContactNotResolved, SolverError
 from contact_scene.stepping.increment_error import has_increment_error
 
 # Coarse solve: description, fraction of the cells along a side, and number of additional cells.
@@ -43,6 +43,9 @@ SHARES = ("2/5 of the {}", 2 / 5, 0), ("half the {} plus 2", 1 / 2, 2)
 # half of a few increments is outside the range of regular convergence.
 FEW, MANY = 8, (32, 8)
 LEAST_TOLERANCE = 1e-13
+# Largest number of refinements until the cells resolve the contact, and their factor.
+MAX_DOUBLINGS = 5
+DOUBLING = 2.0
 # Linear elements, and linear interpolation between rings, resolve a feature as twice their number
 # of cells.
 LINEAR = 2.0
@@ -120,6 +123,8 @@ class DiscretisedSolver(ABC):
     cells: ClassVar[str]
     most: ClassVar[float]
     shares: ClassVar[Sequence[Share]] = SHARES
+    # True if the set-up of a solve depends on its mesh and takes a large part of the time.
+    factorises_each_mesh: ClassVar[bool] = False
 
     @classmethod
     @abstractmethod
@@ -446,6 +451,26 @@ def compare_with_coarse_solves(
         required=required,
         neglected=solver.neglected_errors(result),
     ), tuple(made)
+
+
+def solve_coarsest(
+    solver: DiscretisedSolver, fineness: Fineness, solve: Callable[[Fineness], Any]
+) -> Any:
+    """Solve a scene with the coarsest discretisation whose cells resolve the contact.
+
+    While the solve raises ContactNotResolved, the cells are doubled, at most `MAX_DOUBLINGS` times.
+    The error of the last solve, and any other SolverError, is raised.
+
+    solver    solver of the scene with variable discretisation
+    fineness  discretisation of the first attempt
+    solve     function that solves the scene with a discretisation
+    """
+    for _ in range(MAX_DOUBLINGS):
+        try:
+            return solve(fineness)
+        except ContactNotResolved:
+            fineness = solver.refine_fineness(fineness, {solver.part: DOUBLING})
+    return solve(fineness)
 
 
 def coarse_tolerance(features: Sequence[Features]) -> float:
