@@ -584,7 +584,8 @@ def coarse_increment_counts(
 
     Each of the two solves has one number of increments per load step. The numbers are smaller than
     those of the result if it has many increments (at least 8). They are larger if it has few,
-    because the error of even fewer increments would not converge regularly. Load steps without an
+    because the error of even fewer increments would not converge regularly. For the same reason a
+    quarter of the increments is raised to 8, if half of them is more. Load steps without an
     increment error keep their number, because their result does not depend on the increments.
 
     counts   number of increments of each load step of the result
@@ -595,7 +596,7 @@ def coarse_increment_counts(
         if not matter
         else MANY
         if count < FEW
-        else (count // 2, max(FEW // 2, count // 4))
+        else (count // 2, max(min(FEW, count // 2), count // 4))
         for count, matter in zip(counts, matters, strict=True)
     ]
     return list(zip(*both, strict=True))

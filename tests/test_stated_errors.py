@@ -243,12 +243,13 @@ CONSTANTS = {
     *("NEAR", "COARSE"),
     # of the refinement
     *("SPARE", "DOUBT", "FURTHEST", "MAX_AT_ONCE", "LEAST_AT_ONCE", "UNCONVERGED", "MAX_ROUNDS"),
-    *("FIRST_CELLS", "FIRST_PATH_ACCURACY", "MAX_CELLS", "LEAST_TOLERANCE", "MAX_DOUBLINGS"),
+    *("FIRST_CELLS", "FIRST_PATH_ACCURACY", "MAX_CELLS", "LEAST_TOLERANCE"),
+    *("MAX_DOUBLINGS", "DOUBLING"),
     *("FIRST_ELEMENTS", "MAX_ELEMENTS", "MAX_HARMONICS", "LEAST_OVERLAP", "LARGEST_BOX"),
     *("FIRST_FINENESS", "MAX_FINENESS"),
     # of the cost estimate
-    *("EXPONENT", "CELL_OVERHEAD", "ELEMENT_OVERHEAD", "SET_UP_INCREMENTS"),
-    *("MAX_CELLS", "MAX_ELEMENTS", "MAX_STEPS", "MAX_INCREMENTS"),
+    *("EXPONENT", "CELL_OVERHEAD", "ELEMENT_OVERHEAD", "RING_OVERHEAD", "SET_UP_INCREMENTS"),
+    *("INCREMENTS", "STEPS", "MAX_STEPS"),
 }
 
 
@@ -290,9 +291,14 @@ def test_increments_have_no_error_in_three_proved_cases_alone(name: str) -> None
 
 
 def test_increments_of_coarse_solves() -> None:
-    counts, matters = (1, 2, 5, 8, 40), (False, True, True, True, True)
+    counts = (1, 2, 5, 8, 40)
+    matters = (False, True, True, True, True)
     few, fewer = coarse_increment_counts(counts, matters)
-    assert (few, fewer) == ((1, 32, 32, 4, 20), (1, 8, 8, 4, 10))
+    assert few == (1, 32, 32, 4, 20)
+    assert fewer == (1, 8, 8, 4, 10)
+    # The stick radius of a pressing with friction by 20 increments jumps by 10 % with the cells of
+    # solves by 5 increments, and by less than 1 % with those of 10.
+    assert coarse_increment_counts((20,), (True,)) == [(10,), (8,)]
     # A step that inherits a state takes the ratio nearest to 1 so far.
     assert ratios(counts, few, matters) == (1.0, 1 / 16, 5 / 32, 2.0, 2.0)
     of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
