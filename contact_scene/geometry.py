@@ -16,6 +16,7 @@ from contact_scene.height_map import (
     PairOfSpacings,
     fill_missing_heights,
     interpolate,
+    leave_out_every_second,
     lowest_point,
 )
 from contact_scene.reading.array_file import (
@@ -104,6 +105,13 @@ class ShapedBody(Body):
         """
         return None
 
+    def with_half_the_points(self) -> "ShapedBody | None":
+        """Return the shape with every second of its measured points left out, for an error estimate.
+
+        The value is None for a shape that is not given by points.
+        """
+        return None
+
     # Estimates to an order of magnitude, for grids and meshes. Callers take the root of degree k or
     # k + 1.
 
@@ -139,6 +147,7 @@ _SHAPE_PROPERTIES = {
     "extent",
     "contact_at",
     "contact_under",
+    "with_half_the_points",
 }
 
 
@@ -423,6 +432,15 @@ class HeightMap(ShapedBody):
         """True if first contact is on an outermost row or column of points of the height map."""
         *_, place = _interpolated_surface(self.file, self.height_unit, self.flip)
         return any(at in (0.0, n - 1.0) for at, n in zip(place, self.file.shape, strict=True))
+
+    def with_half_the_points(self) -> "HeightMap":
+        """Return the map with every second row and column replaced by interpolated heights.
+
+        Used to estimate the error of the surface between the points.
+        """
+        heights = leave_out_every_second(self.heights, self.spacing)
+        changed = {"file": heights, "height_unit": 1.0, "flip": False}
+        return type(self).model_validate({**dict(self), **changed})
 
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """Compute the undeformed gap of the height map: its height above its lowest point [length].

@@ -97,6 +97,31 @@ def test_first_touch_of_a_height_map_is_the_minimum_between_its_points() -> None
         assert 0.0 <= shape.initial_gap(x[:, None], y).min() < 4e-3
 
 
+@pytest.mark.parametrize("count", [12, 13])
+def test_a_map_touches_first_on_its_flat_and_not_beside_it(count: int) -> None:
+    """Cubic convolution dips below a flat by 2/27 of the adjacent height."""
+    x, y = centres(count, 1.0)[:, None], centres(count, 1.0)
+    odd = [np.hypot(x, y)] * (count % 2)  # two equal values between larger ones are a smooth tip
+    for r in (x + 0 * y, y + 0 * x, np.maximum(abs(x), abs(y)), *odd):
+        for height in (np.square(np.maximum(abs(r) - 2.8, 0.0)), np.where(r > 0.3, 1.0, 0.0)):
+            shape = HeightMap(material=RIGID, file=height, spacing=1.0)
+            gap = shape.initial_gap(x, y)
+            np.testing.assert_allclose(gap, height - np.min(height), rtol=0, atol=1e-14)
+            fine = np.linspace(y[0], y[-1], 20 * count)
+            assert np.min(shape.initial_gap(fine[:, None], fine)) >= -1e-14
+
+
+@given(st.floats(-3, 3), st.floats(-3, 3), st.floats(0.1, 2.0))
+def test_a_map_of_a_paraboloid_touches_first_at_the_tip(u: float, v: float, bent: float) -> None:
+    """The tip may lie between the points."""
+    x, y = centres(12, 1.0)[:, None], centres(13, 1.0)
+    shape = HeightMap(material=RIGID, file=np.square(x - u) + bent * np.square(y - v), spacing=1.0)
+    for r in (np.linspace(-6, 6, 25), np.array([u])):
+        exact = np.square(r[:, None] - u) + bent * np.square(r - v)
+        found = shape.initial_gap(r[:, None], r)
+        np.testing.assert_allclose(found, exact, rtol=0, atol=1e-6)
+
+
 def test_a_window_beyond_the_height_map_is_refused_with_both_lengths() -> None:
     shape = HeightMap(material=RIGID, file=heights(), spacing=1e-3)
     shape.initial_gap(6e-3, 4.5e-3)
