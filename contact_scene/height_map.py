@@ -269,9 +269,12 @@ def interpolate_middle(
     """
     rise = np.diff(values, axis=0)
     bend = np.diff(rise, axis=0)
-    common = _nearer_to_zero(bend[:-1], bend[1:])  # in the three intervals between inner values
+    turn = 0.5 * nearer_to_zero(bend[:-1], bend[1:])  # in the three intervals between inner values
     start, end = (
-        _limited_slope(rise[k], rise[k + 1], common[k - 1], common[k]) for k in (1, 2)
+        limited_slope(
+            0.5 * (before + after), before, after, before + turn[k], after - turn[k + 1]
+        )
+        for k, (before, after) in enumerate(zip(rise[1:3], rise[2:4], strict=True))
     )
     back = 1.0 - t
     return np.asarray(
@@ -279,28 +282,31 @@ def interpolate_middle(
     )
 
 
-def _limited_slope(
+def limited_slope(
+    central: NDArray[np.float64],
     before: NDArray[np.float64],
     after: NDArray[np.float64],
-    bend_before: NDArray[np.float64],
-    bend_after: NDArray[np.float64],
+    parabola_before: NDArray[np.float64],
+    parabola_after: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Compute the slope at a value of a map: the central difference within Huynh's limits.
+    """Limit the slope at a value of a map such that its interpolation preserves the shape.
 
-    The limits are 0, three times the smaller of the adjacent differences, and 3/2 of the smaller
-    of the slopes of two parabolas that end at the value (Huynh 1993).
+    The limits are 0, three times the smaller of the adjacent mean slopes, and 3/2 of the smaller of
+    the slopes of two parabolas through the ends of the adjacent intervals (Huynh 1993). The curvature
+    of a parabola is the smaller one at the ends of its interval, and 0 if their signs differ.
 
-    before, after            differences from the adjacent values
-    bend_before, bend_after  second differences in the adjacent intervals, 0 if they change sign
+    central                          slope without limit
+    before, after                    mean slopes of the adjacent intervals
+    parabola_before, parabola_after  slopes of the parabolas at the value
     """
-    monotone = 3.0 * _nearer_to_zero(before, after)
-    smooth = 1.5 * _nearer_to_zero(before + 0.5 * bend_before, after - 0.5 * bend_after)
+    monotone = 3.0 * nearer_to_zero(before, after)
+    smooth = 1.5 * nearer_to_zero(parabola_before, parabola_after)
     least = np.minimum(0.0, np.minimum(monotone, smooth))
     most = np.maximum(0.0, np.maximum(monotone, smooth))
-    return np.clip(0.5 * (before + after), least, most)
+    return np.clip(central, least, most)
 
 
-def _nearer_to_zero(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+def nearer_to_zero(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the number of smaller magnitude of two, or 0 if their signs differ (minmod)."""
     return np.asarray(0.5 * (np.sign(a) + np.sign(b)) * np.minimum(np.abs(a), np.abs(b)))
 

@@ -91,16 +91,16 @@ class Target:
 
         The search for the contact radius finds the zero of this residual. Raises UnsupportedScene
         if the computed value is not positive. The contact radius is then beyond the end of the
-        shape (the equator of a sphere).
+        shape (the equator of a sphere), or within a flat on the axis.
 
         contact  solved contact of a trial radius
         """
         value = self.controlled_value(contact)
         if not (value > 0 and isfinite(value)):
             raise UnsupportedScene(
-                f"no contact of radius {contact.radius:.3g} m carries the load: the contact "
-                "reaches the end of the shape (the equator of a sphere). Use "
-                "a smaller force or approach"
+                f"no contact of radius {contact.radius:.3g} m carries the load: the shape is flat "
+                "there, or ends (the equator of a sphere). Use a smaller force or approach, or the "
+                "semi-analytical solver"
             )
         return log(value / self.prescribed_value)
 
