@@ -448,8 +448,8 @@ def compare_with_coarse_solves(
                 effects.append((found[1], other[1]))
                 found, changes = other, further
         if points is not None:
-            further = replace(run, space=change_settings(space, **(changes or {})))
-            if other := solved("every second point of the indenter", further, points):
+            same = replace(run, space=change_settings(space, **(changes or {})))
+            if other := solved("every second point of the indenter", same, points):
                 factors = (2.0,) * len(values)
                 comparisons.append(Comparison("map", found[1], other[1], factors))
                 points = None

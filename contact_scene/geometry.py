@@ -134,9 +134,9 @@ class ShapedBody(Body):
         return None
 
     def with_half_the_points(self) -> "ShapedBody | None":
-        """Return the shape with every second of its measured points left out, for an error estimate.
+        """Return the shape with every second of its measured points left out.
 
-        The value is None for a shape that is not given by points.
+        Used for an error estimate. The value is None for a shape that is not given by points.
         """
         return None
 

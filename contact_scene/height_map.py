@@ -1,9 +1,10 @@
 """Interpolation of maps: heights by limited cubic convolution, friction coefficients bilinearly.
 
-Cubic convolution (Keys 1981, IEEE ASSP 29, Eq. 15) draws a cubic between two values, with the slopes
-of central differences. Beside a flat it dips below the flat. The slopes are therefore limited such
-that the cubic is monotone where the values are, and has an extremum between two values only if the
-curvatures on both sides agree, as on a smooth tip (Huynh 1993, SIAM J. Numer. Anal. 30, 57).
+Cubic convolution (Keys 1981, IEEE ASSP 29, Eq. 15) draws a cubic between two values, with the
+slopes of central differences. Beside a flat it dips below the flat. The slopes are therefore
+limited such that the cubic is monotone where the values are, and has an extremum between two values
+only if the curvatures on both sides agree, as on a smooth tip (Huynh 1993, SIAM J. Numer. Anal. 30,
+57).
 """
 
 from functools import reduce
@@ -145,8 +146,9 @@ def leave_out_every_second(
 def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, float]]:
     """Find the minimum of the interpolated surface of a height map between its outermost points.
 
-    The minimum is the point of first contact. The surface is that of `interpolate`. Beyond the outermost points the surface is extrapolated and therefore ignored. The
-    search is by blocks of rows, without a copy of the map.
+    The minimum is the point of first contact. The surface is that of `interpolate`. Beyond the
+    outermost points the surface is extrapolated and therefore ignored. The search is by blocks of
+    rows, without a copy of the map.
 
     heights  heights at the points, (nx, ny) [length]
     returns  minimum minus the lowest of the heights [length]; position of the minimum in indices of
@@ -185,8 +187,8 @@ def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, t
 
     A patch is the surface between four adjacent points. The surface undershoots the lowest of the
     4 x 4 values around it by at most `_NEGATIVE_WEIGHTS` times their range: it undershoots less
-    than cubic convolution, because limits only reduce slopes. This bound selects the patches that can be below the limit. The minimum of these patches is located
-    on grids that shrink around it.
+    than cubic convolution, because limits only reduce slopes. This bound selects the patches that
+    can be below the limit. The minimum of these patches is located on grids that shrink around it.
 
     padded   heights with two more values beyond the outermost points on every side [length]
     limit    value above which a minimum is ignored [length]
@@ -249,7 +251,7 @@ def _interpolate_padded(
     s, t    distances of the points from the third value, in spacings of the map
     """
     result, six = np.empty(s.shape), np.arange(6)
-    i, s, j, t = (np.ravel(each) for each in (i, s, j, t))
+    i, j, s, t = i.ravel(), j.ravel(), s.ravel(), t.ravel()
     for begin in range(0, len(s), _POINTS):
         at = slice(begin, begin + _POINTS)
         values = padded[i[at] + six[:, None, None], j[at] + six[:, None]]
@@ -259,9 +261,7 @@ def _interpolate_padded(
     return result
 
 
-def interpolate_middle(
-    values: NDArray[np.float64], t: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def interpolate_middle(values: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
     """Interpolate between the middle two of six equally spaced values by a limited cubic.
 
     values  six values (6, …)
@@ -270,16 +270,27 @@ def interpolate_middle(
     rise = np.diff(values, axis=0)
     bend = np.diff(rise, axis=0)
     turn = 0.5 * nearer_to_zero(bend[:-1], bend[1:])  # in the three intervals between inner values
-    start, end = (
-        limited_slope(
-            0.5 * (before + after), before, after, before + turn[k], after - turn[k + 1]
-        )
-        for k, (before, after) in enumerate(zip(rise[1:3], rise[2:4], strict=True))
-    )
+    central = 0.5 * (rise[1:3] + rise[2:4])
+    parabolas = rise[1:3] + turn[:2], rise[2:4] - turn[1:]
+    start, end = limited_slope(central, rise[1:3], rise[2:4], *parabolas)
+    return interpolate_cubic(values[2], rise[2], start, end, t)
+
+
+def interpolate_cubic(
+    value: NDArray[np.float64],
+    rise: NDArray[np.float64],
+    start: NDArray[np.float64],
+    end: NDArray[np.float64],
+    t: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Evaluate a cubic from its values and slopes at both ends (Hermite).
+
+    value, rise  value at the start, and difference of the values
+    start, end   slopes at the start and the end, per interval
+    t            fraction of the interval, from 0 to 1
+    """
     back = 1.0 - t
-    return np.asarray(
-        values[2] + t * t * (3.0 - 2.0 * t) * rise[2] + t * back * (back * start - t * end)
-    )
+    return np.asarray(value + t * t * (3.0 - 2.0 * t) * rise + t * back * (back * start - t * end))
 
 
 def limited_slope(
@@ -291,9 +302,10 @@ def limited_slope(
 ) -> NDArray[np.float64]:
     """Limit the slope at a value of a map such that its interpolation preserves the shape.
 
-    The limits are 0, three times the smaller of the adjacent mean slopes, and 3/2 of the smaller of
-    the slopes of two parabolas through the ends of the adjacent intervals (Huynh 1993). The curvature
-    of a parabola is the smaller one at the ends of its interval, and 0 if their signs differ.
+    The limits are 0, three times the smaller of the adjacent mean slopes, and 3/2 of the smaller
+    of the slopes of two parabolas through the ends of the adjacent intervals (Huynh 1993). The
+    curvature of a parabola is the smaller one at the ends of its interval, and 0 if their signs
+    differ.
 
     central                          slope without limit
     before, after                    mean slopes of the adjacent intervals

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from contact_scene.height_map import limited_slope, nearer_to_zero
+from contact_scene.height_map import interpolate_cubic, limited_slope, nearer_to_zero
 
 Values = NDArray[np.float64]
 
@@ -38,25 +38,48 @@ class Profile:
     heights: Values
 
     @cached_property
-    def _cubic(self) -> Any:
-        """Interpolation of the profile and its mirror image beyond the axis."""
-        from scipy.interpolate import CubicHermiteSpline  # the import takes as long as a contact
-
+    def _points(self) -> tuple[Values, Values, Values]:
+        """Radii of the points and their mirror images, heights above the first point, slopes."""
         mirrored = np.flatnonzero(self.radii)[::-1]
         r = np.concatenate([-self.radii[mirrored], self.radii])
-        z = np.concatenate([self.heights[mirrored], self.heights])
-        return CubicHermiteSpline(r, z, limited_slopes(r, z))
+        z = np.concatenate([self.heights[mirrored], self.heights]) - self.heights[0]
+        return r, z, limited_slopes(r, z)
 
     @cached_property
     def _lowest(self) -> tuple[float, float]:
-        """Lowest height [length], and its radius [length], which is 0 on the axis."""
-        flat = self._cubic.derivative().roots(extrapolate=False)
-        flat = flat[(flat >= 0) & (flat <= self.radii[-1])]  # NaN where the profile is constant
-        r = np.concatenate([[0.0], flat, self.radii])
-        heights = self._cubic(r)
+        """Lowest height above the first point [length], and its radius, 0 on the axis [length]."""
+        r = np.concatenate([[0.0], self.radii, self._turning_radii()])
+        heights = self._height_above_first(r)
         at = int(np.argmin(heights))
         on_axis = heights[0] - heights[at] <= _ROUND_OFF * np.ptp(self.heights)
         return float(heights[at]), 0.0 if on_axis else float(r[at])
+
+    def _turning_radii(self) -> Values:
+        """Find the radii at which the slope of the profile is zero between two points [length]."""
+        r, z, slopes = self._points
+        step = np.diff(r)
+        mean, start, end = np.diff(z) / step, slopes[:-1], slopes[1:]
+        # The slope is a t^2 + b t + start at the fraction t of an interval.
+        a, b = 3.0 * (start + end) - 6.0 * mean, 6.0 * mean - 4.0 * start - 2.0 * end
+        with np.errstate(all="ignore"):  # no root, or constant height
+            q = -0.5 * (b + np.copysign(np.sqrt(b * b - 4.0 * a * start), b))
+            found = (r[:-1] + step * np.array([q / a, start / q])).ravel()
+            inside = np.array([q / a, start / q]).ravel()
+        return np.asarray(found[(inside >= 0) & (inside <= 1) & (found > 0)])
+
+    def _interval(self, radius: Values) -> tuple[Any, Values, Values]:
+        """Return indices of intervals, their widths [length], and the fractions at given radii."""
+        r = self._points[0]
+        k = np.clip(np.searchsorted(r, radius, side="right") - 1, 0, len(r) - 2)
+        step = np.diff(r)[k]
+        return k, step, (radius - r[k]) / step
+
+    def _height_above_first(self, radius: Values) -> Values:
+        """Interpolate the height above the first point, up to the last point [length]."""
+        _, z, slopes = self._points
+        k, step, t = self._interval(radius)
+        start, end = step * slopes[k], step * slopes[k + 1]
+        return interpolate_cubic(z[k], z[k + 1] - z[k], start, end, t)
 
     @property
     def lowest_radius(self) -> float:
@@ -68,19 +91,20 @@ class Profile:
 
         radius  distance from the axis, not negative [length]
         """
-        r = np.asarray(radius, dtype=float)
-        end = self.radii[-1]
-        beyond = np.maximum(r - end, 0.0)
-        return np.asarray(
-            self._cubic(np.minimum(r, end)) - self._lowest[0] + beyond * self.slope(end)
-        )
+        r, end = np.asarray(radius, dtype=float), self.radii[-1]
+        known = self._height_above_first(np.minimum(r, end)) - self._lowest[0]
+        return np.asarray(known + np.maximum(r - end, 0.0) * self._points[2][-1])
 
     def slope(self, radius: ArrayLike) -> Values:
         """Compute the slope of the profile; beyond the last point that of the line [1].
 
         radius  distance from the axis, not negative [length]
         """
-        return np.asarray(self._cubic(np.minimum(radius, self.radii[-1]), 1))
+        _, z, slopes = self._points
+        k, step, t = self._interval(np.minimum(np.asarray(radius, dtype=float), self.radii[-1]))
+        back, mean = 1.0 - t, (z[k + 1] - z[k]) / step
+        by_ends = back * (1.0 - 3.0 * t) * slopes[k] - t * (2.0 - 3.0 * t) * slopes[k + 1]
+        return np.asarray(6.0 * t * back * mean + by_ends)
 
     def radius_at(self, approach: float) -> float:
         """Estimate the contact radius a on half-spaces at an approach δ [length].

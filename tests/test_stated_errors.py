@@ -58,13 +58,14 @@ from contact_scene import (
     CoulombFriction,
     Ellipsoid,
     FiniteElementDiscretisation,
-    HeightMap,
     FlatPunch,
+    HeightMap,
     IsotropicMaterial,
     Layer,
     LoadStep,
     Paraboloid,
     RadialDiscretisation,
+    RevolvedProfile,
     Scene,
     SurfaceDiscretisation,
 )
@@ -412,7 +413,7 @@ MAPPED: dict[str, tuple[Callable[[Any], Any], dict[str, float]]] = {
     ),
     "paraboloid": (
         lambda r: np.square(r) / (2 * ROUND),
-        {"approach": 4.5639013e-6, "peak_pressure": 1046.177e6, "contact_radius": 0.2136323e-3},
+        {"approach": 4.5639031e-6, "peak_pressure": 1046.1765e6, "contact_radius": 0.21363293e-3},
     ),
     "cone": (lambda r: 0.02 * r, {"approach": 6.3906732e-6}),
 }
@@ -427,6 +428,15 @@ def mapped(name: str, count: int) -> Known:
     body = Body(material=bodies(70e9, 0.3))
     loads = (LoadStep(normal_force=100.0),)
     return Known(Scene(indenter=indenter, body=body, loading=loads), exact)
+
+
+def revolved(name: str, count: int, solver: str) -> Known:
+    """The same shapes by the heights at some radii."""
+    height, exact = MAPPED[name]
+    radii = np.linspace(0.0, 0.6e-3, count)
+    posed = mapped(name, 4).scene
+    profile = RevolvedProfile(file=np.stack([radii, height(radii)], axis=1), material=RIGID)  # type: ignore[arg-type]
+    return Known(posed.model_copy(update={"indenter": profile}), exact, None, solver)
 
 
 def stiff_film(stiffer: float, thickness: float, count: int) -> Known:
@@ -501,6 +511,16 @@ KNOWN: dict[str, Callable[[], Known]] = {
     **{
         f"film, E ratio {E:g}, h = {h:g} a, {n} cells": lambda E=E, h=h, n=n: stiff_film(E, h, n)
         for E, h, n in ((20.0, 0.5, 48), (42.6, 0.5, 58), (40.0, 0.083, 37), (0.5, 0.2, 33))
+    },
+    **{
+        f"profile of a {name}, {n} points, {solver}": lambda name=name, n=n, solver=solver: (
+            revolved(name, n, solver)
+        )
+        for name in MAPPED
+        for n, solver in (
+            *((24, "semi-analytical"), (24, "radial"), (25, "radial")),
+            *((24, "fem"), (24, "fem-complementarity")),
+        )
     },
     # Inputs whose stated error was once smaller than the true error.
     "push of incompressible bodies": lambda: strong_push(0.9),

@@ -250,8 +250,9 @@ def _loaded_bodies(
 def _relative_part(end: State, errors: Mapping[str, StatedError], part: Part) -> float | None:
     """Estimate the relative error of the tractions that is due to one cause, such as increments.
 
-    The estimate is the largest relative part of the errors of peak pressure, approach and tangential
-    shift. If the peak pressure has no error because it is infinite, the contact radius replaces it.
+    The estimate is the largest relative part of the errors of peak pressure, approach and
+    tangential shift. If the peak pressure has no error because it is infinite, the contact radius
+    replaces it.
 
     end     scalars at the end of the increment
     errors  stated errors of these scalars, by name
