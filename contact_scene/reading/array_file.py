@@ -232,7 +232,7 @@ def _check_array(values: NDArray[Any], name: str, least_side: int = _MIN_SIDE) -
     nx, ny = shape = values.shape if values.ndim == 2 else (0, 0)
     expected = ""
     if not least_side <= min(shape) <= max(shape) <= _MAX_SIDE:
-        expected = f"two dimensions of {least_side} to {_MAX_SIDE} values each"
+        expected = f"two dimensions (x, y) of {least_side} to {_MAX_SIDE} values each"
     elif nx * ny > _MAX_VALUES:
         expected = f"at most {_MAX_VALUES} values in all (4096 x 4096)"
     if expected:
