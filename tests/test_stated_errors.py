@@ -439,6 +439,16 @@ def revolved(name: str, count: int, solver: str) -> Known:
     return Known(posed.model_copy(update={"indenter": profile}), exact, None, solver)
 
 
+def coated_profile(solver: str) -> Known:
+    known = revolved("flat that ends in a parabola", 31, solver)
+    coating = Layer(thickness=1e-4, material=bodies(210e9, 0.25))
+    posed = known.scene.model_copy(
+        update={"body": known.scene.body.model_copy(update={"layers": (coating,)})}
+    )
+    exact = {"approach": 2.096421e-6, "contact_radius": 0.292295e-3, "elastic_energy": 9.99841e-5}
+    return known._replace(scene=posed, exact=exact, uncertain=3e-6)
+
+
 def stiff_film(stiffer: float, thickness: float, count: int) -> Known:
     film = Layer(thickness=thickness * A, material=steel(young_modulus=stiffer * YOUNG))
     body = Body(material=steel(), layers=(film,))
@@ -521,6 +531,13 @@ KNOWN: dict[str, Callable[[], Known]] = {
             *((24, "semi-analytical"), (24, "radial"), (25, "radial")),
             *((24, "fem"), (24, "fem-complementarity")),
         )
+    },
+    # By `radial`.
+    **{
+        f"profile of a flat that ends in a parabola, coated, {solver}": lambda solver=solver: (
+            coated_profile(solver)
+        )
+        for solver in ("semi-analytical", "fem-complementarity")
     },
     # Inputs whose stated error was once smaller than the true error.
     "push of incompressible bodies": lambda: strong_push(0.9),
