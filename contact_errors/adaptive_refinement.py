@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -64,6 +65,10 @@ SPARE = 1.15
 # error has not converged.
 MAX_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
 MAX_ROUNDS = 7
+# Parts of an error that no refinement of the discretisation reduces, with their causes.
+UNREFINED: Mapping[Part, str] = MappingProxyType(
+    {"map": "the points of the indenter", "neglected": "neglected effects"}
+)
 # Factor by which the first level may overestimate an error, and largest refinement factor from the
 # first to the last level.
 DOUBT, FURTHEST = 4.0, 1e4
@@ -151,6 +156,19 @@ class RefinementLevel:
         reached = {name: self.reached_error(name) for name in shares}
         return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
 
+    def beyond_refinement(self, shares: Mapping[str, float]) -> str | None:
+        """Return a message if the error of a scalar exceeds a request on any grid; else None.
+
+        shares  requested relative error by name of the scalar
+        """
+        for name, share in shares.items():
+            for error in self.errors(name):
+                for part, cause in UNREFINED.items():
+                    size = float(np.max(error.parts.get(part, 0.0))) / self.largest(name)
+                    if size > share:
+                        return f"{cause} leave an error of {size:.2g} in {name} on any grid"
+        return None
+
     def needed_factors(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
         """Compute the refinement factors of the discretisation that a requested accuracy needs.
 
@@ -171,7 +189,7 @@ class RefinementLevel:
                 wanted: dict[Part, float] = {
                     part: (size / allowed) ** (1 / (believed * ORDERS.get(part, of_cells)))
                     for part, size in parts.items()
-                    if part != "neglected" and size > allowed
+                    if part not in UNREFINED and size > allowed
                 }
                 if error.status is ErrorStatus.NOT_CONVERGED:
                     wanted[self.part] = max(wanted.get(self.part, 1.0), UNCONVERGED)
@@ -385,7 +403,11 @@ def refine(
         following = levels.solver.refine_fineness(level.fineness, by)
         seconds = levels.estimated_seconds(level, levels.solver.work(following))
         shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
-        stopped = levels.beyond_limit(following) or levels.beyond_memory(following)
+        stopped = (
+            level.beyond_refinement(shares)
+            or levels.beyond_limit(following)
+            or levels.beyond_memory(following)
+        )
         if rounds == MAX_ROUNDS:
             stopped = f"{rounds} rounds have not met it"
         elif stopped is None and spent + shared * seconds > most_seconds:

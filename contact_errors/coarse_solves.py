@@ -278,6 +278,16 @@ class DiscretisedSolver(ABC):
         """
         return {}
 
+    def with_half_the_points(self) -> Self | None:
+        """Return the solver of the scene with every second point of the indenter left out.
+
+        The value is None if the shape of the indenter is not given by points.
+        """
+        half = self.scene.indenter.with_half_the_points()
+        if half is None:
+            return None
+        return replace(self, scene=self.scene.model_copy(update={"indenter": half}))
+
     # ---- refinement
 
     @abstractmethod
@@ -346,6 +356,8 @@ def compare_with_coarse_solves(
     - Cells, elements or rings: two solves with coarser discretisations, compared with the result;
       three for a small run on cells.
     - Other parameters of a mesh: one solve each, compared on the first coarse mesh.
+    - Points of a measured indenter: one solve with half of them along a side, compared on the first
+      coarse grid or mesh.
 
     Later coarse solves use the cheaper value of a parameter that has been compared. Its measured
     effect on the scalars is added before a coarse solve is compared with the result.
@@ -362,10 +374,10 @@ def compare_with_coarse_solves(
     )
     run = solver.fineness_of(result)
     run = replace(run, tolerance=max(run.tolerance, coarse_tolerance(features)))
-    known: dict[Fineness, Solved | None] = {}
+    known: dict[tuple[bool, Fineness], Solved | None] = {}
     made: list[CoarseSolveRecord] = []
 
-    def solved(differs: str, coarse: Fineness) -> Solved | None:
+    def solved(differs: str, coarse: Fineness, by: DiscretisedSolver = solver) -> Solved | None:
         """Solve the scene with a coarse discretisation; return the result and its scalars.
 
         None is returned if the solver raised an error. Each discretisation is solved once and
@@ -373,23 +385,27 @@ def compare_with_coarse_solves(
 
         differs  text that describes the coarse discretisation in its record
         coarse   grid or mesh, increments and tolerance
+        by       solver of the scene, or of the scene with a coarser indenter
         """
-        if coarse not in known:
+        key = by is solver, coarse
+        if key not in known:
             shown, increments = solver.record_entry(coarse.space), coarse.increments
             record = CoarseSolveRecord(differs=differs, increments=increments, **shown)
             try:
-                found = solver.solve(coarse)
-                known[coarse] = found, values_of(found)
+                found = by.solve(coarse)
+                known[key] = found, values_of(found)
                 made.append(record.model_copy(update=_solver_work(found)))
             except SolverError as error:
-                known[coarse] = None
+                known[key] = None
                 made.append(record.model_copy(update={"refused": str(error)}))
-        return known[coarse]
+        return known[key]
 
     shares = solver.shares_of(run)
     spaces = [solver.coarser(result, share, more) for _, share, more in shares]
     required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
     required["increments"] = matters
+    if (points := solver.with_half_the_points()) is not None:
+        required["map"] = [True] * len(values)
     comparisons: list[Comparison] = []
 
     effects: list[Effect] = []
@@ -436,6 +452,12 @@ def compare_with_coarse_solves(
                 comparisons.append(Comparison(coarse.part, found[1], other[1], factors))
                 effects.append((found[1], other[1]))
                 found, changes = other, further
+        if points is not None:
+            same = replace(run, space=change_settings(space, **(changes or {})))
+            if other := solved("every second point of the indenter", same, points):
+                factors = (2.0,) * len(values)
+                comparisons.append(Comparison("map", found[1], other[1], factors))
+                points = None
         changes = changes or {}
     different = {ratio for _, ratio in meshes if ratio != 1}
     believed = BELIEVED if len(different) < 3 else BELIEVED_BY_THREE
