@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from contact_results.directory.atomic_file import Refused
 from contact_scene import Body, load_scene
 from slipstick.cli import main
 from tests.cell_means import ellipse_means
@@ -22,13 +23,14 @@ from verification import Answer, CannotDo, Field, Solver, judge
 from verification.adapters import own_solvers as own
 from verification.challenge.cases import PLACES, challenges
 from verification.challenge.files import read_answers, toml_text
-from verification.challenge.python_api import Posed, judged
+from verification.challenge.python_api import judged
 from verification.challenge.requested_quantities import (
     Challenge,
     Grade,
     Patch,
     RoundTable,
 )
+from verification.challenge.solver_process import Posed
 from verification.judging.outcome import Status
 from verification.problems.indentation import EXACT as ELLIPSE
 from verification.problems.problem import HERTZ
@@ -574,7 +576,7 @@ def test_numbers_at_places_are_all_given_each_at_its_own(
 
 def test_a_function_answers_at_every_place_or_none() -> None:
     key = ("stress_xx", 2)
-    with pytest.raises(ValueError, match="2 numbers, expected one at each of the 11 places"):
+    with pytest.raises(Refused, match="2 numbers, expected one at each of the 11 places"):
         judge("sliding_stress", lambda *_: Answer(1e-5, points={key: np.zeros(2)}), levels=1)
 
 
@@ -755,7 +757,7 @@ def test_the_problem_that_a_solver_sees_has_no_answer() -> None:
         seen.append(posed)
         return Answer(1e-5 / 2**level, {("approach", 1): HERTZ.approach})
 
-    assert judge("hertz_point", solve, levels=2).exit_code(partial=True) == 0
+    assert judge("hertz_point", solve, levels=2, seconds=None).exit_code(partial=True) == 0
     assert str(HERTZ.approach) not in repr(seen[0])
 
 

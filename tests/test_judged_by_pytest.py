@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 from verification.challenge.cases import challenges
-from verification.challenge.python_api import named_solver
+from verification.challenge.python_api import judge
 from verification.problems.problem import HERTZ
 
 # pytester forgets what an inner run imports: what is imported here need not be made again.
 assert challenges()
-assert named_solver
+assert judge
 pytest_plugins = ["pytester"]
 SOLVER = f"""
 from verification import Answer, CannotDo

@@ -22,11 +22,8 @@ import numpy as np
 from contact_results.blas_threads import VARIABLES
 from contact_results.directory.atomic_file import atomic_file
 from contact_scene.disk_cache import cache_directory
-from verification.challenge.python_api import (
-    CannotDo,
-    Posed,
-)
 from verification.challenge.requested_quantities import Answer, Field, Key
+from verification.challenge.solver_process import CannotDo, Posed
 
 FOLDER = "peers"
 # Why peers could not be installed: a build that waits for what it may not download would take
