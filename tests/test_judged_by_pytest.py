@@ -42,6 +42,14 @@ OUTCOMES = {
         "def solve(problem, level):\n    return 1 / 0", "--slipstick", {"failed": 1},
         "*ZeroDivisionError*",
     ),
+    "leaves": (
+        "import os\ndef solve(problem, level):\n    os._exit(0)", "--slipstick", {"failed": 1},
+        "*solve ended without an answer on level 0: exit code 0*",
+    ),
+    "is endless": (
+        "SECONDS = 0.5\ndef solve(problem, level):\n    while True: pass", "--slipstick",
+        {"failed": 1}, "*solve gave no answer on level 0 within 0.5 s*",
+    ),
     "no challenge": ("CASES = ['hertz']", "--slipstick", {"errors": 1}, "*no challenge 'hertz'*"),
     "no solver": ("del solve", "--slipstick", {"errors": 1}, "*no solve; expected*"),
 }  # fmt: skip

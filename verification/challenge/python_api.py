@@ -11,7 +11,7 @@ import json
 import math
 from collections.abc import Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
 from math import pi
@@ -189,10 +189,9 @@ def _judge_quantity(
     finest, given = found[-1]
     yield from _missing_on_finest(key, finest, levels[-1])
     errors = [(one.h, _relative_error(asked, value, solver.sampling)) for one, value in found]
-    value = reference = None
-    hint = ""
-    if isinstance(asked, AskedValue):
-        value, reference, hint = given, asked.value, _slip_hint(given, asked)
+    value, reference = (given, asked.value) if isinstance(asked, AskedValue) else (None, None)
+    failed = not errors[-1][1] + 2 * asked.uncertainty <= grade.bound
+    hint = _slip_hint(asked, given, solver.sampling) if failed else ""
     yield _judge_error(key, finest.label, value, reference, errors, grade, asked.uncertainty, hint)
     yield from _judge_convergence(key, solver, errors, asked.uncertainty)
     if isinstance(asked, AskedValue):
@@ -363,7 +362,7 @@ def _judge_error(
     else:
         status, because = Status.FAIL, f"beyond class {grade}{hint}"
         because = because if math.isfinite(error) else "no finite number"
-    met = next((one for one in Grade if error + wide <= one.bound), None)
+    met = _class_of(error + wide)
     fit = _fitted_order(errors, wide)
     return Row(
         *key, level, status, because, value, reference, error, grade.bound, met, fit, tuple(errors)
@@ -416,18 +415,34 @@ def _fitted_order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[f
     return fit.order, fit.half_width
 
 
-def _slip_hint(value: float, asked: AskedValue) -> str:
-    """Return a hint that another sign, a factor of 2 or another unit would explain a wrong number.
+def _slip_hint(asked: AskedQuantity, given: Any, sampling: str) -> str:
+    """Return a hint that another sign, a factor of 2 or another unit would explain a wrong answer.
 
-    The hint is added to the message of a failed verdict. It is empty if no such mistake explains
-    the number.
+    The hint names the accuracy class that the corrected answer meets. It is added to the message of
+    a failed verdict, and is empty if no such mistake explains the answer.
+
+    asked     required quantity with its reference
+    given     answered number, field or numbers at points
+    sampling  meaning of the values of a field: "point", or "cell" for means over squares
     """
-    slips = {"with the other sign": -1.0, "halved": 0.5, "doubled": 2.0}
+    slips = {"with the sign reversed": -1.0, "halved": 0.5, "doubled": 2.0}
     slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
     for words, factor in slips.items():
-        if abs(factor * value - asked.value) <= Grade.C.bound * asked.scale:
-            return f"; {words} it would be within class C"
+        corrected = (
+            replace(given, value=factor * given.value)
+            if isinstance(given, Field)
+            else factor * given
+        )
+        error = _relative_error(asked, corrected, sampling) + 2 * asked.uncertainty
+        if met := _class_of(error):
+            expected = f"; expected: {asked.meaning}" if factor < 0 else ""
+            return f"; {words} it meets class {met}{expected}"
     return ""
+
+
+def _class_of(error: float) -> Grade | None:
+    """Return the best accuracy class whose bound an error meets; None for no class."""
+    return next((one for one in Grade if error <= one.bound), None)
 
 
 PASSED, ACCURACY, GAVE_UP, INCONCLUSIVE = 0, 1, 3, 6  # exit codes

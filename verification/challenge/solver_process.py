@@ -297,6 +297,10 @@ def _plain_numbers(value: Any, name: str) -> Vector:
     raise Refused(f"{name} is {value!r}, expected a number")
 
 
+class NoSuchSolver(Refused):
+    """The function, file or module that a text names does not exist or cannot be imported."""
+
+
 EXPECTED = "expected FILE.py:FUNCTION or MODULE:FUNCTION"
 
 
@@ -311,24 +315,24 @@ def names_a_solver(text: str) -> bool:
 def named_solver(text: str) -> Callable[[Posed, int], Answer]:
     """Import the solver function that an argument FILE.py:FUNCTION or MODULE:FUNCTION names.
 
-    Raises Refused if there is no such function, or if the execution of the file fails.
+    Raises NoSuchSolver if there is no such function, or if the execution of the file fails.
     """
     place, _, name = text.rpartition(":")
     module = module_of(Path(place)) if place.endswith(".py") else _import_module(place, text)
     found: object = getattr(module, name, None)
     if not callable(found):
-        raise Refused(f"{text}: {place} has no function {name!r}; {EXPECTED}")
+        raise NoSuchSolver(f"{text}: {place} has no function {name!r}; {EXPECTED}")
     return found
 
 
 def module_of(path: Path) -> ModuleType:
     """Execute the Python file of a user's solver function and return its module.
 
-    The file can import modules of its own folder. Raises Refused if the file cannot be read or its
-    execution fails.
+    The file can import modules of its own folder. Raises NoSuchSolver if the file cannot be read or
+    its execution fails.
     """
     if not path.is_file():
-        raise Refused(f"{path}: no such file; {EXPECTED}")
+        raise NoSuchSolver(f"{path}: no such file; {EXPECTED}")
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None
@@ -337,7 +341,7 @@ def module_of(path: Path) -> ModuleType:
     try:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
-        raise Refused(f"{path}: {type(error).__name__}: {error}") from error
+        raise NoSuchSolver(f"{path}: {type(error).__name__}: {error}") from error
     return module
 
 
@@ -345,4 +349,4 @@ def _import_module(place: str, text: str) -> ModuleType:
     try:
         return importlib.import_module(place)
     except (ImportError, ValueError) as error:
-        raise Refused(f"{text}: {error}; {EXPECTED}") from None
+        raise NoSuchSolver(f"{text}: {error}; {EXPECTED}") from None

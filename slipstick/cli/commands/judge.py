@@ -20,6 +20,7 @@ from verification.challenge.requested_quantities import Grade
 from verification.challenge.solver_process import (
     SECONDS_PER_LEVEL,
     CannotDo,
+    NoSuchSolver,
     SolverFailed,
     names_a_solver,
 )
@@ -144,6 +145,8 @@ def _judge_function(
     refuse_unknown("challenge", [case], challenges(), "slipstick challenge list")
     try:
         return judge_solver(case, name, levels, grade, seconds=seconds)
+    except NoSuchSolver:
+        raise
     except Refused as reason:
         raise Refused(f"{case} by {name}: {reason}") from None
     except CannotDo as reason:
