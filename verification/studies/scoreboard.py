@@ -21,9 +21,8 @@ from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import (
     PEERS,
-    made_environment,
     make_answer_function,
-    peers_directory,
+    peers_environment,
 )
 from verification.running.study import (
     CaseRecord,
@@ -86,7 +85,7 @@ class ScoredRun:
             solver = replace(solver, version=program_version())
             return judge(self.challenge, answer, self.levels, solver=solver, seconds=None)
         (peer,) = (peer for peer in PEERS if peer.module == self.code)
-        installed = made_environment(peers_directory())
+        installed = peers_environment()
         if reason := installed.missing.get(peer.distribution):
             raise CannotDo(f"could not be installed: {reason}")
         solve = make_answer_function(installed.python, peer)
