@@ -16,8 +16,8 @@ the side GROWTH_SIZE, in contact radii, that of the default number of elements."
 CONTACT_ZONE = 1.1
 """Least outer radius of the zone of equal elements, in contact radii."""
 
-LARGEST_GROWTH = 1.3
-"""Largest ratio of the sizes of neighbouring elements, for fewer than 16 elements per radius."""
+LARGEST_GROWTH = 1.35
+"""Largest ratio of the sizes of neighbouring elements, for fewer than 12 elements per radius."""
 
 LAYER_ELEMENTS = 2
 """Least number of elements across a layer. Two elements have five nodes. They suffice for bending
