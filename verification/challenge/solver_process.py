@@ -17,7 +17,7 @@ import threading
 import time
 import traceback
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
@@ -84,7 +84,7 @@ FORKS = sys.platform == "linux"
 
 def answers_of(
     solve: Solve | str, problem: Posed, levels: int, seconds: float | None = SECONDS_PER_LEVEL
-) -> Iterator[Answer]:
+) -> Generator[Answer, None, None]:
     """Yield the answer of a solver function on each refinement level, from level 0.
 
     The function runs in one child process for all levels, and receives a copy of the problem on
@@ -107,7 +107,8 @@ def answers_of(
         for level in range(levels):
             yield copy.deepcopy(_timed_answer(function, problem, level))
         return
-    context = multiprocessing.get_context("spawn" if isinstance(solve, str) else "fork")
+    named = isinstance(solve, str)
+    context: Any = multiprocessing.get_context("spawn" if named else "fork")
     receiver, sender = context.Pipe(duplex=False)
     process = context.Process(target=_send_answers, args=(sender, solve, problem, levels))
     with warnings.catch_warnings():
@@ -143,10 +144,11 @@ def _received_answer(
             )
         if not process.is_alive():
             break
-    try:
-        kind, content = receiver.recv() if receiver.poll() else (None, "")
-    except (EOFError, OSError):
-        kind = None
+    kind: Any = None
+    content: Any = None
+    with suppress(EOFError, OSError):
+        if receiver.poll():
+            kind, content = receiver.recv()
     if kind is None:
         process.join(SECONDS_TO_END)
         raise SolverFailed(f"ended without an answer on level {level}: {_end_text(process)}")
@@ -247,7 +249,8 @@ def plain_answer(answer: object, level: int) -> Answer:
     h = _plain_numbers(answer.h, f"level {level}: h")
     if h.size != 1 or not 0 < h[0] < np.inf:
         raise Refused(f"level {level}: h is {answer.h!r}, expected a positive length [m]")
-    for key in (*answer.scalars, *answer.fields, *answer.points):
+    keys: tuple[Any, ...] = (*answer.scalars, *answer.fields, *answer.points)
+    for key in keys:
         if not isinstance(key, tuple) or len(key) != 2:
             raise Refused(f"level {level}: {key!r}, expected a quantity and a loading step")
     scalars: dict[Key, float | tuple[float, float]] = {}
