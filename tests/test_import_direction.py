@@ -152,7 +152,7 @@ ORDERS = {
         *("on_cells", "on_elements", "on_radii", "stress_errors", "adaptive_refinement"),
     ),
     "verification.challenge": (
-        *("requested_quantities", "cases", "files", "judgement", "python_api"),
+        *("requested_quantities", "cases", "files", "solver_process", "python_api"),
     ),
     "slipstick": (
         *(
