@@ -33,6 +33,7 @@ from math import ceil, hypot, sqrt
 from contact_scene import ControlKind, CoulombFriction, LoadRamp, Scene
 from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.cycles import loop_increments
+from contact_scene.stepping.growing_contact import grows_without_slip
 
 # Largest sine of the angle between successive loads of constant direction (round-off).
 STRAIGHT = 1e-9
@@ -110,6 +111,8 @@ def path_increments(
     for step, of_loop in zip(steps, loop_increments(scene.load_path()), strict=True):
         sheared = sheared or step.ends_sheared or step.ramp.strains
         matters, why = step.matters(bodies.coupled) if shear and sheared else (False, NO_SHEAR)
+        if matters and grows_without_slip(scene, step.ramp):
+            matters, why = False, WITHOUT_SLIP
         count = 1
         if matters:
             count, why = step.count(bodies, accuracy, total)
@@ -124,6 +127,7 @@ def path_increments(
 
 
 NO_SHEAR = "no shear: the state does not depend on the load path"
+WITHOUT_SLIP = "the tangential load grows by less than µ times the normal load: nothing slips"
 
 
 @dataclass(frozen=True)
