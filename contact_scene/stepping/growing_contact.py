@@ -104,7 +104,9 @@ def grows_without_slip(scene: Scene, ramp: LoadRamp) -> bool:
         # ρ of a circle; that of an ellipse depends on its axes.
         if any(compliances(scene.rig)) or not scene.indenter.is_of_revolution:
             return False
-        rho = contact_modulus(scene) * sum((2 - m.poisson_ratio) / m.shear_modulus for m in materials)
+        rho = contact_modulus(scene) * sum(
+            (2 - m.poisson_ratio) / m.shear_modulus for m in materials
+        )
         growth /= rho / 4
     elif normal.kind is not tangential.kind:
         return False

@@ -20,7 +20,7 @@ def free_motion(
     """Compute the free motion of all points if the contact grows without slip in an increment.
 
     The result (2, points) [length] is zero at points that were in contact before. None is returned
-    if the contact does not grow, or if the tangential load does not change.
+    for coupled bodies, and if the contact does not grow or the tangential load does not change.
 
     contact   contact problem at the points of the surface, without loads
     before    state at the start of the increment
@@ -35,7 +35,7 @@ def free_motion(
     assert before.motion is not None
     force = None if target.load is None else target.load - before.load
     shift = None if target.motion is None else target.motion - before.motion
-    pushed = contact.rings.path in (Path.SHEARING, Path.HARMONICS)
+    pushed = contact.rings.path is Path.SHEARING
     if not (pushed and (force or shift) and more > 0 and np.any(begins & (pressure > 0))):
         return None
     nothing, (down, spring) = np.zeros_like(grown), contact.rig

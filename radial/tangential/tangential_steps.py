@@ -270,10 +270,11 @@ class TangentialSteps(StepsOnRings):
             last, slip = last.repeat_angles(points), points.repeat_angles(slip)
         guess = None if last else self._frictionless_guess(points, loads)
         end = self._solve_at_points(points, loads, last, guess)
-        springs = compliances(self.scene.rig)
-        growth = growth_without_slip(points, self.friction, loads, last, end, springs)
-        if growth is not None:
-            end = self._solve_at_points(points, loads, last, growth.guess, growth.free)
+        if not coupling(self.scene)[0]:
+            springs = compliances(self.scene.rig)
+            growth = growth_without_slip(points, self.friction, loads, last, end, springs)
+            if growth is not None:
+                end = self._solve_at_points(points, loads, last, growth.guess, growth.free)
         resolved = points.is_resolved(end.pressure)
         smooth = None if resolved else self._solve_frictionless(loads).contact.radius
         return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)

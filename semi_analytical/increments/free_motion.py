@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.array_types import Vector, VectorField
 from contact_scene.stepping.growing_contact import GrowingContact
 from semi_analytical.increments.normal_solve import NormalState
 from semi_analytical.increments.tangential_solve import TangentialTarget
