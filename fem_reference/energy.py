@@ -13,9 +13,7 @@ from contact_scene import Scene
 from contact_scene.array_types import Field
 from fem_reference.elasticity.hat_functions import Hats, hats_on
 from fem_reference.fields import Increment
-from fem_reference.plan import Path, Plan
-
-UNCOUPLED = (Path.PRESSING, Path.SHEARING, Path.TWISTING)
+from fem_reference.plan import UNCOUPLED, Plan
 
 
 def add_energies(

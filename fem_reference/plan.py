@@ -47,6 +47,7 @@ class Path(Enum):
     HARMONICS = "pressure and shear, coupled, on many harmonics"
 
 
+UNCOUPLED = (Path.PRESSING, Path.SHEARING, Path.TWISTING)
 # Reasons why slip perpendicular to a tangential load is computed or omitted. Poisson's ratio causes
 # such slip (Munisamy, Hills and Nowell 1994).
 CROSS_SLIP = dict.fromkeys(Path, "nothing pushes sideways") | {
@@ -151,7 +152,8 @@ def _path_matters(scene: Scene, path: Path) -> tuple[tuple[bool, ...], tuple[boo
         sheared = sheared and path is not Path.PRESSING
         grows.append(sheared and pressing)
         moves = sheared and (pressing or shearing)
-        matters.append(moves and not grows_without_slip(scene, ramp))
+        sticks = path in UNCOUPLED and grows_without_slip(scene, ramp)
+        matters.append(moves and not sticks)
     return tuple(matters), tuple(grows)
 
 

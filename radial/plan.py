@@ -196,10 +196,10 @@ def _path_increments(
     frictional  true if friction acts under a normal load alone
     """
     presses = ramp.normal.start != ramp.normal.end
-    if grows_without_slip(scene, ramp):
-        return 1
     if circle is None:
         return PATH_INCREMENTS if frictional and (presses or ramp.strains) else 1
+    if not frictional and grows_without_slip(scene, ramp):
+        return 1
     start, end = ramp.tangential.start, ramp.tangential.end
     most = PATH_INCREMENTS if circle is RingAngles.ONE else PUSHED_INCREMENTS
     if presses or ramp.twisting.start != ramp.twisting.end:

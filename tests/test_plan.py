@@ -161,7 +161,7 @@ STRONG = coupled_scene(PRESS, body=bulk(0.3), friction=0.3)
 PUSHED = coupled_scene(PRESS, free(0.6), body=bulk(0.3))
 COATED = coupled_scene(PRESS, free(0.9), body=coated(2.0))
 TURNING = scene(PRESS, push(0.5), push(0, 0.5))
-OBLIQUE = scene({**PRESS, **push(0.3)})
+OBLIQUE = scene({**PRESS, **slide(0.3)})
 
 
 def test_explicit_increments_win_over_every_law():

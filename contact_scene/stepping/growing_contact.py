@@ -101,13 +101,12 @@ def grows_without_slip(scene: Scene, ramp: LoadRamp) -> bool:
         return False
     growth = hypot(*np.subtract(tangential.end, tangential.start)) / (normal.end - normal.start)
     if normal.kind is tangential.kind is ControlKind.DISPLACEMENT:
-        # ρ of a circle; that of an ellipse depends on its axes.
-        if any(compliances(scene.rig)) or not scene.indenter.is_of_revolution:
+        if any(compliances(scene.rig)):
             return False
-        rho = contact_modulus(scene) * sum(
-            (2 - m.poisson_ratio) / m.shear_modulus for m in materials
-        )
-        growth /= rho / 4
+        if scene.indenter.is_of_revolution:
+            rho = sum((2 - one.poisson_ratio) / one.shear_modulus for one in materials)
+            growth /= contact_modulus(scene) * rho / 4
+        # On an ellipse ρ is between 1 and 1/(1-ν) of the bodies: k is not larger than Δω/Δδ.
     elif normal.kind is not tangential.kind:
         return False
     return growth < friction.smallest * (1 - AT_LIMIT)

@@ -31,7 +31,7 @@ def free_motion(
     compliance, target = contact.compliance, loads.tangential
     unit, w = compliance.motion, compliance.areas
     grown, more = pressure - before.pressure, float(w @ (pressure - before.pressure))
-    begins = (before.pressure == 0) & (before.gap > 0)
+    begins = (before.pressure == 0) & (contact.gap > 0)
     assert before.motion is not None
     force = None if target.load is None else target.load - before.load
     shift = None if target.motion is None else target.motion - before.motion

@@ -56,9 +56,7 @@ def growth_without_slip(
     grown = pressed.pressure - start
     area = model.grid.cell_area
     more = float(np.sum(grown))
-    apart = model.gap if pressing is None else model.gap + pressing.displacement
-    apart = apart - (0.0 if pressing is None else pressing.closure(model))
-    begins = (start == 0) & (apart > 0)
+    begins = (start == 0) & (model.gap > 0)
     if more <= 0 or not np.any(change) or not np.any(begins & (pressed.pressure > 0)):
         return None
     # By symmetry the domain may exclude shear in a direction without load.

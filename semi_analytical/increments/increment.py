@@ -178,7 +178,7 @@ def solve_increment(
         ahead, behind = further_shear(seen, before.behind, tangential), seen
     last = last or untouched_state(model.grid.cells)
     growth = None
-    if last.shift is not None and pressing.iterations:
+    if last.shift is not None and not (before is not None and before.target == normal):
         start = before.pressing if before is not None else None
         growth = growth_without_slip(model, last, tangential, start, pressing)
     if growth is not None:
