@@ -55,21 +55,22 @@ class GrowingContact(NamedTuple):
     limit: float
     spring: float = 0.0
 
-    def ratio(self, force: Vector | None, shift: Vector | None) -> tuple[Vector, Vector]:
+    def ratio(self, change: Vector, *, by_force: bool) -> tuple[Vector, Vector]:
         """Compute the ratio k of the growth of shear and pressure, and the shift of the bodies.
 
         The ratio is at most that of the growth of the friction limit. The results have the shape
         (m,).
 
-        force  change of the tangential force [force]; None if the shift is prescribed
-        shift  change of the tangential shift, with the spring of a test rig [length]
+        change    change of the tangential force [force] or, with the spring of a test rig, of the
+                  tangential shift [length]
+        by_force  True for a force
         """
         moved = np.einsum("n,icn,jcn->ij", self.pressure, self.unit, self.along)
         moved *= self.approach / (self.pressure @ self.normal)
-        if force is not None:
-            k = force / self.load
+        if by_force:
+            k = change / self.load
         else:
-            k = np.linalg.solve(moved + self.spring * self.load * np.eye(len(moved)), shift)
+            k = np.linalg.solve(moved + self.spring * self.load * np.eye(len(moved)), change)
         most = self.limit / self.load
         size = float(np.hypot.reduce(k))
         k = k * min(1.0, most / size) if size > 0 else k

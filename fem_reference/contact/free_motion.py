@@ -33,10 +33,12 @@ def free_motion(
     grown, more = pressure - before.pressure, float(w @ (pressure - before.pressure))
     begins = (before.pressure == 0) & (contact.gap > 0)
     assert before.motion is not None
-    force = None if target.load is None else target.load - before.load
-    shift = None if target.motion is None else target.motion - before.motion
+    if target.motion is None:
+        change = (target.load or 0.0) - before.load
+    else:
+        change = target.motion - before.motion
     pushed = contact.rings.path is Path.SHEARING
-    if not (pushed and (force or shift) and more > 0 and np.any(begins & (pressure > 0))):
+    if not (pushed and change and more > 0 and np.any(begins & (pressure > 0))):
         return None
     nothing, (down, spring) = np.zeros_like(grown), contact.rig
     along, _ = compliance.displacement(nothing, unit * grown)
@@ -53,5 +55,5 @@ def free_motion(
         load=more,
         limit=float(w @ (limit(pressure) - limit(before.pressure))),
         spring=spring,
-    ).ratio(*(None if change is None else np.array([change]) for change in (force, shift)))
+    ).ratio(np.array([change]), by_force=target.load is not None)
     return np.where(begins, k * along - moved * unit, 0.0)

@@ -12,6 +12,9 @@ from contact_scene.stepping.growing_contact import GrowingContact
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import NORMAL, TORSION, Loads, PointState, resultant_loads
 
+# Relative change of a load that is round-off.
+ROUND_OFF = 1e-12
+
 
 class Growth(NamedTuple):
     """Contact that grows without slip in an increment.
@@ -56,7 +59,8 @@ def growth_without_slip(
     else:
         before = resultant_loads(points, last.tractions) if by_force else last.motion
     change = prescribed - before[:TORSION]
-    free = np.any(points.rigid_motions[:TORSION], axis=1) & (change != 0)
+    changes = np.abs(change) > ROUND_OFF * np.abs(prescribed)
+    free = np.any(points.rigid_motions[:TORSION], axis=1) & changes
     apart = (start == 0) & (points.gap_areas > 0)
     if more <= 0 or not np.any(free) or not np.any(apart & (trial.pressure > 0)):
         return None
@@ -78,7 +82,7 @@ def growth_without_slip(
         load=more,
         limit=float(areas @ (friction.limit(trial.pressure) - friction.limit(start))),
         spring=spring,
-    ).ratio(change[free] if by_force else None, None if by_force else change[free])
+    ).ratio(change[free], by_force=by_force)
     shear = k @ unit * np.tile(grown, 2) + (0.0 if last is None else last.shear.ravel())
     motion = np.zeros(4) if last is None else last.motion.copy()
     motion[:TORSION][free] += shift + spring * more * k

@@ -19,14 +19,12 @@ from semi_analytical.tangential.linearised_shear import Point
 class Growth(NamedTuple):
     """Shear of a contact that grows without slip in an increment, as the initial guess of a solve.
 
-    ratio  ratio k of the growth of shear and pressure (2,)
     point  shear at the end, with its displacement
     shift  tangential shift at the end (2,) [length]
     free   free motion of each cell until its contact (2, nx, ny) [length]; 0 in cells that were in
            contact before
     """
 
-    ratio: Vector
     point: Point
     shift: Vector
     free: VectorField
@@ -56,8 +54,13 @@ def growth_without_slip(
     grown = pressed.pressure - start
     area = model.grid.cell_area
     more = float(np.sum(grown))
+    approach = pressed.approach - (0.0 if pressing is None else pressing.approach)
     begins = (start == 0) & (model.gap > 0)
-    if more <= 0 or not np.any(change) or not np.any(begins & (pressed.pressure > 0)):
+    if (
+        min(more, approach) <= 0
+        or not np.any(change)
+        or not np.any(begins & (pressed.pressure > 0))
+    ):
         return None
     # By symmetry the domain may exclude shear in a direction without load.
     axes = np.eye(2)[change != 0]
@@ -66,7 +69,6 @@ def growth_without_slip(
     operator = model.operator(grown.shape)
     displacements = np.array([operator.tangential(one * grown) for one in unit])
     closed = pressed.displacement - (0.0 if pressing is None else pressing.displacement)
-    approach = pressed.approach - (0.0 if pressing is None else pressing.approach)
     bodies = displacements - along * more * unit
     points = (len(unit), 2, -1)
     rigid = np.broadcast_to(unit, displacements.shape).reshape(points)
@@ -81,8 +83,7 @@ def growth_without_slip(
         * area,
         spring=along / area,
     )
-    change = axes @ change
-    k, shift = growing.ratio(change, None) if load.shift is None else growing.ratio(None, change)
+    k, shift = growing.ratio(axes @ change, by_force=load.shift is None)
     moved = np.einsum("i,icxy->cxy", k, bodies) - everywhere(shift @ axes)
     ratio = k @ axes
     point = Point(
@@ -90,7 +91,6 @@ def growth_without_slip(
         last.displacement + np.einsum("i,icxy->cxy", k, displacements),
     )
     return Growth(
-        ratio,
         point,
         last.shift + shift @ axes + along * more * ratio,
         np.where(begins, moved, 0.0),
