@@ -10,8 +10,8 @@ radius). Measured on 64 x 64 and 128 x 128 cells against 64 to 160 increments:
         other shapes: at least 0.25 m/n; cone, ellipsoid of 1 : 3, ν = 0 and 0.3, µ = 0.05 to 0.5
     first loading with layers                            as above with m² = 9µ, and 2/n
         one layer of 0.1 to 3 contact radii, E1/E2 = 1/4 to 4, ν = 0.3, µ = 0.05 to 1
-    first loading, normal and tangential together        2/n
-        uncoupled bodies, T/µW = 0.1 to 0.9
+    first loading, normal and tangential together        2/n, an upper bound
+        T/µW = 0.1 to 0.9; exact for n = 1 where nothing slips (`grows_without_slip`)
     tangential load at constant normal load              0.4 x min(x, Δx)/n
         coupled bodies, and changes of direction of uncoupled ones; x the largest T/µW of the
         step, 0.3 to 0.99, Δx its change; with layers as above
