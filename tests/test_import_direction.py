@@ -122,6 +122,7 @@ ORDERS = {
         "point_state",
         "augmented_lagrangian",
         "point_contact",
+        "free_motion",
         "admissible_shear",
         "tangential_newton",
         "alternating_iteration",

@@ -56,7 +56,12 @@ def test_effects_follow_the_scene():
         pytest.param(
             (PRESS, {"normal_force": 500}, push(0.3)), (ONE, ONE, ONE), id="unloading before shear"
         ),
-        pytest.param(({**PRESS, **push(0.3)},), (MANY,), id="both at once"),
+        pytest.param(({**PRESS, **push(0.9)},), (ONE,), id="both at once"),
+        pytest.param(
+            (PRESS, push(0.9), {"normal_force": 2 * PRESS["normal_force"], **push(1.95)}),
+            (ONE, ONE, MANY),
+            id="growing by more than µW",
+        ),
     ],
 )
 def test_steps_are_cut_only_where_the_path_matters(loading, cut):
@@ -77,8 +82,8 @@ def test_a_strain_is_cut_where_friction_meets_it(of):
 
 def test_a_load_under_shear_is_cut_alike_there_and_back():
     half = {"normal_force": 0.5 * PRESS["normal_force"], **push(0.2)}
-    whole = {**PRESS, **push(0.3)}
-    *_, back, there = plan(scene(PRESS, push(0.3), half, whole)).increments
+    whole = {**PRESS, **push(0.9)}
+    *_, back, there = plan(scene(PRESS, push(0.9), half, whole)).increments
     assert back == there > 1
 
 
@@ -156,7 +161,7 @@ STRONG = coupled_scene(PRESS, body=bulk(0.3), friction=0.3)
 PUSHED = coupled_scene(PRESS, free(0.6), body=bulk(0.3))
 COATED = coupled_scene(PRESS, free(0.9), body=coated(2.0))
 TURNING = scene(PRESS, push(0.5), push(0, 0.5))
-OBLIQUE = scene({**PRESS, **push(0.3)})
+OBLIQUE = scene({**PRESS, **slide(0.3)})
 
 
 def test_explicit_increments_win_over_every_law():

@@ -25,6 +25,7 @@ from fem_reference.contact.alternating_iteration import (
 from fem_reference.contact.augmented_lagrangian import repeat_passes
 from fem_reference.contact.continuation import solve_by_continuation
 from fem_reference.contact.coupled_newton import InitialGuess, solve_by_newton
+from fem_reference.contact.free_motion import free_motion
 from fem_reference.contact.friction_limit import contact_status, refuse_beyond_limit
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
@@ -68,13 +69,12 @@ def advance(
     if before.motion is None:
         raise motion_undefined()
     increment = _Increment(contact, before, loads, tolerance)
-    passes = [increment.first_pass()]
-    if contact.penalty is not None:
-        # With stiff springs at Gauss points, one update is necessary for the accuracy of the mesh.
-        fewest = int(contact.at_gauss_points)
-        passes = repeat_passes(
-            passes[0], increment.next_pass, increment.penalty_error, contact.penalty, fewest
-        )
+    passes = increment.all_passes()
+    solution = passes[-1].solution
+    free = free_motion(contact, before, loads, solution.pressure, solution.approach)
+    if free is not None:
+        increment = replace(increment, free=free)
+        passes = increment.all_passes()
     return increment.end_state(passes)
 
 
@@ -176,12 +176,26 @@ class _Increment:
     before     contact state at the start of the increment
     loads      prescribed loads or motions at the end of the increment
     tolerance  upper limit of every residual [1]
+    free       free motion of points until their contact (2, points) [length]; 0 without
     """
 
     contact: PointContact
     before: PointState
     loads: Loads
     tolerance: float
+    free: Field | float = 0.0
+
+    def all_passes(self) -> list[_Pass]:
+        """Solve the contact problem of the increment in all its penalty passes.
+
+        The exact law has one pass.
+        """
+        first, penalty = self.first_pass(), self.contact.penalty
+        if penalty is None:
+            return [first]
+        # With stiff springs at Gauss points, one update is necessary for the accuracy of the mesh.
+        fewest = int(self.contact.at_gauss_points)
+        return repeat_passes(first, self.next_pass, self.penalty_error, penalty, fewest)
 
     def first_pass(self) -> _Pass:
         """Solve the contact problem of the increment with the initial penalty multipliers.
@@ -344,6 +358,7 @@ class _Increment:
             contact.gap - compliance.springs * multiplier[2],
             contact.friction,
             memory
+            + self.free
             - (before.motion or 0.0) * compliance.motion
             - (loads.strain - before.strain) * compliance.stretch,
             loads.normal,

@@ -56,6 +56,7 @@ def solve_increment(
     before: PointState | None,
     tolerance: float,
     smooth: Array | None = None,
+    free: Array | None = None,
 ) -> PointState:
     """Solve contact and friction at points on rings at the end of an increment of the loads.
 
@@ -67,8 +68,9 @@ def solve_increment(
     loads      prescribed loads and rigid motions at the end of the increment
     before     state at the start of the increment; None before first contact
     tolerance  bound of the residual relative to the largest pressure, friction limit and loads
-    smooth     tractions and rigid motion of the frictionless contact, as an initial guess
+    smooth     tractions and rigid motion of a similar contact, as the first initial guess
                (3 N + 4,) for N points; None if unknown
+    free       free motion of points until their contact, times areas (2 N,); None without
     raises     NotConverged; GrossSliding if the tangential force reaches the friction limit, or if
                tangential force and torque exceed the limit load of the contact without them;
                ContactAtZoneEdge if the contact reaches the last ring
@@ -77,7 +79,7 @@ def solve_increment(
     most = None if W is None else friction.largest_tangential_force(W)
     if force and most is not None and force >= most:
         raise _gross_sliding_error(force, most)
-    laws = ContactLaws.of(points, friction, loads, before)
+    laws = ContactLaws.of(points, friction, loads, before, free)
     for x in _initial_guesses(laws, before, tolerance, smooth):
         at = laws.evaluate(x, points.compliance @ x[:-4])
         for step in range(MAX_STEPS):
@@ -100,7 +102,7 @@ def _initial_guesses(
 ) -> Iterator[Array]:
     """Yield initial guesses of tractions and rigid motion for Newton's method, the best first.
 
-    Before first contact the guesses are the frictionless state and a state with closed gap. Later
+    The first guess is `smooth`. Before first contact the next is a state with closed gap. Later
     they are the extrapolated last increment, the state at the start of the increment, and a state
     solved with the rigid motion at the start. The last guess helps if all points slip during the
     iteration, because the motion under a prescribed force is then undetermined. A guess is an array
@@ -109,11 +111,11 @@ def _initial_guesses(
     laws       contact and friction laws of the increment
     before     state at the start of the increment; None before first contact
     tolerance  bound of the residual of the state that is solved for the last guess
-    smooth     tractions and rigid motion of the frictionless contact; None if unknown
+    smooth     tractions and rigid motion of a similar contact; None if unknown
     """
+    if smooth is not None:
+        yield smooth
     if before is None:
-        if smooth is not None:
-            yield smooth
         yield laws.guess_closed_gap()
         return
     yield from laws.initial_guesses(before)

@@ -143,7 +143,8 @@ def tangential_state(
     share = contact_fraction(np.repeat(points.radii, points.count), start_radius, radius) * (
         end.pressure > 0
     )
-    passed = -end.slip_increment.reshape(2, -1) / areas * share
+    slips = end.share > 1
+    passed = -end.slip_increment.reshape(2, -1) / areas * np.where(slips, share, 0.0)
     start = last.shear if last else np.zeros((2, len(nothing)))
     limits = (friction.limit(last.pressure) if last else nothing), friction.limit(end.pressure)
     rubbing = sliding_friction(start, end.shear, passed, *limits)
@@ -152,7 +153,8 @@ def tangential_state(
     stick_through = None
     if smooth is None:
         area = points.stick_area(end.share, end.shear, limits[1])
-        stick_through = sqrt(min(area / pi, radius**2))
+        all_stick = not np.any(slips & (end.pressure > 0))
+        stick_through = radius if all_stick else sqrt(min(area / pi, radius**2))
     turned = points.circle is not RingAngles.ONE or end.motion[TORSION] != motion[TORSION]
     stick_radius = stick_through
     if not (turned or stick_through is None or before is None or before.stick_through is None):

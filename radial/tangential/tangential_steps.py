@@ -34,6 +34,7 @@ from radial.output_points import (
 )
 from radial.plan import ELSEWHERE, Plan
 from radial.response.bodies import Bodies
+from radial.tangential.free_motion import growth_without_slip
 from radial.tangential.ring_friction import (
     MAX_STEPS,
     solve_increment,
@@ -44,6 +45,7 @@ from radial.tangential.ring_state import (
     NORMAL,
     TORSION,
     Loads,
+    PointState,
 )
 from radial.tangential.tangential_increment import (
     TangentialState,
@@ -266,18 +268,41 @@ class TangentialSteps(StepsOnRings):
         slip = before.slip if before else np.zeros((2, len(points.areas)))
         if last is not None and before is not None and before.circle is not points.circle:
             last, slip = last.repeat_angles(points), points.repeat_angles(slip)
+        guess = None if last else self._frictionless_guess(points, loads)
+        end = self._solve_at_points(points, loads, last, guess)
+        if not coupling(self.scene)[0]:
+            springs = compliances(self.scene.rig)
+            growth = growth_without_slip(points, self.friction, loads, last, end, springs)
+            if growth is not None:
+                end = self._solve_at_points(points, loads, last, growth.guess, growth.free)
+        resolved = points.is_resolved(end.pressure)
+        smooth = None if resolved else self._solve_frictionless(loads).contact.radius
+        return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
+
+    def _solve_at_points(
+        self,
+        points: ContactPoints,
+        loads: Loads,
+        last: PointState | None,
+        guess: Array | None,
+        free: Array | None = None,
+    ) -> PointState:
+        """Solve contact and friction at points under prescribed loads, and record the Newton steps.
+
+        points  points of the contact (rings × angles)
+        loads   prescribed loads and rigid motions of the indenter
+        last    state at the start of the increment; None before first contact
+        guess   initial guess of tractions and rigid motion (3 N + 4,); None for the last state
+        free    free motion of points until their contact, times areas (2 N,); None without
+        """
+        held, tolerance = _fix_excluded_motions(points, loads), EXACT * self.tolerance
         try:
-            end = solve_increment(
-                points, self.friction, _fix_excluded_motions(points, loads), last,
-                EXACT * self.tolerance, None if last else self._frictionless_guess(points, loads),
-            )  # fmt: skip
+            end = solve_increment(points, self.friction, held, last, tolerance, guess, free)
         except NotConverged as error:
             self.taken.append(error.iterations)
             raise
         self.taken.append(end.steps)
-        resolved = points.is_resolved(end.pressure)
-        smooth = None if resolved else self._solve_frictionless(loads).contact.radius
-        return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
+        return end
 
     def _solve_frictionless(self, loads: Loads) -> NormalContact:
         """Solve the frictionless contact under the prescribed normal load of an increment.

@@ -48,6 +48,7 @@ def slip_and_stick(
     load: TangentialTarget,
     tolerance: float,
     guess: tuple[Point, Vector] | None = None,
+    free: VectorField | None = None,
 ) -> TangentialState:
     """Solve the tangential problem of one increment at a given pressure, from the previous state.
 
@@ -60,6 +61,7 @@ def slip_and_stick(
     tolerance  limit of all dimensionless residuals
     guess      initial guess of the shear with its displacement, and of the rigid motion; None for
                those of the previous state
+    free       free motion of cells before their contact (2, nx, ny) [length]; None without
     raises     NotConverged; GrossSliding if a force exceeds the friction limit
     """
     bound = model.friction_limit(pressure)
@@ -68,7 +70,7 @@ def slip_and_stick(
     trivial = _trivial_state(model, pressure, bound, last, load)
     if trivial is not None:
         return trivial
-    target = surface_target(model, last, load)
+    target = surface_target(model, last, load, free)
     here = Point(last.shear, last.displacement), load.rigid_motion(last.shift, last.twist)
     start, motion = guess or here
     aim, iterations = tolerance, 0
@@ -80,7 +82,10 @@ def slip_and_stick(
         relative_slip = rigid(model, solution.motion) + target - solution.displacement
         residuals = shear_residuals(model, solution, bound, relative_slip, load, last)
         if residuals.worst <= tolerance:
-            return end_state(model, pressure, bound, last, load, solution, relative_slip, residuals)
+            after = end_state(
+                model, pressure, bound, last, load, solution, relative_slip, residuals
+            )
+            return replace(after, free=free)
         start, motion = Point(solution.shear, solution.displacement), solution.motion
         aim *= 0.1
     raise NotConverged("the shear", iterations, residuals.worst, tolerance)
