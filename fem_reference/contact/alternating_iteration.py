@@ -13,9 +13,9 @@ import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import CoulombFriction
+from contact_scene.friction_limit import reaches_limit
 from contact_scene.solver_errors import NotConverged
 from fem_reference.compliance.point_compliance import PointCompliance
-from fem_reference.contact.friction_limit import reaches_limit
 from fem_reference.contact.pressure_program import (
     PressureProgram,
     PressureSolution,
@@ -234,7 +234,7 @@ def _solve_shear_at_pressure(
     w, K = compliance.areas, compliance.matrix
     points = len(w)
     bound = problem.bound(p)
-    if target.load is not None and reaches_limit(target.load, problem.capacity(p)):
+    if target.load is not None and reaches_limit(abs(target.load), problem.capacity(p)):
         lever = np.hypot(*compliance.motion)
         along = np.divide(compliance.motion, lever, out=np.zeros_like(start), where=lever > 0)
         return TangentialState(np.copysign(bound, target.load) * along, None, bound > 0, 0.0, 0)

@@ -11,6 +11,7 @@ import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import sliding_friction
+from contact_scene.friction_limit import refuse_above_limit
 from contact_scene.quantities.residuals import (
     Residuals,
     ShearResiduals,
@@ -25,7 +26,7 @@ from fem_reference.contact.alternating_iteration import (
 from fem_reference.contact.augmented_lagrangian import repeat_passes
 from fem_reference.contact.continuation import solve_by_continuation
 from fem_reference.contact.coupled_newton import InitialGuess, solve_by_newton
-from fem_reference.contact.friction_limit import contact_status, refuse_beyond_limit
+from fem_reference.contact.friction_limit import contact_status
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
 from fem_reference.loads import Loads
@@ -358,7 +359,7 @@ class _Increment:
                 outer_iterations + solution.outer_iterations,
                 solves + solution.solves,
             )
-            refuse_beyond_limit(loads.tangential.load, problem.capacity(solution.pressure))
+            self._refuse_above_limit(problem.capacity(solution.pressure))
             done = self._judge_solution(problem, solution, multiplier, outer_iterations, solves)
             if done.residuals.worst <= self.tolerance:
                 return done
@@ -366,6 +367,16 @@ class _Increment:
             at = InitialGuess(solution.pressure, solution.shear, moved, solution.approach)
             aim *= 0.1
         raise NotConverged("the increment", solves, done.residuals.worst, self.tolerance)
+
+    def _refuse_above_limit(self, capacity: float) -> None:
+        """Raise GrossSliding if friction cannot carry the prescribed tangential load or torque.
+
+        capacity  largest load that friction can carry under the solved pressure
+        """
+        load = abs(self.loads.tangential.load or 0.0)
+        if load:
+            both = (0.0, load) if self.contact.rings.path is Path.TWISTING else (load, 0.0)
+            refuse_above_limit(*both, capacity / load)
 
     def _judge_solution(
         self,

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +23,8 @@ from scipy.optimize import minimize
 
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
-from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
+from contact_scene.friction_limit import reaches_limit, refuse_above_limit
+from contact_scene.solver_errors import ContactAtZoneEdge, NotConverged, motion_undefined
 from radial.tangential.ring_laws import (
     ContactLaws,
     NewtonIterate,
@@ -46,6 +48,9 @@ FURTHEST = 4.0
 # counts as slipping: it begins to slip, or slipped before. The tolerance of Newton's method is 100
 # times smaller.
 TIE = 1e-9
+# Slip in gross slip over the approach: its direction deviates from that of the force by the inverse
+# of this number, and the force of its shear by the square of the inverse, which is round-off.
+FAR = 1e8
 AT_ONCE = 12  # number of first Newton steps without line search, which find the slip zone sooner
 
 
@@ -69,30 +74,81 @@ def solve_increment(
     tolerance  bound of the residual relative to the largest pressure, friction limit and loads
     smooth     tractions and rigid motion of the frictionless contact, as an initial guess
                (3 N + 4,) for N points; None if unknown
-    raises     NotConverged; GrossSliding if the tangential force reaches the friction limit, or if
-               tangential force and torque exceed the limit load of the contact without them;
-               ContactAtZoneEdge if the contact reaches the last ring
+    raises     NotConverged; GrossSliding if the tangential force exceeds the friction limit, if
+               tangential force and torque reach the limit load of the contact without them, or
+               below the limit after an increment at it; ContactAtZoneEdge if the contact reaches
+               the last ring
     """
     force, W = float(np.hypot(*_prescribed_shear_loads(loads)[:2])), loads.forces[NORMAL]
     most = None if W is None else friction.largest_tangential_force(W)
-    if force and most is not None and force >= most:
-        raise _gross_sliding_error(force, most)
     laws = ContactLaws.of(points, friction, loads, before)
+    if force and most is not None and reaches_limit(force, most):
+        refuse_above_limit(force, 0.0, most / force)
+        if not loads.forces[TORSION]:
+            return _gross_slip(laws, before, tolerance, smooth)
+    if before is not None and before.slides:
+        raise motion_undefined()
     for x in _initial_guesses(laws, before, tolerance, smooth):
-        at = laws.evaluate(x, points.compliance @ x[:-4])
-        for step in range(MAX_STEPS):
-            if at.worst <= tolerance:
-                return _end_state(laws, at, before, step)
-            # An iteration with a singular system diverges to infinite numbers.
-            with np.errstate(over="ignore", invalid="ignore"):
-                aim = newton_iterate(laws, at)
-                if aim is None:
-                    break
-                aim = _limit_motion(laws, at, aim)
-                at = _line_search(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
-    if np.any(_prescribed_shear_loads(loads)):
-        _refuse_sliding(points, friction, loads, before, tolerance)
+        at, step = _iterate(laws, x, tolerance)
+        if at.worst <= tolerance:
+            return _end_state(laws, at, before, step)
+    if np.any(_prescribed_shear_loads(loads)) and _slides(
+        points, friction, loads, before, tolerance
+    ):
+        return _gross_slip(laws, before, tolerance, smooth)
     raise NotConverged("contact and friction on rings", MAX_STEPS, at.worst, tolerance)
+
+
+def _iterate(laws: ContactLaws, x: Array, tolerance: float) -> tuple[NewtonIterate, int]:
+    """Apply Newton's method from an initial guess, until its residual meets the tolerance.
+
+    Return the last iterate, which may exceed the tolerance, and the number of Newton steps.
+
+    laws       contact and friction laws of the increment
+    x          initial guess of tractions and rigid motion (3 N + 4,) for N points
+    tolerance  bound of the residual
+    """
+    at = laws.evaluate(x, laws.points.compliance @ x[:-4])
+    for step in range(MAX_STEPS):
+        if at.worst <= tolerance:
+            return at, step
+        # An iteration with a singular system diverges to infinite numbers.
+        with np.errstate(over="ignore", invalid="ignore"):
+            aim = newton_iterate(laws, at)
+            if aim is None:
+                break
+            aim = _limit_motion(laws, at, aim)
+            at = _line_search(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
+    return at, MAX_STEPS
+
+
+def _gross_slip(
+    laws: ContactLaws, before: PointState | None, tolerance: float, smooth: Array | None
+) -> PointState:
+    """Solve the contact under a tangential force at the friction limit, with undefined shift.
+
+    All points slip in the direction of the force. The slip is `FAR` times the approach, so that
+    the displacements of the surfaces do not change its direction.
+
+    laws       contact and friction laws of the increment
+    before     state at the start of the increment; None before first contact
+    tolerance  bound of the residual
+    smooth     tractions and rigid motion of the frictionless contact (3 N + 4,); None if unknown
+    raises     NotConverged
+    """
+    if before is not None:
+        guess = np.append(before.tractions, before.motion)
+    else:
+        guess = laws.guess_closed_gap() if smooth is None else smooth
+    force = _prescribed_shear_loads(laws.loads)
+    away = -FAR * abs(guess[-1]) * force / np.linalg.norm(force)
+    held = laws.loads.hold_motion(np.zeros(NORMAL))
+    sliding = replace(laws, loads=held, motion=np.append(away, 0.0))
+    guess[-4:-1] = held.motions[:NORMAL]
+    at, step = _iterate(sliding, guess, tolerance)
+    if at.worst > tolerance:
+        raise NotConverged("contact and friction on rings", step, at.worst, tolerance)
+    return replace(_end_state(sliding, at, before, step), slides=True)
 
 
 def _initial_guesses(
@@ -135,14 +191,16 @@ def _prescribed_shear_loads(loads: Loads) -> Array:
     return np.array([force or 0.0 for force in loads.forces[:NORMAL]])
 
 
-def _refuse_sliding(
+def _slides(
     points: ContactPoints,
     friction: CoulombFriction,
     loads: Loads,
     before: PointState | None,
     tolerance: float,
-) -> None:
-    """Raise GrossSliding if the prescribed tangential force and torque reach the limit load.
+) -> bool:
+    """Return True if a prescribed tangential force is at the friction limit.
+
+    Raise GrossSliding above the limit, and for a torque at the limit.
 
     At the limit load all points slip. The limit load is computed with the friction limit µp of the
     contact without tangential force and torque. Called after Newton's method has failed, because no
@@ -159,20 +217,9 @@ def _refuse_sliding(
     limit = friction.limit(np.maximum(normal_contact.pressure, 0.0))
     free = np.array([force is not None for force in loads.forces[:NORMAL]])
     times = limit_load_factor(points, limit, given, free)
-    if times > 1:
-        return
     force, torque = float(np.hypot(*given[:2])), abs(given[TORSION])
-    if not torque:
-        raise _gross_sliding_error(force, times * force)
-    if not force:
-        raise GrossSliding(
-            f"torque {torque:.6g} N m, but friction carries less than {times * torque:.6g} N m. "
-            "Reduce it, or prescribe the twist"
-        )
-    raise GrossSliding(
-        f"friction carries {times:.4g} times T = {force:g} N with a torque of {torque:g} N m: "
-        "the indenter slides and rotates. Reduce them, or prescribe shift and twist"
-    )
+    refuse_above_limit(force, torque, times)
+    return reaches_limit(1.0, times)
 
 
 def _limit_motion(laws: ContactLaws, at: NewtonIterate, aim: Array) -> Array:
@@ -219,18 +266,6 @@ def _line_search(
         length /= 2
         trial = laws.evaluate(at.x + length * (aim - at.x), at.u + length * (moved - at.u))
     return trial
-
-
-def _gross_sliding_error(force: float, carried: float) -> GrossSliding:
-    """Create the error GrossSliding for a tangential force that friction cannot carry.
-
-    force    prescribed tangential force [N]
-    carried  friction limit of the tangential force [N]
-    """
-    return GrossSliding(
-        f"T = {force:g} N is not below the friction limit {carried:g} N: the indenter slides. "
-        "Reduce it, or prescribe the shift"
-    )
 
 
 def _end_state(

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.friction_limit import reaches_limit, refuse_above_limit
 from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding
@@ -18,7 +19,6 @@ from semi_analytical.increments.tangential_state import (
 )
 from semi_analytical.model import ContactModel
 from semi_analytical.residuals import friction_cone
-from semi_analytical.tangential.admissible_shear import AT_LIMIT
 
 
 def force_reaches_limit(force: Vector, limit: float) -> bool:
@@ -30,12 +30,9 @@ def force_reaches_limit(force: Vector, limit: float) -> bool:
     limit  friction limit Σµp Δ of the contact [force]: sum over the cells of area Δ
     """
     magnitude = float(np.hypot(*force))
-    if magnitude > limit * (1 + AT_LIMIT):
-        raise GrossSliding(
-            f"tangential force {magnitude:.6g} N exceeds the friction limit {limit:.6g} N: gross "
-            f"sliding; prescribe tangential_shift instead"
-        )
-    return magnitude >= limit * (1 - AT_LIMIT)
+    if magnitude:
+        refuse_above_limit(magnitude, 0.0, limit / magnitude)
+    return reaches_limit(magnitude, limit)
 
 
 def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialTarget) -> None:
