@@ -61,10 +61,10 @@ def _warn_of_gross_slip(result: Result) -> Iterator[str]:
     the limit they are undefined.
     """
     near, last = near_gross_slip(result.scene), result.steps[-1]
-    if last.tangential_force is not None and last.tangential_shift is None:
-        yield undefined_motion_warning(last.step, "tangential_shift")
-    elif last.torque is not None and last.twist is None:
-        yield undefined_motion_warning(last.step, "twist")
+    pushes, twists = last.tangential_force is not None, last.torque is not None
+    if (pushes and last.tangential_shift is None) or (twists and last.twist is None):
+        remedy = "tangential_shift" if pushes and np.any(last.tangential_force) else "twist"
+        yield undefined_motion_warning(last.step, remedy)
     elif any(near):
         yield (
             f"step {near.index(True) + 1} pushes beyond {NEAR_GROSS_SLIP:.0%} of the friction "

@@ -11,20 +11,23 @@ from contact_scene.friction import CoulombFriction
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.stepping.load_path import ControlKind, LoadRamp
 
-# Relative distance from the friction limit within which a load is at the limit. It is the rounding
-# error of a limit that is summed over up to 10⁷ points, n ε/2 with ε = 2.2e-16. A load closer to
-# the limit leaves a stick zone of (1 - T/µW)^(1/3) = 1e-3 contact radii, less than a cell, and a
-# shift that differs by (1 - T/µW)^(2/3) = 1e-6 from that at the limit.
-ROUND_OFF = 1e-9
+# Relative excess of a load over the friction limit that is a rounding error. Products, and pairwise
+# sums over the points of a contact, have errors of about 10 ε = 2e-15. No tolerance of a residual
+# is below 1e-12.
+ROUND_OFF = 1e-12
+# Relative distance from the friction limit within which a load is at the limit. The shift grows
+# like (1 - T/µW)^-½, here by 3e4, which exceeds the contact. A solver would determine it from a
+# difference of forces below the tolerance of equilibrium.
+AT_LIMIT = 1e-9
 
 
 def reaches_limit(load: float, limit: float) -> bool:
-    """Return True if a tangential load is at the friction limit or above, to rounding errors.
+    """Return True if a tangential load is at the friction limit (within `AT_LIMIT`) or above.
 
     load   magnitude of a tangential force or torque
     limit  largest load of this kind that friction can carry
     """
-    return load >= limit * (1 - ROUND_OFF)
+    return load >= limit * (1 - AT_LIMIT)
 
 
 def exceeds_limit(load: float, limit: float) -> bool:

@@ -234,10 +234,13 @@ def _solve_shear_at_pressure(
     w, K = compliance.areas, compliance.matrix
     points = len(w)
     bound = problem.bound(p)
-    if target.load is not None and reaches_limit(abs(target.load), problem.capacity(p)):
+    capacity = problem.capacity(p)
+    if target.load is not None and reaches_limit(abs(target.load), capacity):
         lever = np.hypot(*compliance.motion)
         along = np.divide(compliance.motion, lever, out=np.zeros_like(start), where=lever > 0)
-        return TangentialState(np.copysign(bound, target.load) * along, None, bound > 0, 0.0, 0)
+        share = min(1.0, over(abs(target.load), capacity))
+        shear = np.copysign(share * bound, target.load) * along
+        return TangentialState(shear, None, bound > 0, 0.0, 0)
     inside = np.flatnonzero(bound > 0)
     if len(inside) == 0:
         return TangentialState(np.zeros_like(start), target.motion, bound > 0, 0.0, 0)

@@ -11,7 +11,7 @@ import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import sliding_friction
-from contact_scene.friction_limit import refuse_above_limit
+from contact_scene.friction_limit import reaches_limit, refuse_above_limit
 from contact_scene.quantities.residuals import (
     Residuals,
     ShearResiduals,
@@ -66,7 +66,7 @@ def advance(
     """
     _refuse_unresolved(contact, loads)
     before = before or contact.state_before_contact()
-    if before.motion is None:
+    if before.motion is None and not _is_at_limit(contact, loads):
         raise motion_undefined()
     increment = _Increment(contact, before, loads, tolerance)
     passes = [increment.first_pass()]
@@ -77,6 +77,21 @@ def advance(
             passes[0], increment.next_pass, increment.penalty_error, contact.penalty, fewest
         )
     return increment.end_state(passes)
+
+
+def _is_at_limit(contact: PointContact, loads: Loads) -> bool:
+    """Return True if the prescribed tangential force is at the friction limit µW.
+
+    The result is False if the friction limit depends on the pressure, as for a torque.
+
+    contact  contact problem, with the friction law
+    loads    prescribed loads at the end of the increment
+    """
+    load, W = loads.tangential.load, loads.normal.force
+    if load is None or W is None or contact.rings.path is Path.TWISTING:
+        return False
+    limit = contact.friction.largest_tangential_force(W)
+    return limit is not None and reaches_limit(abs(load), limit)
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:

@@ -36,6 +36,7 @@ from radial.tangential.ring_state import (
     TORSION,
     Loads,
     PointState,
+    resultant_loads,
 )
 
 MAX_STEPS = 60
@@ -48,9 +49,9 @@ FURTHEST = 4.0
 # counts as slipping: it begins to slip, or slipped before. The tolerance of Newton's method is 100
 # times smaller.
 TIE = 1e-9
-# Slip in gross slip over the approach: its direction deviates from that of the force by the inverse
-# of this number, and the force of its shear by the square of the inverse, which is round-off.
-FAR = 1e8
+# Slip in gross slip over the approach. The direction of the shear deviates from that of the rigid
+# motion by less than the inverse of this number, which is below every tolerance.
+FAR = 1e13
 AT_ONCE = 12  # number of first Newton steps without line search, which find the slip zone sooner
 
 
@@ -85,17 +86,17 @@ def solve_increment(
     if force and most is not None and reaches_limit(force, most):
         refuse_above_limit(force, 0.0, most / force)
         if not loads.forces[TORSION]:
-            return _gross_slip(laws, before, tolerance, smooth)
+            return _gross_slip(laws, before, tolerance, smooth, _prescribed_shear_loads(loads))
     if before is not None and before.slides:
         raise motion_undefined()
     for x in _initial_guesses(laws, before, tolerance, smooth):
         at, step = _iterate(laws, x, tolerance)
         if at.worst <= tolerance:
             return _end_state(laws, at, before, step)
-    if np.any(_prescribed_shear_loads(loads)) and _slides(
-        points, friction, loads, before, tolerance
-    ):
-        return _gross_slip(laws, before, tolerance, smooth)
+    if np.any(_prescribed_shear_loads(loads)):
+        sliding = _gross_slip_motion(points, friction, loads, before, tolerance)
+        if sliding is not None:
+            return _gross_slip(laws, before, tolerance, smooth, sliding)
     raise NotConverged("contact and friction on rings", MAX_STEPS, at.worst, tolerance)
 
 
@@ -123,32 +124,42 @@ def _iterate(laws: ContactLaws, x: Array, tolerance: float) -> tuple[NewtonItera
 
 
 def _gross_slip(
-    laws: ContactLaws, before: PointState | None, tolerance: float, smooth: Array | None
+    laws: ContactLaws,
+    before: PointState | None,
+    tolerance: float,
+    smooth: Array | None,
+    sliding: Array,
 ) -> PointState:
-    """Solve the contact under a tangential force at the friction limit, with undefined shift.
+    """Solve the contact under tangential loads at the friction limit, with undefined motion.
 
-    All points slip in the direction of the force. The slip is `FAR` times the approach, so that
-    the displacements of the surfaces do not change its direction.
+    All points slip in a rigid motion. The slip is `FAR` times the approach, so that the
+    displacements of the surfaces do not change its direction.
 
     laws       contact and friction laws of the increment
     before     state at the start of the increment; None before first contact
     tolerance  bound of the residual
     smooth     tractions and rigid motion of the frictionless contact (3 N + 4,); None if unknown
+    sliding    rigid slip of any size: shifts along θ = 0 and across it, and twist (3,)
     raises     NotConverged
     """
     if before is not None:
         guess = np.append(before.tractions, before.motion)
     else:
         guess = laws.guess_closed_gap() if smooth is None else smooth
-    force = _prescribed_shear_loads(laws.loads)
-    away = -FAR * abs(guess[-1]) * force / np.linalg.norm(force)
+    speed = np.hypot(*sliding[:TORSION]) + laws.points.radii[-1] * abs(sliding[TORSION])
+    away = np.append(-FAR * abs(guess[-1]) / speed * sliding, 0.0)
     held = laws.loads.hold_motion(np.zeros(NORMAL))
-    sliding = replace(laws, loads=held, motion=np.append(away, 0.0))
+    free = replace(laws, loads=held, moved=np.zeros_like(laws.moved), motion=away)
     guess[-4:-1] = held.motions[:NORMAL]
-    at, step = _iterate(sliding, guess, tolerance)
+    at, step = _iterate(free, guess, tolerance)
     if at.worst > tolerance:
         raise NotConverged("contact and friction on rings", step, at.worst, tolerance)
-    return replace(_end_state(sliding, at, before, step), slides=True)
+    end = _end_state(free, at, before, step)
+    given = _prescribed_shear_loads(laws.loads)
+    carried = resultant_loads(laws.points, end.tractions)[:NORMAL]
+    share = min(1.0, float(given @ given / abs(carried @ given)))
+    tractions = np.append(share * end.shear.ravel(), end.pressure)
+    return replace(end, tractions=tractions, slides=True)
 
 
 def _initial_guesses(
@@ -191,16 +202,17 @@ def _prescribed_shear_loads(loads: Loads) -> Array:
     return np.array([force or 0.0 for force in loads.forces[:NORMAL]])
 
 
-def _slides(
+def _gross_slip_motion(
     points: ContactPoints,
     friction: CoulombFriction,
     loads: Loads,
     before: PointState | None,
     tolerance: float,
-) -> bool:
-    """Return True if a prescribed tangential force is at the friction limit.
+) -> Array | None:
+    """Return the rigid slip under tangential loads at the limit load; None below the limit.
 
-    Raise GrossSliding above the limit, and for a torque at the limit.
+    The components are the shifts along θ = 0 and across it, and the twist (3,), of any size. Raise
+    GrossSliding above the limit.
 
     At the limit load all points slip. The limit load is computed with the friction limit µp of the
     contact without tangential force and torque. Called after Newton's method has failed, because no
@@ -216,10 +228,10 @@ def _slides(
     given = _prescribed_shear_loads(loads)
     limit = friction.limit(np.maximum(normal_contact.pressure, 0.0))
     free = np.array([force is not None for force in loads.forces[:NORMAL]])
-    times = limit_load_factor(points, limit, given, free)
+    times, sliding = limit_load(points, limit, given, free)
     force, torque = float(np.hypot(*given[:2])), abs(given[TORSION])
     refuse_above_limit(force, torque, times)
-    return reaches_limit(1.0, times)
+    return sliding if reaches_limit(1.0, times) else None
 
 
 def _limit_motion(laws: ContactLaws, at: NewtonIterate, aim: Array) -> Array:
@@ -300,10 +312,12 @@ def _end_state(
     )  # fmt: skip
 
 
-def limit_load_factor(
+def limit_load(
     points: ContactPoints, limit: Array, given: Array, free: NDArray[np.bool_]
-) -> float:
+) -> tuple[float, Array]:
     """Compute the factor on given tangential force and torque at which gross slip begins [1].
+
+    The second result is the rigid slip: shifts along θ = 0 and across it, and twist (3,).
 
     At gross slip all points slip in a rigid motion. The factor is the least dissipation of a rigid
     slip on which the given loads do unit work (upper bound theorem of limit analysis; Goyal, Ruina
@@ -321,6 +335,13 @@ def limit_load_factor(
     loads_size = np.linalg.norm(loads)
     across = null_space(loads[None])
 
+    def rigid_slip(part: Array) -> Array:
+        """Return the free components of a rigid slip on which the given loads do unit work.
+
+        part  components of the rigid slip on which the loads do no work
+        """
+        return loads / loads_size**2 + across @ part / loads_size
+
     def rigid_slip_work(part: Array) -> float:
         """Return the dissipation of a rigid slip on which the given loads do unit work [1].
 
@@ -328,13 +349,12 @@ def limit_load_factor(
 
         part  components of the rigid slip on which the loads do no work
         """
-        motion = loads / loads_size**2 + across @ part / loads_size
-        return float(limit @ np.hypot(*(motion @ motions).reshape(2, -1)))
+        return float(limit @ np.hypot(*(rigid_slip(part) @ motions).reshape(2, -1)))
 
-    start = np.zeros(across.shape[1])
-    if not len(start):
-        return rigid_slip_work(start)
-    found = minimize(
-        rigid_slip_work, start, method="Nelder-Mead", options={"xatol": DIGITS, "fatol": DIGITS}
-    )
-    return float(found.fun)
+    least = np.zeros(across.shape[1])
+    if len(least):
+        options = {"xatol": DIGITS, "fatol": DIGITS}
+        least = minimize(rigid_slip_work, least, method="Nelder-Mead", options=options).x
+    sliding = np.zeros(NORMAL)
+    sliding[free] = units * rigid_slip(least)
+    return rigid_slip_work(least), sliding

@@ -211,7 +211,7 @@ def residuals_of(
         penetration=end.residual,
         normal_equilibrium=None if force is None else abs(W / force - 1),
         friction_cone=max(0.0, float(np.max(np.hypot(*end.shear) - limit)) / np.max(limit)),
-        slip_direction=(most + against) / most if most > 0 else 0.0,
+        slip_direction=None if end.slides else (most + against) / most if most > 0 else 0.0,
         tangential_equilibrium=float(np.linalg.norm(drag) / (points.areas @ limit))
         if drag
         else None,

@@ -353,6 +353,8 @@ class TangentialSteps(StepsOnRings):
         force = self._scene_components(state.forces)
         down, along = compliances(self.scene.rig)
         in_springs = down * state.forces[NORMAL] ** 2 + along * float(np.dot(force, force))
+        free = end.slides and state.prescribed.forces[TORSION] is not None
+        twist = None if free else state.motions[TORSION]
         stored, lost, work = end.energy - 0.5 * in_springs, state.dissipated, state.work
         share = np.where(np.isfinite(end.share), end.share, 2.0)
         p, gap = np.maximum(p, 0.0), np.maximum(self._interpolate_scalar(points, gap), 0.0)
@@ -374,7 +376,7 @@ class TangentialSteps(StepsOnRings):
             tangential_force=self._scene_components(state.forces),
             tangential_shift=None if end.slides else self._scene_components(state.motions),
             torque=state.forces[TORSION] if self.twists else None,
-            twist=state.motions[TORSION] if self.twists else None,
+            twist=twist if self.twists else None,
             dissipated_energy=lost,
             dissipation_uncertainty=None if lost is None else state.uncertainty,
             elastic_energy=stored,
