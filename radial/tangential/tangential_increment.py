@@ -160,7 +160,9 @@ def tangential_state(
     elif smooth is None:
         area = points.stick_area(end.share, end.shear, limits[1])
         stick_through = sqrt(min(area / pi, radius**2))
-    turned = end.slides or points.circle is not RingAngles.ONE or end.motion[TORSION] != motion[TORSION]
+    turned = (
+        end.slides or points.circle is not RingAngles.ONE or end.motion[TORSION] != motion[TORSION]
+    )
     stick_radius = stick_through
     if not (turned or stick_through is None or before is None or before.stick_through is None):
         stick_radius = extrapolate_stick_radius(
