@@ -263,8 +263,10 @@ class _LoadStep:
     def _parts_of_limit(self, bodies: Bodies) -> tuple[float, float]:
         """Compute the largest ratio T/µW of a load step and its change, for the error rules.
 
-        T is the tangential force and µW the friction limit. Each result is 1 if it is unknown
-        before the solution, and 0 if the tangential load does not change.
+        T is the tangential force and µW the friction limit under the smaller normal load of the
+        step. Each result is 1 if it is unknown before the solution, and 0 if the tangential load
+        does not change. No state exceeds T = µW, so that the ratio is at most 1 and its change at
+        most 2, however small the normal load becomes.
 
         bodies  properties of the bodies, with the friction law
         """
@@ -285,7 +287,7 @@ class _LoadStep:
             return 1.0, 1.0
         start, end = self.start, tangential.end
         change = hypot(end[0] - start[0], end[1] - start[1])
-        return max(hypot(*start), hypot(*end)) / limit, change / limit
+        return min(1.0, max(hypot(*start), hypot(*end)) / limit), min(2.0, change / limit)
 
 
 def _first_loading_count(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[int, str]:

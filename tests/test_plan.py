@@ -1,5 +1,6 @@
 """Tests of the plan of a run: required physical effects, and increments of the load steps."""
 
+from dataclasses import replace
 from math import sqrt
 
 import numpy as np
@@ -14,11 +15,13 @@ import fem_reference
 import radial
 from contact_scene import Body, Layer
 from contact_scene.body_pair import contact_modulus, outermost_beta
+from contact_scene.stepping.load_stepping import fractions
 from semi_analytical import Coupling, Result, SurfaceGrid, all_effects, plan, solve
 from semi_analytical.operator.domain import WINDOW
 from semi_analytical.plan import COMPUTED, MIRROR_PLANES
 
 ONE, MANY = False, True
+LEAST = 1e-3
 
 
 def effects(*loading, **more) -> dict[str, bool]:
@@ -99,6 +102,28 @@ def test_increments_follow_the_stated_rules(loading, coefficient) -> None:
     """By the friction limit of the smaller load, and with all turns of the history."""
     counts = plan(scene(PRESS, *loading), 1e-3).increments
     assert counts[-1] == pytest.approx(1e3 * coefficient, abs=1.5)
+
+
+@pytest.mark.parametrize("of", [plan, fem_reference.plan, radial.plan])
+@pytest.mark.parametrize("indenter", [RIGID_BALL, paraboloid()], ids=["coupled", "uncoupled"])
+def test_unloading_to_almost_nothing_has_a_bounded_number_of_increments(of, indenter):
+    """T/µW of no state exceeds 1: its change is not measured by the friction limit at the end."""
+    unload = {"normal_force": 1e-6 * PRESS["normal_force"], "tangential_force": (0.0, 0.0)}
+    counts = of(scene(PRESS, push(0.3), unload, indenter=indenter)).increments
+    assert 20 <= counts[-1] <= 100
+
+
+@pytest.mark.parametrize(("least", "order"), [(0.0, 3), (1e-6, 3), (0.1, 3), (0.3, 1)])
+def test_increments_follow_small_loads_by_the_contact_radius(least, order):
+    """Uniform in W^(1/3) from and to loads below that of one increment, else in W."""
+    loads = least * PRESS["normal_force"], PRESS["normal_force"]
+    for end, start in (loads, loads[::-1]):
+        path = scene(PRESS, {"normal_force": start or LEAST}, {"normal_force": end}).load_path()
+        ramp = replace(path[-1], normal=replace(path[-1].normal, start=start))
+        parts = np.array([0.0, *fractions(scene(PRESS), ramp, 5)])
+        radii = np.cbrt if order == 3 else np.asarray
+        steps = np.diff(radii((start + parts * (end - start)) / loads[1]))
+        assert steps == pytest.approx(np.full(5, np.mean(steps)), rel=1e-6)
 
 
 def test_bodies_have_the_modulus_and_beta_of_their_outermost_layers():

@@ -13,9 +13,9 @@ import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import CoulombFriction
+from contact_scene.friction_limit import reaches_limit
 from contact_scene.solver_errors import NotConverged
 from fem_reference.compliance.point_compliance import PointCompliance
-from fem_reference.contact.friction_limit import reaches_limit
 from fem_reference.contact.pressure_program import (
     PressureProgram,
     PressureSolution,
@@ -234,10 +234,13 @@ def _solve_shear_at_pressure(
     w, K = compliance.areas, compliance.matrix
     points = len(w)
     bound = problem.bound(p)
-    if target.load is not None and reaches_limit(target.load, problem.capacity(p)):
+    capacity = problem.capacity(p)
+    if target.load is not None and reaches_limit(abs(target.load), capacity):
         lever = np.hypot(*compliance.motion)
         along = np.divide(compliance.motion, lever, out=np.zeros_like(start), where=lever > 0)
-        return TangentialState(np.copysign(bound, target.load) * along, None, bound > 0, 0.0, 0)
+        share = min(1.0, over(abs(target.load), capacity))
+        shear = np.copysign(share * bound, target.load) * along
+        return TangentialState(shear, None, bound > 0, 0.0, 0)
     inside = np.flatnonzero(bound > 0)
     if len(inside) == 0:
         return TangentialState(np.zeros_like(start), target.motion, bound > 0, 0.0, 0)

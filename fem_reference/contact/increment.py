@@ -11,6 +11,7 @@ import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import sliding_friction
+from contact_scene.friction_limit import reaches_limit, refuse_above_limit
 from contact_scene.quantities.residuals import (
     Residuals,
     ShearResiduals,
@@ -26,7 +27,7 @@ from fem_reference.contact.augmented_lagrangian import repeat_passes
 from fem_reference.contact.continuation import solve_by_continuation
 from fem_reference.contact.coupled_newton import InitialGuess, solve_by_newton
 from fem_reference.contact.free_motion import free_motion
-from fem_reference.contact.friction_limit import contact_status, refuse_beyond_limit
+from fem_reference.contact.friction_limit import contact_status
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
 from fem_reference.loads import Loads
@@ -66,7 +67,7 @@ def advance(
     """
     _refuse_unresolved(contact, loads)
     before = before or contact.state_before_contact()
-    if before.motion is None:
+    if before.motion is None and not _is_at_limit(contact, loads):
         raise motion_undefined()
     increment = _Increment(contact, before, loads, tolerance)
     passes = increment.all_passes()
@@ -76,6 +77,21 @@ def advance(
         increment = replace(increment, free=free)
         passes = increment.all_passes()
     return increment.end_state(passes)
+
+
+def _is_at_limit(contact: PointContact, loads: Loads) -> bool:
+    """Return True if the prescribed tangential force is at the friction limit µW.
+
+    The result is False if the friction limit depends on the pressure, as for a torque.
+
+    contact  contact problem, with the friction law
+    loads    prescribed loads at the end of the increment
+    """
+    load, W = loads.tangential.load, loads.normal.force
+    if load is None or W is None or contact.rings.path is Path.TWISTING:
+        return False
+    limit = contact.friction.largest_tangential_force(W)
+    return limit is not None and reaches_limit(abs(load), limit)
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
@@ -373,7 +389,7 @@ class _Increment:
                 outer_iterations + solution.outer_iterations,
                 solves + solution.solves,
             )
-            refuse_beyond_limit(loads.tangential.load, problem.capacity(solution.pressure))
+            self._refuse_above_limit(problem.capacity(solution.pressure))
             done = self._judge_solution(problem, solution, multiplier, outer_iterations, solves)
             if done.residuals.worst <= self.tolerance:
                 return done
@@ -381,6 +397,16 @@ class _Increment:
             at = InitialGuess(solution.pressure, solution.shear, moved, solution.approach)
             aim *= 0.1
         raise NotConverged("the increment", solves, done.residuals.worst, self.tolerance)
+
+    def _refuse_above_limit(self, capacity: float) -> None:
+        """Raise GrossSliding if friction cannot carry the prescribed tangential load or torque.
+
+        capacity  largest load that friction can carry under the solved pressure
+        """
+        load = abs(self.loads.tangential.load or 0.0)
+        if load:
+            both = (0.0, load) if self.contact.rings.path is Path.TWISTING else (load, 0.0)
+            refuse_above_limit(*both, capacity / load)
 
     def _judge_solution(
         self,

@@ -211,7 +211,9 @@ class TangentialSteps(StepsOnRings):
         raises    NotConverged, GrossSliding and ContactAtZoneEdge
         """
         start_loads = (start.forces, start.motions) if start else (NOTHING, NOTHING)
-        since = self._scene_components(start_loads[0]), self._scene_components(start_loads[1])
+        shift = self._scene_components(start_loads[1])
+        undefined = start is not None and start.end.slides
+        since = self._scene_components(start_loads[0]), None if undefined else shift
         tangential = [
             self._load_components(vector) for vector in ramp.tangential.prescribed(fraction, since)
         ]
@@ -376,7 +378,9 @@ class TangentialSteps(StepsOnRings):
         force = self._scene_components(state.forces)
         down, along = compliances(self.scene.rig)
         in_springs = down * state.forces[NORMAL] ** 2 + along * float(np.dot(force, force))
-        stored = end.energy - 0.5 * in_springs
+        free = end.slides and state.prescribed.forces[TORSION] is not None
+        twist = None if free else state.motions[TORSION]
+        stored, lost, work = end.energy - 0.5 * in_springs, state.dissipated, state.work
         share = np.where(np.isfinite(end.share), end.share, 2.0)
         p, gap = np.maximum(p, 0.0), np.maximum(self._interpolate_scalar(points, gap), 0.0)
         if angular:
@@ -395,14 +399,14 @@ class TangentialSteps(StepsOnRings):
             status=state.status,
             stick_radius=state.stick_radius,
             tangential_force=self._scene_components(state.forces),
-            tangential_shift=self._scene_components(state.motions),
+            tangential_shift=None if end.slides else self._scene_components(state.motions),
             torque=state.forces[TORSION] if self.twists else None,
-            twist=state.motions[TORSION] if self.twists else None,
-            dissipated_energy=state.dissipated,
-            dissipation_uncertainty=state.uncertainty,
+            twist=twist if self.twists else None,
+            dissipated_energy=lost,
+            dissipation_uncertainty=None if lost is None else state.uncertainty,
             elastic_energy=stored,
-            input_work=stored + state.dissipated,
-            unresolved_work=state.work - end.energy - state.dissipated,
+            input_work=None if lost is None else stored + lost,
+            unresolved_work=None if lost is None or work is None else work - end.energy - lost,
             radii=points.radii,
             angles=points.output_angles if angular else None,
             pressure=p,

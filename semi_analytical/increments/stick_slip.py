@@ -11,10 +11,9 @@ from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import NotConverged, motion_undefined
 from semi_analytical.increments.full_slip import (
-    force_reaches_limit,
     frictionless_state,
     gross_slip_state,
-    refuse_excessive_torque,
+    loads_reach_limit,
 )
 from semi_analytical.increments.tangential_solve import (
     TangentialTarget,
@@ -65,6 +64,8 @@ def slip_and_stick(
     raises     NotConverged; GrossSliding if a force exceeds the friction limit
     """
     bound = model.friction_limit(pressure)
+    if loads_reach_limit(model, bound, load):
+        return gross_slip_state(model, pressure, last, load)
     if last.shift is None:
         raise motion_undefined()
     trivial = _trivial_state(model, pressure, bound, last, load)
@@ -100,8 +101,7 @@ def _trivial_state(
 ) -> TangentialState | None:
     """Return the tangential state of an increment in cases that need no solve; else None.
 
-    These cases are: no tangential load so far, slip without friction, and a prescribed force at the
-    friction limit.
+    These cases are: no tangential load so far, and slip without friction.
 
     pressure  p at the end of the increment (nx, ny) [force/length^2]
     bound     friction limit µp (nx, ny)
@@ -110,7 +110,6 @@ def _trivial_state(
     """
     nothing, here = np.zeros_like(last.shear), load.rigid_motion(last.shift, last.twist)
     if load.torque is not None:
-        refuse_excessive_torque(model, bound, load)
         if np.any(bound):
             return None
         return frictionless_state(model, pressure, nothing, last, load, here)
@@ -127,10 +126,8 @@ def _trivial_state(
         return replace(
             last, pressure=pressure, in_stick=bound > 0, iterations=0, strain=load.strain
         )
-    if not force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
-        return None
     if np.any(bound):
-        return gross_slip_state(model, pressure, last, load)
+        return None
     return frictionless_state(model, pressure, nothing, last, load, here)
 
 

@@ -13,6 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector
+from contact_scene.solver_errors import NotConverged
 
 Map = Callable[[Field], Field]
 
@@ -161,10 +162,15 @@ class PressureSum(NormalLoad):
     def admissible(self, p: Field) -> Field:
         """Set negative pressures to zero and scale the sum of the pressure to the prescribed force.
 
+        Raise NotConverged without any positive pressure.
+
         p  given pressure (nx, ny)
         """
         p = np.maximum(p, 0.0)
-        return np.asarray(p * (self.total / p.sum()))
+        carried = p.sum()
+        if not carried > 0:
+            raise NotConverged("the normal force", 0, np.inf, 0.0)
+        return np.asarray(p * (self.total / carried))
 
     def projection(self, inside: Field) -> Projection:
         """Return a linear projection of pressure changes that keeps the sum Σp, the normal force.

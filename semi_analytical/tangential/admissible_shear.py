@@ -16,13 +16,11 @@ from typing import NamedTuple
 import numpy as np
 
 from contact_scene.array_types import Field, Indices, Matrix, Vector, VectorField
+from contact_scene.friction_limit import reaches_limit
 from semi_analytical.multipliers import find_multiplier
 
 # Rounding error of a sum of shears, relative to the sum of their magnitudes.
 ROUND_OFF = 1e-14
-# Relative distance from the friction limit below which the shift is undefined: the stick zone, by
-# the cube root a thousandth of the contact wide, is smaller than a cell.
-AT_LIMIT = 1e-9
 # Relative rounding error of the multiplier, which shifts the shear of all sticking cells.
 MULTIPLIER_ROUND_OFF = 5e-16
 MAX_STEPS = 100
@@ -170,7 +168,7 @@ class TangentialLoad:
         forces = self.prescribed_forces
         if self.compliance:
             forces = np.sum(q, axis=(1, 2))[[*self.summed]]
-            if np.linalg.norm(forces) >= np.sum(bound) * (1 - AT_LIMIT):
+            if reaches_limit(float(np.linalg.norm(forces)), float(np.sum(bound))):
                 return project_on_discs(q, bound)
         return self._project(q, bound, forces)[0]
 
@@ -226,7 +224,7 @@ class TangentialLoad:
         """
         if not np.any(bound):
             return True
-        return bool(np.any(self.prescribed_forces)) and self.limit(bound)[0] <= 1 + AT_LIMIT
+        return bool(np.any(self.prescribed_forces)) and reaches_limit(1.0, self.limit(bound)[0])
 
     def full_slip(self, bound: Field, motion: Vector) -> tuple[VectorField, Vector]:
         """Return the shear (2, nx, ny) and the rigid motion of the indenter in gross slip.
