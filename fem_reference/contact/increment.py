@@ -71,6 +71,8 @@ def advance(
         raise motion_undefined()
     increment = _Increment(contact, before, loads, tolerance)
     passes = increment.all_passes()
+    if before.motion is None:
+        return increment.end_state(passes)
     solution = passes[-1].solution
     free = free_motion(contact, before, loads, solution.pressure, solution.approach)
     if free is not None:
