@@ -209,9 +209,9 @@ def _close_loop(points: Numbers) -> _Loop:
     most = GAP * float(np.ptp(points[0]))
     if not loop.cycles or not abs(gap[0]) < most:
         raise NothingToCompare(
-            f"cycles in the table: got {len(loop.cycles)}, expected the points of one or more whole "
-            f"cycles in order; gap between the last shift and the first: got {abs(gap[0]):.3g} m, "
-            f"expected less than {most:.3g} m"
+            f"cycles in the table: got {len(loop.cycles)}, expected the points of one or more "
+            "whole cycles in order; gap between the last shift and the first: got "
+            f"{abs(gap[0]):.3g} m, expected less than {most:.3g} m"
         )
     return loop
 

@@ -78,6 +78,9 @@ def read_text_table(path: Path, name: str) -> TextTable:
     last = (likely or [line for line in lines if line.strip()] or [""])[-1]
     unquoted = re.sub('"[^"]*"', "", last)
     separator = next((mark for mark in ";\t," if mark in unquoted), None)
+    spaced = unquoted.split()
+    if separator == "," and len(spaced) > 1 and all(map(_has_decimal_comma, spaced)):
+        separator = None
     width = len(_split(last, separator))
     table = TextTable(separator, [], [], [])
     decimal_signs = set[str]()
@@ -101,7 +104,9 @@ def read_text_table(path: Path, name: str) -> TextTable:
             if not table.rows:
                 table.headings.append(line.lstrip(' \t"#%'))
         # Missing values alone are a row only if as wide as one: dashes may underline headings.
-        elif table.rows or (has_number and is_wide) or (None not in row and (has_number or is_wide)):
+        elif (
+            table.rows or (has_number and is_wide) or (None not in row and (has_number or is_wide))
+        ):
             table.rows.append(row)
             table.lines.append((position, line))
             if any(sign in line for sign in {",", "."} - decimal_signs):
@@ -132,18 +137,14 @@ def read_columns(path: Path, names: ColumnNames) -> Mapping[str, NDArray[np.floa
 
     Returns the values of each column (n,) by the name of its quantity.
 
-    Raises a validation error for a file that cannot be read, for a table without a known head,
+    Raises a validation error for a missing file, for a table without a known head,
     without the unit of a column, with two columns of a quantity, or with rows of unequal length,
     and for a value of a known column that is not a finite number.
     """
-    name = str(path)
-    expected = "a text file with a table"
+    name = path.name
     if not path.is_file():
-        raise refusal(f"there is no file {shown(name)}", expected)
-    try:
-        table = read_text_table(path, name)
-    except OSError as error:
-        raise refusal(f"cannot read {shown(name)}: {error.strerror}", expected) from None
+        raise refusal(f"there is no file {shown(name)}", "a text file with a table")
+    table = read_text_table(path, name)
     for line in reversed(table.headings):
         heads = _split_heads(line, table.separator)
         columns = _known_columns(heads, names, name)
@@ -164,7 +165,7 @@ def read_columns(path: Path, names: ColumnNames) -> Mapping[str, NDArray[np.floa
         place = f"line {position} of {shown(name)}"
         if len(row) != width:
             raise refusal(
-                f"{place} has {len(row)} fields: {shown(line)}",
+                f"fields in {place}, {shown(line)}: got {len(row)}",
                 f"{width} as in the line of heads",
             )
         for column, _ in columns.values():
@@ -182,9 +183,7 @@ def read_columns(path: Path, names: ColumnNames) -> Mapping[str, NDArray[np.floa
     }
 
 
-def _known_columns(
-    heads: list[str], names: ColumnNames, file: str
-) -> dict[str, tuple[int, float]]:
+def _known_columns(heads: list[str], names: ColumnNames, file: str) -> dict[str, tuple[int, float]]:
     """Return index and factor to SI of the column of each quantity.
 
     Raises a validation error for a known head without a known unit, and for two heads of a
@@ -197,7 +196,7 @@ def _known_columns(
         for quantity, (kind, accepted) in names.items():
             if name not in accepted:
                 continue
-            unit = match["unit"] if match else None
+            unit = (match["unit"] or "").strip() if match else ""
             if unit not in kind.units:
                 raise refusal(
                     f"{shown(file)}: got the column {shown(head)}",
@@ -252,6 +251,11 @@ def _read_number(field: str, separator: str | None) -> float | None:
         return float(text)
     except ValueError:
         return None
+
+
+def _has_decimal_comma(field: str) -> bool:
+    """Return True for a number in which a comma is no separator, at an end of the field."""
+    return field.strip(",") == field and _read_number(field, None) is not None
 
 
 def _read_lines(path: Path, name: str) -> list[str]:
