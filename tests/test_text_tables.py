@@ -166,7 +166,7 @@ def test_empty_rows_at_the_end_of_columns_are_ignored(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("heads", "match"),
     [
-        ("x [mm],y [mm],z [mm],pres [MPa],q", 'got the column "q", expected the unit'),
+        ("x [mm],y [mm],z [mm],stress [MPa],q", 'got the column "q", expected the unit'),
         ("x [mm],y [mm],z [mm],p [bars],q [MPa]", 'got the column "p \\[bars\\]"'),
         ("x [mm],y [mm],z [mm],p [MPa],pressure [MPa]", "expected one column of pressure"),
         ("x [mm],y [mm],p [MPa],q [MPa]", "got 5, expected 4 as in"),
