@@ -128,7 +128,7 @@ REFUSED = {
     "workbook": (b"PK\3\4\0\0" + PLAIN.encode(), "no text"),
     "empty": ("", "no numbers"),
     "heads alone": (PLAIN[: PLAIN.index("\n")], "no numbers"),
-    "long field": (PLAIN + '"' + "1" * 200_000, "shape|known head|got 1"),
+    "long field": (PLAIN + '"' + "1" * 200_000, "1 to 5 numbers|got 1"),
 }
 
 
@@ -178,4 +178,11 @@ def test_a_line_of_heads_without_meaning_is_refused(heads: str, match: str, tmp_
     path = tmp_path / "table.csv"
     path.write_text(PLAIN.replace(",".join(HEADS), heads), encoding="utf-8")
     with pytest.raises(ValueError, match=match):
+        measured(path)
+
+
+def test_a_row_that_is_cut_off_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text("x [mm],p [GPa]\n1,2\n1", encoding="utf-8")
+    with pytest.raises(ValueError, match=r'line 3 of "table.csv", "1": got 1, expected 2'):
         measured(path)

@@ -76,6 +76,8 @@ USUAL: Mapping[str, Usual] = {
 # Limits of modulus [Pa] and radius [m] of a dimensionless scene: softer than rubber and larger than
 # a ball.
 _SOFTEST, _LARGEST = 1e6, 0.1
+_MARKED = 1 / 3  # largest fraction of marks, as of heights that were not measured
+_FEW = 6  # values that are evenly spaced by chance
 # Largest distance of coordinates from even spacing, in steps, if their steps are written with two
 # digits.
 _ROUNDED = 0.1
@@ -213,12 +215,13 @@ def _map_warnings(key: str, values: NDArray[np.float64]) -> Iterator[str]:
     """
     for extreme in (np.nanmin(values), np.nanmax(values)):
         others = np.isfinite(values) & (values != extreme)
+        count = np.count_nonzero(values == extreme)
         low = np.min(values, where=others, initial=np.inf)
         high = np.max(values, where=others, initial=-np.inf)
         gap = max(low - extreme, extreme - high)
-        if low < high and gap > high - low:
+        if low < high and gap > high - low and count <= _MARKED * values.size:
             yield (
-                f"{key}: {np.count_nonzero(values == extreme)} of {values.size} values are "
+                f"{key}: {count} of {values.size} values are "
                 f"{extreme:g}, all others between {low:g} and {high:g}. Write nan for heights that "
                 "were not measured, and correct other values that are marks"
             )
@@ -227,6 +230,7 @@ def _map_warnings(key: str, values: NDArray[np.float64]) -> Iterator[str]:
     if any(
         _unevenness(side[0, part]) <= _ROUNDED and _unevenness(side[1, part]) > 1.0
         for side in sides
+        if side.shape[1] > _FEW
         for part in (slice(1, None), slice(None, -1))
     ):
         yield (

@@ -165,7 +165,6 @@ def _read_text_array(path: Path, name: str) -> NDArray[Any]:
             raise refusal(
                 f"line {position} of {shown(name)} has a field that is no number: {shown(line)}",
                 'a number or "nan" in every field, and "#" at the start of a heading',
-                'separate numbers with decimal commas by ";"' if table.separator == "," else "",
             )
     counts = {len(row) for row in table.rows}
     if len(counts) > 1 or counts == {3}:

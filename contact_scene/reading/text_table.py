@@ -75,7 +75,9 @@ def read_text_table(path: Path, name: str) -> TextTable:
     """
     lines = _read_lines(path, name)
     likely = [line for line in lines if line.strip() and not _COMMENT.match(line)]
-    last = (likely or [line for line in lines if line.strip()] or [""])[-1]
+    likely = likely or [line for line in lines if line.strip()] or [""]
+    # The last line may be cut off, or be the only row below the heads.
+    last = max(likely[:-3:-1], key=lambda line: sum(map(line.count, ";\t,")))
     unquoted = re.sub('"[^"]*"', "", last)
     separator = next((mark for mark in ";\t," if mark in unquoted), None)
     spaced = unquoted.split()
@@ -137,13 +139,11 @@ def read_columns(path: Path, names: ColumnNames) -> Mapping[str, NDArray[np.floa
 
     Returns the values of each column (n,) by the name of its quantity.
 
-    Raises a validation error for a missing file, for a table without a known head,
-    without the unit of a column, with two columns of a quantity, or with rows of unequal length,
-    and for a value of a known column that is not a finite number.
+    Raises a validation error for a table without a known head, without the unit of a column, with
+    two columns of a quantity, or with rows of unequal length, and for a value of a known column
+    that is not a finite number.
     """
     name = path.name
-    if not path.is_file():
-        raise refusal(f"there is no file {shown(name)}", "a text file with a table")
     table = read_text_table(path, name)
     for line in reversed(table.headings):
         heads = _split_heads(line, table.separator)
@@ -175,7 +175,7 @@ def read_columns(path: Path, names: ColumnNames) -> Mapping[str, NDArray[np.floa
                     f"{place} has no finite number in the column {shown(heads[column])}: "
                     f"{shown(line)}",
                     "a number in every row",
-                    "remove rows with missing values",
+                    "" if number is None else "remove rows with missing values",
                 )
     return {
         quantity: factor * np.array([row[column] for row, _ in rows], dtype=np.float64)
@@ -263,6 +263,8 @@ def _read_lines(path: Path, name: str) -> list[str]:
 
     Raises a validation error for a file that is too long or not text.
     """
+    if path.exists() and not path.is_file():
+        raise refusal(f"{shown(name)} is no file", "a text file")
     if path.stat().st_size > _MAX_BYTES:
         raise refusal(f"the file {shown(name)} is too long", f"at most {_MAX_BYTES >> 20} MiB")
     data = path.read_bytes()
