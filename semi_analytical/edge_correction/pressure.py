@@ -50,7 +50,10 @@ INNER_REDUCTION = 0.1
 SETTLED = 1e-2
 # Largest last travel of the edge over the radius: the accuracy required of a radius on 128
 # cells per side. The next ones are smaller.
-STEADY = 1e-4
+STEADY = 5e-5
+# Largest predicted next change of an iteration that does not halve the change in two steps, as
+# where the fits of neighbouring cells alternate for ever on a film: the accuracy of a radius.
+STALLED = 5e-5
 # Largest last change of the pressure after all iterations, Σ|Δp|/Σp.
 LEAST_SETTLED = 1e-3
 # Largest fraction of the edge without a reliable fit.
@@ -105,12 +108,15 @@ def edge_pressure(
 
 
 def has_settled(changes: Sequence[float], travel: float) -> bool:
-    """Return True if the iteration of the edge correction has converged.
+    """Return True if the iteration of the edge correction has converged, or stalls near the limit.
 
     changes  relative changes of the traction in all iterations so far, at least one
     travel   `edge_travel` in the last iteration
     """
-    return next_change(changes) <= SETTLED * changes[0] and travel <= STEADY
+    predicted = next_change(changes)
+    if len(changes) > 3 and 2 * changes[-1] > changes[-3]:
+        return predicted <= STALLED
+    return predicted <= SETTLED * changes[0] and travel <= STEADY
 
 
 def next_change(changes: Sequence[float]) -> float:
