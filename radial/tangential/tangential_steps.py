@@ -438,7 +438,7 @@ class TangentialSteps(StepsOnRings):
             missing = np.einsum("kcj,cnj,j->kn", resultants, shear - within, shares)
             moved = within + np.einsum("kcj,kn->cnj", resultants, missing)
             size = np.hypot(*moved)
-            within = moved * np.minimum(1.0, limit / np.maximum(size, np.finfo(float).tiny))
+            within = moved * (limit / np.maximum(np.maximum(size, limit), np.finfo(float).tiny))
         return within
 
     @staticmethod
