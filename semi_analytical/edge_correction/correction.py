@@ -12,7 +12,7 @@ from semi_analytical.edge.corrected import Corrected, CorrectedShear, EdgeReport
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import NotFitted, edge_pressure
-from semi_analytical.edge_correction.shear import ShearProblem, edge_shear, sliding_shear
+from semi_analytical.edge_correction.shear import EdgeShearProblem, edge_shear, sliding_shear
 from semi_analytical.edge_correction.shear_at_edge import FollowingShear
 from semi_analytical.increments.increment import State
 from semi_analytical.increments.tangential_state import (
@@ -147,7 +147,7 @@ class EdgeCorrection:
         if not np.any(slips):
             return None
         reversed_load = np.sum(last.slip * solved.shear * slips) < 0
-        problem = ShearProblem(
+        problem = EdgeShearProblem(
             operators=self._operators,
             bound=bound,
             limit=limit,

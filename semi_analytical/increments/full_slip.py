@@ -8,6 +8,9 @@ from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding
+from contact_solver.admissible_shear import AT_LIMIT
+from contact_solver.gross_slip import exhausts_friction, limit_load
+from contact_solver.residuals import friction_cone
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import (
     TangentialState,
@@ -17,8 +20,7 @@ from semi_analytical.increments.tangential_state import (
     touching_share,
 )
 from semi_analytical.model import ContactModel
-from semi_analytical.residuals import friction_cone
-from semi_analytical.tangential.admissible_shear import AT_LIMIT
+from semi_analytical.operator.points import points_of
 
 
 def force_reaches_limit(force: Vector, limit: float) -> bool:
@@ -52,10 +54,10 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
         return
     if not np.any(bound):
         raise GrossSliding(f"torque {torque:.6g} N m on a contact without friction")
-    held = load.as_load(model.grid.cell_area, model.rotation, model.domain)
-    if not held.exhausts(bound):
+    motions, limits = load.motions(model), points_of(bound)
+    if not exhausts_friction(motions, limits):
         return
-    times = held.limit(bound)[0]
+    times = limit_load(motions.held, limits)[0]
     if force is None or not np.any(force):
         reached = f"torque {torque:.6g} N m reaches the friction limit {times * torque:.6g} N m"
     else:

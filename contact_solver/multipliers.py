@@ -1,7 +1,7 @@
 """Lagrange multipliers of prescribed forces, by a damped Newton method on the dual function.
 
 The projection on tractions with prescribed sums (forces, moments) is q = P(y + Σ λ m). P is the
-projection of each cell on the friction or contact law, and m are the rigid motions conjugate to the
+projection at each point on the friction or contact law, and m are the motions conjugate to the
 sums. The multipliers λ minimise the convex dual function. The line search uses its gradient, the
 defect of the sums, because near the friction limit values of the function are differences of large
 numbers.

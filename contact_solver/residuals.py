@@ -17,8 +17,8 @@ def complementarity(p: Field, g: Field, approach: float) -> float:
 
     The residual is Σ|g| p / (approach Σp), dimensionless.
 
-    p         pressure (nx, ny)
-    g         gap (nx, ny) [length]; may be infinite where p = 0
+    p         pressure (n,)
+    g         gap (n,) [length]; may be infinite where p = 0
     approach  approach or overlap of the bodies, the scale of the gap [length]
     """
     pressed = p > 0
@@ -30,7 +30,7 @@ def penetration(g: Field, approach: float) -> float:
 
     The residual is max(-g) / approach, dimensionless; zero if the bodies do not overlap.
 
-    g         gap (nx, ny) [length]
+    g         gap (n,) [length]
     approach  approach or overlap of the undeformed bodies, the scale of the gap [length]
     """
     return float(np.maximum(0.0, -np.min(g)) / abs(approach))
@@ -41,8 +41,8 @@ def friction_cone(q: Field, bound: Field) -> float:
 
     The residual is max(|q| - bound) / max(bound), dimensionless, and at least 0.
 
-    q      shear (2, nx, ny)
-    bound  friction limit µp (nx, ny)
+    q      shear (2, n)
+    bound  friction limit µp (n,)
     """
     excess = np.max(np.sqrt(q[0] ** 2 + q[1] ** 2) - bound)
     return float(np.maximum(0.0, excess) / np.max(bound))
@@ -52,12 +52,12 @@ def slip_direction(q: Field, bound: Field, slip: Field, displacement: Field) -> 
     """Compute the residual of Coulomb's slip rule: shear of magnitude µp in the slip direction.
 
     The residual is Σ(bound |w| - q·w) / Σ bound |w| with the slip w, dimensionless. It is zero if
-    the rule holds in all slipping cells.
+    the rule holds in all slipping points.
 
-    q             shear (2, nx, ny)
-    bound         friction limit µp (nx, ny), zero outside the contact
-    slip          slip w (2, nx, ny) of the indenter relative to the body, in the direction of q
-    displacement  tangential displacement (2, nx, ny), which sets the least scale of slip
+    q             shear (2, n)
+    bound         friction limit µp (n,), zero outside the contact
+    slip          slip w (2, n) of the indenter relative to the body, in the direction of q
+    displacement  tangential displacement (2, n), which sets the least scale of slip
     """
     work = bound * np.sqrt(slip[0] ** 2 + slip[1] ** 2)
     missing = np.sum(work - q[0] * slip[0] - q[1] * slip[1])

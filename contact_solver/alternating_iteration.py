@@ -9,22 +9,12 @@ at the new shear (Panagiotopoulos 1975). The error contracts by about max(β², 
 import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
-from contact_scene.quantities.residuals import worst
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.coupled.coupled_problem import (
-    CoupledProblem,
-    CoupledSolution,
-)
-from semi_analytical.normal.normal_load import NormalLoad
-from semi_analytical.normal.normal_problem import (
-    NormalSolution,
-    solve_normal,
-)
-from semi_analytical.tangential.linearised_shear import Point
-from semi_analytical.tangential.tangential_problem import (
-    TangentialSolution,
-    solve_tangential,
-)
+from contact_solver.conjugate_gradients import Point
+from contact_solver.coupled_problem import CoupledProblem, CoupledSolution
+from contact_solver.gross_slip import full_slip
+from contact_solver.pressure import PressureProblem, solve_pressure
+from contact_solver.shear import ShearSolution, solve_shear
 
 MAX_OUTER_ITERATIONS = 200
 # Sum over all inner solves. In the stability map the most expensive converging case takes 10 300
@@ -62,43 +52,43 @@ def solve_coupled(
     pressure and the normal problem at this pressure and shear both meet the tolerance.
 
     problem                  operators, loads and friction law of the increment
-    pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
+    pressure, shear, motion  initial guesses: p (n,), q (2, n) and rigid tangential motion
     tolerance                limit of the dimensionless residuals
     most_iterations          limit of the sum of inner iterations, at most MAX_ITERATIONS
     raises                   NotConverged
     """
-    p, first, first_motion = pressure, Point(shear, problem.shear(shear)), motion
+    p, first, first_motion = pressure, Point(shear, problem.tangential(shear)), motion
     point = first
     iterations, reduction = 0, INNER_REDUCTION
-    mixing = _AndersonMixing(problem.normal_load)
+    mixing = _AndersonMixing(problem.pressing)
     for outer in range(1, MAX_OUTER_ITERATIONS + 1):
         bound = problem.friction_limit(p)
-        at_limit = problem.tangential_load.exhausts(bound)
+        at_limit = problem.exhausts_friction(bound)
         if at_limit:
-            tangential = _full_slip(problem, bound, motion)
+            tangential = _gross_slip(problem, bound, motion)
         else:
-            tangential = _solve_shear(problem, p, point, motion, tolerance, reduction)
+            tangential = solve_shear(problem.shearing_at(p), point, motion, tolerance, reduction)
         point, motion = tangential.point, tangential.motion
-        normal = _solve_pressure(problem, p, point.shear, tolerance, reduction)
+        normal = solve_pressure(problem.pressing_at(point.tractions), p, tolerance, reduction)
         iterations += tangential.iterations + normal.iterations
-        residual = worst(tangential.residual, normal.first_residual)
+        residual = float(np.maximum(tangential.residual, normal.first_residual))  # keeps a NaN
         if residual <= tolerance:
             closing, in_slip = normal.motion, tangential.in_slip
             return CoupledSolution(
-                p, point.shear, closing, motion, in_slip, at_limit, iterations, outer
+                p, point.tractions, closing, motion, in_slip, at_limit, iterations, outer
             )
         if iterations > min(most_iterations, MAX_ITERATIONS):
             break
         if outer == RESTART_AFTER and residual > RESTART_RESIDUAL:
             p, point, motion = pressure, first, first_motion
-            mixing = _AndersonMixing(problem.normal_load, DAMPED)
+            mixing = _AndersonMixing(problem.pressing, DAMPED)
             continue
         # A pressure that meets the tolerance stays; only the shear is solved again.
         if normal.first_residual > tolerance:
             p = mixing.next_pressure(p, normal.pressure)
         if reduction != FINE_REDUCTION and outer > 1 and normal.iterations > STIFF_ITERATIONS:
             p, reduction = normal.pressure, FINE_REDUCTION
-            mixing = _AndersonMixing(problem.normal_load, mixing.factor)
+            mixing = _AndersonMixing(problem.pressing, mixing.factor)
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
@@ -112,83 +102,29 @@ def one_iteration(
     of inner iterations.
 
     problem    operators, loads and friction law of the increment
-    pressure   initial guess of the pressure (nx, ny)
+    pressure   initial guess of the pressure (n,)
     motion     initial guess of the rigid tangential motion
     tolerance  limit of the dimensionless residuals
     raises     NotConverged
     """
     zero = np.zeros_like(problem.target)
     start = Point(zero, zero)
-    tangential = _solve_shear(problem, pressure, start, motion, tolerance, INNER_REDUCTION)
+    tangential = solve_shear(
+        problem.shearing_at(pressure), start, motion, tolerance, INNER_REDUCTION
+    )
     shear = tangential.shear
-    normal = _solve_pressure(problem, pressure, shear, tolerance, INNER_REDUCTION)
+    normal = solve_pressure(problem.pressing_at(shear), pressure, tolerance, INNER_REDUCTION)
     return normal.pressure, shear, tangential.motion, tangential.iterations + normal.iterations
 
 
-def _solve_shear(
-    problem: CoupledProblem,
-    p: Field,
-    start: Point,
-    motion: Vector,
-    tolerance: float,
-    reduction: float,
-) -> TangentialSolution:
-    """Solve the tangential problem of a coupled increment at a fixed pressure.
+def _gross_slip(problem: CoupledProblem, bound: Field, motion: Vector) -> ShearSolution:
+    """Return the shear of gross slip, at the friction limit along the load, as a solution.
 
-    This solve is the first half of an alternating iteration. The tangential displacement by the
-    pressure is included.
-
-    p              fixed pressure (nx, ny) [force/length^2]
-    start, motion  initial guesses of the shear with its displacement, and of the rigid motion
-    tolerance      limit of the dimensionless residual
-    reduction      reduction of the initial residual that suffices
-    """
-    return solve_tangential(
-        problem.shear,
-        problem.invert_shear,
-        problem.friction_limit(p),
-        problem.target - problem.shear_by_pressure(p),
-        problem.tangential_load,
-        start,
-        motion,
-        problem.self_compliance,
-        tolerance,
-        reduction,
-    )
-
-
-def _solve_pressure(
-    problem: CoupledProblem, p: Field, q: VectorField, tolerance: float, reduction: float
-) -> NormalSolution:
-    """Solve the normal problem of a coupled increment at a fixed shear.
-
-    This solve is the second half of an alternating iteration. The normal displacement by the shear
-    is included.
-
-    p          initial guess of the pressure (nx, ny)
-    q          fixed shear (2, nx, ny) [force/length^2]
-    tolerance  limit of the dimensionless residual
-    reduction  reduction of the initial residual that suffices
-    """
-    return solve_normal(
-        problem.normal,
-        problem.precondition_normal,
-        problem.gap + problem.normal_by_shear(q),
-        problem.normal_load,
-        p,
-        tolerance,
-        reduction,
-    )
-
-
-def _full_slip(problem: CoupledProblem, bound: Field, motion: Vector) -> TangentialSolution:
-    """Return the tangential solution of gross slip: shear at the friction limit along the load.
-
-    bound   friction limit µp (nx, ny)
+    bound   friction limit µp (n,)
     motion  rigid motion, returned where gross slip does not determine it
     """
-    q, motion = problem.tangential_load.full_slip(bound, motion)
-    return TangentialSolution(q, problem.shear(q), motion, bound > 0, 0.0, 0)
+    q, motion = full_slip(problem.shifting, bound, motion)
+    return ShearSolution(q, problem.tangential(q), motion, bound > 0, 0.0, 0)
 
 
 class _AndersonMixing:
@@ -198,13 +134,13 @@ class _AndersonMixing:
     after one alternating iteration minus the pressure before. Mixing combines earlier pressures and
     residuals such that the combined residual is smallest.
 
-    load    normal load, which defines the admissible pressures
-    factor  damping factor of the residual
+    pressing  problem of the pressure, which defines the admissible pressures
+    factor    damping factor of the residual
     """
 
-    def __init__(self, load: NormalLoad, factor: float = 1.0) -> None:
+    def __init__(self, pressing: PressureProblem, factor: float = 1.0) -> None:
         self.factor = factor
-        self._load = load
+        self._pressing = pressing
         self._points: list[Field] = []
         self._residuals: list[Field] = []
 
@@ -213,8 +149,8 @@ class _AndersonMixing:
 
         The pressure is admissible: non-negative, with the prescribed normal load.
 
-        p       present pressure (nx, ny)
-        answer  pressure after one alternating iteration from p (nx, ny)
+        p       present pressure (n,)
+        answer  pressure after one alternating iteration from p (n,)
         """
         r = answer - p
         self._points = [*self._points, p][-MAX_HISTORY:]
@@ -223,15 +159,15 @@ class _AndersonMixing:
         if len(self._points) > 1:
             guess = plain - self._history_correction(r)
         guess = np.where(plain > 0, np.maximum(guess, 0.0), 0.0)
-        return self._load.admissible(guess)
+        return self._pressing.admissible(guess)
 
     def _history_correction(self, r: Field) -> Field:
         """Compute the correction of the next pressure from earlier iterations, by Anderson mixing.
 
-        The correction (nx, ny) is Σ c_k (Δx_k + factor Δr_k). The coefficients c_k minimise |r - Σ
+        The correction (n,) is Σ c_k (Δx_k + factor Δr_k). The coefficients c_k minimise |r - Σ
         c_k Δr_k|. Δx_k and Δr_k are differences of successive pressures and residuals.
 
-        r  residual of the present pressure (nx, ny)
+        r  residual of the present pressure (n,)
         """
         d_x, d_r = (
             np.diff(x, axis=0).reshape(len(x) - 1, -1) for x in (self._points, self._residuals)

@@ -9,15 +9,16 @@ import numpy as np
 
 from contact_scene.array_types import Field, Matrix, Vector
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.coupled.coupled_problem import CoupledProblem
-from semi_analytical.coupled.generalised_derivative import (
+from contact_solver.admissible_shear import admissible_shear
+from contact_solver.coupled_problem import CoupledProblem
+from contact_solver.generalised_derivative import (
     Natural,
     NewtonPoint,
     Tractions,
     Zones,
 )
-from semi_analytical.coupled.krylov import least_residual
-from semi_analytical.operator.slip_compliance_bins import shares
+from contact_solver.krylov import least_residual
+from contact_solver.slip_compliance_bins import shares
 
 MAX_ITERATIONS = 40
 # Relative cutoff of the pseudo-inverse: slip in one direction leaves a force undetermined.
@@ -28,8 +29,8 @@ UNDETERMINED = 1e-12
 class Step:
     """Newton step of a coupled increment: changes of the iterate.
 
-    tractions      changes of the tractions (q_x, q_y, p) (3, nx, ny) [force/length^2]
-    displacements  changes of the surface displacements (3, nx, ny) [length]
+    tractions      changes of the tractions (q_x, q_y, p) (3, n) [force/length^2]
+    displacements  changes of the surface displacements (3, n) [length]
     closure        change of the reduction of the gap by approach and tilt, a number or a field (nx,
                    ny) [length]
     iterations     GMRES iterations of the linear solve
@@ -37,11 +38,11 @@ class Step:
 
     tractions: Tractions
     displacements: Field
-    closure: float | Field
+    closure: Field
     iterations: int
 
 
-class LinearisedIncrement:
+class LinearisedContact:
     """Linear system of a Newton step in given zones of contact, stick and slip.
 
     Unknowns are the free tractions (shear in the stick zone, shear across the slip direction,
@@ -64,9 +65,7 @@ class LinearisedIncrement:
         """
         self._problem, self._zones = problem, zones
         self._precondition = BinnedPreconditioner(zones, problem)
-        shape = problem.gap.shape
-        self._shifts = problem.tangential_load.free_motions((2, *shape))
-        self._closures = problem.normal_load.free_motions(shape)
+        self._shifts, self._closures = problem.shifting.held, problem.closing.held
         if carriers is None:
             units = self._free_units()
             for number, unit in enumerate(units):
@@ -95,9 +94,9 @@ class LinearisedIncrement:
         """
         zones, free = self._zones, []
         for parts, motions in ((slice(2), self._shifts), (slice(2, 3), self._closures)):
-            for motion in motions:
-                unit = np.zeros((3, *self._problem.gap.shape))
-                unit[parts] = motion
+            for motion in motions.each:
+                unit = np.zeros((3, zones.contact.size))
+                unit[parts] = motion.shape
                 free.append(zones.free(unit))
         return np.array(free).reshape(len(free), zones.size)
 
@@ -107,23 +106,23 @@ class LinearisedIncrement:
         Pressure is non-negative and zero outside the contact zone. The shear is within the friction
         limit, and at the limit in the slip zone. Forces have the prescribed values.
 
-        tractions  (q_x, q_y, p), shape (3, nx, ny)
+        tractions  (q_x, q_y, p), shape (3, n)
         raises     NotConverged if the load reaches the friction limit
         """
-        problem, zones, load = self._problem, self._zones, self._problem.tangential_load
-        p = problem.normal_load.admissible(np.maximum(tractions[2], 0.0) * zones.contact)
+        problem, zones, shifts = self._problem, self._zones, self._shifts
+        p = problem.pressing.admissible(np.maximum(tractions[2], 0.0) * zones.contact)
         bound = problem.friction_limit(p)
-        if load.exhausts(bound):
+        if problem.exhausts_friction(bound):
             raise NotConverged("the coupled increment", 0, np.inf, 0.0)
         t = zones.admissible_tractions(np.concatenate([tractions[:2], p[None]]), bound)
-        carriers = self._carriers[: len(self._shifts)]
-        forces = np.array([load.forces(zones.field(carrier)[:2]) for carrier in carriers])
+        carriers = self._carriers[: len(shifts)]
+        forces = np.array([shifts.forces(zones.field(carrier)[:2]) for carrier in carriers])
         forces = forces.reshape(len(carriers), len(carriers))
         weights = np.linalg.pinv(forces.T, rcond=UNDETERMINED) @ (
-            load.prescribed_forces - load.forces(t[:2])
+            shifts.prescribed_forces - shifts.forces(t[:2])
         )
         t[:2] += zones.field(np.einsum("i,ik->k", weights, carriers))[:2]
-        t[:2] = load.admissible(t[:2], bound)
+        t[:2] = admissible_shear(problem.shifting, t[:2], bound)
         return t
 
     def residual(self, base: NewtonPoint, natural: Natural) -> Vector:
@@ -158,11 +157,10 @@ class LinearisedIncrement:
             apply_operator, residual, self._free_units(), extra, depth, MAX_ITERATIONS
         )
         free = found.solution
-        closing = zip(found.motion[len(self._shifts) :], self._closures, strict=True)
         return Step(
             zones.tractions(free),
             zones.assemble_field(found.image - zones.slip_terms(free), found.extra),
-            sum((-m * closure for m, closure in closing), 0.0),
+            -self._closures.displacement(found.motion[len(self._shifts) :])[0],
             found.iterations,
         )
 
@@ -184,26 +182,25 @@ class LinearisedIncrement:
     def _force_changes(self, free: Vector) -> Vector:
         """Compute the change of the prescribed forces and moments by a change of the tractions.
 
-        The changes are divided by the cell area (k,).
+        The changes are divided by the area of a point (k,).
 
         free  change of the free unknowns
         """
         t = self._zones.tractions(free)
-        normal = [np.sum(closure * t[2]) for closure in self._closures]
-        return np.array([*self._problem.tangential_load.forces(t[:2]), *normal])
+        return np.array([*self._shifts.forces(t[:2]), *self._closures.forces(t[2:])])
 
 
 class BinnedPreconditioner:
-    """Approximate inverse of the generalised derivative, with slipping cells in bins of compliance.
+    """Approximate inverse of the generalised derivative, with bins of the slip compliance.
 
-    In the stick zone the derivative is the tangential operator. A slipping cell adds its slip
+    In the stick zone the derivative is the tangential operator. A slipping point adds its slip
     compliance d (see `slip_compliance_bins`). The approximate inverse is
 
         M = Π F⁻¹ Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    Π = stick + χ_0 t t
 
     F is the tangential operator with the unpadded period, f its scalar mean. χ_j is the weight of a
-    cell in bin j with the compliance d_j, and t the unit vector perpendicular to the slip. Rows and
-    free unknowns are vectors of the zones.
+    point in bin j with the compliance d_j, and t the unit vector perpendicular to the slip. Rows
+    and free unknowns are vectors of the zones.
     """
 
     def __init__(self, zones: Zones, problem: CoupledProblem) -> None:
@@ -223,11 +220,11 @@ class BinnedPreconditioner:
         for one, share in zip(bins, others, strict=True):
             one[slip] = share * along
         along *= first
-        v = np.concatenate([zones.field(weighted), bins.reshape(-1, *zones.contact.shape)])
+        v = np.concatenate([zones.field(weighted), bins])
         u = self._inverse(v)
         free = zones.free(u[:3])
         along = zones.split_unknowns(free)[1]
         along *= first
-        for one, share in zip(u[3:].reshape(bins.shape), others, strict=True):
+        for one, share in zip(u[3:], others, strict=True):
             along += share * one[slip]
         return free

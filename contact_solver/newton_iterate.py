@@ -9,20 +9,19 @@ import numpy as np
 
 from contact_scene.array_types import Vector
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.coupled.coupled_problem import CoupledProblem
-from semi_analytical.coupled.generalised_derivative import (
+from contact_solver.coupled_problem import CoupledProblem
+from contact_solver.generalised_derivative import (
     Natural,
     NewtonPoint,
     Tractions,
     Zones,
 )
-from semi_analytical.coupled.linearised_increment import (
-    LinearisedIncrement,
+from contact_solver.linearised_contact import (
+    LinearisedContact,
     Step,
 )
-from semi_analytical.normal.normal_load import Motion
 
-# Zones have settled if at most this part of the root of the number of contact cells changes zone.
+# Zones have settled if at most this part of the root of the number of contact points changes zone.
 SETTLED = 0.1
 STEP_FACTORS = 0.5 ** np.arange(5)
 
@@ -36,12 +35,12 @@ class NewtonIterate:
     point       tractions and displacements
     natural     contact and friction conditions at the iterate (natural map)
     closing     rigid normal motion that closes the gap of the iterate
-    settled     True if the last step changed the zone (contact, stick, slip) of only few cells
+    settled     True if the last step changed the zone (contact, stick, slip) of only few points
     iterations  sum of GMRES iterations
     """
 
     natural: Natural
-    closing: Motion
+    closing: Vector
 
     def __init__(self, problem: CoupledProblem, start: Tractions, motion: Vector) -> None:
         """Start Newton's method at given tractions.
@@ -50,16 +49,16 @@ class NewtonIterate:
         NotConverged at the friction limit, for non-finite tractions or without contact.
 
         problem  operators, loads and friction law of the increment
-        start    initial tractions (q_x, q_y, p), shape (3, nx, ny)
+        start    initial tractions (q_x, q_y, p), shape (3, n)
         motion   initial guess of the rigid tangential motion
         """
-        start[2] = problem.normal_load.admissible(np.where(np.isfinite(problem.gap), start[2], 0.0))
+        start[2] = problem.pressing.admissible(np.where(problem.pressing.allowed, start[2], 0.0))
         self._problem = problem
         self.point, _ = evaluate_point(problem, start, motion)
         self.natural = natural_map(problem, self.point)
         self.iterations, self.settled = 0, False
         self._zones: Zones | None = None
-        self._increment: LinearisedIncrement | None = None
+        self._increment: LinearisedContact | None = None
 
     def linearise(self) -> None:
         """Linearise the contact and friction conditions at the iterate, for the next Newton step.
@@ -69,14 +68,14 @@ class NewtonIterate:
         """
         problem, motion = self._problem, self.natural.motion
         zones = Zones.from_natural_map(self.natural, problem)
-        images = problem.domain.images
+        images = problem.images
         contact, changed = np.sum(zones.contact), zones.changes(self._zones)
         self.settled = bool(images * changed <= SETTLED * np.sqrt(images * contact))
         increment = self._increment
         carriers = increment.carriers_in(zones) if increment and self.settled else None
         self._zones, self._increment = zones, None
         del increment  # limit the memory to one increment
-        increment = self._increment = LinearisedIncrement(problem, zones, carriers)
+        increment = self._increment = LinearisedContact(problem, zones, carriers)
         tractions = increment.admissible(self.point.tractions)
         self.point, self.closing = evaluate_point(problem, tractions, motion)
         self.natural = natural_map(problem, self.point)
@@ -84,7 +83,7 @@ class NewtonIterate:
     def step(self, depth: float) -> None:
         """Take a Newton step: solve the linear system in fixed zones, then apply a line search.
 
-        Zones are the cells in contact, in stick and in slip.
+        Zones are the points in contact, in stick and in slip.
 
         depth  reduction of the residual by the linear solve
         """
@@ -99,20 +98,19 @@ class NewtonIterate:
 
 def evaluate_point(
     problem: CoupledProblem, tractions: Tractions, motion: Vector
-) -> tuple[NewtonPoint, Motion]:
+) -> tuple[NewtonPoint, Vector]:
     """Compute displacements and rigid normal motion for given tractions of a coupled increment.
 
     Return the iterate of Newton's method, and the rigid normal motion that closes its gap on
     average.
 
     problem    operators, loads and friction law of the increment
-    tractions  (q_x, q_y, p), shape (3, nx, ny)
+    tractions  (q_x, q_y, p), shape (3, n)
     motion     initial guess of the rigid tangential motion
     """
-    u, load = problem.together(tractions), problem.normal_load
-    gap = np.where(np.isfinite(problem.gap), problem.gap, 0.0)
-    closing = load.motion(tractions[2], gap + u[2])
-    return NewtonPoint(tractions, u, load.closure(closing), motion), closing
+    u, pressing = problem.together(tractions), problem.pressing
+    closing = pressing.motion(tractions[2], pressing.finite_gap + u[2])
+    return NewtonPoint(tractions, u, pressing.closure(closing), motion), closing
 
 
 def natural_map(problem: CoupledProblem, point: NewtonPoint) -> Natural:
@@ -125,7 +123,7 @@ def natural_map(problem: CoupledProblem, point: NewtonPoint) -> Natural:
     raises   NotConverged at the friction limit, for non-finite tractions or without contact
     """
     bound = problem.friction_limit(np.maximum(point.tractions[2], 0.0))
-    if problem.tangential_load.exhausts(bound) or not np.all(np.isfinite(point.tractions)):
+    if problem.exhausts_friction(bound) or not np.all(np.isfinite(point.tractions)):
         raise NotConverged("the coupled increment", 0, np.inf, 0.0)
     natural = Natural.evaluate(point, problem)
     if not np.any(natural.contact):

@@ -12,16 +12,16 @@ import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.coupled.alternating_iteration import (
+from contact_solver.alternating_iteration import (
     one_iteration,
     solve_coupled,
 )
-from semi_analytical.coupled.coupled_problem import (
+from contact_solver.coupled_problem import (
     CoupledProblem,
     CoupledSolution,
 )
-from semi_analytical.coupled.newton_increment import solve_by_newton
-from semi_analytical.coupled.proximal_point import solve_on_springs
+from contact_solver.newton_increment import solve_by_newton
+from contact_solver.proximal_point import solve_on_springs
 
 Method = Callable[[CoupledProblem, Field, VectorField, Vector, float], CoupledSolution]
 
@@ -44,7 +44,7 @@ def solve_together(
     alternating iteration can return gross slip at the friction limit.
 
     problem                  operators, loads and friction law of the increment
-    pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
+    pressure, shear, motion  initial guesses: p (n,), q (2, n) and rigid tangential motion
     tolerance                limit of the dimensionless residuals
     raises                   NotConverged
     """
@@ -97,9 +97,9 @@ def _gross_slip(problem: CoupledProblem, pressure: Field) -> bool:
     Only the alternating iteration can solve this case.
 
     problem   loads and friction law of the increment
-    pressure  p (nx, ny) [force/length^2]
+    pressure  p (n,) [force/length^2]
     """
-    return problem.tangential_load.exhausts(problem.friction_limit(pressure))
+    return problem.exhausts_friction(problem.friction_limit(pressure))
 
 
 def _one_iteration_then_newton(

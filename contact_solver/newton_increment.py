@@ -3,14 +3,13 @@
 import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
-from contact_scene.quantities.residuals import worst
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.coupled.coupled_problem import (
+from contact_solver.coupled_problem import (
     CoupledProblem,
     CoupledSolution,
 )
-from semi_analytical.coupled.newton_iterate import NewtonIterate
-from semi_analytical.residuals import complementarity, penetration, slip_direction
+from contact_solver.newton_iterate import NewtonIterate
+from contact_solver.residuals import complementarity, penetration, slip_direction
 
 MAX_STEPS = 40
 # Successive steps that may reduce the residual by less than 10 %.
@@ -32,7 +31,7 @@ def solve_by_newton(
     """Solve a coupled increment by the semismooth Newton method from an initial guess.
 
     problem                  operators, loads and friction law of the increment
-    pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
+    pressure, shear, motion  initial guesses: p (n,), q (2, n) and rigid tangential motion
     tolerance                limit of all dimensionless residuals
     furthest                 largest merit (relative error) of the first iterate, above which the
                              method is not tried
@@ -73,16 +72,16 @@ def _largest_residual(problem: CoupledProblem, at: NewtonIterate) -> float:
     """
     point, natural = at.point, at.natural
     q, p = point.tractions[:2], point.tractions[2]
-    allowed = np.isfinite(problem.gap)
-    overlap = problem.normal_load.overlap(at.closing, problem.gap, allowed)
-    # In full stick the surface may not move; the displacement by the shear of a cell is then the
-    # scale of slip. In a single cell only the surface around the cell moves: take the maximum.
+    overlap = problem.pressing.overlap(at.closing)
+    # In full stick the surface may not move; the displacement by the shear of a point is then the
+    # scale of slip. In a single point only the surface around the point moves: take the maximum.
     moved = np.maximum(np.abs(point.displacements[:2]), problem.self_compliance * np.abs(q))
     if not np.any(natural.slip & (natural.bound > 0)):
         moved = np.full_like(moved, np.max(moved))
-    return worst(
+    measures = (
         complementarity(p, natural.gap, overlap),
         penetration(natural.gap, overlap),
         natural.shear_error,
         slip_direction(q, natural.bound, natural.slipped, moved),
     )
+    return float(np.max(measures))  # keeps a NaN

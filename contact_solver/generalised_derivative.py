@@ -1,6 +1,6 @@
 """Natural map of contact and Coulomb friction, and its generalised derivative.
 
-With γ the stiffness of a patch of cells, gap g, rigid motion ω, displacement c that stick requires
+With γ the stiffness of a patch of points, gap g, rigid motion ω, displacement c that stick requires
 and tangential displacement u_t, the increment is the root of (Alart and Curnier 1991)
 
     p = max(0, p - γ g)        q = P_b(z),  z = q + γ (ω + c - u_t),  b = b(p)
@@ -27,11 +27,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.array_types import Field, Indices, Mask, Vector, VectorField
-from semi_analytical.coupled.coupled_problem import CoupledProblem
-from semi_analytical.tangential.admissible_shear import (
-    magnitude,
-    natural_shear,
-)
+from contact_solver.admissible_shear import magnitude, natural_shear
+from contact_solver.coupled_problem import CoupledProblem
 
 Tractions = NDArray[np.float64]
 
@@ -43,15 +40,15 @@ MAX_SLIP_COMPLIANCE = 1e6
 class NewtonPoint:
     """Iterate of Newton's method for a coupled increment: tractions, displacements, rigid motion.
 
-    tractions      shear and pressure (q_x, q_y, p), shape (3, nx, ny) [force/length^2]
-    displacements  surface displacements (u_x, u_y, u_z) by these tractions (3, nx, ny) [length]
+    tractions      shear and pressure (q_x, q_y, p), shape (3, n) [force/length^2]
+    displacements  surface displacements (u_x, u_y, u_z) by these tractions (3, n) [length]
     closure        reduction of the gap by the rigid normal motion of the indenter [length]
     motion         initial guess of the rigid tangential motion: shift, and twist under a torque
     """
 
     tractions: Tractions
     displacements: Field
-    closure: float | Field
+    closure: Field
     motion: Vector
 
 
@@ -59,7 +56,7 @@ class NewtonPoint:
 class Natural:
     """Contact and friction conditions at an iterate of Newton's method, written as a natural map.
 
-    Fields are (nx, ny), vectors (2, nx, ny). The iterate is a solution if p = max(0, p - γ g) and q
+    Fields are (n,), vectors (2, n). The iterate is a solution if p = max(0, p - γ g) and q
     = P_b(z). P_b is the projection of a vector on the disc of radius b, and γ a stiffness
     [force/length^3].
 
@@ -69,8 +66,8 @@ class Natural:
     z, length       z = q + γ (ω + c - u_t) and its magnitude, with the shear q, the displacement c
                     that stick requires and the tangential displacement u_t
     motion          rigid tangential motion ω, for which the projected shear carries the load
-    contact         cells with p > γ g
-    slip            cells in contact with |z| > b
+    contact         points with p > γ g
+    slip            points in contact with |z| > b
     slipped         ω + c - u_t: slip of the indenter relative to the body [length]
     pressure_error  Σ|p - max(0, p - γ g)| / Σ|p|
     shear_error     Σ|q - P(z)| / Σb, with P the projection that also has the prescribed forces
@@ -104,7 +101,7 @@ class Natural:
         contact = argument > 0
         bound = problem.friction_limit(np.maximum(p, 0.0))
         apart = problem.target - point.displacements[:2]
-        shear = natural_shear(problem.tangential_load, q, apart, bound, gamma, point.motion)
+        shear = natural_shear(problem.shifting, q, apart, bound, gamma, point.motion)
         length = magnitude(shear.z)
         error = np.sum(np.abs(p - np.where(contact, argument, 0.0)))
         return cls(
@@ -138,12 +135,12 @@ class Zones:
     Free unknowns and the rows of the derivative are vectors: q_x, then q_y of the stick zone, the
     shear s perpendicular to the slip direction n in the slip zone, p of the contact.
 
-    contact, stick   cells in contact and sticking cells (nx, ny)
-    slip             flat indices of slipping cells (cells,)
-    tangent          unit vector t perpendicular to the slip in slipping cells (2, cells)
-    friction_slope   µ n in slipping cells (2, cells), µ the derivative of the friction limit with
+    contact, stick   points in contact and sticking points (n,)
+    slip             flat indices of slipping points (points,)
+    tangent          unit vector t perpendicular to the slip in slipping points (2, points)
+    friction_slope   µ n in slipping points (2, points), µ the derivative of the friction limit with
                      respect to the pressure
-    slip_compliance  compliance d of slipping cells perpendicular to the slip (cells,)
+    slip_compliance  compliance d of slipping points perpendicular to the slip (points,)
                      [length^3/force]
     """
 
@@ -162,8 +159,8 @@ class Zones:
         problem  operators, loads and friction law of the increment
         """
         slip = np.flatnonzero(natural.slip)
-        length, bound = natural.length.ravel()[slip], natural.bound.ravel()[slip]
-        normal = natural.z.reshape(2, -1)[:, slip] / length
+        length, bound = natural.length[slip], natural.bound[slip]
+        normal = natural.z[:, slip] / length
         excess = length - bound
         slope = problem.friction_slope(np.maximum(natural.pressure, 0.0))
         most = MAX_SLIP_COMPLIANCE * problem.self_compliance
@@ -172,20 +169,20 @@ class Zones:
             stick=natural.contact & ~natural.slip,
             slip=slip,
             tangent=np.stack([-normal[1], normal[0]]),
-            friction_slope=slope.ravel()[slip] * normal,
+            friction_slope=slope[slip] * normal,
             slip_compliance=excess / np.maximum(problem.gamma * bound, excess / most),
         )
 
     @cached_property
-    def _stick_cells(self) -> Indices:
+    def _stick_points(self) -> Indices:
         return np.flatnonzero(self.stick)
 
     @cached_property
-    def _contact_cells(self) -> Indices:
+    def _contact_points(self) -> Indices:
         return np.flatnonzero(self.contact)
 
     @cached_property
-    def _open_cells(self) -> Indices:
+    def _open_points(self) -> Indices:
         return np.flatnonzero(~self.contact)
 
     @property
@@ -195,21 +192,21 @@ class Zones:
         They are both components of the shear in the stick zone, the shear across the slip direction
         in the slip zone, and the pressure in contact.
         """
-        return 2 * len(self._stick_cells) + len(self.slip) + len(self._contact_cells)
+        return 2 * len(self._stick_points) + len(self.slip) + len(self._contact_points)
 
     def split_unknowns(self, vector: Vector) -> tuple[Vector, Vector, Vector]:
         """Split a vector of the free unknowns of a Newton step into views of its three parts.
 
-        The parts are the shear in the stick zone (2, cells), the shear across the slip direction in
-        the slip zone (cells,) and the pressure in contact (cells,).
+        The parts are the shear in the stick zone (2, points), the shear across the slip direction
+        in the slip zone (points,) and the pressure in contact (points,).
 
         vector  free unknowns, or rows of the linear system (size,)
         """
-        stuck, slip = 2 * len(self._stick_cells), len(self.slip)
+        stuck, slip = 2 * len(self._stick_points), len(self.slip)
         return vector[:stuck].reshape(2, -1), vector[stuck : stuck + slip], vector[stuck + slip :]
 
     def free(self, v: NDArray[Any]) -> Vector:
-        """Restrict a traction or displacement field (3, nx, ny) to the free unknowns of a step.
+        """Restrict a traction or displacement field (3, n) to the free unknowns of a step.
 
         Newton's method solves for these unknowns: both tangential components in the stick zone, the
         component across the slip direction in the slip zone, and the normal component in contact.
@@ -218,100 +215,99 @@ class Zones:
         v  tractions (q_x, q_y, p) or displacements (u_x, u_y, u_z)
         """
         # NumPy is many times slower with indices after a slice, so components are separate.
-        x, y, z = v.reshape(3, -1)
+        x, y, z = v
         free = np.empty(self.size)
         (stuck_x, stuck_y), along, pressed = self.split_unknowns(free)
         stuck_x[:], stuck_y[:], pressed[:] = (
-            x[self._stick_cells],
-            y[self._stick_cells],
-            z[self._contact_cells],
+            x[self._stick_points],
+            y[self._stick_points],
+            z[self._contact_points],
         )
         along[:] = self.tangent[0] * x[self.slip] + self.tangent[1] * y[self.slip]
         return free
 
     def field(self, vector: Vector) -> Field:
-        """Convert a vector of the free unknowns of a Newton step to a traction field (3, nx, ny).
+        """Convert a vector of the free unknowns of a Newton step to a traction field (3, n).
 
         All other components of the field are zero.
 
-        vector  free unknowns: shear of sticking cells, shear across the slip direction of slipping
-                cells, pressure of cells in contact
+        vector  free unknowns: shear of sticking points, shear across the slip direction of slipping
+                points, pressure of points in contact
         """
         v = np.zeros((3, self.contact.size))
         stuck, along, pressed = self.split_unknowns(vector)
         for one, at_stick, tangent in zip(v[:2], stuck, self.tangent, strict=True):
-            one[self._stick_cells], one[self.slip] = at_stick, tangent * along
-        v[2][self._contact_cells] = pressed
-        return v.reshape(3, *self.contact.shape)
+            one[self._stick_points], one[self.slip] = at_stick, tangent * along
+        v[2][self._contact_points] = pressed
+        return v
 
     def restrict_to_fixed(self, v: Field) -> Vector:
-        """Restrict a field (3, nx, ny) to the components that the linear system does not solve for.
+        """Restrict a field (3, n) to the components that the linear system does not solve for.
 
-        These are the components along the slip direction in slipping cells and all components
+        These are the components along the slip direction in slipping points and all components
         outside the contact. The result is a vector. Together with the free components it determines
         the field.
 
         v  displacements (u_x, u_y, u_z) or tractions
         """
-        v = v.reshape(3, -1)
         across = self.tangent[1] * v[0][self.slip] - self.tangent[0] * v[1][self.slip]
-        return np.concatenate([across, *(one[self._open_cells] for one in v)])
+        return np.concatenate([across, *(one[self._open_points] for one in v)])
 
     def assemble_field(self, free: Vector, fixed: Vector) -> Field:
-        """Assemble a field (3, nx, ny) from its free and its fixed components in the zones.
+        """Assemble a field (3, n) from its free and its fixed components in the zones.
 
         The operation is the inverse of `free` and `restrict_to_fixed` together. Used for the
         displacement of a Newton step.
 
         free   free components: vector as from `free`
-        fixed  components along the slip direction in slipping cells, and all components outside the
-               contact: vector as from `restrict_to_fixed`
+        fixed  components along the slip direction in slipping points, and all components outside
+               the contact: vector as from `restrict_to_fixed`
         """
-        v = self._add_slip_components(self.field(free), fixed[: len(self.slip)]).reshape(3, -1)
+        v = self._add_slip_components(self.field(free), fixed[: len(self.slip)])
         for one, apart in zip(v, fixed[len(self.slip) :].reshape(3, -1), strict=True):
-            one[self._open_cells] = apart
-        return v.reshape(3, *self.contact.shape)
+            one[self._open_points] = apart
+        return v
 
     def _add_slip_components(self, v: Field, normal: Vector) -> Field:
-        """Add given components along the slip direction in slipping cells to a field, in place.
+        """Add given components along the slip direction in slipping points to a field, in place.
 
-        v       field (3, nx, ny), such as tractions
-        normal  components along the slip direction n (cells,)
+        v       field (3, n), such as tractions
+        normal  components along the slip direction n (points,)
         """
-        x, y, _ = v.reshape(3, -1)
+        x, y, _ = v
         x[self.slip] += self.tangent[1] * normal
         y[self.slip] -= self.tangent[0] * normal
         return v
 
     def tractions(self, free: Vector) -> Tractions:
-        """Compute the change of the tractions (3, nx, ny) by changes of the free unknowns.
+        """Compute the change of the tractions (3, n) by changes of the free unknowns.
 
-        The free unknowns do not contain the shear along the slip direction in slipping cells. This
+        The free unknowns do not contain the shear along the slip direction in slipping points. This
         shear is the friction limit b, which changes with the pressure.
 
         free  changes of the free unknowns (size,)
         """
-        t = self.field(free).reshape(3, -1)
+        t = self.field(free)
         pressure = t[2][self.slip]
         for one, slope in zip(t[:2], self.friction_slope, strict=True):
             one[self.slip] += slope * pressure
-        return t.reshape(3, *self.contact.shape)
+        return t
 
     def admissible_tractions(self, tractions: Tractions, bound: Field) -> Tractions:
         """Change tractions so that they match the zones of contact, stick and slip.
 
-        Tractions become zero outside the contact. The shear of slipping cells along the slip
+        Tractions become zero outside the contact. The shear of slipping points along the slip
         direction becomes the friction limit.
 
-        tractions  (q_x, q_y, p), shape (3, nx, ny)
-        bound      friction limit b (nx, ny)
+        tractions  (q_x, q_y, p), shape (3, n)
+        bound      friction limit b (n,)
         """
-        return self._add_slip_components(self.field(self.free(tractions)), bound.ravel()[self.slip])
+        return self._add_slip_components(self.field(self.free(tractions)), bound[self.slip])
 
     def slip_terms(self, free: Vector) -> Vector:
         """Compute the contribution of the slip compliance to the rows of the linear system (size,).
 
-        The rows of slipping cells are d s, with the shear s across the slip direction and the slip
+        The rows of slipping points are d s, with the shear s across the slip direction and the slip
         compliance d [length^3/force]. Other rows are zero.
 
         free  free unknowns (size,)
@@ -321,12 +317,12 @@ class Zones:
         return rows
 
     def changes(self, other: "Zones | None") -> int:
-        """Return the number of cells that are in another zone than in another iterate.
+        """Return the number of points that are in another zone than in another iterate.
 
         Zones are contact, stick and slip. Few changes indicate that Newton's method is near the
         solution.
 
-        other  zones of the other iterate; None counts all cells
+        other  zones of the other iterate; None counts all points
         """
         if other is None:
             return self.contact.size

@@ -13,16 +13,16 @@ import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.coupled.coupled_problem import (
+from contact_solver.coupled_problem import (
     CoupledProblem,
     CoupledSolution,
 )
-from semi_analytical.coupled.generalised_derivative import Tractions
-from semi_analytical.coupled.newton_increment import (
+from contact_solver.generalised_derivative import Tractions
+from contact_solver.newton_increment import (
     ROUGH_REDUCTION,
     solve_by_newton,
 )
-from semi_analytical.coupled.newton_iterate import NewtonIterate
+from contact_solver.newton_iterate import NewtonIterate
 
 MAX_PROXIMAL_STEPS = 60
 # Sum over all GMRES solves; twice the largest number of a converging case of the stability map.
@@ -47,7 +47,7 @@ def solve_on_springs(
     while the changes are small. The final solve has λ = 0 and meets the tolerance.
 
     problem                  operators, loads and friction law of the increment
-    pressure, shear, motion  initial guesses: p (nx, ny), q (2, nx, ny) and rigid tangential motion
+    pressure, shear, motion  initial guesses: p (n,), q (2, n) and rigid tangential motion
     tolerance                limit of the dimensionless residuals
     raises                   NotConverged
     """
@@ -89,7 +89,7 @@ def _proximal_step(problem: CoupledProblem, tractions: Tractions, motion: Vector
     This solve is one step of the proximal-point method.
 
     problem    coupled problem with the additional compliance
-    tractions  tractions of the last step (q_x, q_y, p), shape (3, nx, ny), used as initial guess
+    tractions  tractions of the last step (q_x, q_y, p), shape (3, n), used as initial guess
     motion     initial guess of the rigid tangential motion
     raises     NotConverged
     """
