@@ -18,6 +18,7 @@ from contact_scene.quantities.residuals import (
 )
 from contact_scene.solver_errors import NotConverged
 from contact_solver import residuals as of_cells
+from contact_solver.residuals import complementarity, friction_cone, penetration, slip_direction
 from fem_reference import Method, residuals, solve
 from fem_reference import residuals as of_rings
 from fem_reference import solve as solve_by_elements
@@ -31,7 +32,6 @@ from fem_reference.contact.natural_map import Equations, Iterate
 from fem_reference.loads import NormalTarget, TangentialTarget
 from fem_reference.plan import Path
 from semi_analytical import solve as solve_by_superposition
-from contact_solver.residuals import complementarity, friction_cone, penetration, slip_direction
 
 WEIGHTS = np.array([0.1, 0.4, 0.5])
 PRESSURE = np.array([2.0, 1.0, 0.0])
