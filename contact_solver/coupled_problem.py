@@ -3,9 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol
-
-from numpy.typing import NDArray
+from typing import Protocol
 
 from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_solver.conjugate_gradients import Map
@@ -13,15 +11,20 @@ from contact_solver.gross_slip import exhausts_friction
 from contact_solver.pressure import PressureProblem
 from contact_solver.rigid_motion import RigidMotions
 from contact_solver.shear import ShearProblem
+from contact_solver.shear_zones import ShearZones
+from contact_solver.zones import Zones
 
 
 class Preconditioner(Protocol):
-    """Interface of an approximate inverse of the map from tractions to surface displacements.
+    """Interface of an approximate inverse of the derivative of a coupled problem."""
 
-    A call converts displacements to tractions. Krylov solvers use it as preconditioner.
-    """
+    def in_zones(self, zones: Zones) -> Callable[[Vector], Vector]:
+        """Return the approximate inverse in zones of contact, stick and slip.
 
-    def __call__(self, displacements: NDArray[Any], /) -> NDArray[Any]: ...
+        It is a map from rows of the linear system to free unknowns, see `Zones`.
+
+        zones  zones of an iterate
+        """
 
     def with_compliance(self, compliance: float) -> "Preconditioner":
         """Return the approximate inverse for surfaces with an additional compliance of each point.
@@ -42,11 +45,10 @@ class CoupledProblem:
     normal, tangential     maps p -> u_z and q -> u_t
     normal_by_shear        map q -> u_z
     shear_by_pressure      map p -> u_t
-    precondition_normal    approximate inverse of `normal`
-    invert_shear           approximate inverse of `tangential`, see `ShearProblem.inverse`
+    inverse_on             see `PressureProblem.inverse_on`
+    inverse_in             see `ShearProblem.inverse_in`
     together               map (q_x, q_y, p) -> (u_x, u_y, u_z)
-    precondition_together  approximate inverse of `together` without coupling, followed by those of
-                           the bins of slip compliance (see `slip_compliance_bins`)
+    inverse                approximate inverse of the derivative
     gap                    undeformed gap (n,) [length], infinite outside the indenter
     friction_limit         map from pressure (n,) to the largest shear (n,)
     friction_slope         map from pressure (n,) to the derivative of the largest shear (n,)
@@ -63,10 +65,10 @@ class CoupledProblem:
     tangential: Map
     normal_by_shear: Map
     shear_by_pressure: Map
-    precondition_normal: Map
-    invert_shear: Map
+    inverse_on: Callable[[Mask], Map]
+    inverse_in: Callable[[ShearZones], Map]
     together: Map
-    precondition_together: Preconditioner
+    inverse: Preconditioner
     gap: Vector
     friction_limit: Callable[[Vector], Vector]
     friction_slope: Callable[[Vector], Vector]
@@ -90,7 +92,7 @@ class CoupledProblem:
     @cached_property
     def pressing(self) -> PressureProblem:
         """Problem of the pressure without shear."""
-        return PressureProblem(self.normal, self.precondition_normal, self.gap, self.closing)
+        return PressureProblem(self.normal, self.inverse_on, self.gap, self.closing)
 
     def pressing_at(self, q: VectorField) -> PressureProblem:
         """Return the problem of the pressure at a given shear.
@@ -106,7 +108,7 @@ class CoupledProblem:
         """
         return ShearProblem(
             self.tangential,
-            self.invert_shear,
+            self.inverse_in,
             self.friction_limit(p),
             self.target - self.shear_by_pressure(p),
             self.shifting,
@@ -133,7 +135,7 @@ class CoupledProblem:
         return replace(
             self,
             together=lambda t: self.together(t) + compliance * t,
-            precondition_together=self.precondition_together.with_compliance(compliance),
+            inverse=self.inverse.with_compliance(compliance),
             gap=self.gap - compliance * p,
             target=self.target + compliance * q,
             self_compliance=self.self_compliance + compliance,

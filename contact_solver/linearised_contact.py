@@ -11,14 +11,13 @@ from contact_scene.array_types import Field, Matrix, Vector
 from contact_scene.solver_errors import NotConverged
 from contact_solver.admissible_shear import admissible_shear
 from contact_solver.coupled_problem import CoupledProblem
-from contact_solver.generalised_derivative import (
+from contact_solver.krylov import least_residual
+from contact_solver.natural_map import (
     Natural,
     NewtonPoint,
     Tractions,
-    Zones,
 )
-from contact_solver.krylov import least_residual
-from contact_solver.slip_compliance_bins import shares
+from contact_solver.zones import Zones
 
 MAX_ITERATIONS = 40
 # Relative cutoff of the pseudo-inverse: slip in one direction leaves a force undetermined.
@@ -64,7 +63,7 @@ class LinearisedContact:
                   `carriers_in`), which saves their computation; None to compute them
         """
         self._problem, self._zones = problem, zones
-        self._precondition = BinnedPreconditioner(zones, problem)
+        self._precondition = problem.inverse.in_zones(zones)
         self._shifts, self._closures = problem.shifting.held, problem.closing.held
         if carriers is None:
             units = self._free_units()
@@ -188,43 +187,3 @@ class LinearisedContact:
         """
         t = self._zones.tractions(free)
         return np.array([*self._shifts.forces(t[:2]), *self._closures.forces(t[2:])])
-
-
-class BinnedPreconditioner:
-    """Approximate inverse of the generalised derivative, with bins of the slip compliance.
-
-    In the stick zone the derivative is the tangential operator. A slipping point adds its slip
-    compliance d (see `slip_compliance_bins`). The approximate inverse is
-
-        M = Π F⁻¹ Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    Π = stick + χ_0 t t
-
-    F is the tangential operator with the unpadded period, f its scalar mean. χ_j is the weight of a
-    point in bin j with the compliance d_j, and t the unit vector perpendicular to the slip. Rows
-    and free unknowns are vectors of the zones.
-    """
-
-    def __init__(self, zones: Zones, problem: CoupledProblem) -> None:
-        self._zones, self._inverse = zones, problem.precondition_together
-        self._shares = shares(zones.slip_compliance / problem.self_compliance)
-
-    def __call__(self, rows: Vector) -> Vector:
-        """Convert a residual of Newton's method to changes of the free tractions, approximately.
-
-        rows  residual, one row per free unknown
-        """
-        zones, slip = self._zones, self._zones.slip
-        first, *others = self._shares
-        weighted = rows.copy()
-        along = zones.split_unknowns(weighted)[1]
-        bins = np.zeros((len(others), zones.contact.size))
-        for one, share in zip(bins, others, strict=True):
-            one[slip] = share * along
-        along *= first
-        v = np.concatenate([zones.field(weighted), bins])
-        u = self._inverse(v)
-        free = zones.free(u[:3])
-        along = zones.split_unknowns(free)[1]
-        along *= first
-        for one, share in zip(u[3:], others, strict=True):
-            along += share * one[slip]
-        return free

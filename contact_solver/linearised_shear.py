@@ -23,11 +23,11 @@ class LinearisedShear:
 
     Newton's method solves this linear problem in each step.
 
-    displace, inverse  map from shear to displacement and its approximate inverse, see
-                       `shear.ShearProblem`
-    zones              stick and slip zones of an iterate
-    motions            rigid motions of the indenter
-    carriers           shears (2, n) that change the prescribed forces in these zones, one per force
+    displace  map from shear to displacement
+    inverse   approximate inverse of the derivative in the zones, from and to free components
+    zones     stick and slip zones of an iterate
+    motions   rigid motions of the indenter
+    carriers  shears (2, n) that change the prescribed forces in these zones, one per force
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class LinearisedShear:
         if carriers is None:
             shape = zones.sliding_shear.shape
             units = (np.broadcast_to(one.shape, shape) for one in self._held.each)
-            self.carriers = [zones.precondition(zones.free(unit), inverse) for unit in units]
+            self.carriers = [inverse(zones.free(unit)) for unit in units]
         else:
             self.carriers = [zones.free(carrier) for carrier in carriers]
         count = len(self.carriers)
@@ -101,7 +101,7 @@ class LinearisedShear:
 
         v  residual displacement (2, n) [length]
         """
-        free = self._zones.precondition(v, self._inverse)
+        free = self._inverse(v)
         self._correct_forces(-self._held.forces(free), free)
         return free
 

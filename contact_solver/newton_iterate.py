@@ -10,16 +10,17 @@ import numpy as np
 from contact_scene.array_types import Vector
 from contact_scene.solver_errors import NotConverged
 from contact_solver.coupled_problem import CoupledProblem
-from contact_solver.generalised_derivative import (
-    Natural,
-    NewtonPoint,
-    Tractions,
-    Zones,
-)
 from contact_solver.linearised_contact import (
     LinearisedContact,
     Step,
 )
+from contact_solver.natural_map import (
+    Natural,
+    NewtonPoint,
+    Tractions,
+    zones_of,
+)
+from contact_solver.zones import Zones
 
 # Zones have settled if at most this part of the root of the number of contact points changes zone.
 SETTLED = 0.1
@@ -67,7 +68,7 @@ class NewtonIterate:
         so that they are admissible in these zones, and the natural map is evaluated again.
         """
         problem, motion = self._problem, self.natural.motion
-        zones = Zones.from_natural_map(self.natural, problem)
+        zones = zones_of(self.natural, problem)
         images = problem.images
         contact, changed = np.sum(zones.contact), zones.changes(self._zones)
         self.settled = bool(images * changed <= SETTLED * np.sqrt(images * contact))

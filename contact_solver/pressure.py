@@ -7,6 +7,7 @@ that reduce the energy sufficiently. If it fails, points in tension leave the co
 successively (Lawson and Hanson 1974), so that the contact sets cannot cycle.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -56,13 +57,14 @@ class PressureProblem:
     """Contact without penetration for a given shear, under prescribed forces or motions.
 
     displace      map from pressure (n,) to normal displacement (n,); symmetric, positive definite
-    precondition  approximate inverse of `displace`; symmetric, positive definite
+    inverse_on    function from a contact set (n,) to the approximate inverse of `displace` on it;
+                  symmetric, positive definite
     gap           undeformed gap (n,) [length]; infinite where contact is impossible
     motions       rigid motions that reduce the gap, the approach first
     """
 
     displace: Map
-    precondition: Map
+    inverse_on: Callable[[Mask], Map]
     gap: Vector
     motions: RigidMotions
 
@@ -218,11 +220,11 @@ def close_gap(
     g        gap at the start (n,) [length]
     depth    reduction of the residual norm at which the iteration stops
     """
-    projected = problem.projection(contact)
+    projected, precondition = problem.projection(contact), problem.inverse_on(contact)
     return solve_in_zones(
         problem.displace,
         lambda d, d_u: projected(d_u),
-        lambda r: projected(problem.precondition(r)),
+        lambda r: projected(precondition(r)),
         start,
         projected(-g),
         depth,

@@ -17,7 +17,7 @@ from contact_solver.coupled_problem import (
     CoupledProblem,
     CoupledSolution,
 )
-from contact_solver.generalised_derivative import Tractions
+from contact_solver.natural_map import Tractions
 from contact_solver.newton_increment import (
     ROUGH_REDUCTION,
     solve_by_newton,

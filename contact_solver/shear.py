@@ -8,6 +8,7 @@ and slip zones from the natural map, solves the problem linearised in these zone
 solution. A line search accepts steps that reduce the energy sufficiently.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,9 +63,9 @@ class ShearProblem:
 
     displace         map A from shear (2, n) to its tangential displacement (2, n); symmetric,
                      positive
-    inverse          approximate inverse of `displace`, then of one component with the compliance of
-                     each bin: (2 + bins, n) to the same shape (see `slip_compliance_bins`);
-                     symmetric, positive
+    inverse_in       function from zones of stick and slip to the approximate inverse of the
+                     derivative in these zones, on free components (2, n); symmetric, positive, see
+                     `ShearZones.precondition`
     bound            friction limit µp (n,), zero outside the contact [force/length^2]
     target           c (2, n) [length], the displacement that stick requires: points stick where
                      A q = ω + c
@@ -74,7 +75,7 @@ class ShearProblem:
     """
 
     displace: Map
-    inverse: Map
+    inverse_in: Callable[[ShearZones], Map]
     bound: Vector
     target: VectorField
     motions: RigidMotions
@@ -127,7 +128,7 @@ def solve_shear(
         zones = found
         linearised = LinearisedShear(
             problem.displace,
-            problem.inverse,
+            problem.inverse_in(zones),
             zones,
             problem.motions,
             carriers if settled else None,

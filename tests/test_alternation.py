@@ -1,5 +1,7 @@
 """Tests of the coupled solvers on small dense problems: contact law, friction law, convergence."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from contact_scenes import grid
@@ -10,15 +12,16 @@ from random_compliance import as_map, compliance, graded_inverse, pressed, pushe
 
 from contact_solver.admissible_shear import magnitude, project_on_discs
 from contact_solver.alternating_iteration import solve_coupled
+from contact_solver.binned_preconditioner import BinnedPreconditioner
 from contact_solver.coupled_problem import CoupledProblem
-from contact_solver.generalised_derivative import (
-    Natural,
-    NewtonPoint,
-    Zones,
-)
 from contact_solver.globalisation import solve_together
 from contact_solver.krylov import least_residual
 from contact_solver.linearised_contact import LinearisedContact
+from contact_solver.natural_map import (
+    Natural,
+    NewtonPoint,
+    zones_of,
+)
 from contact_solver.newton_iterate import evaluate_point
 from contact_solver.slip_compliance_bins import COMPLIANCES
 from semi_analytical import solve
@@ -42,6 +45,9 @@ class Held:
 
     def __call__(self, displacements):
         return displacements / self._held
+
+    def in_zones(self, zones):
+        return BinnedPreconditioner(zones, self, self._given[1])
 
     def with_compliance(self, compliance):
         return Held(*(part + compliance for part in self._given))
@@ -80,13 +86,13 @@ class DenseContact:
         self_compliance = float(np.mean(np.diag(A_tt)))
         return CoupledProblem(
             normal=as_map(A_zz),
-            precondition_normal=rough_inverse(A_zz),
+            inverse_on=lambda contact: rough_inverse(A_zz),
             tangential=as_map(A_tt),
-            invert_shear=graded_inverse(A_tt),
+            inverse_in=lambda zones: partial(zones.precondition, inverse=graded_inverse(A_tt)),
             normal_by_shear=lambda q: A_zt @ q.ravel(),
             shear_by_pressure=lambda p: (A_zt.T @ p).reshape(2, POINTS),
             together=as_map(self.matrix),
-            precondition_together=Held(np.diag(self.matrix).reshape(3, POINTS), self_compliance),
+            inverse=Held(np.diag(self.matrix).reshape(3, POINTS), self_compliance),
             gap=self.gap,
             friction_limit=self.limit,
             friction_slope=self.slope,
@@ -244,7 +250,7 @@ def test_a_step_near_the_solution_squares_the_error(seed, saturation, rng):
         t = exact + size * direction * (exact[2] > 0)
         t[2] = problem.pressing.admissible(t[2])
         at = NewtonPoint(t, problem.together(t), solution.closing, solution.motion)
-        zones = Zones.from_natural_map(Natural.evaluate(at, problem), problem)
+        zones = zones_of(Natural.evaluate(at, problem), problem)
         increment = LinearisedContact(problem, zones)
         base, _ = evaluate_point(problem, increment.admissible(t), solution.motion)
         residual = increment.residual(base, Natural.evaluate(base, problem))

@@ -137,7 +137,7 @@ def problem_of(target, cells=EVERYWHERE, *, forced=True, matrix=None, gap=0.0):
     matrix = np.eye(POINTS) if matrix is None else matrix
     gap = np.where(cells, gap, np.inf)
     load = motions(target, forced=forced)
-    return PressureProblem(as_map(matrix), rough_inverse(matrix), gap, load)
+    return PressureProblem(as_map(matrix), lambda contact: rough_inverse(matrix), gap, load)
 
 
 class Model:

@@ -49,9 +49,14 @@ from semi_analytical.operator.box import (
     Box,
     box_around,
 )
-from semi_analytical.operator.domain import Pair, ReducedDomain
-from semi_analytical.operator.operator import ApproximateInverse
-from semi_analytical.operator.points import fields_of, map_of_points, points_of
+from semi_analytical.operator.domain import ReducedDomain
+from semi_analytical.operator.points import (
+    InverseOnCells,
+    fields_of,
+    map_of_points,
+    points_of,
+    shear_inverse_in,
+)
 
 MAX_ATTEMPTS = 4
 # Patches along the shorter side of a box: more make Newton's method stall, fewer cost iterations.
@@ -184,17 +189,16 @@ def _coupled_problem(
     def slope(p: Vector) -> Vector:
         return points_of(model.friction_slope(p.reshape(shape), box.first))
 
+    precondition = map_of_points(operator.precondition, shape)
     return CoupledProblem(
         normal=map_of_points(operator.normal, shape),
         tangential=map_of_points(operator.tangential, shape),
         normal_by_shear=map_of_points(operator.normal_by_shear, shape),
         shear_by_pressure=map_of_points(operator.tangential_by_pressure, shape),
-        precondition_normal=map_of_points(operator.precondition, shape),
-        invert_shear=lambda v: map_of_points(operator.shear_inverse, shape)(
-            v
-        ),  # built on first use
+        inverse_on=lambda contact: precondition,
+        inverse_in=shear_inverse_in(operator, shape),
         together=map_of_points(operator.together, shape),
-        precondition_together=_InverseOfPoints(operator.inverse, shape),
+        inverse=InverseOnCells(operator.inverse, model.self_compliance, shape),
         gap=points_of(normal.gap(model)[box.slices]),
         friction_limit=limit,
         friction_slope=slope,
@@ -205,29 +209,6 @@ def _coupled_problem(
         patch=max(1.0, min(model.domain.window(shape)) / PATCHES),
         images=model.domain.images,
     )
-
-
-@dataclass(frozen=True)
-class _InverseOfPoints:
-    """Approximate inverse of the displacement operator, on cells as points.
-
-    inverse  approximate inverse on fields
-    shape    number of cells of the box
-    """
-
-    inverse: ApproximateInverse
-    shape: Pair
-
-    def __call__(self, displacements: Field) -> Field:
-        """Compute approximate tractions (components, n) that cause given displacements."""
-        return map_of_points(self.inverse, self.shape)(displacements)
-
-    def with_compliance(self, compliance: float) -> "_InverseOfPoints":
-        """Return the approximate inverse for an additional compliance of each cell.
-
-        compliance  additional displacement of a cell by its own unit traction [length^3/force]
-        """
-        return replace(self, inverse=self.inverse.with_compliance(compliance))
 
 
 @dataclass(frozen=True)

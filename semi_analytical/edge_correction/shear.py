@@ -39,7 +39,7 @@ from semi_analytical.edge_correction.pressure import (
 from semi_analytical.edge_correction.shear_at_edge import direction_of_slip
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import TangentialState
-from semi_analytical.operator.points import map_of_points, points_of
+from semi_analytical.operator.points import map_of_points, points_of, shear_inverse_in
 
 WithinVector = tuple[Within, Within]
 
@@ -222,7 +222,7 @@ class EdgeShearProblem:
         load = TangentialTarget(force=self.force)
         problem = ShearProblem(
             map_of_points(operator.tangential, q.shape[1:]),
-            map_of_points(operator.shear_inverse, q.shape[1:]),
+            shear_inverse_in(operator, q.shape[1:]),
             points_of(domain.restrict(bound)),
             points_of(domain.restrict(self.target - u)),
             load.motions(model),

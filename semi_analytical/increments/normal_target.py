@@ -75,9 +75,10 @@ class NormalTarget:
         box    box of cells in which the normal problem is solved
         """
         operator = model.operator(box.shape)
+        precondition = map_of_points(operator.precondition, box.shape)
         return PressureProblem(
             map_of_points(operator.normal, box.shape),
-            map_of_points(operator.precondition, box.shape),
+            lambda contact: precondition,
             points_of(self.gap(model)[box.slices]),
             self.motions(model, box),
         )

@@ -11,7 +11,7 @@ from contact_solver.rigid_motion import RigidMotion, RigidMotions
 from contact_solver.shear import ShearProblem, ShearSolution, solve_shear
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.box import Box, box_around
-from semi_analytical.operator.points import map_of_points, points_of
+from semi_analytical.operator.points import map_of_points, points_of, shear_inverse_in
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ def shear(
     inside = (..., *box.slices)
     problem = ShearProblem(
         map_of_points(operator.tangential, box.shape),
-        map_of_points(operator.shear_inverse, box.shape),
+        shear_inverse_in(operator, box.shape),
         points_of(bound[box.slices]),
         points_of(target[inside]),
         load.motions(model, box),
