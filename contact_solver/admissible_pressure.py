@@ -19,9 +19,10 @@ ROUND_OFF = 1e-14
 def admissible_pressure(held: RigidMotions, p: Vector, allowed: Mask) -> Vector:
     """Return a non-negative pressure near a given one with the prescribed forces.
 
-    Negative values are set to zero, and the pressure is scaled to the force of a uniform motion.
-    Other forces are met by a combination of the motions, weighted by the pressure. If the loaded
-    points cannot carry the forces, it is added with equal weight to all allowed points.
+    Negative values are set to zero, and the pressure is scaled to the normal force, the force of a
+    motion that closes the gap at every point. Without any pressure it becomes uniform. Other forces
+    are met by a combination of the motions, weighted by the pressure. If the loaded points cannot
+    carry the forces, it is added with equal weight to all allowed points.
 
     held     rigid motions with a prescribed force, the approach first if it is among them
     p        given pressure (n,)
@@ -31,9 +32,10 @@ def admissible_pressure(held: RigidMotions, p: Vector, allowed: Mask) -> Vector:
     p = np.maximum(p, 0.0)
     if not len(held):
         return p
-    forces, approach = held.prescribed_forces, held.each[0]
-    if approach.shape.shape[1] == 1:
-        p = p * (forces[0] / np.sum(p))
+    if np.all(held.each[0].shape > 0):
+        if not np.any(p):
+            p = allowed.astype(np.float64)
+        p = p * (held.prescribed_forces[0] / held.forces(p[None])[0])
         if len(held) == 1:
             return p
     for weight in (p, allowed * np.mean(p)):

@@ -75,7 +75,15 @@ def solve_coupled(
         if residual <= tolerance:
             closing, in_slip = normal.motion, tangential.in_slip
             return CoupledSolution(
-                p, point.tractions, closing, motion, in_slip, at_limit, iterations, outer
+                p,
+                point.tractions,
+                closing,
+                motion,
+                in_slip,
+                at_limit,
+                iterations,
+                outer,
+                "alternation",
             )
         if iterations > min(most_iterations, MAX_ITERATIONS):
             break

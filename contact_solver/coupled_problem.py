@@ -154,6 +154,7 @@ class CoupledSolution:
                       undefined
     iterations        sum over all linear solves
     outer_iterations  iterations of the alternating iteration or of Newton's method
+    algorithm         name of the method that found the solution
     """
 
     pressure: Vector
@@ -164,3 +165,4 @@ class CoupledSolution:
     at_limit: bool
     iterations: int
     outer_iterations: int
+    algorithm: str = "newton"

@@ -77,7 +77,12 @@ def solve_on_springs(
             else:
                 iterations += solution.iterations
                 outer = number + solution.outer_iterations
-                return replace(solution, iterations=iterations, outer_iterations=outer)
+                return replace(
+                    solution,
+                    iterations=iterations,
+                    outer_iterations=outer,
+                    algorithm="proximal point",
+                )
         if change < threshold:
             compliance, threshold = compliance / COMPLIANCE_FACTOR, THRESHOLD
     raise NotConverged("the coupled increment", iterations, residual, tolerance)

@@ -26,7 +26,9 @@ class ShearZones:
     The zones follow from z = q + γ slip, with the shear q and a stiffness γ: points with |z| above
     the friction limit µp slip.
 
+    stick            1 in sticking points, 0 elsewhere (n,)
     slip             slipping points (n,)
+    tangent          unit vector perpendicular to the slip in slipping points, else zero (2, n)
     sliding_shear    µp n in slipping points, n the direction of slip (2, n) [force/length^2]
     slip_compliance  additional compliance d of slipping points perpendicular to the slip, due to
                      the curvature of the friction disc |q| = µp (n,) [length^3/force]
@@ -44,11 +46,11 @@ class ShearZones:
         self.slip_compliance = self_compliance * np.divide(
             excess, np.maximum(bound, least), out=np.zeros_like(excess), where=self.slip
         )
-        self._tangent = np.stack([-normal[1], normal[0]])
-        self._stick = (self._open & ~self.slip).astype(np.float64)
-        self._xx = self._stick + self._tangent[0] ** 2
-        self._yy = self._stick + self._tangent[1] ** 2
-        self._xy = self._tangent[0] * self._tangent[1]
+        self.tangent = np.stack([-normal[1], normal[0]])
+        self.stick = (self._open & ~self.slip).astype(np.float64)
+        self._xx = self.stick + self.tangent[0] ** 2
+        self._yy = self.stick + self.tangent[1] ** 2
+        self._xy = self.tangent[0] * self.tangent[1]
 
     def free(self, v: VectorField) -> VectorField:
         """Restrict a vector field (2, n) to the components in which the shear can change.
@@ -80,7 +82,7 @@ class ShearZones:
 
     @cached_property
     def _unheld(self) -> Field:
-        return self._bin_weights[0] + self._stick
+        return self._bin_weights[0] + self.stick
 
     @cached_property
     def _excess_compliance(self) -> Field:
@@ -107,11 +109,11 @@ class ShearZones:
         """
         given = np.empty((len(self._bin_weights) + 1, v.shape[1]))
         np.multiply(self._unheld, v, out=given[:2])
-        along = self._tangent[0] * v[0] + self._tangent[1] * v[1]
+        along = self.tangent[0] * v[0] + self.tangent[1] * v[1]
         np.multiply(self._bin_weights[1:], along, out=given[2:])
         found = inverse(given)
         free = self.free(self._unheld * found[:2])
         turned = np.einsum("kn,kn->n", self._bin_weights[1:], found[2:])
         turned += self._single_point_inverse * along
-        free += self._tangent * turned
+        free += self.tangent * turned
         return free

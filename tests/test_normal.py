@@ -17,6 +17,7 @@ from contact_solver.admissible_shear import (
     project_trial,
 )
 from contact_solver.conjugate_gradients import Point
+from contact_solver.dense_inverse import inverse_on
 from contact_solver.gross_slip import exhausts_friction, full_slip
 from contact_solver.pressure import PressureProblem, solve_pressure
 from contact_solver.shear import ShearProblem, solve_shear
@@ -25,8 +26,9 @@ TOLERANCE = 1e-11
 POINTS = 20
 
 
-def solved(A, h, load, start=None, tolerance=TOLERANCE):
-    problem = PressureProblem(as_map(A), lambda contact: rough_inverse(A), h, load)
+def solved(A, h, load, start=None, tolerance=TOLERANCE, *, exact=False):
+    inverse = partial(inverse_on, A) if exact else lambda contact: rough_inverse(A)
+    problem = PressureProblem(as_map(A), inverse, h, load)
     return solve_pressure(problem, np.ones(len(h)) if start is None else start, tolerance)
 
 
@@ -51,12 +53,13 @@ def assert_contact(A, h, solution):
     np.testing.assert_allclose(solution.displacement, u, rtol=0, atol=1e-10 * np.max(np.abs(u)))
 
 
-@given(contacts(), st.floats(0.01, 10), st.booleans(), st.integers(0, 2**32 - 1))
-def test_solution_obeys_the_conditions_of_contact(contact, size, forced, seed):
+@given(contacts(), st.floats(0.01, 10), st.booleans(), st.integers(0, 2**32 - 1), st.booleans())
+def test_solution_obeys_the_conditions_of_contact(contact, size, forced, seed, exact):
     solution = solved(
         *contact,
         pressed(size) if forced else pressed(approach=size),
         np.random.default_rng(seed).random(POINTS) + 1e-3,
+        exact=exact,
     )
     assert_contact(*contact, solution)
     assert (np.sum(solution.pressure) if forced else solution.motion[0]) == pytest.approx(
