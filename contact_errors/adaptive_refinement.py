@@ -15,7 +15,8 @@ least 2.
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -25,8 +26,9 @@ from contact_errors.coarse_solves import (
     Fineness,
     Refinement,
     compare_with_coarse_solves,
+    solve_coarsest,
 )
-from contact_errors.cost_estimate import Work, coarse_increments, estimated_run_seconds
+from contact_errors.cost_estimate import Work, estimated_run_seconds
 from contact_errors.error_formula import (
     BELIEVED,
     ORDERS,
@@ -48,7 +50,7 @@ from contact_scene.quantities.stated_error import (
     StatedError,
     StatedErrors,
 )
-from contact_scene.solver_errors import AccuracyOutOfReach, ContactNotResolved, SolverError
+from contact_scene.solver_errors import AccuracyOutOfReach, SolverError
 
 # Function from a discretisation to the context of its solve, which yields an observer of increments
 # or a checkpoint store.
@@ -62,9 +64,11 @@ SPARE = 1.15
 # Largest and least refinement factor of the cells per level, and their factor for a scalar whose
 # error has not converged.
 MAX_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
-# Largest number of doublings of the cells until the first level resolves the contact.
-MAX_DOUBLINGS = 5
 MAX_ROUNDS = 7
+# Parts of an error that no refinement of the discretisation reduces, with their causes.
+UNREFINED: Mapping[Part, str] = MappingProxyType(
+    {"map": "the points of the indenter", "neglected": "neglected effects"}
+)
 # Factor by which the first level may overestimate an error, and largest refinement factor from the
 # first to the last level.
 DOUBT, FURTHEST = 4.0, 1e4
@@ -152,6 +156,19 @@ class RefinementLevel:
         reached = {name: self.reached_error(name) for name in shares}
         return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
 
+    def beyond_refinement(self, shares: Mapping[str, float]) -> str | None:
+        """Return a message if the error of a scalar exceeds a request on any grid; else None.
+
+        shares  requested relative error by name of the scalar
+        """
+        for name, share in shares.items():
+            for error in self.errors(name):
+                for part, cause in UNREFINED.items():
+                    size = float(np.max(error.parts.get(part, 0.0))) / self.largest(name)
+                    if size > share:
+                        return f"{cause} leave an error of {size:.2g} in {name} on any grid"
+        return None
+
     def needed_factors(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
         """Compute the refinement factors of the discretisation that a requested accuracy needs.
 
@@ -172,7 +189,7 @@ class RefinementLevel:
                 wanted: dict[Part, float] = {
                     part: (size / allowed) ** (1 / (believed * ORDERS.get(part, of_cells)))
                     for part, size in parts.items()
-                    if part != "neglected" and size > allowed
+                    if part not in UNREFINED and size > allowed
                 }
                 if error.status is ErrorStatus.NOT_CONVERGED:
                     wanted[self.part] = max(wanted.get(self.part, 1.0), UNCONVERGED)
@@ -209,31 +226,18 @@ class Levels:
     watching: InContext = lambda _: nullcontext()
     keeping: InContext = lambda _: nullcontext()
 
-    def solve_first_level(self, run: Fineness | None = None) -> RefinementLevel:
+    def solve_first_level(self) -> RefinementLevel:
         """Solve the first level: the coarsest discretisation whose cells resolve the contact.
 
-        While the solver raises ContactNotResolved, the cells are doubled, at most `MAX_DOUBLINGS`
-        times. The error of the last solve, and any other SolverError, is raised.
-
-        run  discretisation of a run whose CPU time is to be estimated; None without a time
-             estimate. The first level then has few increments. If the run has fewer unknowns, the
-             first level has its cells, which are not doubled
+        Raises the SolverError of the solve.
         """
         fineness = Fineness(
             self.solver.first_space(),
             self.solver.plan.increments,
             self.solver.discretisation.tolerance,
         )
-        if run is not None:
-            fineness = replace(fineness, increments=coarse_increments(fineness.increments))
-            if self.solver.work(run).unknowns < self.solver.work(fineness).unknowns:
-                return self.solve_level(replace(fineness, space=run.space))
-        for _ in range(MAX_DOUBLINGS):
-            try:
-                return self.solve_level(fineness)
-            except ContactNotResolved:
-                fineness = self.solver.refine_fineness(fineness, {self.solver.part: UNCONVERGED})
-        return self.solve_level(fineness)
+        level: RefinementLevel = solve_coarsest(self.solver, fineness, self.solve_level)
+        return level
 
     def solve_level(self, fineness: Fineness) -> RefinementLevel:
         """Solve the scene with one discretisation, and estimate the errors of its scalars.
@@ -399,7 +403,11 @@ def refine(
         following = levels.solver.refine_fineness(level.fineness, by)
         seconds = levels.estimated_seconds(level, levels.solver.work(following))
         shared = max(1.0, level.seconds / max(level.processor_seconds, 1e-3))
-        stopped = levels.beyond_limit(following) or levels.beyond_memory(following)
+        stopped = (
+            level.beyond_refinement(shares)
+            or levels.beyond_limit(following)
+            or levels.beyond_memory(following)
+        )
         if rounds == MAX_ROUNDS:
             stopped = f"{rounds} rounds have not met it"
         elif stopped is None and spent + shared * seconds > most_seconds:

@@ -8,7 +8,7 @@ the effect of the increments is known from a separate comparison.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import ceil, log
 from typing import Any, ClassVar, Self, TypeAlias
@@ -32,7 +32,7 @@ from contact_scene.quantities.stated_error import (
     StatedErrors,
 )
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.solver_errors import SolverError
+from contact_scene.solver_errors import ContactNotResolved, SolverError
 from contact_scene.stepping.increment_error import has_increment_error
 
 # Coarse solve: description, fraction of the cells along a side, and number of additional cells.
@@ -43,6 +43,9 @@ SHARES = ("2/5 of the {}", 2 / 5, 0), ("half the {} plus 2", 1 / 2, 2)
 # half of a few increments is outside the range of regular convergence.
 FEW, MANY = 8, (32, 8)
 LEAST_TOLERANCE = 1e-13
+# Largest number of refinements until the cells resolve the contact, and their factor.
+MAX_DOUBLINGS = 5
+DOUBLING = 2.0
 # Linear elements, and linear interpolation between rings, resolve a feature as twice their number
 # of cells.
 LINEAR = 2.0
@@ -120,6 +123,8 @@ class DiscretisedSolver(ABC):
     cells: ClassVar[str]
     most: ClassVar[float]
     shares: ClassVar[Sequence[Share]] = SHARES
+    # True if the set-up of a solve depends on its mesh and takes a large part of the time.
+    factorises_each_mesh: ClassVar[bool] = False
 
     @classmethod
     @abstractmethod
@@ -273,6 +278,16 @@ class DiscretisedSolver(ABC):
         """
         return {}
 
+    def with_half_the_points(self) -> Self | None:
+        """Return the solver of the scene with every second point of the indenter left out.
+
+        The value is None if the shape of the indenter is not given by points.
+        """
+        half = self.scene.indenter.with_half_the_points()
+        if half is None:
+            return None
+        return replace(self, scene=self.scene.model_copy(update={"indenter": half}))
+
     # ---- refinement
 
     @abstractmethod
@@ -341,6 +356,8 @@ def compare_with_coarse_solves(
     - Cells, elements or rings: two solves with coarser discretisations, compared with the result;
       three for a small run on cells.
     - Other parameters of a mesh: one solve each, compared on the first coarse mesh.
+    - Points of a measured indenter: one solve with half of them along a side, compared on the first
+      coarse grid or mesh.
 
     Later coarse solves use the cheaper value of a parameter that has been compared. Its measured
     effect on the scalars is added before a coarse solve is compared with the result.
@@ -357,10 +374,10 @@ def compare_with_coarse_solves(
     )
     run = solver.fineness_of(result)
     run = replace(run, tolerance=max(run.tolerance, coarse_tolerance(features)))
-    known: dict[Fineness, Solved | None] = {}
+    known: dict[tuple[bool, Fineness], Solved | None] = {}
     made: list[CoarseSolveRecord] = []
 
-    def solved(differs: str, coarse: Fineness) -> Solved | None:
+    def solved(differs: str, coarse: Fineness, by: DiscretisedSolver = solver) -> Solved | None:
         """Solve the scene with a coarse discretisation; return the result and its scalars.
 
         None is returned if the solver raised an error. Each discretisation is solved once and
@@ -368,23 +385,27 @@ def compare_with_coarse_solves(
 
         differs  text that describes the coarse discretisation in its record
         coarse   grid or mesh, increments and tolerance
+        by       solver of the scene, or of the scene with a coarser indenter
         """
-        if coarse not in known:
+        key = by is solver, coarse
+        if key not in known:
             shown, increments = solver.record_entry(coarse.space), coarse.increments
             record = CoarseSolveRecord(differs=differs, increments=increments, **shown)
             try:
-                found = solver.solve(coarse)
-                known[coarse] = found, values_of(found)
+                found = by.solve(coarse)
+                known[key] = found, values_of(found)
                 made.append(record.model_copy(update=_solver_work(found)))
             except SolverError as error:
-                known[coarse] = None
+                known[key] = None
                 made.append(record.model_copy(update={"refused": str(error)}))
-        return known[coarse]
+        return known[key]
 
     shares = solver.shares_of(run)
     spaces = [solver.coarser(result, share, more) for _, share, more in shares]
     required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
     required["increments"] = matters
+    if (points := solver.with_half_the_points()) is not None:
+        required["map"] = [True] * len(values)
     comparisons: list[Comparison] = []
 
     effects: list[Effect] = []
@@ -431,6 +452,12 @@ def compare_with_coarse_solves(
                 comparisons.append(Comparison(coarse.part, found[1], other[1], factors))
                 effects.append((found[1], other[1]))
                 found, changes = other, further
+        if points is not None:
+            same = replace(run, space=change_settings(space, **(changes or {})))
+            if other := solved("every second point of the indenter", same, points):
+                factors = (2.0,) * len(values)
+                comparisons.append(Comparison("map", found[1], other[1], factors))
+                points = None
         changes = changes or {}
     different = {ratio for _, ratio in meshes if ratio != 1}
     believed = BELIEVED if len(different) < 3 else BELIEVED_BY_THREE
@@ -446,6 +473,26 @@ def compare_with_coarse_solves(
         required=required,
         neglected=solver.neglected_errors(result),
     ), tuple(made)
+
+
+def solve_coarsest(
+    solver: DiscretisedSolver, fineness: Fineness, solve: Callable[[Fineness], Any]
+) -> Any:
+    """Solve a scene with the coarsest discretisation whose cells resolve the contact.
+
+    While the solve raises ContactNotResolved, the cells are doubled, at most `MAX_DOUBLINGS` times.
+    The error of the last solve, and any other SolverError, is raised.
+
+    solver    solver of the scene with variable discretisation
+    fineness  discretisation of the first attempt
+    solve     function that solves the scene with a discretisation
+    """
+    for _ in range(MAX_DOUBLINGS):
+        try:
+            return solve(fineness)
+        except ContactNotResolved:
+            fineness = solver.refine_fineness(fineness, {solver.part: DOUBLING})
+    return solve(fineness)
 
 
 def coarse_tolerance(features: Sequence[Features]) -> float:
@@ -559,7 +606,8 @@ def coarse_increment_counts(
 
     Each of the two solves has one number of increments per load step. The numbers are smaller than
     those of the result if it has many increments (at least 8). They are larger if it has few,
-    because the error of even fewer increments would not converge regularly. Load steps without an
+    because the error of even fewer increments would not converge regularly. For the same reason a
+    quarter of the increments is raised to 8, if half of them is more. Load steps without an
     increment error keep their number, because their result does not depend on the increments.
 
     counts   number of increments of each load step of the result
@@ -570,7 +618,7 @@ def coarse_increment_counts(
         if not matter
         else MANY
         if count < FEW
-        else (count // 2, max(FEW // 2, count // 4))
+        else (count // 2, max(min(FEW, count // 2), count // 4))
         for count, matter in zip(counts, matters, strict=True)
     ]
     return list(zip(*both, strict=True))

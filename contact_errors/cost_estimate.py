@@ -12,21 +12,20 @@ the increment error. These last solves have the same small number of cells in th
 coarse solve, so that their time is proportional to the repetitions.
 """
 
-from collections.abc import Sequence
-from math import ceil
 from typing import NamedTuple
 
 EXPONENT = 1.1
 # Unknowns whose work equals the overhead of an operation. Measured on the scenes of
-# `tests/test_cost_estimate.py`: 9000 to 27 000 on cells, 600 to 2900 by elements.
-CELL_OVERHEAD, ELEMENT_OVERHEAD = 128.0**2, 32.0**2
+# `tests/test_cost_estimate.py`: 9000 to 27 000 on cells, 600 to 2900 by elements. On rings, an
+# increment of `coated_fretting` and of `fretting_loop` takes 7.5 and 8.5 ms at half the default
+# numbers, 25 and 18 ms at the default and 550 and 130 ms at twice these numbers.
+CELL_OVERHEAD = 128.0**2
+ELEMENT_OVERHEAD = 32.0**2
+RING_OVERHEAD = 1.0
 # The factorisations of a finite-element solve take as long as this number of increments.
 SET_UP_INCREMENTS = 50
 # Fractions of the cells along a side in the two coarse solves of an error estimate.
 COARSE = 1 / 2, 2 / 5
-# Limits of the measured coarse solve of a plan: number of first load steps, and sum of their
-# increments.
-MAX_STEPS, MAX_INCREMENTS = 12, 48
 
 
 class Work(NamedTuple):
@@ -67,15 +66,3 @@ def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work)
     """
     solves = sum(run.cost(share) for share in (1.0, *COARSE))
     return solved * solves / coarse.cost() + judged * run.repetitions / coarse.repetitions
-
-
-def coarse_increments(increments: Sequence[int]) -> tuple[int, ...]:
-    """Reduce the numbers of increments of all load steps, for the coarse solve of a time estimate.
-
-    All numbers are reduced by one factor, such that their sum is about 48. Smaller sums are not
-    changed.
-
-    increments  number of increments of each load step of the run whose time is estimated
-    """
-    share = min(1.0, MAX_INCREMENTS / sum(increments))
-    return tuple(ceil(share * count) for count in increments)

@@ -56,7 +56,10 @@ BELIEVED, BELIEVED_BY_THREE = 0.6, 0.7
 SMOOTH, EDGE, ROOT = 2.0, 1.0, 0.5
 # Convergence orders of all scalars in the parameters other than the cells.
 ORDERS: Mapping[str, float] = MappingProxyType(
-    {"increments": 1.0, "section": 2.0, "penalty": 1.0, "harmonics": 2.0, "tolerance": 1.0}
+    {
+        **{"increments": 1.0, "section": 2.0, "penalty": 1.0, "harmonics": 2.0, "tolerance": 1.0},
+        "map": 1.0,  # heights between points beside an edge of the surface
+    }
 )
 # Ratio of the relative error of a scalar to the relative residual that causes this error.
 PER_TOLERANCE = 10.0

@@ -30,6 +30,7 @@ from semi_analytical import Increment, Plan, Result, SurfaceGrid, memory
 from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.edge.film import film_law
 from semi_analytical.edge.fit import WIDE
+from semi_analytical.operator.domain import WINDOW
 from semi_analytical.operator.transforms import fast_length
 from semi_analytical.plan import Coupling
 from semi_analytical.resolution import resolution, resolution_at
@@ -105,6 +106,8 @@ class CellSolver(DiscretisedSolver):
         """
         grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
         plan = plan if fineness.edges else replace(plan, edge="off")
+        if not self.scene.indenter.is_even:  # half of an even number of points
+            plan = replace(plan, symmetry=WINDOW)
         fitted = self.discretisation.window is None and self.scene.indenter.extent is None
         for _ in range(MAX_ENLARGEMENTS if fitted else 0):
             cells, (hx, hy) = scale_cells(grids[-1].cells, ROOM), grids[-1].spacing

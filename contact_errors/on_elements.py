@@ -63,6 +63,7 @@ class ElementSolver(DiscretisedSolver):
     part: ClassVar[Part] = "elements"
     cells: ClassVar[str] = "elements"
     most: ClassVar[float] = MAX_ELEMENTS
+    factorises_each_mesh: ClassVar[bool] = True
 
     @classmethod
     def of(cls, result: Result) -> Self:

@@ -18,7 +18,7 @@ from contact_errors.coarse_solves import (
     Refinement,
     slip_zone,
 )
-from contact_errors.cost_estimate import Work
+from contact_errors.cost_estimate import RING_OVERHEAD, Work
 from contact_errors.error_formula import Features, is_singular
 from contact_scene import RadialDiscretisation
 from contact_scene.quantities.stated_error import (
@@ -147,7 +147,7 @@ class RingSolver(DiscretisedSolver):
         return rings if self.depends_on_rings else float(np.ceil(rings))
 
     def work(self, fineness: Fineness) -> Work:
-        return Work(fineness.space**4, sum(fineness.increments), 0.0)
+        return Work(fineness.space**4, sum(fineness.increments), RING_OVERHEAD)
 
     def memory(self, fineness: Fineness) -> int:
         return estimated_bytes(self.scene, self._plan_of(fineness))

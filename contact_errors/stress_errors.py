@@ -137,7 +137,8 @@ def stress_errors(
     """Estimate the errors of the largest stresses found in the stress field of a body.
 
     The stress is computed again from coarse surface tractions, and the largest stresses are
-    compared. The increment error of the tractions is added. Their error by the cells is not added,
+    compared. The errors of the tractions by increments and by the points of a measured indenter are
+    added. Their error by the cells is not added,
     because it is far smaller than the effect of the coarse tractions on the stress.
 
     state     bodies and surface tractions of a contact result
@@ -184,13 +185,22 @@ def stress_errors(
                 unresolved = value + error > extreme.value
             largest = max(largest, value + error - extreme.value)
         parts: dict[Part, Field] = {part: np.array([largest])}
-        if state.by_increments:
-            parts["increments"] = np.array([state.by_increments * abs(extreme.value)])
+        parts |= _parts_of_tractions(state, extreme.value)
         small = largest <= LARGEST_SHARE * abs(extreme.value)
         errors.append(
             build_stated_error(parts, small and not unresolved and not extreme.at_window_edge)
         )
     return tuple(errors)
+
+
+def _parts_of_tractions(state: LoadedBodies, value: float) -> dict[Part, Field]:
+    """Return the parts of the error of a stress that the errors of the tractions cause, by cause.
+
+    state  bodies and surface tractions with their relative errors
+    value  stress [force/length^2]
+    """
+    causes: dict[Part, float | None] = {"increments": state.by_increments, "map": state.by_map}
+    return {part: np.array([size * abs(value)]) for part, size in causes.items() if size}
 
 
 def _largest_by_place(
@@ -330,7 +340,7 @@ def _stress_errors_on_disc(
     from contact_results.stress.radial_body import is_sheared
     from semi_analytical.frf.depth import Level
 
-    by_increments = state.by_increments if is_sheared(state) else 0.0
+    state = state if is_sheared(state) else replace(state, by_increments=0.0)
     measures, levels = points.measures, []
     for e in found:
         here = (points.depth == e.depth) & (measures[e.measure] == e.value)
@@ -345,7 +355,6 @@ def _stress_errors_on_disc(
     for k, e in enumerate(found):
         size = abs(again[e.measure][k] - e.value) / abs(COARSE ** (-BELIEVED * SMOOTH) - 1)
         parts: dict[Part, Field] = {"quadrature": np.array([size + PRECISION * abs(e.value)])}
-        if by_increments:
-            parts["increments"] = np.array([by_increments * abs(e.value)])
+        parts |= _parts_of_tractions(state, e.value)
         errors.append(build_stated_error(parts, not e.at_window_edge))
     return tuple(errors)

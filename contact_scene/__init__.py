@@ -11,7 +11,15 @@ from contact_scene.discretisation import (
     SurfaceDiscretisation,
 )
 from contact_scene.friction import CoulombFriction, FrictionMap
-from contact_scene.geometry import Cone, Ellipsoid, FlatPunch, HeightMap, Paraboloid, Sphere
+from contact_scene.geometry import (
+    Cone,
+    Ellipsoid,
+    FlatPunch,
+    HeightMap,
+    Paraboloid,
+    RevolvedProfile,
+    Sphere,
+)
 from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID, IsotropicMaterial, Rigid
 from contact_scene.reading.array_file import ArrayFile
@@ -55,6 +63,7 @@ __all__ = [
     "Paraboloid",
     "Problem",
     "RadialDiscretisation",
+    "RevolvedProfile",
     "Rig",
     "Rigid",
     "ScalarControl",

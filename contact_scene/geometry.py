@@ -16,11 +16,15 @@ from contact_scene.height_map import (
     PairOfSpacings,
     fill_missing_heights,
     interpolate,
+    leave_out_every_second,
     lowest_point,
 )
+from contact_scene.profile import Profile
 from contact_scene.reading.array_file import (
     ArrayFile,
     FileKey,
+    TableKey,
+    refuse_missing,
 )
 from contact_scene.reading.quantity import (
     PositiveLength,
@@ -30,6 +34,9 @@ from contact_scene.reading.scene_error import refusal
 
 Gap = NDArray[np.float64]
 Pair = tuple[float, float]
+
+# Least number of points of a profile: two intervals between which its curvature changes.
+_LEAST_POINTS = 4
 
 # Largest fraction of points of a height map without a height. The corners around a circular field
 # of view are 1 - π/4 = 0.21 of a square, and more on few points.
@@ -86,6 +93,28 @@ class ShapedBody(Body):
         return None
 
     @property
+    def lowest_radius(self) -> float:
+        """Radius of first contact of an indenter of revolution, 0 on the axis [length]."""
+        return 0.0
+
+    @property
+    def known_radius(self) -> float:
+        """Largest distance from the axis at which the shape is known [length].
+
+        A contact beyond it is refused. The value is infinite for shapes given by formulas.
+        """
+        return math.inf
+
+    @property
+    def breaks(self) -> Gap:
+        """Radii at which a derivative of the gap of an indenter of revolution jumps (n,) [length].
+
+        Between these radii the gap is smooth, and it is even at the axis. Without breaks the gap is
+        smooth up to a tip or a rim.
+        """
+        return np.empty(0)
+
+    @property
     def extent(self) -> Pair | None:
         """Side lengths along x and y of the region where the indenter's gap is defined [length].
 
@@ -101,6 +130,13 @@ class ShapedBody(Body):
         The gap is that of the undeformed indenter; k = 2 for a paraboloid. Under a growing load the
         approach is proportional to a^k and the normal force to a^(k+1), with the contact radius a.
         The value is None if the contact does not grow or follows no such law.
+        """
+        return None
+
+    def with_half_the_points(self) -> "ShapedBody | None":
+        """Return the shape with every second of its measured points left out.
+
+        Used for an error estimate. The value is None for a shape that is not given by points.
         """
         return None
 
@@ -136,9 +172,13 @@ _SHAPE_PROPERTIES = {
     "is_of_revolution",
     "is_even",
     "rim",
+    "lowest_radius",
+    "known_radius",
+    "breaks",
     "extent",
     "contact_at",
     "contact_under",
+    "with_half_the_points",
 }
 
 
@@ -424,6 +464,15 @@ class HeightMap(ShapedBody):
         *_, place = _interpolated_surface(self.file, self.height_unit, self.flip)
         return any(at in (0.0, n - 1.0) for at, n in zip(place, self.file.shape, strict=True))
 
+    def with_half_the_points(self) -> "HeightMap":
+        """Return the map with every second row and column replaced by interpolated heights.
+
+        Used to estimate the error of the surface between the points.
+        """
+        heights = leave_out_every_second(self.heights, self.spacing)
+        changed = {"file": heights, "height_unit": 1.0, "flip": False}
+        return type(self).model_validate({**dict(self), **changed})
+
     def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
         """Compute the undeformed gap of the height map: its height above its lowest point [length].
 
@@ -459,6 +508,140 @@ def _interpolated_surface(
     return heights, float(np.min(heights)), *lowest_point(heights)
 
 
+class RevolvedProfile(ShapedBody):
+    """Body of revolution with a measured or computed profile: a table of radii and heights."""
+
+    shape: Literal["revolved_profile"] = "revolved_profile"
+    file: TableKey
+    """Name of a `.csv`, `.txt` or `.npy` file with two columns: distances from the axis, from
+    the axis outwards, and heights. The profile is even at the axis. Between the points it is a
+    cubic that does not dip below flats."""
+
+    radius_unit: HeightUnit = 1.0
+    """Unit of the radii, such as "um"; absent: metres."""
+
+    height_unit: HeightUnit = 1.0
+    """Unit of the heights, such as "um"; absent: metres."""
+
+    flip: StrictBool = False
+    """True if heights are positive towards the body, as in a measurement of the indenter's
+    surface; absent: positive away from the body."""
+
+    @property
+    def gap_exponent(self) -> float:
+        """Exponent of the gap as a power of the distance from first contact: 2.
+
+        The value is that of a paraboloid and applies near the axis.
+        """
+        return 2
+
+    @property
+    def is_of_revolution(self) -> bool:
+        """True: the gap of the indenter depends on the distance from the origin only."""
+        return True
+
+    @property
+    def lowest_radius(self) -> float:
+        """Radius at which the profile is lowest, 0 on the axis [length]."""
+        return self.profile.lowest_radius
+
+    @property
+    def known_radius(self) -> float:
+        """Radius of the last point of the profile [length]."""
+        return float(self.profile.radii[-1])
+
+    @property
+    def breaks(self) -> Gap:
+        """Radii of the points of the profile, between which it is a cubic (n,) [length]."""
+        return self.profile.radii
+
+    @property
+    def profile(self) -> Profile:
+        """Profile of the indenter: radii and heights of its points, and their interpolation."""
+        return _interpolated_profile(self.file, self.radius_unit, self.height_unit, self.flip)
+
+    @model_validator(mode="after")
+    def _is_profile(self) -> "RevolvedProfile":
+        refuse_missing(self.file)
+        if 2 not in self.file.values.shape or max(self.file.values.shape) < _LEAST_POINTS:
+            raise refusal(
+                f"the table {self.file} has shape {self.file.values.shape}",
+                f"two columns, radius and height, of at least {_LEAST_POINTS} values",
+            )
+        radii, heights = self.profile.radii, self.profile.heights
+        if radii[0] < 0 or np.any(np.diff(radii) <= 0):
+            raise refusal(
+                f"the first column of {self.file} runs from {radii[0]:g} m to {radii[-1]:g} m",
+                "distances from the axis in ascending order, not negative",
+                "keep one half of a profile that was measured across the axis",
+            )
+        if heights[-1] <= heights[0]:
+            raise refusal(
+                f"the profile of {self.file} is not higher at its last point than at its first",
+                "heights that are positive away from the body",
+                f"set flip = {'false' if self.flip else 'true'} for a profile that is reversed",
+            )
+        return self
+
+    def with_half_the_points(self) -> "RevolvedProfile":
+        """Return the profile with every second point replaced by an interpolated one.
+
+        The last point is kept. Used to estimate the error of the profile between the points.
+        """
+        radii, heights = self.profile.radii, self.profile.heights
+        kept = np.union1d(np.arange(0, len(radii), 2), len(radii) - 1)
+        table = np.stack([radii, Profile(radii[kept], heights[kept]).height(radii)])
+        changed = {"file": table, "radius_unit": 1.0, "height_unit": 1.0, "flip": False}
+        return type(self).model_validate({**dict(self), **changed})
+
+    def contact_at(self, approach: float) -> Pair:
+        """Estimate the square of the contact radius at an approach, for x and y [length^2].
+
+        The estimate is exact for half-spaces if the contact is a disc.
+
+        approach  approach of the bodies [length]
+        """
+        return (self.profile.radius_at(approach) ** 2,) * 2
+
+    def contact_under(self, force: float, modulus: float) -> Pair:
+        """Estimate the cube of the contact radius under a normal force, for x and y [length^3].
+
+        The estimate is exact for half-spaces if the contact is a disc.
+
+        force    normal force [force]
+        modulus  contact modulus E* [force/length^2]
+        """
+        return (self.profile.radius_under(force, modulus) ** 3,) * 2
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
+        """Compute the undeformed gap of the profile: its height above its lowest point [length].
+
+        Beyond the last point the profile continues along a line.
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
+        return self.profile.height(np.hypot(x, y))
+
+
+@lru_cache(maxsize=4)
+def _interpolated_profile(
+    file: ArrayFile, radius_unit: float, height_unit: float, flip: bool
+) -> Profile:
+    """Create the profile of an indenter from its table.
+
+    The table has its columns along either index, from the axis outwards or reversed.
+
+    file         table of radii and heights
+    radius_unit  factor of the radii to SI [length]
+    height_unit  factor of the heights to SI [length]
+    flip         True if the heights are positive towards the body
+    """
+    radii, heights = file.values if file.shape[0] == 2 else file.values.T
+    order = slice(None, None, -1 if radii[0] > radii[-1] else 1)
+    sign = -1.0 if flip else 1.0
+    return Profile(radius_unit * radii[order], sign * height_unit * heights[order])
+
+
 SHAPES: dict[str, type[ShapedBody]] = {
     "sphere": Sphere,
     "paraboloid": Paraboloid,
@@ -466,6 +649,7 @@ SHAPES: dict[str, type[ShapedBody]] = {
     "cone": Cone,
     "flat_punch": FlatPunch,
     "height_map": HeightMap,
+    "revolved_profile": RevolvedProfile,
 }
 
 
@@ -501,6 +685,7 @@ Indenter = Annotated[
     | Annotated[Ellipsoid, Tag("<ellipsoid>")]
     | Annotated[Cone, Tag("<cone>")]
     | Annotated[FlatPunch, Tag("<flat_punch>")]
-    | Annotated[HeightMap, Tag("<height_map>")],
+    | Annotated[HeightMap, Tag("<height_map>")]
+    | Annotated[RevolvedProfile, Tag("<revolved_profile>")],
     Discriminator(_indenter_tag),
 ]

@@ -1,4 +1,11 @@
-"""Interpolation of maps: heights by cubic convolution, friction coefficients bilinearly."""
+"""Interpolation of maps: heights by limited cubic convolution, friction coefficients bilinearly.
+
+Cubic convolution (Keys 1981, IEEE ASSP 29, Eq. 15) draws a cubic between two values, with the
+slopes of central differences. Beside a flat it dips below the flat. The slopes are therefore
+limited such that the cubic is monotone where the values are, and has an extremum between two values
+only if the curvatures on both sides agree, as on a smooth tip (Huynh 1993, SIAM J. Numer. Anal. 30,
+57).
+"""
 
 from functools import reduce
 from typing import Annotated, Any
@@ -18,6 +25,8 @@ _NEGATIVE_WEIGHTS = 9 / 32
 # Values per block of rows; largest number of sampled patches in a block; number of patches with the
 # lowest samples that are refined; number of refinements, each to a quarter of the width.
 _BLOCK, _MAX_PATCHES, _PATCHES, _REFINEMENTS = 1 << 17, 8192, 64, 14
+# Points that are interpolated at a time, each from 36 values: 5 MB.
+_POINTS = 1 << 14
 
 _SWEEPS = 20  # Jacobi iterations on every level
 
@@ -84,8 +93,9 @@ def fill_missing_heights(heights: NDArray[np.float64]) -> NDArray[np.float64]:
 def interpolate(
     heights: NDArray[np.float64], spacing: tuple[float, float], x: ArrayLike, y: ArrayLike
 ) -> NDArray[np.float64]:
-    """Interpolate a height map by cubic convolution (Keys 1981, IEEE ASSP 29, Eq. 15).
+    """Interpolate a height map by limited cubic convolution, without dips beside flats.
 
+    The result is the mean of two interpolations: first along x, then along y, and in reverse order.
     Between its outermost points and the border of their cells, the map is extrapolated by
     parabolas, so that the interpolation has the third order there as well.
 
@@ -101,8 +111,8 @@ def interpolate(
     Returns
     -------
     ndarray, shape of x + y
-        Heights [length] of third order in the spacing, with continuous slopes; at the points of the
-        map, its values bit for bit.
+        Heights [length] of third order in the spacing; at the points of the map, its values bit for
+        bit.
 
     Raises
     ------
@@ -112,15 +122,33 @@ def interpolate(
     x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     i, s = _locate_between_points(x, heights.shape[0], spacing[0], "x")
     j, t = _locate_between_points(y, heights.shape[1], spacing[1], "y")
-    return _evaluate_convolution(_extrapolate_rows(_extrapolate_rows(heights).T).T, i, s, j, t)
+    return _interpolate_padded(_extrapolate_rows(_extrapolate_rows(heights).T).T, i, s, j, t)
+
+
+def leave_out_every_second(
+    heights: NDArray[np.float64], spacing: tuple[float, float]
+) -> NDArray[np.float64]:
+    """Replace every second row and column of a height map by values interpolated from the others.
+
+    The difference from the map shows how well its points determine the surface between them.
+
+    heights  heights at the points (nx, ny) [length]
+    spacing  distance between adjacent points along x and y [length]
+    """
+    kept = heights[::2, ::2]
+    x, y = (
+        step * (np.arange(count) - (half - 1))
+        for step, count, half in zip(spacing, heights.shape, kept.shape, strict=True)
+    )
+    return interpolate(kept, (2 * spacing[0], 2 * spacing[1]), x[:, None], y)
 
 
 def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, float]]:
     """Find the minimum of the interpolated surface of a height map between its outermost points.
 
-    The minimum is the point of first contact. The surface is that of `interpolate`, by cubic
-    convolution. Beyond the outermost points the surface is extrapolated and therefore ignored. The
-    search is by blocks of rows, without a copy of the map.
+    The minimum is the point of first contact. The surface is that of `interpolate`. Beyond the
+    outermost points the surface is extrapolated and therefore ignored. The search is by blocks of
+    rows, without a copy of the map.
 
     heights  heights at the points, (nx, ny) [length]
     returns  minimum minus the lowest of the heights [length]; position of the minimum in indices of
@@ -141,7 +169,7 @@ def lowest_point(heights: NDArray[np.float64]) -> tuple[float, tuple[float, floa
 def _rows_with_neighbours(
     heights: NDArray[np.float64], begin: int, end: int
 ) -> NDArray[np.float64]:
-    """Return a block of rows of a height map, with one more row or column on every side.
+    """Return a block of rows of a height map, with two more rows or columns on every side.
 
     The interpolation between the points of the block needs the added values. They are those of the
     map, or extrapolated beyond the outermost points.
@@ -151,24 +179,24 @@ def _rows_with_neighbours(
     """
     first = max(begin - 3, 0)  # extrapolation takes three rows
     padded = _extrapolate_rows(_extrapolate_rows(heights[first : end + 4]).T).T
-    return np.asarray(padded[begin - first + 1 : end - first + 4, 1:-1])
+    return np.asarray(padded[begin - first + 1 : end - first + 6, 1:-1])
 
 
 def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, tuple[float, float]]:
     """Find the minimum of the interpolated surface of a height map, if it is below a limit.
 
-    A patch is the surface between four adjacent points, interpolated from 16 values. The surface
-    undershoots the lowest of these values by at most `_NEGATIVE_WEIGHTS` times their range. This
-    bound selects the patches that can be below the limit. The minimum of these patches is located
-    on grids that shrink around it.
+    A patch is the surface between four adjacent points. The surface undershoots the lowest of the
+    4 x 4 values around it by at most `_NEGATIVE_WEIGHTS` times their range: it undershoots less
+    than cubic convolution, because limits only reduce slopes. This bound selects the patches that
+    can be below the limit. The minimum of these patches is located on grids that shrink around it.
 
-    padded   heights with one more value beyond the outermost points on every side [length]
+    padded   heights with two more values beyond the outermost points on every side [length]
     limit    value above which a minimum is ignored [length]
     returns  minimum, or the limit if no value is below it [length]; position in indices of points
     """
-    last = np.array(padded.shape) - 3.0
+    last = np.array(padded.shape) - 5.0
     lowest, place, half = limit, np.zeros(2), 0.5
-    centres = _patches_below(padded, limit)
+    centres = _patches_below(padded[1:-1, 1:-1], limit)
     for _ in range(_REFINEMENTS if len(centres) else 0):
         around = half * np.linspace(-1.0, 1.0, 9)
         x, y = (np.clip(centres[:, axis, None] + around, 0.0, last[axis]) for axis in (0, 1))
@@ -177,7 +205,7 @@ def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, t
             np.minimum(np.floor(z), end - 1).astype(np.intp)
             for z, end in zip((x, y), last, strict=True)
         )
-        values = _evaluate_convolution(padded, i, x - i, j, y - j).reshape(len(x), -1)
+        values = _interpolate_padded(padded, i, x - i, j, y - j).reshape(len(x), -1)
         at = np.argmin(values, axis=1)
         best = np.argsort(values[np.arange(len(at)), at])[:_PATCHES]
         centres = np.stack([c.reshape(len(x), -1)[best, at[best]] for c in (x, y)], axis=1)
@@ -190,8 +218,8 @@ def _lowest_between(padded: NDArray[np.float64], limit: float) -> tuple[float, t
 def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.float64]:
     """Select the patches of an interpolated height map that can contain values below a limit.
 
-    A patch is the surface between four adjacent points. Its lower bound follows from the 16 values
-    from which it is interpolated.
+    A patch is the surface between four adjacent points. Its lower bound follows from the 4 x 4
+    values around it.
 
     padded   heights with one more value beyond the outermost points on every side [length]
     limit    limit of the lower bound [length]
@@ -209,25 +237,90 @@ def _patches_below(padded: NDArray[np.float64], limit: float) -> NDArray[np.floa
     return np.asarray(found[np.argsort(bound[bound < limit])[:_MAX_PATCHES]])
 
 
-def _evaluate_convolution(
+def _interpolate_padded(
     padded: NDArray[np.float64],
     i: NDArray[np.intp],
     s: NDArray[np.float64],
     j: NDArray[np.intp],
     t: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Interpolate a height map at given points by cubic convolution, from 4 x 4 values each.
+    """Interpolate a height map at given points, from 6 x 6 values each.
 
     padded  heights with added rows and columns on every side
-    i, j    indices of the first of the four values along each axis, in the padded map
-    s, t    distances of the points from the second value, in spacings of the map
+    i, j    indices of the first of the six values along each axis, in the padded map
+    s, t    distances of the points from the third value, in spacings of the map
     """
-    across, along = _convolution_weights(s), _convolution_weights(t)
-    result = np.zeros(np.broadcast_shapes(s.shape, t.shape))
-    for k in range(4):
-        for m in range(4):
-            result += across[k] * along[m] * padded[i + k, j + m]
+    result, six = np.empty(s.shape), np.arange(6)
+    i, j, s, t = i.ravel(), j.ravel(), s.ravel(), t.ravel()
+    for begin in range(0, len(s), _POINTS):
+        at = slice(begin, begin + _POINTS)
+        values = padded[i[at] + six[:, None, None], j[at] + six[:, None]]
+        x_first = interpolate_middle(interpolate_middle(values, s[at]), t[at])
+        y_first = interpolate_middle(interpolate_middle(values.swapaxes(0, 1), t[at]), s[at])
+        result.flat[at] = 0.5 * (x_first + y_first)
     return result
+
+
+def interpolate_middle(values: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Interpolate between the middle two of six equally spaced values by a limited cubic.
+
+    values  six values (6, …)
+    t       distances of the points from the third value, in spacings, from 0 to 1 (…)
+    """
+    rise = np.diff(values, axis=0)
+    bend = np.diff(rise, axis=0)
+    turn = 0.5 * nearer_to_zero(bend[:-1], bend[1:])  # in the three intervals between inner values
+    central = 0.5 * (rise[1:3] + rise[2:4])
+    parabolas = rise[1:3] + turn[:2], rise[2:4] - turn[1:]
+    start, end = limited_slope(central, rise[1:3], rise[2:4], *parabolas)
+    return interpolate_cubic(values[2], rise[2], start, end, t)
+
+
+def interpolate_cubic(
+    value: NDArray[np.float64],
+    rise: NDArray[np.float64],
+    start: NDArray[np.float64],
+    end: NDArray[np.float64],
+    t: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Evaluate a cubic from its values and slopes at both ends (Hermite).
+
+    value, rise  value at the start, and difference of the values
+    start, end   slopes at the start and the end, per interval
+    t            fraction of the interval, from 0 to 1
+    """
+    back = 1.0 - t
+    return np.asarray(value + t * t * (3.0 - 2.0 * t) * rise + t * back * (back * start - t * end))
+
+
+def limited_slope(
+    central: NDArray[np.float64],
+    before: NDArray[np.float64],
+    after: NDArray[np.float64],
+    parabola_before: NDArray[np.float64],
+    parabola_after: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Limit the slope at a value of a map such that its interpolation preserves the shape.
+
+    The limits are 0, three times the smaller of the adjacent mean slopes, and 3/2 of the smaller
+    of the slopes of two parabolas through the ends of the adjacent intervals (Huynh 1993). The
+    curvature of a parabola is the smaller one at the ends of its interval, and 0 if their signs
+    differ.
+
+    central                          slope without limit
+    before, after                    mean slopes of the adjacent intervals
+    parabola_before, parabola_after  slopes of the parabolas at the value
+    """
+    monotone = 3.0 * nearer_to_zero(before, after)
+    smooth = 1.5 * nearer_to_zero(parabola_before, parabola_after)
+    least = np.minimum(0.0, np.minimum(monotone, smooth))
+    most = np.maximum(0.0, np.maximum(monotone, smooth))
+    return np.clip(central, least, most)
+
+
+def nearer_to_zero(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the number of smaller magnitude of two, or 0 if their signs differ (minmod)."""
+    return np.asarray(0.5 * (np.sign(a) + np.sign(b)) * np.minimum(np.abs(a), np.abs(b)))
 
 
 def interpolate_between(
@@ -286,29 +379,16 @@ def _locate_between_points(
 def _extrapolate_rows(rows: NDArray[np.float64]) -> NDArray[np.float64]:
     """Extrapolate a height map beyond its outermost rows, for the interpolation at its boundary.
 
-    Two rows are added before the first and two after the last row. The extrapolation in each column
-    is a parabola through three rows.
+    Three rows are added before the first and after the last row. The extrapolation in each column
+    is a parabola through three rows, and a line if there are two rows.
 
     rows     heights (n, m)
-    returns  extended heights (n + 4, m)
+    returns  extended heights (n + 6, m)
     """
-    first = 3.0 * rows[0] - 3.0 * rows[1] + rows[2]
-    second = 3.0 * first - 3.0 * rows[0] + rows[1]
-    last = 3.0 * rows[-1] - 3.0 * rows[-2] + rows[-3]
-    after = 3.0 * last - 3.0 * rows[-1] + rows[-2]
-    return np.concatenate([[second, first], rows, [last, after]])
-
-
-def _convolution_weights(t: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
-    """Compute the weights of four adjacent heights in the interpolation between the middle two.
-
-    The interpolation is cubic convolution along one axis (Keys 1981).
-
-    t  distance of the point from the second of the four values, in spacings, from 0 to 1
-    """
-    return (
-        t * (-0.5 + t * (1.0 - 0.5 * t)),
-        1.0 + t * t * (-2.5 + 1.5 * t),
-        t * (0.5 + t * (2.0 - 1.5 * t)),
-        t * t * (-0.5 + 0.5 * t),
-    )
+    before, after = ([*each] for each in (rows[2::-1], rows[-3:]))
+    for outwards in (before, after):
+        if len(outwards) == 2:
+            outwards.insert(0, 2.0 * outwards[0] - outwards[1])
+        for _ in range(3):
+            outwards.append(3.0 * outwards[-1] - 3.0 * outwards[-2] + outwards[-3])
+    return np.concatenate([before[:-4:-1], rows, after[-3:]])

@@ -10,7 +10,7 @@ from contact_scene.body_pair import (
     refuse_contrast,
 )
 from contact_scene.bulk_strain import requires_bulk_strain
-from contact_scene.checks.expected_contact import refuse_equator
+from contact_scene.checks.expected_contact import refuse_equator, refuse_ring
 from contact_scene.effect import Effect
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
@@ -234,6 +234,7 @@ def _refuse_shapes(scene: Scene) -> None:
             f"the indenter is not axisymmetric ({shape_text(indenter)}), and this solver requires "
             "bodies of revolution; solve it with the semi-analytical solver"
         )
+    refuse_ring(scene)
     if friction is not None and friction.coefficient_map is not None:
         raise UnsupportedScene(
             "the coefficient of friction is a map, and this solver requires one number. Give one "

@@ -15,7 +15,7 @@ from contact_scene.body_pair import (
     refuse_contrast,
 )
 from contact_scene.bulk_strain import requires_bulk_strain
-from contact_scene.checks.expected_contact import refuse_equator
+from contact_scene.checks.expected_contact import refuse_equator, refuse_ring
 from contact_scene.effect import Effect
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
@@ -213,7 +213,7 @@ def _path_increments(
 
 
 def _refuse_shape(scene: Scene) -> None:
-    """Raise UnsupportedScene if the indenter is not a body of revolution.
+    """Raise UnsupportedScene if the indenter is no body of revolution that is lowest on the axis.
 
     scene  contact problem, which contains the shape of the indenter
     """
@@ -223,6 +223,7 @@ def _refuse_shape(scene: Scene) -> None:
             f"the indenter is not axisymmetric ({shape_text(indenter)}), and this solver requires "
             f"bodies of revolution; {ELSEWHERE}"
         )
+    refuse_ring(scene)
 
 
 def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) -> None:

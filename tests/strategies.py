@@ -19,6 +19,15 @@ ELASTIC = st.fixed_dictionaries(
     }
 )
 LAYERS = st.lists(st.fixed_dictionaries({"thickness": LENGTHS, "material": ELASTIC}), max_size=3)
+
+
+def rounded_tip(seed: int) -> Any:
+    """A table of radii and heights, with a curvature that differs by 10 %."""
+    rng = np.random.default_rng(seed)
+    radii = np.concatenate([[0.0], np.cumsum(rng.uniform(0.5, 1.0, 8))])
+    return np.stack([radii, radii**2 * rng.uniform(0.45, 0.55, 9)], axis=1)
+
+
 _SIZES = {
     "sphere": {"radius": LENGTHS},
     "paraboloid": {"radius": LENGTHS},
@@ -29,9 +38,14 @@ _SIZES = {
         "file": st.integers(0, 99).map(lambda seed: np.random.default_rng(seed).random((9, 8))),
         "spacing": LENGTHS,
     },
+    "revolved_profile": {
+        "file": st.integers(0, 99).map(rounded_tip),
+        "radius_unit": LENGTHS,
+        "height_unit": LENGTHS,
+    },
 }
-# A text names the file of a height map, which is not there.
-INDENTERS = st.sampled_from(sorted(_SIZES.keys() - {"height_map"})).flatmap(
+# A text names the file of a height map or profile, which is not there.
+INDENTERS = st.sampled_from(sorted(_SIZES.keys() - {"height_map", "revolved_profile"})).flatmap(
     lambda shape: st.fixed_dictionaries(
         {"shape": st.just(shape), "material": ELASTIC | st.just("rigid"), **_SIZES[shape]},
         optional={"layers": LAYERS},

@@ -54,10 +54,12 @@ from contact_results import result_files
 from contact_results.directory import checkpoint
 from contact_results.stress import on_cells as stress_on_cells
 from contact_scene import (
+    RIGID,
     Body,
     Cone,
     FiniteElementDiscretisation,
     FlatPunch,
+    HeightMap,
     IsotropicMaterial,
     Layer,
     RadialDiscretisation,
@@ -276,6 +278,16 @@ def test_a_limit_of_time_keeps_the_best_result() -> None:
     assert not made.accuracy.met
     assert "--most-seconds" in made.accuracy.stopped
     assert made.level.result.grid.cells == made.accuracy.settings.cells == (24, 24)
+
+
+def test_an_error_that_no_grid_reduces_ends_the_refinement() -> None:
+    at = 0.01 * A / 3 * np.abs(np.arange(13) - 6)
+    heights: Any = at[:, None] + at
+    rough = HeightMap(file=heights, spacing=A / 3, material=RIGID)
+    made = climbed(scene(PRESS, friction=None, indenter=rough), "approach 0.01%")
+    assert not made.accuracy.met
+    assert "the points of the indenter leave an error of" in made.accuracy.stopped
+    assert made.accuracy.rounds == 1
 
 
 def test_a_limit_of_time_holds_for_all_rounds_together(monkeypatch: pytest.MonkeyPatch) -> None:

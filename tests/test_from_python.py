@@ -126,6 +126,22 @@ def test_a_stored_run_needs_none_of_the_files_of_its_scene(tmp_path: Path) -> No
     assert found.no_root
 
 
+def test_a_stored_profile_is_that_of_the_scene(tmp_path: Path) -> None:
+    """As a column of text, in its units."""
+    text = "r (um),z (nm)\n" + "".join(f"{r},{r * r / 36}\n" for r in range(0, 1000, 90))
+    (tmp_path / "tip.csv").write_text(text, encoding="utf-8")
+    indenter = slipstick.RevolvedProfile(
+        file=str(tmp_path / "tip.csv"), radius_unit="um", height_unit="nm", material=STEEL
+    )
+    scene = SCENE.model_copy(update={"indenter": indenter, "loading": SCENE.loading[:1]})
+    slipstick.save(slipstick.solve(scene, "radial"), tmp_path / "out", figures="none")
+    (tmp_path / "tip.csv").unlink()
+    run = slipstick.load(tmp_path / "out")
+    assert run.scene == scene
+    ball = slipstick.solve(scene.model_copy(update={"indenter": SCENE.indenter}), "radial").steps[0]
+    assert run.summary.steps[0].approach == pytest.approx(ball.approach, rel=1e-9)
+
+
 @pytest.mark.parametrize("solver", SolverName)
 def test_errors_are_stated_by_the_solver_of_the_result_and_saved(
     solver: SolverName, tmp_path: Path

@@ -2,6 +2,7 @@
 
 import re
 from decimal import Decimal, localcontext
+from pathlib import Path
 from typing import Any, get_args
 
 import numpy as np
@@ -11,9 +12,11 @@ from fem_scenes import elements
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
+from pydantic import ValidationError
 from strategies import SHAPED
 
 import contact_scene
+import slipstick
 from contact_scene import (
     RIGID,
     Cone,
@@ -21,6 +24,7 @@ from contact_scene import (
     FlatPunch,
     HeightMap,
     Paraboloid,
+    RevolvedProfile,
     Scene,
     Sphere,
     SurfaceDiscretisation,
@@ -97,6 +101,31 @@ def test_first_touch_of_a_height_map_is_the_minimum_between_its_points() -> None
         assert 0.0 <= shape.initial_gap(x[:, None], y).min() < 4e-3
 
 
+@pytest.mark.parametrize("count", [12, 13])
+def test_a_map_touches_first_on_its_flat_and_not_beside_it(count: int) -> None:
+    """Cubic convolution dips below a flat by 2/27 of the adjacent height."""
+    x, y = centres(count, 1.0)[:, None], centres(count, 1.0)
+    odd = [np.hypot(x, y)] * (count % 2)  # two equal values between larger ones are a smooth tip
+    for r in (x + 0 * y, y + 0 * x, np.maximum(abs(x), abs(y)), *odd):
+        for height in (np.square(np.maximum(abs(r) - 2.8, 0.0)), np.where(r > 0.3, 1.0, 0.0)):
+            shape = HeightMap(material=RIGID, file=height, spacing=1.0)
+            gap = shape.initial_gap(x, y)
+            np.testing.assert_allclose(gap, height - np.min(height), rtol=0, atol=1e-14)
+            fine = np.linspace(y[0], y[-1], 20 * count)
+            assert np.min(shape.initial_gap(fine[:, None], fine)) >= -1e-14
+
+
+@given(st.floats(-3, 3), st.floats(-3, 3), st.floats(0.1, 2.0))
+def test_a_map_of_a_paraboloid_touches_first_at_the_tip(u: float, v: float, bent: float) -> None:
+    """The tip may lie between the points."""
+    x, y = centres(12, 1.0)[:, None], centres(13, 1.0)
+    shape = HeightMap(material=RIGID, file=np.square(x - u) + bent * np.square(y - v), spacing=1.0)
+    for r in (np.linspace(-6, 6, 25), np.array([u])):
+        exact = np.square(r[:, None] - u) + bent * np.square(r - v)
+        found = shape.initial_gap(r[:, None], r)
+        np.testing.assert_allclose(found, exact, rtol=0, atol=1e-6)
+
+
 def test_a_window_beyond_the_height_map_is_refused_with_both_lengths() -> None:
     shape = HeightMap(material=RIGID, file=heights(), spacing=1e-3)
     shape.initial_gap(6e-3, 4.5e-3)
@@ -105,6 +134,85 @@ def test_a_window_beyond_the_height_map_is_refused_with_both_lengths() -> None:
             shape.initial_gap(x, 0.0)
     with pytest.raises(ValueError, match=r"covers \|y\| <= 0.0045 .* requested is \|y\| = nan"):
         shape.initial_gap(0.0, np.nan)
+
+
+def tip(radii: Any, height: Any, **more: Any) -> RevolvedProfile:
+    """A profile of revolution by some of its points."""
+    return RevolvedProfile(material=RIGID, file=np.stack([radii, height(radii)], axis=1), **more)
+
+
+@pytest.mark.parametrize("first", [0.0, 0.07])
+@pytest.mark.parametrize("power", [1.0, 1.7])
+def test_a_profile_of_a_paraboloid_is_the_paraboloid(first: float, power: float) -> None:
+    """Even at the axis, and whether or not it has a point there."""
+    shape = tip(first + np.linspace(0, 1, 9) ** power, lambda r: 3.0 + r**2 / 2)
+    r = np.linspace(0, 1, 101)
+    np.testing.assert_allclose(shape.initial_gap(0.6 * r, 0.8 * r), r**2 / 2, rtol=0, atol=1e-14)
+    assert shape.contact_at(0.01)[0] == pytest.approx(0.01, rel=1e-8)
+    assert shape.contact_under(4e-3 / 3, 1.0)[0] == pytest.approx(1e-3, rel=1e-8)
+
+
+@given(st.integers(4, 40), st.floats(0.1, 0.8))
+def test_a_profile_does_not_dip_below_its_flat(count: int, flat: float) -> None:
+    shape = tip(np.linspace(0, 1, count) ** 1.2, lambda r: np.maximum(r - flat, 0.0))
+    gap = shape.initial_gap(np.linspace(0, 1, 401), 0.0)
+    assert np.all(np.diff(gap) >= -1e-15)
+    assert shape.lowest_radius == gap[0] == 0
+
+
+def test_a_profile_is_read_in_any_order_unit_and_sign(tmp_path: Path) -> None:
+    whole = tip(1e-6 * np.array([0.0, 2.0, 3.0, 5.0]), lambda r: 1e-3 * r)
+    table = np.array([[0.0, 2.0, 3.0, 5.0], [0.0, 2.0, 3.0, 5.0]])
+    more: Any = {"material": RIGID, "radius_unit": "um", "height_unit": "nm"}
+    (tmp_path / "tip.csv").write_text("r;z\n0;0\n2;2,0\n3;3\n5;5\n", encoding="utf-8")
+    read = {"folder": tmp_path}
+    for shape in (
+        RevolvedProfile(file=table, **more),
+        RevolvedProfile(file=table.T[::-1], **more),
+        RevolvedProfile(file=table * [[1], [-1]], flip=True, **more),
+        RevolvedProfile.model_validate({"file": "tip.csv", **more}, context=read),
+    ):
+        r = np.linspace(0, 5e-6, 11)
+        np.testing.assert_allclose(shape.initial_gap(r, 0), whole.initial_gap(r, 0), atol=1e-22)
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ([[0, 0], [1, 1], [2, 4]], "at least 4"),
+        ([[0, 0, 0], [1, 1, 0], [2, 4, 0], [3, 9, 0]], "two columns"),
+        ([[-1, 1], [0, 0], [1, 1], [2, 4]], "keep one half"),
+        ([[0, 0], [1, 1], [1, 2], [2, 4]], "ascending"),
+        ([[0, 4], [1, 3], [2, 1], [3, 0]], "set flip = true"),
+        ([[0, 0], [1, np.nan], [2, 4], [3, 9]], "finite"),
+        ([[0, 0], [1, np.inf], [2, 4], [3, 9]], "finite"),
+    ],
+)
+def test_what_is_no_profile_is_refused(table: Any, words: str) -> None:
+    with pytest.raises(ValidationError, match=words):
+        RevolvedProfile(material=RIGID, file=np.array(table, dtype=float))  # type: ignore[arg-type]
+
+
+SOLVERS = "semi-analytical", "radial", "fem", "fem-complementarity"
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_contact_beyond_the_last_point_of_a_profile_is_refused(solver: str) -> None:
+    shape = tip(np.linspace(0, 0.5 * A, 9), lambda r: r**2 / (2 * RADIUS))
+    with pytest.raises(UnsupportedScene, match=r"step 1.* exceeds the last radius of the profile"):
+        slipstick.solve(on(shape), solver)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_profile_that_touches_on_a_ring_is_for_cells_alone(solver: str) -> None:
+    shape = tip(np.linspace(0, 3 * A, 31), lambda r: (r - 0.5 * A) ** 2 / (2 * RADIUS))
+    assert shape.lowest_radius == pytest.approx(0.5 * A)
+    if solver == "semi-analytical":
+        (end,) = slipstick.solve(on(shape), solver).steps
+        assert end.pressure[64, 64] == 0 < end.contact_area
+    else:
+        with pytest.raises(UnsupportedScene, match="lowest on a ring"):
+            slipstick.solve(on(shape), solver)
 
 
 # ---- What a shape says of itself is true, and what it does not say no solver assumes.

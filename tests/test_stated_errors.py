@@ -59,11 +59,13 @@ from contact_scene import (
     Ellipsoid,
     FiniteElementDiscretisation,
     FlatPunch,
+    HeightMap,
     IsotropicMaterial,
     Layer,
     LoadStep,
     Paraboloid,
     RadialDiscretisation,
+    RevolvedProfile,
     Scene,
     SurfaceDiscretisation,
 )
@@ -243,12 +245,13 @@ CONSTANTS = {
     *("NEAR", "COARSE"),
     # of the refinement
     *("SPARE", "DOUBT", "FURTHEST", "MAX_AT_ONCE", "LEAST_AT_ONCE", "UNCONVERGED", "MAX_ROUNDS"),
-    *("FIRST_CELLS", "FIRST_PATH_ACCURACY", "MAX_CELLS", "LEAST_TOLERANCE", "MAX_DOUBLINGS"),
+    *("FIRST_CELLS", "FIRST_PATH_ACCURACY", "MAX_CELLS", "LEAST_TOLERANCE"),
+    *("MAX_DOUBLINGS", "DOUBLING"),
     *("FIRST_ELEMENTS", "MAX_ELEMENTS", "MAX_HARMONICS", "LEAST_OVERLAP", "LARGEST_BOX"),
     *("FIRST_FINENESS", "MAX_FINENESS"),
     # of the cost estimate
-    *("EXPONENT", "CELL_OVERHEAD", "ELEMENT_OVERHEAD", "SET_UP_INCREMENTS"),
-    *("MAX_CELLS", "MAX_ELEMENTS", "MAX_STEPS", "MAX_INCREMENTS"),
+    *("EXPONENT", "CELL_OVERHEAD", "ELEMENT_OVERHEAD", "RING_OVERHEAD", "SET_UP_INCREMENTS"),
+    *("INCREMENTS", "STEPS", "MAX_STEPS"),
 }
 
 
@@ -290,9 +293,14 @@ def test_increments_have_no_error_in_three_proved_cases_alone(name: str) -> None
 
 
 def test_increments_of_coarse_solves() -> None:
-    counts, matters = (1, 2, 5, 8, 40), (False, True, True, True, True)
+    counts = (1, 2, 5, 8, 40)
+    matters = (False, True, True, True, True)
     few, fewer = coarse_increment_counts(counts, matters)
-    assert (few, fewer) == ((1, 32, 32, 4, 20), (1, 8, 8, 4, 10))
+    assert few == (1, 32, 32, 4, 20)
+    assert fewer == (1, 8, 8, 4, 10)
+    # The stick radius of a pressing with friction by 20 increments jumps by 10 % with the cells of
+    # solves by 5 increments, and by less than 1 % with those of 10.
+    assert coarse_increment_counts((20,), (True,)) == [(10,), (8,)]
     # A step that inherits a state takes the ratio nearest to 1 so far.
     assert ratios(counts, few, matters) == (1.0, 1 / 16, 5 / 32, 2.0, 2.0)
     of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
@@ -401,6 +409,52 @@ def ridge(**shape: float) -> Known:
     return Known(posed, {"peak_pressure": end.peak_pressure}, asked, uncertain=2e-4)
 
 
+# Half width of a map, radius of its flat or of its tip.
+HALF, FLAT, ROUND = 0.5e-3, 0.2e-3, 10e-3
+MAPPED: dict[str, tuple[Callable[[Any], Any], dict[str, float]]] = {
+    # Sneddon's solution by quadrature.
+    "flat that ends in a parabola": (
+        lambda r: np.square(np.maximum(r - FLAT, 0.0)) / (2 * ROUND),
+        {"approach": 2.3496933e-6, "peak_pressure": 411.287e6, "contact_radius": 0.3227329e-3},
+    ),
+    "paraboloid": (
+        lambda r: np.square(r) / (2 * ROUND),
+        {"approach": 4.5639031e-6, "peak_pressure": 1046.1765e6, "contact_radius": 0.21363293e-3},
+    ),
+    "cone": (lambda r: 0.02 * r, {"approach": 6.3906732e-6}),
+}
+
+
+def mapped(name: str, count: int) -> Known:
+    """A shape of revolution by the heights at some of its points."""
+    height, exact = MAPPED[name]
+    at = (np.arange(count) + 0.5) * 2 * HALF / count - HALF
+    heights: Any = height(np.hypot(at[:, None], at))
+    indenter = HeightMap(file=heights, spacing=2 * HALF / count, material=RIGID)  # type: ignore[arg-type]
+    body = Body(material=bodies(70e9, 0.3))
+    loads = (LoadStep(normal_force=100.0),)
+    return Known(Scene(indenter=indenter, body=body, loading=loads), exact)
+
+
+def revolved(name: str, count: int, solver: str) -> Known:
+    """The same shapes by the heights at some radii."""
+    height, exact = MAPPED[name]
+    radii = np.linspace(0.0, 0.6e-3, count)
+    posed = mapped(name, 4).scene
+    profile = RevolvedProfile(file=np.stack([radii, height(radii)], axis=1), material=RIGID)  # type: ignore[arg-type]
+    return Known(posed.model_copy(update={"indenter": profile}), exact, None, solver)
+
+
+def coated_profile(solver: str) -> Known:
+    known = revolved("flat that ends in a parabola", 31, solver)
+    coating = Layer(thickness=1e-4, material=bodies(210e9, 0.25))
+    posed = known.scene.model_copy(
+        update={"body": known.scene.body.model_copy(update={"layers": (coating,)})}
+    )
+    exact = {"approach": 2.096421e-6, "contact_radius": 0.292295e-3, "elastic_energy": 9.99841e-5}
+    return known._replace(scene=posed, exact=exact, uncertain=3e-6)
+
+
 def stiff_film(stiffer: float, thickness: float, count: int) -> Known:
     film = Layer(thickness=thickness * A, material=steel(young_modulus=stiffer * YOUNG))
     body = Body(material=steel(), layers=(film,))
@@ -462,8 +516,34 @@ KNOWN: dict[str, Callable[[], Known]] = {
     "rounded flat": lambda: ridge(flat=0.5 * A),
     "ring": lambda: ridge(ring=0.5 * A),
     **{
+        f"map of a {name}, {n} points": lambda name=name, n=n: mapped(name, n)
+        for name, counts in (
+            ("flat that ends in a parabola", (32, 33, 65)),
+            ("paraboloid", (16, 33)),
+            ("cone", (33, 65)),
+        )
+        for n in counts
+    },
+    **{
         f"film, E ratio {E:g}, h = {h:g} a, {n} cells": lambda E=E, h=h, n=n: stiff_film(E, h, n)
         for E, h, n in ((20.0, 0.5, 48), (42.6, 0.5, 58), (40.0, 0.083, 37), (0.5, 0.2, 33))
+    },
+    **{
+        f"profile of a {name}, {n} points, {solver}": lambda name=name, n=n, solver=solver: (
+            revolved(name, n, solver)
+        )
+        for name in MAPPED
+        for n, solver in (
+            *((24, "semi-analytical"), (24, "radial"), (25, "radial")),
+            *((24, "fem"), (24, "fem-complementarity")),
+        )
+    },
+    # By `radial`.
+    **{
+        f"profile of a flat that ends in a parabola, coated, {solver}": lambda solver=solver: (
+            coated_profile(solver)
+        )
+        for solver in ("semi-analytical", "fem-complementarity")
     },
     # Inputs whose stated error was once smaller than the true error.
     "push of incompressible bodies": lambda: strong_push(0.9),
@@ -668,6 +748,29 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
     assert "did not converge" in (stated.coarse_solves[0].refused or "")
     assert stated.steps[0]["approach"].error is not None
     refused |= {10, 12}
+    assert stated_errors(result).steps[0]["approach"].error is None
+
+
+def test_points_are_left_out_of_a_map_alone_and_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And no error is stated if the scene with half of the points has no result."""
+    solved, indenters = CellSolver.solve, list[Any]()
+    refused = list[Any]()
+
+    def counting(self: CellSolver, fineness: Fineness, *more: Any) -> Any:
+        if self.scene.indenter in refused:
+            raise NotConverged("the increment", 3, 1e-3, 1e-8)
+        indenters.append(self.scene.indenter)
+        return solved(self, fineness, *more)
+
+    monkeypatch.setattr(CellSolver, "solve", counting)
+    for posed, times in ((mapped("paraboloid", 16).scene, 1), (scene(PRESS), 0)):
+        result = package.solve(posed, "semi-analytical", cells(16))
+        indenters.clear()
+        parts = stated_errors(result).steps[0]["approach"].parts
+        others = [indenter for indenter in indenters if indenter != posed.indenter]
+        assert len(others) == times == ("map" in parts)
+        refused += others
+    result = package.solve(mapped("paraboloid", 16).scene, "semi-analytical", cells(16))
     assert stated_errors(result).steps[0]["approach"].error is None
 
 

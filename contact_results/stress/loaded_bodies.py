@@ -21,6 +21,7 @@ from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.increment import State
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
+    Part,
     StatedError,
     StatedErrors,
 )
@@ -59,6 +60,7 @@ class LoadedBodies:
                     the contact edge; None if they do
     edges           True if the tractions are cell means and the contact edge runs inside the cells
     by_increments   increment error of the tractions relative to the tractions; None if not stated
+    by_map          the same for the points of a measured indenter; 0 for other shapes
     direction       unit vector of the tangential load, at angle 0 of rings
     pressed         indenter, contact radius [length] and approach [length], if they determine the
                     pressure at every radius; None if the pressure is known on cells or rings only
@@ -77,6 +79,7 @@ class LoadedBodies:
     no_root: str | None = None
     edges: bool = False
     by_increments: float | None = None
+    by_map: float | None = None
     direction: tuple[float, float] = (1.0, 0.0)
     pressed: tuple[ShapedBody, float, float] | None = None
     contact_radius: float | None = None
@@ -234,7 +237,8 @@ def _loaded_bodies(
         discretisation=getattr(source, "discretisation", None),
         no_root=_reason_without_root(scene.indenter, scene.friction),
         edges=end.edge_change is not None,
-        by_increments=None if errors is None else _relative_increment_error(end, errors),
+        by_increments=None if errors is None else _relative_part(end, errors, "increments"),
+        by_map=None if errors is None else _relative_part(end, errors, "map"),
         direction=surface.direction,
         pressed=pressed if source.solver == RADIAL else None,
         contact_radius=end.contact_radius,
@@ -243,14 +247,16 @@ def _loaded_bodies(
     )
 
 
-def _relative_increment_error(end: State, errors: Mapping[str, StatedError]) -> float | None:
-    """Estimate the relative error of the tractions that is due to finite increments.
+def _relative_part(end: State, errors: Mapping[str, StatedError], part: Part) -> float | None:
+    """Estimate the relative error of the tractions that is due to one cause, such as increments.
 
-    The estimate is the largest relative increment error of peak pressure, approach and tangential
-    shift. If the peak pressure has no error because it is infinite, the contact radius replaces it.
+    The estimate is the largest relative part of the errors of peak pressure, approach and
+    tangential shift. If the peak pressure has no error because it is infinite, the contact radius
+    replaces it.
 
     end     scalars at the end of the increment
     errors  stated errors of these scalars, by name
+    part    part of the errors
 
     Returns None if the error of any of the three is unknown.
     """
@@ -265,7 +271,7 @@ def _relative_increment_error(end: State, errors: Mapping[str, StatedError]) -> 
             return None
         size = float(np.max(np.abs(value)))
         if size > ROUNDING * abs(end.approach or 0.0):  # a round-off value has no relative error
-            parts.append(float(np.max(error.parts.get("increments", 0.0))) / size)
+            parts.append(float(np.max(error.parts.get(part, 0.0))) / size)
     return max(parts, default=0.0)
 
 

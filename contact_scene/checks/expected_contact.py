@@ -63,6 +63,20 @@ def refuse_equator(scene: Scene) -> None:
             )
 
 
+def refuse_ring(scene: Scene) -> None:
+    """Raise UnsupportedScene if first contact is on a ring, for a solver of circular contacts.
+
+    scene  bodies, with the shape of the indenter
+    """
+    radius = scene.indenter.lowest_radius
+    if radius:
+        raise UnsupportedScene(
+            f"the indenter is lowest on a ring of radius {radius:.4g} m, and this solver requires "
+            "first contact on the axis. Make the profile lowest on the axis, or solve it with the "
+            "semi-analytical solver"
+        )
+
+
 def contact_approach(scene: Scene, approach: float, modulus: float) -> float:
     """Estimate the approach of the bodies from the approach of the actuator of a test rig [length].
 

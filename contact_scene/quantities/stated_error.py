@@ -23,6 +23,7 @@ Part: TypeAlias = Literal[
     "penalty",
     "harmonics",
     "quadrature",
+    "map",
     "neglected",
 ]
 
@@ -47,7 +48,7 @@ class StatedError(Description):
 
     parts: dict[Part, Amount]
     """Contribution of each source: cells, increments, tolerance; elements, section, penalty,
-    harmonics; quadrature; neglected effects."""
+    harmonics; quadrature; points of a measured indenter; neglected effects."""
 
     status: ErrorStatus
     """Status of the error: "estimated"; "not converged" for an unreliable number; "exact" for a

@@ -51,7 +51,7 @@ class ArrayFile:
         return nx, ny
 
 
-def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
+def array_file(value: Any, info: ValidationInfo, least_side: int = _MIN_SIDE) -> ArrayFile:
     """Validate the value of a key that names a height map or friction map, and return the array.
 
     A scene file names a `.npy`, `.csv` or `.txt` file in or below its folder,
@@ -60,6 +60,8 @@ def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
 
     value  file name, path or array
     info   key of the value, and context of the validation
+    least_side
+           least number of values along each side
 
     Raises a validation error for other values, and for a file that cannot be read.
     """
@@ -73,7 +75,7 @@ def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
             hint = "pass its numbers in SI, without gaps, as a plain array"
             expected = "a plain numpy array or the name of a .npy file"
             raise refusal(f"got {shown(value)}", expected, hint)
-        return _check_array(value, name)
+        return _check_array(value, name, least_side)
     folder = context.get("folder")
     if isinstance(value, Path) and folder is None:
         value = str(value)
@@ -81,22 +83,27 @@ def array_file(value: Any, info: ValidationInfo) -> ArrayFile:
         hint = "pass numpy.asarray(...) of it, in SI" if hasattr(value, "__array__") else ""
         raise refusal(f"got {shown(value)}", 'the name of a file such as "heights.npy"', hint)
     path = Path(value) if folder is None else _path_in_folder(folder, value)
-    return _check_array(_read_array(path, value), value)
+    return _check_array(_read_array(path, value), value, least_side)
 
 
-FileKey = Annotated[
-    ArrayFile,
-    PlainValidator(array_file),
-    PlainSerializer(lambda array: array.name, return_type=str),
-    WithJsonSchema(
-        {
-            "type": "string",
-            "pattern": r"\.(npy|csv|txt)$",
-            "description": "name of a .npy, .csv or .txt file in or below the folder of the scene "
-            "file",
-        }
-    ),
-]
+def _read_table(value: Any, info: ValidationInfo) -> ArrayFile:
+    """Validate the value of a key that names a table of two columns, and return the array.
+
+    Used for the profile of an indenter, instead of `array_file`.
+    """
+    return array_file(value, info, least_side=2)
+
+
+_AS_NAME = PlainSerializer(lambda array: array.name, return_type=str)
+_SCHEMA = WithJsonSchema(
+    {
+        "type": "string",
+        "pattern": r"\.(npy|csv|txt)$",
+        "description": "name of a .npy, .csv or .txt file in or below the folder of the scene file",
+    }
+)
+FileKey = Annotated[ArrayFile, PlainValidator(array_file), _AS_NAME, _SCHEMA]
+TableKey = Annotated[ArrayFile, PlainValidator(_read_table), _AS_NAME, _SCHEMA]
 
 
 def _path_in_folder(folder: Path, name: str) -> Path:
@@ -211,7 +218,7 @@ def _array_name(name: str) -> str:
     return shown(name) if name else "in memory"
 
 
-def _check_array(values: NDArray[Any], name: str) -> ArrayFile:
+def _check_array(values: NDArray[Any], name: str, least_side: int = _MIN_SIDE) -> ArrayFile:
     """Check shape and type of the array of a height map or friction map, and copy it to float64.
 
     The checks precede the copy, which allocates memory. Raises a validation error for an array that
@@ -219,11 +226,13 @@ def _check_array(values: NDArray[Any], name: str) -> ArrayFile:
 
     values  array as read or as given in Python
     name    name of the file in the scene; empty for an array made in Python
+    least_side
+            least number of values along each side
     """
     nx, ny = shape = values.shape if values.ndim == 2 else (0, 0)
     expected = ""
-    if not _MIN_SIDE <= min(shape) <= max(shape) <= _MAX_SIDE:
-        expected = f"two dimensions (x, y) of {_MIN_SIDE} to {_MAX_SIDE} values each"
+    if not least_side <= min(shape) <= max(shape) <= _MAX_SIDE:
+        expected = f"two dimensions (x, y) of {least_side} to {_MAX_SIDE} values each"
     elif nx * ny > _MAX_VALUES:
         expected = f"at most {_MAX_VALUES} values in all (4096 x 4096)"
     if expected:

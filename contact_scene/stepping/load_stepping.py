@@ -9,6 +9,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from contact_scene.array_types import Field
 from contact_scene.bulk_strain import add_bulk_strain
+from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.separation import (
     add_values_at_separation,
     position,
@@ -18,7 +19,7 @@ from contact_scene.quantities.separation import (
 )
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.scene import Scene
-from contact_scene.solver_errors import NotConverged, NothingTouches, SolverError
+from contact_scene.solver_errors import NotConverged, NothingTouches, SolverError, UnsupportedScene
 from contact_scene.stepping.checkpoint import (
     Checkpoint,
     ResumePoint,
@@ -196,6 +197,7 @@ def resumable_increments(
                 here = add_bulk_strain(
                     solver.report(reached, here if apart else last), ramp.strain(end)
                 )
+                _refuse_end_of_shape(scene.indenter, here, last)
                 for before_touch, approach, at in untouched:
                     last = apart = empty(
                         apart or virgin_increment(here), ramp, before_touch, approach, at
@@ -210,6 +212,23 @@ def resumable_increments(
                 last = apart = empty(last, ramp, end, approach, place)
                 state = here = None
                 yield last, ResumePoint(done, state, start)
+
+
+def _refuse_end_of_shape(indenter: ShapedBody, here: Any, last: Any) -> None:
+    """Raise UnsupportedScene if a contact extends beyond the points of a measured indenter.
+
+    indenter  indenter with its shape
+    here      reported increment
+    last      previous reported increment; None before the first
+    """
+    if here.contact_radius > indenter.known_radius:
+        error = UnsupportedScene(
+            f"the contact radius of {here.contact_radius:.4g} m exceeds the last radius of the "
+            f"profile, {indenter.known_radius:.4g} m. Use a smaller load or a wider profile"
+        )
+        error.where = f"step {here.step}, increment {here.index} of {here.increments_in_step}"
+        error.last_state = last
+        raise error
 
 
 def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:

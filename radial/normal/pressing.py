@@ -91,16 +91,16 @@ class Target:
 
         The search for the contact radius finds the zero of this residual. Raises UnsupportedScene
         if the computed value is not positive. The contact radius is then beyond the end of the
-        shape (the equator of a sphere).
+        shape (the equator of a sphere), or within a flat on the axis.
 
         contact  solved contact of a trial radius
         """
         value = self.controlled_value(contact)
         if not (value > 0 and isfinite(value)):
             raise UnsupportedScene(
-                f"no contact of radius {contact.radius:.3g} m carries the load: the contact "
-                "reaches the end of the shape (the equator of a sphere). Use "
-                "a smaller force or approach"
+                f"no contact of radius {contact.radius:.3g} m carries the load: the shape is flat "
+                "there, or ends (the equator of a sphere). Use a smaller force or approach, or the "
+                "semi-analytical solver"
             )
         return log(value / self.prescribed_value)
 
@@ -202,6 +202,9 @@ def contact_at_target(
     last_x = x
     for iterations in range(1, MAX_ITERATIONS + 1):
         contact = solve(exp(x))
+        if x < last_x and not target.controlled_value(contact) > 0:  # within a flat on the axis
+            x = 0.5 * (x + last_x)
+            continue
         residual = target.residual(contact)
         if best is not None and nearest <= NEAR and abs(residual) >= nearest:
             return best, iterations, power
@@ -263,4 +266,5 @@ def lower_radius_estimate(bodies: Bodies, indenter: ShapedBody, target: Target) 
     r, factor = 1.0, 2.0 if short(1.0) else 0.5
     while short(r) == (factor > 1) and LEAST_RADIUS < r < 1 / LEAST_RADIUS:
         r *= factor
-    return r
+    # Within a flat on the axis there is no load.
+    return r if float(indenter.initial_gap(r, 0.0)) > 0 else 2.0 * r

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,6 +27,9 @@ FEWEST, MOST = 16, 2048  # least and largest number of points at which the gap i
 # points.
 ROUND_OFF = 1e-15
 ANGLES = 16
+# A gap with breaks: number of even Legendre polynomials of S, points of the gap between two breaks,
+# and quadrature points between two breaks.
+PIECEWISE_ORDERS, PIECE, PIECE_ANGLES = 128, 8, 8
 
 
 @dataclass(frozen=True)
@@ -78,13 +83,17 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
     """Compute the Abel transform of the undeformed gap of an indenter over a contact disc.
 
     The Abel transform determines the pressure. The gap is interpolated at Chebyshev points. Their
-    number is doubled until the last coefficients are round-off.
+    number is doubled until the last coefficients are round-off. A gap with breaks is interpolated
+    between its breaks, and the Abel transform is fitted by a fixed number of polynomials.
 
     indenter  shape of the indenter
     radius    contact radius [length]
     fineness  factor on the number of points, 1 by default
     raises    UnsupportedScene if the gap is not a smooth function of the radius
     """
+    breaks = indenter.breaks[(indenter.breaks > 0) & (indenter.breaks < radius)]
+    if len(breaks):
+        return _piecewise_profile(indenter, radius, [0.0, *breaks / radius, 1.0], fineness)
     count = FEWEST
     while True:
         gap = _fit_gap(indenter, radius, count)
@@ -108,6 +117,45 @@ def profile(indenter: ShapedBody, radius: float, fineness: int = 1) -> Profile:
         slope @ _abel_matrix(len(slope), fineness),
         abs(at_axis) > 1e-6 * float(np.sum(np.abs(slope))),
     )
+
+
+def _piecewise_profile(
+    indenter: ShapedBody, radius: float, ends: Sequence[float], fineness: int
+) -> Profile:
+    """Compute the Abel transform of a gap that is smooth between its breaks.
+
+    The integral over φ is divided where t sin φ is a break. The gap is even at the axis, and so is
+    S. It is therefore fitted by even polynomials: a slope of S at the axis would be an infinite
+    pressure. S has a singularity (t - b)^(3/2) above a break b of the curvature, so that its series
+    decreases slowly. The last coefficient makes S exact at the contact edge, which determines the
+    approach. The error of the series is part of the error estimate, which compares two numbers of
+    polynomials.
+
+    indenter  shape of the indenter
+    radius    contact radius [length]
+    ends      ends of the smooth intervals over the contact radius, from 0 to 1
+    fineness  factor on the number of orders, 1 by default
+    """
+    count = PIECEWISE_ORDERS * fineness
+    inner, weights = unit_gauss(2 * count)
+    t = np.append(inner, 1.0)
+    angles, shares = unit_gauss(PIECE_ANGLES)
+    integral = np.zeros_like(t)
+    places, fit = _chebyshev_fit(PIECE)
+    for low, high in pairwise(ends):
+        gap = fit @ indenter.initial_gap(radius * (low + (high - low) * places), 0.0)
+        slope = 2.0 / (high - low) * chebyshev.chebder(gap)
+        above = t > low
+        first, last = (np.arcsin(np.minimum(end / t[above], 1.0)) for end in (low, high))
+        x = t[above, None] * np.sin(first[:, None] + (last - first)[:, None] * angles)
+        values = chebyshev.chebval(2.0 * (x - low) / (high - low) - 1.0, slope)
+        integral[above] += (last - first) * (values @ shares)
+    even = legendre.legvander(inner, 2 * count - 2)[:, ::2]
+    fitted = (4 * np.arange(count) + 1) * ((weights * inner * integral[:-1]) @ even)
+    fitted[-1] += integral[-1] - np.sum(fitted)
+    orders = np.arange(2 * count - 1)
+    by_order = (2 * orders + 1) * legendre.legvander(2 * inner - 1, orders[-1])
+    return Profile((weights * (even @ fitted)) @ by_order, apex=False)
 
 
 def _fit_gap(indenter: ShapedBody, radius: float, count: int) -> Array:

@@ -107,32 +107,27 @@ class Solver(ABC):
         return Levels(self.refined(scene, fineness, stress), stress_at, *hooks)
 
     def time(self, scene: Scene, fineness: Any, space: Any, plan: Any) -> tuple[str, str]:
-        """Estimate the CPU time of a run with its error estimate, from the first refinement level.
+        """Estimate the CPU time of a run with its error estimate by a trial solve.
 
-        The level is solved for the first load steps, with few increments. Returns the word "time"
-        and the text of the estimate, or the reason why there is none. Raises ContactNotResolved if
-        no coarse discretisation resolves the contact.
+        Returns the word "time" and the text of the estimate, or the reason why there is none.
+        Raises ContactNotResolved if no coarse discretisation resolves the contact.
 
         fineness  discretisation settings
         space     grid, mesh or ring factor of the run
         plan      increments of the run
         """
         from contact_errors.coarse_solves import Fineness
-        from contact_errors.cost_estimate import MAX_STEPS
+        from contact_errors.trial_solve import estimate_seconds
 
-        begin = scene.model_copy(update={"loading": scene.loading[:MAX_STEPS]})
-        levels = self.levels(begin, fineness, stress=False)
         run = Fineness(space, plan.increments, fineness.tolerance)
         try:
             with without_cache():
-                level = levels.solve_first_level(run)
+                seconds = estimate_seconds(self.refined(scene, fineness), run)
         except ContactNotResolved:
             raise
         except SolverError as error:
-            return "time", f"not estimated, since a coarse solve failed: {error}"
-        work = self.refined(scene, fineness).work(run)
-        seconds = time_text(levels.estimated_seconds(level, work))
-        return "time", f"{seconds} of one core, error estimates included"
+            return "time", f"not estimated, since a trial solve failed: {error}"
+        return "time", f"{time_text(seconds)} of one core, error estimates included"
 
     @abstractmethod
     def work(self, scene: Scene, fineness: Any, plan: Any) -> Pairs:

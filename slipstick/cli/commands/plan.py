@@ -42,10 +42,10 @@ def plan(
 ) -> None:
     """Print the effects of a scene with reasons, and grid or mesh, time and memory of a run.
 
-    The time is accurate within a factor of 2. It is estimated by a coarse solve in at most 48
-    increments, on 24 cells along the shorter side, 8 elements over the contact radius, or half the
-    rings. A scene that the solver does not support is refused as by 'run'. With --accuracy, the
-    cost of each accuracy is estimated by a coarse solve with all increments.
+    The time is accurate within a factor of 2. It is estimated by a trial solve of the first load
+    steps in two increments each, on 24 cells along the shorter side, 8 elements over the contact
+    radius, or half the rings. A scene that the solver does not support is refused as by 'run'. With
+    --accuracy, the cost of each accuracy is estimated by a coarse solve with all increments.
     """
     requests = {item: read_accuracy(item, "--accuracy") for item in accuracy or ()}
     contents = read_scene_file(scene, overrides or ())
