@@ -3,7 +3,9 @@
 The system is solved by GMRES.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -63,7 +65,6 @@ class LinearisedContact:
                   `carriers_in`), which saves their computation; None to compute them
         """
         self._problem, self._zones = problem, zones
-        self._precondition = problem.inverse.in_zones(zones)
         self._shifts, self._closures = problem.shifting.held, problem.closing.held
         if carriers is None:
             units = self._free_units()
@@ -73,6 +74,11 @@ class LinearisedContact:
         self._carriers, count = carriers, len(carriers)
         responses = np.array([self._force_changes(carrier) for carrier in carriers])
         self._inverse = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
+
+    @cached_property
+    def _precondition(self) -> Callable[[Vector], Vector]:
+        """Approximate inverse in the zones, on first use: the last iterate needs none."""
+        return self._problem.inverse.in_zones(self._zones)
 
     def carriers_in(self, zones: Zones) -> Matrix:
         """Map the carriers to the free unknowns of other zones of contact, stick and slip.
