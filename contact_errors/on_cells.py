@@ -241,10 +241,13 @@ def _may_hide_stick(end: Increment) -> bool:
     """Return true if a stick zone smaller than a cell is possible although all cells slip.
 
     It is possible if the smallest slip increment of a cell is at most half of the largest slip
-    increment of the adjacent cells. Error estimates of slip are then unreliable.
+    increment of the adjacent cells. Error estimates of slip are then unreliable. It is impossible
+    at the friction limit under force control, where the slip is undefined.
 
     end  state at the end of a load step
     """
+    if end.slip_increment is None:
+        return False
     slip = np.hypot(*np.asarray(end.slip_increment)) * end.in_contact
     i, j = np.unravel_index(np.argmin(np.where(end.in_contact, slip, np.inf)), slip.shape)
     around = slip[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]

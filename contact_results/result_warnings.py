@@ -12,6 +12,7 @@ from contact_scene.array_types import Field
 from contact_scene.body_pair import contact_modulus
 from contact_scene.checks.expected_contact import beyond_linear_theory
 from contact_scene.checks.plausibility import unlikely_numbers
+from contact_scene.friction_limit import undefined_motion_warning
 from contact_scene.height_map import interpolate
 from contact_scene.quantities.cycles import load_cycles
 from contact_scene.stepping.increment_error import (
@@ -56,10 +57,15 @@ def warnings_of(result: Result) -> tuple[str, ...]:
 def _warn_of_gross_slip(result: Result) -> Iterator[str]:
     """Yield a warning if a tangential force is prescribed close to the friction limit.
 
-    Close to gross slip, the tangential shift and the dissipated energy depend on the increments.
+    Close to gross slip, the tangential shift and the dissipated energy depend on the increments. At
+    the limit they are undefined.
     """
-    near = near_gross_slip(result.scene)
-    if any(near):
+    near, last = near_gross_slip(result.scene), result.steps[-1]
+    pushes, twists = last.tangential_force is not None, last.torque is not None
+    if (pushes and last.tangential_shift is None) or (twists and last.twist is None):
+        remedy = "tangential_shift" if pushes and np.any(last.tangential_force) else "twist"
+        yield undefined_motion_warning(last.step, remedy)
+    elif any(near):
         yield (
             f"step {near.index(True) + 1} pushes beyond {NEAR_GROSS_SLIP:.0%} of the friction "
             "limit: tangential shift and dissipated energy grow like (1 - T/µW)^-1/2 and depend on "

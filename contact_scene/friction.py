@@ -188,6 +188,14 @@ class CoulombFriction(Description):
         """
         return float(np.max(self.slope(0.0)))
 
+    @property
+    def smallest(self) -> float:
+        """Smallest increase of the friction limit by an increase of the pressure [1].
+
+        The value is the smallest coefficient of friction on the surface.
+        """
+        return float(min(np.min(self.slope(p)) for p in (0.0, HIGHEST_PRESSURE)))
+
     def slope(self, pressure: Field | float, where: Where = ...) -> Field:
         """Compute the derivative of the friction limit with respect to the pressure [1].
 

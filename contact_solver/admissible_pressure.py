@@ -20,22 +20,23 @@ def admissible_pressure(held: RigidMotions, p: Vector, allowed: Mask) -> Vector:
     """Return a non-negative pressure near a given one with the prescribed forces.
 
     Negative values are set to zero, and the pressure is scaled to the normal force, the force of a
-    motion that closes the gap at every point. Without any pressure it becomes uniform. Other forces
-    are met by a combination of the motions, weighted by the pressure. If the loaded points cannot
-    carry the forces, it is added with equal weight to all allowed points.
+    motion that closes the gap at every point. Other forces are met by a combination of the motions,
+    weighted by the pressure. If the loaded points cannot carry the forces, it is added with equal
+    weight to all allowed points.
 
     held     rigid motions with a prescribed force, the approach first if it is among them
     p        given pressure (n,)
     allowed  points that may carry pressure (n,)
-    raises   NotConverged where no pressure has the prescribed forces
+    raises   NotConverged without pressure, and where none has the prescribed forces
     """
     p = np.maximum(p, 0.0)
     if not len(held):
         return p
     if np.all(held.each[0].shape > 0):
-        if not np.any(p):
-            p = allowed.astype(np.float64)
-        p = p * (held.prescribed_forces[0] / held.forces(p[None])[0])
+        carried = held.forces(p[None])[0]
+        if not carried > 0:
+            raise NotConverged("the normal force", 0, np.inf, 0.0)
+        p = p * (held.prescribed_forces[0] / carried)
         if len(held) == 1:
             return p
     for weight in (p, allowed * np.mean(p)):

@@ -10,14 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.friction_limit import reaches_limit
 from contact_solver.multipliers import find_multiplier
 from contact_solver.rigid_motion import RigidMotions
 
 # Rounding error of a sum of shears, relative to the sum of their magnitudes.
 ROUND_OFF = 1e-14
-# Relative distance from the friction limit below which the shift is undefined: the stick zone, by
-# the cube root a thousandth of the contact wide, is smaller than a cell.
-AT_LIMIT = 1e-9
 # Relative rounding error of the multiplier, which shifts the shear of all sticking points.
 MULTIPLIER_ROUND_OFF = 5e-16
 
@@ -127,7 +125,7 @@ def admissible_shear(motions: RigidMotions, q: VectorField, bound: Vector) -> Ve
     free = motions.free
     present = free.forces(q)
     forces = np.where(free.is_held, [one.force or 0.0 for one in free.each], present)
-    if np.any(free.springs) and np.linalg.norm(forces) >= np.sum(bound) * (1 - AT_LIMIT):
+    if np.any(free.springs) and reaches_limit(float(np.linalg.norm(forces)), float(np.sum(bound))):
         return project_on_discs(q, bound)
     return _project(free, q, bound, forces, np.zeros(len(free)))[0]
 

@@ -10,7 +10,8 @@ from collections.abc import Callable
 import numpy as np
 
 from contact_scene.array_types import Matrix, Vector, VectorField
-from contact_solver.admissible_shear import AT_LIMIT, magnitude
+from contact_scene.friction_limit import reaches_limit
+from contact_solver.admissible_shear import magnitude
 from contact_solver.rigid_motion import RigidMotions
 
 MAX_STEPS = 100
@@ -34,14 +35,16 @@ def exhausts_friction(motions: RigidMotions, bound: Vector) -> bool:
     if not np.any(bound):
         return True
     held = motions.held
-    return bool(np.any(held.prescribed_forces)) and limit_load(held, bound)[0] <= 1 + AT_LIMIT
+    loaded = bool(np.any(held.prescribed_forces))
+    return loaded and reaches_limit(1.0, limit_load(held, bound)[0])
 
 
 def full_slip(motions: RigidMotions, bound: Vector, motion: Vector) -> tuple[VectorField, Vector]:
     """Return the shear (2, n) and the rigid motions (k,) of the indenter in gross slip.
 
-    Each point carries the friction limit in the direction of the motion of gross slip. Without
-    friction or without prescribed forces the shear is zero.
+    Each point carries the friction limit in the direction of the motion of gross slip. A load below
+    the limit reduces the shear by this part. Without friction or without prescribed forces the
+    shear is zero.
 
     motions  rigid motions of the indenter
     bound    friction limit µp (n,)
@@ -51,8 +54,9 @@ def full_slip(motions: RigidMotions, bound: Vector, motion: Vector) -> tuple[Vec
     held = motions.held
     if not (np.any(bound) and np.any(held.prescribed_forces)):
         return np.zeros((2, len(bound))), motion
-    speed = held.displacement(limit_load(held, bound)[1])
-    return bound * speed / _blunt_size(speed, bound), motion
+    times, velocity = limit_load(held, bound)
+    speed = held.displacement(velocity)
+    return bound / max(1.0, times) * speed / _blunt_size(speed, bound), motion
 
 
 def limit_load(held: RigidMotions, bound: Vector) -> tuple[float, Vector]:

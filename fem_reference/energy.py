@@ -13,9 +13,7 @@ from contact_scene import Scene
 from contact_scene.array_types import Field
 from fem_reference.elasticity.hat_functions import Hats, hats_on
 from fem_reference.fields import Increment
-from fem_reference.plan import Path, Plan
-
-UNCOUPLED = (Path.PRESSING, Path.SHEARING, Path.TWISTING)
+from fem_reference.plan import UNCOUPLED, Plan
 
 
 def add_energies(
@@ -126,15 +124,15 @@ def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | No
 
     p and q are pressure and shear, u_z and u the displacements of the surfaces. Within the contact
     u_z = approach - initial gap, and u = slip + rigid tangential motion, so that no displacement
-    has to be computed. Return None if these relations do not hold: in path-dependent load steps or
-    for coupled bodies, where particles may slip before their contact, and if the motion is
-    undefined.
+    has to be computed. Return None if these relations do not hold: after normal loads that change
+    under shear or for coupled bodies, where particles may move before their contact, and if the
+    motion is undefined.
 
     scene      contact problem with the shape of the indenter
-    plan       tractions of the solve, and the load steps that are path-dependent
+    plan       tractions of the solve, and the load steps that grow under shear
     increment  converged state whose energy is computed
     """
-    if plan.path not in UNCOUPLED or any(plan.path_matters[: increment.step]):
+    if plan.path not in UNCOUPLED or any(plan.grows[: increment.step]):
         return None
     carrying = increment.pressure > 0
     hats = _ring_hats(increment.radii)

@@ -16,6 +16,7 @@ from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.stepping.growing_contact import grows_without_slip
 from contact_scene.stepping.load_path import along_one_line, first_direction
 
 # Largest ratio of shear moduli within a body. Above this ratio the stiffness of the softest
@@ -46,6 +47,7 @@ class Path(Enum):
     HARMONICS = "pressure and shear, coupled, on many harmonics"
 
 
+UNCOUPLED = (Path.PRESSING, Path.SHEARING, Path.TWISTING)
 # Reasons why slip perpendicular to a tangential load is computed or omitted. Poisson's ratio causes
 # such slip (Munisamy, Hills and Nowell 1994).
 CROSS_SLIP = dict.fromkeys(Path, "nothing pushes sideways") | {
@@ -62,6 +64,8 @@ class Plan:
     direction     unit vector (x, y) of the tangential load, (1, 0) without one
     increments    number of increments of each load step
     path_matters  for each load step, True if its final state depends on the number of increments
+    grows         for each load step, True if the normal load or the imposed strain changes under
+                  shear, so that particles may move tangentially before their contact
     effects       all physical effects, such as friction, with the reasons for or against them, for
                   output
     """
@@ -70,6 +74,7 @@ class Plan:
     direction: tuple[float, float]
     increments: tuple[int, ...]
     path_matters: tuple[bool, ...]
+    grows: tuple[bool, ...]
     effects: tuple[Effect, ...]
 
 
@@ -97,12 +102,13 @@ def plan(scene: Scene) -> Plan:
     strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
     strained = requires_bulk_strain(strains, friction and (loaded or twisted))
     path = _choose_path(friction, loaded, twisted, couples or (rough and strained))
-    matters = _path_matters(ramps, path)
+    matters, grows = _path_matters(scene, path)
     return Plan(
         path,
         first_direction(ramps),
         _increment_counts(scene, matters),
         matters,
+        grows,
         _list_effects(scene, path, (friction, loaded, twisted, couples), why),
     )
 
@@ -126,25 +132,29 @@ def _choose_path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> 
     return Path.PRESSING_WITH_FRICTION if couples else Path.PRESSING
 
 
-def _path_matters(ramps: tuple[LoadRamp, ...], path: Path) -> tuple[bool, ...]:
+def _path_matters(scene: Scene, path: Path) -> tuple[tuple[bool, ...], tuple[bool, ...]]:
     """Determine for each load step whether its final state depends on the number of increments.
 
     Friction makes a load step path-dependent if there is shear while the normal load or the imposed
-    strain changes. For coupled pressure and shear a change of the tangential load is sufficient.
-    The result has one truth value for each load step.
+    strain changes, unless nothing slips. For coupled pressure and shear a change of the tangential
+    load is sufficient. The results are `Plan.path_matters` and `Plan.grows`.
 
-    ramps  linear changes of the loads in the load steps
+    scene  contact problem with its load history
     path   tractions that the solve computes
     """
-    matters = []
+    matters, grows = [], []
     sheared = path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
-    for ramp in ramps:
+    for ramp in scene.load_path():
         sheared = sheared or any(ramp.tangential.end) or ramp.twisting.end != 0
         sheared = sheared or ramp.strains
         pressing = ramp.normal.start != ramp.normal.end or ramp.strains
         shearing = path is Path.HARMONICS and ramp.tangential.start != ramp.tangential.end
-        matters.append(path is not Path.PRESSING and sheared and (pressing or shearing))
-    return tuple(matters)
+        sheared = sheared and path is not Path.PRESSING
+        grows.append(sheared and pressing)
+        moves = sheared and (pressing or shearing)
+        sticks = path in UNCOUPLED and grows_without_slip(scene, ramp)
+        matters.append(moves and not sticks)
+    return tuple(matters), tuple(grows)
 
 
 def _increment_counts(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:

@@ -21,6 +21,7 @@ from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.stepping.growing_contact import grows_without_slip
 from contact_scene.stepping.load_path import along_one_line, first_direction
 from radial.angular_grid import RingAngles
 
@@ -197,6 +198,8 @@ def _path_increments(
     presses = ramp.normal.start != ramp.normal.end
     if circle is None:
         return PATH_INCREMENTS if frictional and (presses or ramp.strains) else 1
+    if not frictional and grows_without_slip(scene, ramp):
+        return 1
     start, end = ramp.tangential.start, ramp.tangential.end
     most = PATH_INCREMENTS if circle is RingAngles.ONE else PUSHED_INCREMENTS
     if presses or ramp.twisting.start != ramp.twisting.end:

@@ -268,8 +268,9 @@ def _reported_increment(
     steps = model.scene.loading[: reached.place.step]
     controls = [step for step in steps if step.tangential_force or step.tangential_shift]
     shifted = controls and controls[-1].tangential_shift is not None
-    if state.corrected and shifted and not np.any(sheared.in_stick):
-        # Without stick zone the shear follows the corrected pressure, and so does its force.
+    grown = sheared.free is not None and state.corrected and state.corrected.sheared
+    if state.corrected and shifted and (grown or not np.any(sheared.in_stick)):
+        # Without slip, and without stick zone, shear and force follow the corrected pressure.
         sheared = replace(sheared, force=np.sum(sheared.shear, axis=(1, 2)) * cell)
     increment = replace(
         pressed,

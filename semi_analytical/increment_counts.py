@@ -10,8 +10,8 @@ radius). Measured on 64 x 64 and 128 x 128 cells against 64 to 160 increments:
         other shapes: at least 0.25 m/n; cone, ellipsoid of 1 : 3, ν = 0 and 0.3, µ = 0.05 to 0.5
     first loading with layers                            as above with m² = 9µ, and 2/n
         one layer of 0.1 to 3 contact radii, E1/E2 = 1/4 to 4, ν = 0.3, µ = 0.05 to 1
-    first loading, normal and tangential together        2/n
-        uncoupled bodies, T/µW = 0.1 to 0.9
+    first loading, normal and tangential together        2/n, an upper bound
+        T/µW = 0.1 to 0.9; exact for n = 1 where nothing slips (`grows_without_slip`)
     tangential load at constant normal load              0.4 x min(x, Δx)/n
         coupled bodies, and changes of direction of uncoupled ones; x the largest T/µW of the
         step, 0.3 to 0.99, Δx its change; with layers as above
@@ -33,6 +33,7 @@ from math import ceil, hypot, sqrt
 from contact_scene import ControlKind, CoulombFriction, LoadRamp, Scene
 from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.cycles import loop_increments
+from contact_scene.stepping.growing_contact import grows_without_slip
 
 # Largest sine of the angle between successive loads of constant direction (round-off).
 STRAIGHT = 1e-9
@@ -110,6 +111,8 @@ def path_increments(
     for step, of_loop in zip(steps, loop_increments(scene.load_path()), strict=True):
         sheared = sheared or step.ends_sheared or step.ramp.strains
         matters, why = step.matters(bodies.coupled) if shear and sheared else (False, NO_SHEAR)
+        if matters and grows_without_slip(scene, step.ramp):
+            matters, why = False, WITHOUT_SLIP
         count = 1
         if matters:
             count, why = step.count(bodies, accuracy, total)
@@ -124,6 +127,7 @@ def path_increments(
 
 
 NO_SHEAR = "no shear: the state does not depend on the load path"
+WITHOUT_SLIP = "the tangential load grows by less than µ times the normal load: nothing slips"
 
 
 @dataclass(frozen=True)
@@ -259,8 +263,10 @@ class _LoadStep:
     def _parts_of_limit(self, bodies: Bodies) -> tuple[float, float]:
         """Compute the largest ratio T/µW of a load step and its change, for the error rules.
 
-        T is the tangential force and µW the friction limit. Each result is 1 if it is unknown
-        before the solution, and 0 if the tangential load does not change.
+        T is the tangential force and µW the friction limit under the smaller normal load of the
+        step. Each result is 1 if it is unknown before the solution, and 0 if the tangential load
+        does not change. No state exceeds T = µW, so that the ratio is at most 1 and its change at
+        most 2, however small the normal load becomes.
 
         bodies  properties of the bodies, with the friction law
         """
@@ -281,7 +287,7 @@ class _LoadStep:
             return 1.0, 1.0
         start, end = self.start, tangential.end
         change = hypot(end[0] - start[0], end[1] - start[1])
-        return max(hypot(*start), hypot(*end)) / limit, change / limit
+        return min(1.0, max(hypot(*start), hypot(*end)) / limit), min(2.0, change / limit)
 
 
 def _first_loading_count(bodies: Bodies, accuracy: float, shape: ShapedBody) -> tuple[int, str]:

@@ -15,11 +15,8 @@ from contact_scene.solver_errors import NotConverged
 from verification import Answer, CannotDo, Solver, judge
 from verification.adapters import own_solvers as own
 from verification.challenge.cases import challenges
-from verification.challenge.python_api import (
-    Judgement,
-    Posed,
-    posed,
-)
+from verification.challenge.python_api import Judgement, posed
+from verification.challenge.solver_process import Posed
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers import environment

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from contact_results.directory.atomic_file import Refused
 from contact_scene import Body, load_scene
 from slipstick.cli import main
 from tests.cell_means import ellipse_means
@@ -22,13 +23,14 @@ from verification import Answer, CannotDo, Field, Solver, judge
 from verification.adapters import own_solvers as own
 from verification.challenge.cases import PLACES, challenges
 from verification.challenge.files import read_answers, toml_text
-from verification.challenge.python_api import Posed, judged
+from verification.challenge.python_api import judged
 from verification.challenge.requested_quantities import (
     Challenge,
     Grade,
     Patch,
     RoundTable,
 )
+from verification.challenge.solver_process import Posed
 from verification.judging.outcome import Status
 from verification.problems.indentation import EXACT as ELLIPSE
 from verification.problems.problem import HERTZ
@@ -315,11 +317,39 @@ def test_who_gives_up_on_the_finest_level_has_no_class() -> None:
 
 
 def test_a_slip_of_sign_or_unit_is_named() -> None:
-    for factor, words in ((-1.0, "other sign"), (1e3, "times 1e-3"), (0.5, "doubled")):
-        found = judged(
-            POINT, Solver("s"), (Answer(1e-5, {("approach", 1): factor * HERTZ.approach}),)
-        )
-        assert words in found.rows[0].because
+    expected = "expected: approach of points far from the contact in both bodies; positive"
+    for factor, off, words in (
+        (-1.0, 0.0, f"with the sign reversed it meets class A; {expected}"),
+        (-1.0, 5e-4, "with the sign reversed it meets class B; "),
+        (-1.0, 5e-3, "with the sign reversed it meets class C; "),
+        (1e3, 0.0, "times 1e-3 it meets class A"),
+        (0.5, 0.0, "doubled it meets class A"),
+    ):
+        answer = Answer(1e-5, {("approach", 1): factor * (1 + off) * HERTZ.approach})
+        assert words in judged(POINT, Solver("s"), (answer,)).rows[0].because
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_reversed_sign_is_named_with_the_class_that_it_meets(name: str) -> None:
+    """Of numbers, numbers at points, and fields: each verdict states the expected sign."""
+    challenge = challenges()[name]
+    right = exact(challenge, cells=100)
+    wrong = Answer(
+        right.h,
+        {(number.quantity, number.step): -number.value for number in challenge.values},
+        {key: replace(field, value=-field.value) for key, field in right.fields.items()},
+        points={key: -values for key, values in right.points.items()},
+    )
+    best = {
+        (row.quantity, row.step): row.grade for row in judged(challenge, Solver("s"), [right]).rows
+    }
+    verdicts = {
+        (row.quantity, row.step): row for row in judged(challenge, Solver("s"), [wrong]).rows
+    }
+    for asked in (*challenge.numbers, *challenge.fields):
+        key = asked.quantity, asked.step
+        hint = f"with the sign reversed it meets class {best[key]}; expected: {asked.meaning}"
+        assert hint in verdicts[key].because
 
 
 def test_a_number_that_is_none_fails() -> None:
@@ -574,7 +604,7 @@ def test_numbers_at_places_are_all_given_each_at_its_own(
 
 def test_a_function_answers_at_every_place_or_none() -> None:
     key = ("stress_xx", 2)
-    with pytest.raises(ValueError, match="2 numbers, expected one at each of the 11 places"):
+    with pytest.raises(Refused, match="2 numbers, expected one at each of the 11 places"):
         judge("sliding_stress", lambda *_: Answer(1e-5, points={key: np.zeros(2)}), levels=1)
 
 
@@ -755,7 +785,7 @@ def test_the_problem_that_a_solver_sees_has_no_answer() -> None:
         seen.append(posed)
         return Answer(1e-5 / 2**level, {("approach", 1): HERTZ.approach})
 
-    assert judge("hertz_point", solve, levels=2).exit_code(partial=True) == 0
+    assert judge("hertz_point", solve, levels=2, seconds=None).exit_code(partial=True) == 0
     assert str(HERTZ.approach) not in repr(seen[0])
 
 

@@ -14,7 +14,7 @@ from surface_quadrature import normal_displacement, tangential_displacement
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from verification.cases.frictional_pressing import stick_ratio
-from verification.closed_forms.cattaneo_mindlin import PartialSlip, superpose
+from verification.closed_forms.cattaneo_mindlin import GrownContact, PartialSlip, superpose
 from verification.closed_forms.coated_indentation import (
     LayeredSurface,
     flat_punch,
@@ -314,6 +314,26 @@ def test_superposed_shear_carries_the_force(name, ratio):
     assert np.all(np.abs(state.shear(r)) <= MU * state.full.pressure(r) * (1 + 1e-12))
     assert np.all(state.slip(r) * state.shear(r) <= 0)
     assert np.all(state.slip(r[r < c]) == 0)
+
+
+def test_growth_without_slip_carries_the_force_within_the_limit():
+    """Also after a growing and a falling tangential force; equal rates are one step."""
+    half, full = CONTACTS["paraboloid"](LOAD / 2), CONTACTS["paraboloid"](LOAD)
+    rates = 0.7 * MU, -0.9 * MU
+    grown = GrownContact((half, full), rates, E_ALIKE / G_STAR)
+    force = disc_integral(grown.shear, full.contact_radius, [half.contact_radius])
+    assert force == pytest.approx(grown.tangential_force, rel=1e-8)
+    assert grown.tangential_force == pytest.approx(sum(rates) * LOAD / 2)
+    r = full.contact_radius * np.linspace(0, 1, 60)
+    assert np.all(np.abs(grown.shear(r)) <= MU * full.pressure(r) * (1 + 1e-12))
+    at_once, again = (
+        GrownContact(contacts, (MU,) * len(contacts), E_ALIKE / G_STAR)
+        for contacts in ((full,), (half, full))
+    )
+    assert again.shift == pytest.approx(at_once.shift)
+    # At the friction limit the shift is that at gross slip (Cattaneo and Mindlin).
+    a = full.contact_radius
+    assert at_once.shift == pytest.approx(PartialSlip(LOAD, a, MU, G_STAR, 0.0).sliding_shift)
 
 
 # --- dimension and range

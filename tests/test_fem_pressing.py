@@ -224,7 +224,7 @@ def test_sliding_contact_carries_all_that_friction_can(law: Method) -> None:
 def test_gross_sliding_under_force_is_refused_by_name(law: Method) -> None:
     """Unloading by approach leaves too little pressure: nothing in the scene gives that away."""
     asked = scene(PRESS, push(0.5), {"approach": 0.2 * HERTZ.approach, "increments": 5})
-    with pytest.raises(GrossSliding, match="prescribe the shift") as caught:
+    with pytest.raises(GrossSliding, match="prescribe tangential_shift instead") as caught:
         solved(asked, law=law)
     assert caught.value.where.startswith("step 3, increment")
     assert caught.value.last_state.tangential_force == (0.5 * LIMIT, 0.0)

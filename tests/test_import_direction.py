@@ -145,6 +145,7 @@ ORDERS = {
         "augmented_lagrangian",
         "point_contact",
         "point_problem",
+        "free_motion",
         "increment",
         "increment_report",
         "method",
@@ -169,7 +170,7 @@ ORDERS = {
         *("on_cells", "on_elements", "on_radii", "stress_errors", "adaptive_refinement"),
     ),
     "verification.challenge": (
-        *("requested_quantities", "cases", "files", "judgement", "python_api"),
+        *("requested_quantities", "cases", "files", "solver_process", "python_api"),
     ),
     "slipstick": (
         *(
@@ -214,8 +215,12 @@ FORBIDDEN = {
     # It sees arrays and callables: a dense 4x4 matrix is as good an operator as any.
     "contact_solver": ("contact_scene",),
 }
-# Array types and errors are no part of a scene.
-BESIDE_THE_SCENE = ("contact_scene.array_types", "contact_scene.solver_errors")
+# Array types, errors and the comparison with the friction limit are no part of a scene.
+BESIDE_THE_SCENE = (
+    "contact_scene.array_types",
+    "contact_scene.friction_limit",
+    "contact_scene.solver_errors",
+)
 # What the radial solver has from the semi-analytical one: how layers answer one wavenumber.
 SHARED = "semi_analytical.frf"
 ONLY_SCRIPTS = ("tests", "examples")

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 from verification.challenge.cases import challenges
-from verification.challenge.python_api import named_solver
+from verification.challenge.python_api import judge
 from verification.problems.problem import HERTZ
 
 # pytester forgets what an inner run imports: what is imported here need not be made again.
 assert challenges()
-assert named_solver
+assert judge
 pytest_plugins = ["pytester"]
 SOLVER = f"""
 from verification import Answer, CannotDo
@@ -41,6 +41,14 @@ OUTCOMES = {
     "raises": (
         "def solve(problem, level):\n    return 1 / 0", "--slipstick", {"failed": 1},
         "*ZeroDivisionError*",
+    ),
+    "leaves": (
+        "import os\ndef solve(problem, level):\n    os._exit(0)", "--slipstick", {"failed": 1},
+        "*solve ended without an answer on level 0: exit code 0*",
+    ),
+    "is endless": (
+        "SECONDS = 0.5\ndef solve(problem, level):\n    while True: pass", "--slipstick",
+        {"failed": 1}, "*solve gave no answer on level 0 within 0.5 s*",
     ),
     "no challenge": ("CASES = ['hertz']", "--slipstick", {"errors": 1}, "*no challenge 'hertz'*"),
     "no solver": ("del solve", "--slipstick", {"errors": 1}, "*no solve; expected*"),

@@ -1,5 +1,6 @@
 """Tests of the plan of a run: required physical effects, and increments of the load steps."""
 
+from dataclasses import replace
 from math import sqrt
 
 import numpy as np
@@ -14,11 +15,13 @@ import fem_reference
 import radial
 from contact_scene import Body, Layer
 from contact_scene.body_pair import contact_modulus, outermost_beta
+from contact_scene.stepping.load_stepping import fractions
 from semi_analytical import Coupling, Result, SurfaceGrid, all_effects, plan, solve
 from semi_analytical.operator.domain import WINDOW
 from semi_analytical.plan import COMPUTED, MIRROR_PLANES
 
 ONE, MANY = False, True
+LEAST = 1e-3
 
 
 def effects(*loading, **more) -> dict[str, bool]:
@@ -56,7 +59,12 @@ def test_effects_follow_the_scene():
         pytest.param(
             (PRESS, {"normal_force": 500}, push(0.3)), (ONE, ONE, ONE), id="unloading before shear"
         ),
-        pytest.param(({**PRESS, **push(0.3)},), (MANY,), id="both at once"),
+        pytest.param(({**PRESS, **push(0.9)},), (ONE,), id="both at once"),
+        pytest.param(
+            (PRESS, push(0.9), {"normal_force": 2 * PRESS["normal_force"], **push(1.95)}),
+            (ONE, ONE, MANY),
+            id="growing by more than µW",
+        ),
     ],
 )
 def test_steps_are_cut_only_where_the_path_matters(loading, cut):
@@ -77,8 +85,8 @@ def test_a_strain_is_cut_where_friction_meets_it(of):
 
 def test_a_load_under_shear_is_cut_alike_there_and_back():
     half = {"normal_force": 0.5 * PRESS["normal_force"], **push(0.2)}
-    whole = {**PRESS, **push(0.3)}
-    *_, back, there = plan(scene(PRESS, push(0.3), half, whole)).increments
+    whole = {**PRESS, **push(0.9)}
+    *_, back, there = plan(scene(PRESS, push(0.9), half, whole)).increments
     assert back == there > 1
 
 
@@ -94,6 +102,28 @@ def test_increments_follow_the_stated_rules(loading, coefficient) -> None:
     """By the friction limit of the smaller load, and with all turns of the history."""
     counts = plan(scene(PRESS, *loading), 1e-3).increments
     assert counts[-1] == pytest.approx(1e3 * coefficient, abs=1.5)
+
+
+@pytest.mark.parametrize("of", [plan, fem_reference.plan, radial.plan])
+@pytest.mark.parametrize("indenter", [RIGID_BALL, paraboloid()], ids=["coupled", "uncoupled"])
+def test_unloading_to_almost_nothing_has_a_bounded_number_of_increments(of, indenter):
+    """T/µW of no state exceeds 1: its change is not measured by the friction limit at the end."""
+    unload = {"normal_force": 1e-6 * PRESS["normal_force"], "tangential_force": (0.0, 0.0)}
+    counts = of(scene(PRESS, push(0.3), unload, indenter=indenter)).increments
+    assert 20 <= counts[-1] <= 100
+
+
+@pytest.mark.parametrize(("least", "order"), [(0.0, 3), (1e-6, 3), (0.1, 3), (0.3, 1)])
+def test_increments_follow_small_loads_by_the_contact_radius(least, order):
+    """Uniform in W^(1/3) from and to loads below that of one increment, else in W."""
+    loads = least * PRESS["normal_force"], PRESS["normal_force"]
+    for end, start in (loads, loads[::-1]):
+        path = scene(PRESS, {"normal_force": start or LEAST}, {"normal_force": end}).load_path()
+        ramp = replace(path[-1], normal=replace(path[-1].normal, start=start))
+        parts = np.array([0.0, *fractions(scene(PRESS), ramp, 5)])
+        radii = np.cbrt if order == 3 else np.asarray
+        steps = np.diff(radii((start + parts * (end - start)) / loads[1]))
+        assert steps == pytest.approx(np.full(5, np.mean(steps)), rel=1e-6)
 
 
 def test_bodies_have_the_modulus_and_beta_of_their_outermost_layers():
@@ -156,7 +186,7 @@ STRONG = coupled_scene(PRESS, body=bulk(0.3), friction=0.3)
 PUSHED = coupled_scene(PRESS, free(0.6), body=bulk(0.3))
 COATED = coupled_scene(PRESS, free(0.9), body=coated(2.0))
 TURNING = scene(PRESS, push(0.5), push(0, 0.5))
-OBLIQUE = scene({**PRESS, **push(0.3)})
+OBLIQUE = scene({**PRESS, **slide(0.3)})
 
 
 def test_explicit_increments_win_over_every_law():

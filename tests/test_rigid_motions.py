@@ -191,7 +191,7 @@ def test_torque_beyond_friction_is_refused_with_its_limit():
 def test_force_and_torque_that_friction_carries_alone_may_be_too_much_together():
     end(PRESS, push(0.8))
     end(PRESS, twist(0.8))
-    with pytest.raises(GrossSliding, match=r"together reach the friction limit, which is 0\.\d+"):
+    with pytest.raises(GrossSliding, match=r"together exceed the friction limit, which is 0\.\d+"):
         end(PRESS, {**push(0.8), **twist(0.8), "increments": 1})
 
 

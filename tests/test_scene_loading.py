@@ -122,7 +122,7 @@ def test_loads_up_to_the_limit_and_shifts_of_any_size_are_allowed(
     assert len(scene(*steps).loading) == len(steps)
 
 
-@pytest.mark.parametrize("force", [100.0, 100.0 * (1 - 1e-7)])
+@pytest.mark.parametrize("force", [100.0, 100.0 * (1 - 1e-10)])
 def test_no_step_leaves_from_the_friction_limit(force: float) -> None:
     (problem,) = problems(
         {"normal_force": 1e3}, {"tangential_force": (force, 0)}, {"normal_force": 2e3}

@@ -206,6 +206,14 @@ def test_numbers_are_shown_with_their_unit(value: float | None, unit: str, text:
     assert value_text(value, unit) == text
 
 
+def test_number_of_few_digits_has_no_exponent_beside_a_prefix() -> None:
+    assert [value_text(x, "N", 2) for x in (0.1567, 0.0996, 0.9996)] == [
+        "160 mN",
+        "100 mN",
+        "1000 mN",
+    ]
+
+
 def test_plain_numbers_have_short_exponents() -> None:
     assert plain(2.79e-05) == "2.79e-5"
     assert plain(0.25) == "0.25"

@@ -8,10 +8,11 @@ import sys
 import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from threading import Thread
 
 import pytest
 from command import outcome
-from study_cases import Killed, Loop, Number, Refusing, Square
+from study_cases import Endless, Killed, Loop, Number, Refusing, Square
 
 from verification.running.case_pool import (
     OTHER_CODE,
@@ -138,8 +139,8 @@ def address() -> Iterator[str]:
 def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path: Path) -> None:
     cases = (Square(1.0), Refusing(20.0), Square(2.0), Killed(30.0), Square(3.0))
     store = CaseStore(tmp_path, Number)
-    ends = run_cases(cases, store, ClusterWorkers(address), lambda end: None)
-    dead = [warning for end in ends for warning in end.warnings]
+    dead: list[str] = []
+    ends = run_cases(cases, store, ClusterWorkers(address), lambda end: None, warn=dead.append)
     assert any(re.fullmatch(r"worker tcp://\S+ has died: its cases go to .*", one) for one in dead)
     values = {end.case.name: end.record.value for end in ends if isinstance(end.record, Number)}
     assert values == {"square-1": 1.0, "square-2": 4.0, "square-3": 9.0}
@@ -149,6 +150,37 @@ def test_cluster_gives_the_records_and_names_what_is_lost(address: str, tmp_path
     processes = {end.record.process for end in ends if isinstance(end.record, Number)}
     assert os.getpid() not in processes
     assert store.load(cases[0]) == ends[0].record
+
+
+@pytest.mark.slow
+def test_cluster_whose_workers_have_all_died_is_not_waited_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The dead worker is named while its case is open, and again as the reason of the loss."""
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr("verification.running.case_pool.SECONDS_WITHOUT_WORKER", 2)
+    told = tmp_path / "pid"
+    cases = (Square(1.0), Endless(str(told)), Square(2.0))
+    warned: list[str] = []
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, dashboard_address=None
+    ) as local:
+        (worker,) = (one.worker_address for one in local.workers.values())
+
+        def end_the_worker() -> None:
+            while not (told.exists() and told.read_text(encoding="ascii")):
+                time.sleep(0.05)
+            local.scale(0)
+
+        Thread(target=end_the_worker, daemon=True).start()
+        pool = ClusterWorkers(local.scheduler_address)
+        store = CaseStore(tmp_path / "cases", Number)
+        ends = run_cases(cases, store, pool, lambda end: None, warn=warned.append)
+    assert warned == [f"worker {worker} has died: its cases go to other workers"]
+    assert ends[0].record is not None
+    reasons = [end.lost.reason for end in ends[1:] if end.lost is not None]
+    assert len(reasons) == 2
+    assert all(one.startswith(f"no worker is left: {worker} died, and none") for one in reasons)
 
 
 @pytest.mark.slow

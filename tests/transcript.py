@@ -96,7 +96,6 @@ def _run(words: list[str], directory: Path) -> Iterator[str]:
             stack.enter_context(patch(f"contact_results.figures.{module}.save", _write_figure))
         pool = "verification.running.case_pool.LocalWorkers"
         stack.enter_context(patch(pool, lambda processes: ThisProcess()))
-        stack.enter_context(patch("verification.running.case_pool.as_completed", list))
         try:
             main(arguments) if program == "slipstick" else run_path(
                 arguments[0], run_name="__main__"

@@ -8,17 +8,16 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from verification.challenge.python_api import (
-        CannotDo,
-        judge,
-    )
+    from verification.challenge.python_api import judge
     from verification.challenge.requested_quantities import Answer, Field, Solver
+    from verification.challenge.solver_process import CannotDo, SolverFailed
 
-__all__ = ["Answer", "CannotDo", "Field", "Solver", "judge"]
+__all__ = ["Answer", "CannotDo", "Field", "Solver", "SolverFailed", "judge"]
 
 _PLACES = {
     "verification.challenge.requested_quantities": ("Answer", "Field", "Solver"),
-    "verification.challenge.python_api": ("CannotDo", "judge"),
+    "verification.challenge.python_api": ("judge",),
+    "verification.challenge.solver_process": ("CannotDo", "SolverFailed"),
 }
 
 

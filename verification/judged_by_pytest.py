@@ -1,8 +1,8 @@
 """Plugin of pytest that judges a solver on challenges, with one test per challenge.
 
 `pytest --slipstick` collects files `challenge_*.py`. They define `solve` and `CASES`, optionally
-`LEVELS`, `CLASS` and `SOLVER`, as `verification.judge` expects them, and `PARTIAL = True` if
-required numbers may be omitted.
+`LEVELS`, `CLASS`, `SOLVER` and `SECONDS`, as `verification.judge` expects them, and `PARTIAL =
+True` if required numbers may be omitted.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class SolverFile(pytest.File):
         """
         from contact_results.directory.atomic_file import Refused
         from verification.challenge.cases import challenges
-        from verification.challenge.python_api import module_of
+        from verification.challenge.solver_process import module_of
 
         module = module_of(self.path)
         for name in ("solve", "CASES"):
@@ -78,19 +78,26 @@ class ChallengeItem(pytest.Item):
         solve the problem. With --slipstick-strict, inconclusive verdicts and unsolvable problems
         fail as well.
         """
-        from verification.challenge.python_api import (
-            LEVELS,
-            CannotDo,
-            judge,
-        )
+        from verification.challenge.python_api import judge
+        from verification.challenge.solver_process import FORKS, CannotDo, SolverFailed
 
-        given = {name: getattr(self.module, name, None) for name in ("CLASS", "SOLVER")}
+        keywords = {
+            "LEVELS": "levels",
+            "CLASS": "at_least",
+            "SOLVER": "solver",
+            "SECONDS": "seconds",
+        }
+        given = {
+            key: vars(self.module)[one] for one, key in keywords.items() if one in vars(self.module)
+        }
         strict = bool(self.config.getoption("slipstick_strict"))
+        solve = self.module.solve if FORKS else f"{self.path}:solve"
         try:
-            levels = getattr(self.module, "LEVELS", LEVELS)
-            found = judge(self.name, self.module.solve, levels, given["CLASS"], given["SOLVER"])
+            found = judge(self.name, solve, **given)
         except CannotDo as reason:
             (pytest.fail if strict else pytest.skip)(f"cannot: {reason}")
+        except SolverFailed as reason:
+            pytest.fail(f"{self.name}: solve {reason}", pytrace=False)
         told = [
             f"{row.quantity}, step {row.step} (error {row.error}): {row.because}"
             for row in found.rows

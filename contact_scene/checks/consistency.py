@@ -11,6 +11,7 @@ from typing import Any
 from contact_scene.body import Body
 from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.friction import CoulombFriction
+from contact_scene.friction_limit import exceeds_limit, limit_of_step, reaches_limit
 from contact_scene.geometry import Indenter
 from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID
@@ -23,12 +24,6 @@ from contact_scene.stepping.load_path import (
     LoadRamp,
     load_path,
 )
-
-# Relative round-off of mu W, within which |T| is at the friction limit.
-_ROUND_OFF = 1e-12
-# Relative distance from the friction limit below which the shift is undefined: the stick zone
-# vanishes, and no further load step can start.
-_AT_THE_LIMIT = 1e-6
 
 _SHEARING = {
     "tangential_force": "a tangential load",
@@ -134,23 +129,19 @@ def _gross_sliding(
     ramps     load ramps of all load steps
     """
     for index, ramp in enumerate(ramps):
-        limit = (
-            friction.largest_tangential_force(ramp.normal.end)
-            if friction and ramp.normal.end
-            else None
-        )
-        if limit is None or ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tangential.kind):
+        limit = limit_of_step(friction, ramp)
+        if limit is None or not ramp.normal.end:
             continue
         force = math.hypot(*ramp.tangential.end)
         product = f"{limit / ramp.normal.end:.6g} * {ramp.normal.end:.6g} N"
         named_limit = f"the friction limit {limit:.6g} N (= {product})"
-        if force > limit * (1.0 + _ROUND_OFF):
+        if exceeds_limit(force, limit):
             yield Problem(
                 _key_of_shear(index, loading[index]),
                 f"tangential force {force:.6g} N exceeds {named_limit}: gross sliding",
                 hint="prescribe tangential_shift instead",
             )
-        elif 0.0 < limit * (1.0 - _AT_THE_LIMIT) <= force and index + 1 < len(ramps):
+        elif limit and reaches_limit(force, limit) and index + 1 < len(ramps):
             yield Problem(
                 _key_of_shear(index, loading[index]),
                 f"tangential force {force:.6g} N is at {named_limit}, where the shift is "

@@ -17,6 +17,7 @@ from contact_scene.checks.expected_contact import (
     ExpectedContact,
     estimate_contacts,
 )
+from contact_scene.friction_limit import step_at_limit, undefined_motion_warning
 from contact_scene.geometry import HeightMap
 from contact_scene.material import IsotropicMaterial
 from contact_scene.reading.array_file import ArrayFile
@@ -98,9 +99,11 @@ def implausible_input(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     scene     bodies, friction and loads
     fineness  discretisation tables of the scene file, by name
     """
+    at_limit = step_at_limit(scene.friction, scene.load_path())
     return (
         *unlikely_numbers(scene, **fineness),
         *_strain_warnings(tuple(estimate_contacts(scene))),
+        *([undefined_motion_warning(at_limit, "tangential_shift")] if at_limit else ()),
     )
 
 

@@ -14,6 +14,7 @@ from math import hypot
 from contact_scene.body_pair import coupling
 from contact_scene.material import IsotropicMaterial
 from contact_scene.scene import Scene
+from contact_scene.stepping.growing_contact import grows_without_slip
 from contact_scene.stepping.load_path import (
     ControlKind,
     LoadRamp,
@@ -28,9 +29,10 @@ NEAR_GROSS_SLIP = 0.99
 def has_increment_error(scene: Scene) -> tuple[bool, ...]:
     """Determine for each load step if its end state depends on the number of increments.
 
-    The result is False in three cases, which are proved:
+    The result is False for histories of the following load steps, which are proved:
 
     - No shear has acted so far, or there is no friction.
+    - The tangential load grows with the normal load by less than µ (`grows_without_slip`).
     - A torsion of bodies of revolution without tilt, under constant pressure, with uniform
       friction and without any other shear.
     - A straight push at constant pressure of two uncoated bodies of one material with ν = 0.
@@ -68,9 +70,9 @@ def near_gross_slip(scene: Scene) -> tuple[bool, ...]:
 def _is_independent_of_increments(scene: Scene, ramps: Sequence[LoadRamp]) -> bool:
     """Determine if the end state of a load history is proved not to depend on the increments.
 
-    The proof covers histories without shear, and two cases at constant pressure: torsion of bodies
-    of revolution, and a straight tangential load on equal bodies without layers and with Poisson's
-    ratio 0.
+    The proof covers histories without shear, loads that grow together without slip, and two cases
+    at constant pressure: torsion of bodies of revolution, and a straight tangential load on equal
+    bodies without layers and with Poisson's ratio 0.
 
     scene  bodies and friction
     ramps  load ramps of the history, one for each load step up to this state
@@ -84,9 +86,11 @@ def _is_independent_of_increments(scene: Scene, ramps: Sequence[LoadRamp]) -> bo
         return False
     if not sheared:
         return True
+    slipping = [r for r in ramps[sheared[0].step - 1 :] if not grows_without_slip(scene, r)]
+    if not slipping:
+        return True
     constant = all(
-        r.normal.start == r.normal.end and r.tilting.start == r.tilting.end
-        for r in ramps[sheared[0].step - 1 :]
+        r.normal.start == r.normal.end and r.tilting.start == r.tilting.end for r in slipping
     )
     if not constant:
         return False

@@ -235,21 +235,28 @@ def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
     """Compute the fractions of a load ramp at which its increments end.
 
     A load ramp is the linear change of the loads in a load step. The increments are uniform in the
-    contact radius if the normal load starts or ends at 0, else uniform in the load.
+    contact radius if the normal load starts or ends below its change in one increment, such as at
+    0, else uniform in the load.
 
     scene    contact problem with the shape of the indenter
     ramp     load ramp of the load step
     count    number of increments
     returns  fractions in ascending order; the last is 1
     """
-    exponent = None
-    falls = ramp.normal.end == 0
-    if ramp.normal.start == 0 or falls:
-        exponent = scene.indenter.gap_exponent
-        if exponent is not None and ramp.normal.kind is ControlKind.FORCE:
-            exponent += 1
-    radii = [(k / count) ** (exponent or 1) for k in range(count + 1)]
-    return [1 - radius for radius in radii[-2::-1]] if falls else radii[1:]
+    start, end = ramp.normal.start, ramp.normal.end
+    if start is None:
+        start = end or 1.0
+    less, more = min(start, end), max(start, end)
+    if less > (more - less) / count:
+        return [k / count for k in range(1, count + 1)]
+    exponent = scene.indenter.gap_exponent
+    if exponent is not None and ramp.normal.kind is ControlKind.FORCE:
+        exponent += 1
+    power, share = exponent or 1, less / (more or 1.0)
+    least = share ** (1 / power)
+    loads = [(least + (1 - least) * k / count) ** power for k in range(1, count)]
+    parts = [(load - share) / (1 - share) for load in loads]
+    return [1 - part for part in reversed([0.0, *parts])] if end == less else [*parts, 1.0]
 
 
 def _solve_with_bisection(

@@ -1,41 +1,14 @@
-"""Friction limit of a whole contact: comparison with the tangential load, and contact status."""
+"""Contact status of a whole contact: stick and slip at its points, and its friction limit."""
 
 import numpy as np
 
 from contact_scene.array_types import Mask
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.solver_errors import GrossSliding
 
-# Relative distance from the friction limit within which a load counts as gross slip. The radius of
-# the remaining stick zone is 1 % of the contact radius (the cube root), less than an element.
-AT_LIMIT = 1e-6
-
-
-def reaches_limit(load: float | None, capacity: float) -> bool:
-    """Return True if a tangential load reaches the friction limit of a contact (gross slip).
-
-    The load counts as reaching the limit if it differs from the largest load that friction can
-    carry by less than the relative amount AT_LIMIT, or exceeds this load.
-
-    load      tangential force or torque; None if the motion is prescribed, then the result is False
-    capacity  largest force or torque that friction can carry under the present pressure
-    """
-    return load is not None and abs(load) >= capacity * (1 - AT_LIMIT)
-
-
-def refuse_beyond_limit(load: float | None, capacity: float) -> None:
-    """Raise GrossSliding if a prescribed tangential force or torque exceeds the friction limit.
-
-    No equilibrium exists then. A relative excess up to AT_LIMIT is allowed.
-
-    load      tangential force or torque; None if the motion is prescribed
-    capacity  largest force or torque that friction can carry under the present pressure
-    """
-    if load is not None and abs(load) > capacity * (1 + AT_LIMIT):
-        raise GrossSliding(
-            f"tangential force or torque {abs(load):.6g} exceeds the friction limit "
-            f"{capacity:.6g}: gross sliding; prescribe the shift or twist instead"
-        )
+# Relative distance from the friction limit within which the load counts as gross sliding if no
+# point sticks. The radius of a stick zone hidden between the points is 1 % of the contact radius
+# (the cube root), less than an element.
+SLIDING = 1e-6
 
 
 def contact_status(
@@ -54,6 +27,6 @@ def contact_status(
     if np.any(stuck):
         whole = np.array_equal(stuck, loaded)
         return ContactStatus.FULL_STICK if whole else ContactStatus.PARTIAL_SLIP
-    if carried is not None and reaches_limit(carried, capacity):
+    if carried is not None and abs(carried) >= capacity * (1 - SLIDING):
         return ContactStatus.GROSS_SLIDING
     return ContactStatus.NO_STICK_AREA_LEFT

@@ -10,13 +10,15 @@ import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.friction import sliding_friction
+from contact_scene.friction_limit import reaches_limit, refuse_above_limit
 from contact_scene.quantities.residuals import (
     Residuals,
     ShearResiduals,
 )
 from contact_scene.solver_errors import NotConverged, NothingTouches, motion_undefined
 from fem_reference.contact.augmented_lagrangian import repeat_passes
-from fem_reference.contact.friction_limit import contact_status, refuse_beyond_limit
+from fem_reference.contact.free_motion import free_motion
+from fem_reference.contact.friction_limit import contact_status
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_problem import PointProblem, PointSolution, solve_points
 from fem_reference.contact.point_state import PointState
@@ -54,17 +56,33 @@ def advance(
     """
     _refuse_unresolved(contact, loads)
     before = before or contact.state_before_contact()
-    if before.motion is None:
+    if before.motion is None and not _is_at_limit(contact, loads):
         raise motion_undefined()
     increment = _Increment(contact, before, loads, tolerance)
-    passes = [increment.first_pass()]
-    if contact.penalty is not None:
-        # With stiff springs at Gauss points, one update is necessary for the accuracy of the mesh.
-        fewest = int(contact.at_gauss_points)
-        passes = repeat_passes(
-            passes[0], increment.next_pass, increment.penalty_error, contact.penalty, fewest
-        )
+    passes = increment.all_passes()
+    if before.motion is None:
+        return increment.end_state(passes)
+    solution = passes[-1].solution
+    free = free_motion(contact, before, loads, solution.pressure, solution.approach)
+    if free is not None:
+        increment = replace(increment, free=free)
+        passes = increment.all_passes()
     return increment.end_state(passes)
+
+
+def _is_at_limit(contact: PointContact, loads: Loads) -> bool:
+    """Return True if the prescribed tangential force is at the friction limit µW.
+
+    The result is False if the friction limit depends on the pressure, as for a torque.
+
+    contact  contact problem, with the friction law
+    loads    prescribed loads at the end of the increment
+    """
+    load, W = loads.tangential.load, loads.normal.force
+    if load is None or W is None or contact.rings.path is Path.TWISTING:
+        return False
+    limit = contact.friction.largest_tangential_force(W)
+    return limit is not None and reaches_limit(abs(load), limit)
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
@@ -165,12 +183,26 @@ class _Increment:
     before     contact state at the start of the increment
     loads      prescribed loads or motions at the end of the increment
     tolerance  upper limit of every residual [1]
+    free       free motion of points until their contact (2, points) [length]; 0 without
     """
 
     contact: PointContact
     before: PointState
     loads: Loads
     tolerance: float
+    free: Field | float = 0.0
+
+    def all_passes(self) -> list[_Pass]:
+        """Solve the contact problem of the increment in all its penalty passes.
+
+        The exact law has one pass.
+        """
+        first, penalty = self.first_pass(), self.contact.penalty
+        if penalty is None:
+            return [first]
+        # With stiff springs at Gauss points, one update is necessary for the accuracy of the mesh.
+        fewest = int(self.contact.at_gauss_points)
+        return repeat_passes(first, self.next_pass, self.penalty_error, penalty, fewest)
 
     def first_pass(self) -> _Pass:
         """Solve the contact problem of the increment with the initial penalty multipliers.
@@ -330,6 +362,7 @@ class _Increment:
             contact.gap - compliance.springs * multiplier[2],
             contact.friction,
             memory
+            + self.free
             - (before.motion or 0.0) * compliance.motion
             - (loads.strain - before.strain) * compliance.stretch,
             loads.normal,
@@ -343,7 +376,7 @@ class _Increment:
                 outer_iterations + solution.outer_iterations,
                 solves + solution.solves,
             )
-            refuse_beyond_limit(loads.tangential.load, problem.capacity(solution.pressure))
+            self._refuse_above_limit(problem.capacity(solution.pressure))
             done = self._judge_solution(problem, solution, multiplier, outer_iterations, solves)
             if done.residuals.worst <= self.tolerance:
                 return done
@@ -351,6 +384,16 @@ class _Increment:
             motion = motion if solution.shift is None else solution.shift
             aim *= 0.1
         raise NotConverged("the increment", solves, done.residuals.worst, self.tolerance)
+
+    def _refuse_above_limit(self, capacity: float) -> None:
+        """Raise GrossSliding if friction cannot carry the prescribed tangential load or torque.
+
+        capacity  largest load that friction can carry under the solved pressure
+        """
+        load = abs(self.loads.tangential.load or 0.0)
+        if load:
+            both = (0.0, load) if self.contact.rings.path is Path.TWISTING else (load, 0.0)
+            refuse_above_limit(*both, capacity / load)
 
     def _judge_solution(
         self,

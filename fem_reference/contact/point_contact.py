@@ -10,6 +10,7 @@ from contact_scene.body_pair import contact_modulus
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
+from contact_scene.rig import compliances
 from fem_reference.compliance.angular_grid import AngularGrid
 from fem_reference.compliance.point_compliance import PointCompliance
 from fem_reference.compliance.ring_compliance import (
@@ -33,11 +34,13 @@ class PointContact:
     compliance  displacement of all points per traction on all points
     friction    Coulomb friction between the surfaces
     penalty     parameters of the penalty law; None for the exact laws of Signorini and Coulomb
+    rig         compliances of the springs of a test rig, normal and tangential [length/force]
     """
 
     compliance: PointCompliance
     friction: CoulombFriction
     penalty: Penalty | None = None
+    rig: tuple[float, float] = (0.0, 0.0)
 
     @property
     def rings(self) -> RingCompliance:
@@ -137,4 +140,4 @@ def point_contact(
         springs = 1 / penalty.stiffness(contact_modulus(model.scene), edge)
     compliance = PointCompliance(rings, grid, springs)
     friction = FRICTIONLESS if path is Path.PRESSING else model.friction
-    return PointContact(compliance, friction, penalty)
+    return PointContact(compliance, friction, penalty, compliances(model.scene.rig))

@@ -9,11 +9,15 @@ from contact_scene.body import Body
 from contact_scene.material import IsotropicMaterial
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 
-GROWTH = 1.2
-"""Ratio of the sizes of neighbouring elements outside the contact zone."""
+GROWTH, GROWTH_SIZE = 1.2, 1.0 / 32
+"""Ratio of the sizes of neighbouring elements outside the contact zone, if those of the zone have
+the side GROWTH_SIZE, in contact radii, that of the default number of elements."""
 
 CONTACT_ZONE = 1.1
 """Least outer radius of the zone of equal elements, in contact radii."""
+
+LARGEST_GROWTH = 1.35
+"""Largest ratio of the sizes of neighbouring elements, for fewer than 12 elements per radius."""
 
 LAYER_ELEMENTS = 2
 """Least number of elements across a layer. Two elements have five nodes. They suffice for bending
@@ -149,15 +153,18 @@ def _stiffness_difference(layer: IsotropicMaterial, substrate: IsotropicMaterial
 def graded_lines(start: float, end: float, origin: float, size: float) -> NDArray[np.float64]:
     """Compute the coordinates of graded mesh lines between two ends, both included.
 
-    The sizes of neighbouring elements grow by about the factor GROWTH with the distance from
-    `origin`. There are at least LAYER_ELEMENTS elements.
+    The sizes of neighbouring elements grow by about one factor with the distance from `origin`. Its
+    logarithm is proportional to the root of `size`, so that a refinement of the contact zone
+    refines all elements: quadratic elements whose size is a fraction s of their distance cause an
+    error ~ s^4 of the compliance, which falls like the error ~ size^2 of the contact. There are at
+    least LAYER_ELEMENTS elements.
 
     start, end  coordinates of the first and the last line
     origin      coordinate at which elements have the size `size`; it may be outside of the interval
     size        element size at `origin`
     """
-    slope = np.log(GROWTH)
-    reach = size * slope / (GROWTH - 1.0)
+    slope = min(np.log(LARGEST_GROWTH), np.log(GROWTH) * np.sqrt(size / GROWTH_SIZE))
+    reach = size * slope / np.expm1(slope)
     lower, upper = np.log(reach + slope * (np.array([start, end]) - origin)) / slope
     count = max(LAYER_ELEMENTS, int(np.ceil(upper - lower - 1e-9)))
     lines = origin + (np.exp(slope * np.linspace(lower, upper, count + 1)) - reach) / slope

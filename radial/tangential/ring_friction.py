@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +23,8 @@ from scipy.optimize import minimize
 
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
-from contact_scene.solver_errors import ContactAtZoneEdge, GrossSliding, NotConverged
+from contact_scene.friction_limit import reaches_limit, refuse_above_limit
+from contact_scene.solver_errors import ContactAtZoneEdge, NotConverged, motion_undefined
 from radial.tangential.ring_laws import (
     ContactLaws,
     NewtonIterate,
@@ -34,6 +36,7 @@ from radial.tangential.ring_state import (
     TORSION,
     Loads,
     PointState,
+    resultant_loads,
 )
 
 MAX_STEPS = 60
@@ -46,6 +49,9 @@ FURTHEST = 4.0
 # counts as slipping: it begins to slip, or slipped before. The tolerance of Newton's method is 100
 # times smaller.
 TIE = 1e-9
+# Slip in gross slip over the approach. The direction of the shear deviates from that of the rigid
+# motion by less than the inverse of this number, which is below every tolerance.
+FAR = 1e13
 AT_ONCE = 12  # number of first Newton steps without line search, which find the slip zone sooner
 
 
@@ -56,6 +62,7 @@ def solve_increment(
     before: PointState | None,
     tolerance: float,
     smooth: Array | None = None,
+    free: Array | None = None,
 ) -> PointState:
     """Solve contact and friction at points on rings at the end of an increment of the loads.
 
@@ -67,32 +74,94 @@ def solve_increment(
     loads      prescribed loads and rigid motions at the end of the increment
     before     state at the start of the increment; None before first contact
     tolerance  bound of the residual relative to the largest pressure, friction limit and loads
-    smooth     tractions and rigid motion of the frictionless contact, as an initial guess
+    smooth     tractions and rigid motion of a similar contact, as the first initial guess
                (3 N + 4,) for N points; None if unknown
-    raises     NotConverged; GrossSliding if the tangential force reaches the friction limit, or if
-               tangential force and torque exceed the limit load of the contact without them;
-               ContactAtZoneEdge if the contact reaches the last ring
+    free       free motion of points until their contact, times areas (2 N,); None without
+    raises     NotConverged; GrossSliding if the tangential force exceeds the friction limit, if
+               tangential force and torque reach the limit load of the contact without them, or
+               below the limit after an increment at it; ContactAtZoneEdge if the contact reaches
+               the last ring
     """
     force, W = float(np.hypot(*_prescribed_shear_loads(loads)[:2])), loads.forces[NORMAL]
     most = None if W is None else friction.largest_tangential_force(W)
-    if force and most is not None and force >= most:
-        raise _gross_sliding_error(force, most)
-    laws = ContactLaws.of(points, friction, loads, before)
+    laws = ContactLaws.of(points, friction, loads, before, free)
+    if force and most is not None and reaches_limit(force, most):
+        refuse_above_limit(force, 0.0, most / force)
+        if not loads.forces[TORSION]:
+            return _gross_slip(laws, before, tolerance, smooth, _prescribed_shear_loads(loads))
+    if before is not None and before.slides:
+        raise motion_undefined()
     for x in _initial_guesses(laws, before, tolerance, smooth):
-        at = laws.evaluate(x, points.compliance @ x[:-4])
-        for step in range(MAX_STEPS):
-            if at.worst <= tolerance:
-                return _end_state(laws, at, before, step)
-            # An iteration with a singular system diverges to infinite numbers.
-            with np.errstate(over="ignore", invalid="ignore"):
-                aim = newton_iterate(laws, at)
-                if aim is None:
-                    break
-                aim = _limit_motion(laws, at, aim)
-                at = _line_search(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
+        at, step = _iterate(laws, x, tolerance)
+        if at.worst <= tolerance:
+            return _end_state(laws, at, before, step)
     if np.any(_prescribed_shear_loads(loads)):
-        _refuse_sliding(points, friction, loads, before, tolerance)
+        sliding = _gross_slip_motion(points, friction, loads, before, tolerance)
+        if sliding is not None:
+            return _gross_slip(laws, before, tolerance, smooth, sliding)
     raise NotConverged("contact and friction on rings", MAX_STEPS, at.worst, tolerance)
+
+
+def _iterate(laws: ContactLaws, x: Array, tolerance: float) -> tuple[NewtonIterate, int]:
+    """Apply Newton's method from an initial guess, until its residual meets the tolerance.
+
+    Return the last iterate, which may exceed the tolerance, and the number of Newton steps.
+
+    laws       contact and friction laws of the increment
+    x          initial guess of tractions and rigid motion (3 N + 4,) for N points
+    tolerance  bound of the residual
+    """
+    at = laws.evaluate(x, laws.points.compliance @ x[:-4])
+    for step in range(MAX_STEPS):
+        if at.worst <= tolerance:
+            return at, step
+        # An iteration with a singular system diverges to infinite numbers.
+        with np.errstate(over="ignore", invalid="ignore"):
+            aim = newton_iterate(laws, at)
+            if aim is None:
+                break
+            aim = _limit_motion(laws, at, aim)
+            at = _line_search(laws, at, aim, SHORTEST if step >= AT_ONCE else 1.0)
+    return at, MAX_STEPS
+
+
+def _gross_slip(
+    laws: ContactLaws,
+    before: PointState | None,
+    tolerance: float,
+    smooth: Array | None,
+    sliding: Array,
+) -> PointState:
+    """Solve the contact under tangential loads at the friction limit, with undefined motion.
+
+    All points slip in a rigid motion. The slip is `FAR` times the approach, so that the
+    displacements of the surfaces do not change its direction.
+
+    laws       contact and friction laws of the increment
+    before     state at the start of the increment; None before first contact
+    tolerance  bound of the residual
+    smooth     tractions and rigid motion of the frictionless contact (3 N + 4,); None if unknown
+    sliding    rigid slip of any size: shifts along θ = 0 and across it, and twist (3,)
+    raises     NotConverged
+    """
+    if before is not None:
+        guess = np.append(before.tractions, before.motion)
+    else:
+        guess = laws.guess_closed_gap() if smooth is None else smooth
+    speed = np.hypot(*sliding[:TORSION]) + laws.points.radii[-1] * abs(sliding[TORSION])
+    away = np.append(-FAR * abs(guess[-1]) / speed * sliding, 0.0)
+    held = laws.loads.hold_motion(np.zeros(NORMAL))
+    free = replace(laws, loads=held, moved=np.zeros_like(laws.moved), motion=away)
+    guess[-4:-1] = held.motions[:NORMAL]
+    at, step = _iterate(free, guess, tolerance)
+    if at.worst > tolerance:
+        raise NotConverged("contact and friction on rings", step, at.worst, tolerance)
+    end = _end_state(free, at, before, step)
+    given = _prescribed_shear_loads(laws.loads)
+    carried = resultant_loads(laws.points, end.tractions)[:NORMAL]
+    share = min(1.0, float(given @ given / abs(carried @ given)))
+    tractions = np.append(share * end.shear.ravel(), end.pressure)
+    return replace(end, tractions=tractions, slides=True)
 
 
 def _initial_guesses(
@@ -100,7 +169,7 @@ def _initial_guesses(
 ) -> Iterator[Array]:
     """Yield initial guesses of tractions and rigid motion for Newton's method, the best first.
 
-    Before first contact the guesses are the frictionless state and a state with closed gap. Later
+    The first guess is `smooth`. Before first contact the next is a state with closed gap. Later
     they are the extrapolated last increment, the state at the start of the increment, and a state
     solved with the rigid motion at the start. The last guess helps if all points slip during the
     iteration, because the motion under a prescribed force is then undetermined. A guess is an array
@@ -109,11 +178,11 @@ def _initial_guesses(
     laws       contact and friction laws of the increment
     before     state at the start of the increment; None before first contact
     tolerance  bound of the residual of the state that is solved for the last guess
-    smooth     tractions and rigid motion of the frictionless contact; None if unknown
+    smooth     tractions and rigid motion of a similar contact; None if unknown
     """
+    if smooth is not None:
+        yield smooth
     if before is None:
-        if smooth is not None:
-            yield smooth
         yield laws.guess_closed_gap()
         return
     yield from laws.initial_guesses(before)
@@ -135,14 +204,17 @@ def _prescribed_shear_loads(loads: Loads) -> Array:
     return np.array([force or 0.0 for force in loads.forces[:NORMAL]])
 
 
-def _refuse_sliding(
+def _gross_slip_motion(
     points: ContactPoints,
     friction: CoulombFriction,
     loads: Loads,
     before: PointState | None,
     tolerance: float,
-) -> None:
-    """Raise GrossSliding if the prescribed tangential force and torque reach the limit load.
+) -> Array | None:
+    """Return the rigid slip under tangential loads at the limit load; None below the limit.
+
+    The components are the shifts along θ = 0 and across it, and the twist (3,), of any size. Raise
+    GrossSliding above the limit.
 
     At the limit load all points slip. The limit load is computed with the friction limit µp of the
     contact without tangential force and torque. Called after Newton's method has failed, because no
@@ -158,21 +230,10 @@ def _refuse_sliding(
     given = _prescribed_shear_loads(loads)
     limit = friction.limit(np.maximum(normal_contact.pressure, 0.0))
     free = np.array([force is not None for force in loads.forces[:NORMAL]])
-    times = limit_load_factor(points, limit, given, free)
-    if times > 1:
-        return
+    times, sliding = limit_load(points, limit, given, free)
     force, torque = float(np.hypot(*given[:2])), abs(given[TORSION])
-    if not torque:
-        raise _gross_sliding_error(force, times * force)
-    if not force:
-        raise GrossSliding(
-            f"torque {torque:.6g} N m, but friction carries less than {times * torque:.6g} N m. "
-            "Reduce it, or prescribe the twist"
-        )
-    raise GrossSliding(
-        f"friction carries {times:.4g} times T = {force:g} N with a torque of {torque:g} N m: "
-        "the indenter slides and rotates. Reduce them, or prescribe shift and twist"
-    )
+    refuse_above_limit(force, torque, times)
+    return sliding if reaches_limit(1.0, times) else None
 
 
 def _limit_motion(laws: ContactLaws, at: NewtonIterate, aim: Array) -> Array:
@@ -221,18 +282,6 @@ def _line_search(
     return trial
 
 
-def _gross_sliding_error(force: float, carried: float) -> GrossSliding:
-    """Create the error GrossSliding for a tangential force that friction cannot carry.
-
-    force    prescribed tangential force [N]
-    carried  friction limit of the tangential force [N]
-    """
-    return GrossSliding(
-        f"T = {force:g} N is not below the friction limit {carried:g} N: the indenter slides. "
-        "Reduce it, or prescribe the shift"
-    )
-
-
 def _end_state(
     laws: ContactLaws, at: NewtonIterate, before: PointState | None, steps: int
 ) -> PointState:
@@ -265,10 +314,12 @@ def _end_state(
     )  # fmt: skip
 
 
-def limit_load_factor(
+def limit_load(
     points: ContactPoints, limit: Array, given: Array, free: NDArray[np.bool_]
-) -> float:
+) -> tuple[float, Array]:
     """Compute the factor on given tangential force and torque at which gross slip begins [1].
+
+    The second result is the rigid slip: shifts along θ = 0 and across it, and twist (3,).
 
     At gross slip all points slip in a rigid motion. The factor is the least dissipation of a rigid
     slip on which the given loads do unit work (upper bound theorem of limit analysis; Goyal, Ruina
@@ -286,6 +337,13 @@ def limit_load_factor(
     loads_size = np.linalg.norm(loads)
     across = null_space(loads[None])
 
+    def rigid_slip(part: Array) -> Array:
+        """Return the free components of a rigid slip on which the given loads do unit work.
+
+        part  components of the rigid slip on which the loads do no work
+        """
+        return loads / loads_size**2 + across @ part / loads_size
+
     def rigid_slip_work(part: Array) -> float:
         """Return the dissipation of a rigid slip on which the given loads do unit work [1].
 
@@ -293,13 +351,12 @@ def limit_load_factor(
 
         part  components of the rigid slip on which the loads do no work
         """
-        motion = loads / loads_size**2 + across @ part / loads_size
-        return float(limit @ np.hypot(*(motion @ motions).reshape(2, -1)))
+        return float(limit @ np.hypot(*(rigid_slip(part) @ motions).reshape(2, -1)))
 
-    start = np.zeros(across.shape[1])
-    if not len(start):
-        return rigid_slip_work(start)
-    found = minimize(
-        rigid_slip_work, start, method="Nelder-Mead", options={"xatol": DIGITS, "fatol": DIGITS}
-    )
-    return float(found.fun)
+    least = np.zeros(across.shape[1])
+    if len(least):
+        options = {"xatol": DIGITS, "fatol": DIGITS}
+        least = minimize(rigid_slip_work, least, method="Nelder-Mead", options=options).x
+    sliding = np.zeros(NORMAL)
+    sliding[free] = units * rigid_slip(least)
+    return rigid_slip_work(least), sliding

@@ -67,7 +67,8 @@ class ContactLaws:
     points    points of the contact (rings × angles) and their compliance matrix
     friction  friction law
     loads     prescribed loads and rigid motions of the indenter at the end of the increment
-    moved     displacements u_r, u_θ times areas at the start of the increment (2 N,) [length³]
+    moved     displacements u_r, u_θ times areas at the start of the increment, plus the free motion
+              of points until their contact (2 N,) [length³]
     motion    rigid motion at the start of the increment: shifts along θ = 0 and across it, twist,
               approach (4,) [length, radian]
     """
@@ -85,6 +86,7 @@ class ContactLaws:
         friction: CoulombFriction,
         loads: Loads,
         before: PointState | None,
+        free: Array | None = None,
     ) -> ContactLaws:
         """Create the equations of contact and friction of one increment at points on rings.
 
@@ -92,10 +94,12 @@ class ContactLaws:
         friction  friction law
         loads     prescribed loads and rigid motions of the indenter at the end of the increment
         before    state at the start of the increment; None before first contact
+        free      free motion of points until their contact, times areas (2 N,); None without
         """
+        moved = np.zeros(2 * len(points.areas)) if free is None else free
         if before is None:
-            return cls(points, friction, loads, np.zeros(2 * len(points.areas)), np.zeros(4))
-        return cls(points, friction, loads, before.moved, before.motion)
+            return cls(points, friction, loads, moved, np.zeros(4))
+        return cls(points, friction, loads, before.moved + moved, before.motion)
 
     def guess_closed_gap(self) -> Array:
         """Return an initial guess of tractions and rigid motion for the first contact (3 N + 4,).
@@ -192,7 +196,7 @@ class ContactLaws:
         """Return the slip of the increment at all N points, times their areas (2 N,) [length³].
 
         The slip is the change of the tangential surface displacement (components r, θ) minus the
-        change of the rigid shift and twist.
+        change of the rigid shift and twist, and minus the free motion.
 
         u       displacements r, θ, z times areas at the end of the increment (3 N,) [length³]
         motion  rigid motion at the end: shifts along θ = 0 and across it, twist, approach (4,)

@@ -72,6 +72,7 @@ class PointState:
     residual        residual of the contact and friction laws over the largest pressure, friction
                     limit and load [1]
     steps           number of Newton steps of the solve
+    slides          true at the friction limit under force control: shifts and slip are undefined
     """
 
     tractions: Array
@@ -83,6 +84,7 @@ class PointState:
     energy: float
     residual: float
     steps: int
+    slides: bool = False
 
     @property
     def pressure(self) -> Array:

@@ -54,8 +54,9 @@ class TangentialState:
     slip           slip since first contact of the particles (2, N) [length]
     carried        resultants of the tractions: tangential force along θ = 0 and across it, torque,
                    normal force (4,)
-    work           work of the loads since the start of the history [force length]
-    dissipated     energy dissipated since the start of the history [force length]
+    work           work of the loads since the start of the history [force length]; None after an
+                   increment at the friction limit under force control, where the shift is undefined
+    dissipated     energy dissipated since the start of the history [force length]; None like `work`
     uncertainty    uncertainty of `dissipated` by finite increments [force length]
     """
 
@@ -68,8 +69,8 @@ class TangentialState:
     stick_radius: float | None
     slip: Array
     carried: Array
-    work: float
-    dissipated: float
+    work: float | None
+    dissipated: float | None
     uncertainty: float
 
     @property
@@ -95,9 +96,11 @@ class TangentialState:
         """Contact status: full stick, partial slip, gross slip, or no stick area left.
 
         If points slip and the rings do not resolve the stick zone, the status is partial slip. If
-        all points slip, the status is gross slip under a prescribed shift or twist, otherwise no
-        stick area left.
+        all points slip, the status is gross slip at the friction limit and under a prescribed shift
+        or twist, otherwise no stick area left.
         """
+        if self.end.slides:
+            return ContactStatus.GROSS_SLIDING
         share = self.end.share[np.isfinite(self.end.share)]
         if np.all(share <= 1):
             return ContactStatus.FULL_STICK
@@ -143,28 +146,40 @@ def tangential_state(
     share = contact_fraction(np.repeat(points.radii, points.count), start_radius, radius) * (
         end.pressure > 0
     )
-    passed = -end.slip_increment.reshape(2, -1) / areas * share
+    slips = end.share > 1
+    passed = np.zeros((2, len(areas)))
+    if not end.slides:
+        passed = -end.slip_increment.reshape(2, -1) / areas * np.where(slips, share, 0.0)
     start = last.shear if last else np.zeros((2, len(nothing)))
     limits = (friction.limit(last.pressure) if last else nothing), friction.limit(end.pressure)
     rubbing = sliding_friction(start, end.shear, passed, *limits)
     forces, motion = resultant_loads(points, end.tractions), last.motion if last else np.zeros(4)
     both = forces + (before.carried if before else 0.0)
     stick_through = None
-    if smooth is None:
+    if end.slides:
+        stick_through = 0.0
+    elif smooth is None:
         area = points.stick_area(end.share, end.shear, limits[1])
-        stick_through = sqrt(min(area / pi, radius**2))
-    turned = points.circle is not RingAngles.ONE or end.motion[TORSION] != motion[TORSION]
+        all_stick = not np.any(slips & (end.pressure > 0))
+        stick_through = radius if all_stick else sqrt(min(area / pi, radius**2))
+    turned = (
+        end.slides or points.circle is not RingAngles.ONE or end.motion[TORSION] != motion[TORSION]
+    )
     stick_radius = stick_through
     if not (turned or stick_through is None or before is None or before.stick_through is None):
         stick_radius = extrapolate_stick_radius(
             radius, start_radius, stick_through, before.start_radius, before.stick_through
         )
+    work, dissipated = (before.work, before.dissipated) if before else (0.0, 0.0)
+    if end.slides or work is None or dissipated is None:
+        work = dissipated = None
+    else:
+        work += 0.5 * float(both @ (end.motion - motion))
+        dissipated += float(np.sum(rubbing * passed, axis=0) @ areas)
     open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
     return TangentialState(
         end, points.circle, prescribed, radius, start_radius, stick_through, stick_radius,
-        slip - passed, forces,
-        (before.work if before else 0.0) + 0.5 * float(both @ (end.motion - motion)),
-        (before.dissipated if before else 0.0) + float(np.sum(rubbing * passed, axis=0) @ areas),
+        slip - passed, forces, work, dissipated,
         (before.uncertainty if before else 0.0) + float(open_ @ areas),
     )  # fmt: skip
 
@@ -200,7 +215,7 @@ def residuals_of(
         penetration=end.residual,
         normal_equilibrium=None if force is None else abs(W / force - 1),
         friction_cone=max(0.0, float(np.max(np.hypot(*end.shear) - limit)) / np.max(limit)),
-        slip_direction=(most + against) / most if most > 0 else 0.0,
+        slip_direction=None if end.slides else (most + against) / most if most > 0 else 0.0,
         tangential_equilibrium=float(np.linalg.norm(drag) / (points.areas @ limit))
         if drag
         else None,

@@ -34,6 +34,7 @@ from radial.output_points import (
 )
 from radial.plan import ELSEWHERE, Plan
 from radial.response.bodies import Bodies
+from radial.tangential.free_motion import growth_without_slip
 from radial.tangential.ring_friction import (
     MAX_STEPS,
     solve_increment,
@@ -44,6 +45,7 @@ from radial.tangential.ring_state import (
     NORMAL,
     TORSION,
     Loads,
+    PointState,
 )
 from radial.tangential.tangential_increment import (
     TangentialState,
@@ -209,7 +211,9 @@ class TangentialSteps(StepsOnRings):
         raises    NotConverged, GrossSliding and ContactAtZoneEdge
         """
         start_loads = (start.forces, start.motions) if start else (NOTHING, NOTHING)
-        since = self._scene_components(start_loads[0]), self._scene_components(start_loads[1])
+        shift = self._scene_components(start_loads[1])
+        undefined = start is not None and start.end.slides
+        since = self._scene_components(start_loads[0]), None if undefined else shift
         tangential = [
             self._load_components(vector) for vector in ramp.tangential.prescribed(fraction, since)
         ]
@@ -266,18 +270,41 @@ class TangentialSteps(StepsOnRings):
         slip = before.slip if before else np.zeros((2, len(points.areas)))
         if last is not None and before is not None and before.circle is not points.circle:
             last, slip = last.repeat_angles(points), points.repeat_angles(slip)
+        guess = None if last else self._frictionless_guess(points, loads)
+        end = self._solve_at_points(points, loads, last, guess)
+        if not coupling(self.scene)[0]:
+            springs = compliances(self.scene.rig)
+            growth = growth_without_slip(points, self.friction, loads, last, end, springs)
+            if growth is not None:
+                end = self._solve_at_points(points, loads, last, growth.guess, growth.free)
+        resolved = points.is_resolved(end.pressure)
+        smooth = None if resolved else self._solve_frictionless(loads).contact.radius
+        return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
+
+    def _solve_at_points(
+        self,
+        points: ContactPoints,
+        loads: Loads,
+        last: PointState | None,
+        guess: Array | None,
+        free: Array | None = None,
+    ) -> PointState:
+        """Solve contact and friction at points under prescribed loads, and record the Newton steps.
+
+        points  points of the contact (rings × angles)
+        loads   prescribed loads and rigid motions of the indenter
+        last    state at the start of the increment; None before first contact
+        guess   initial guess of tractions and rigid motion (3 N + 4,); None for the last state
+        free    free motion of points until their contact, times areas (2 N,); None without
+        """
+        held, tolerance = _fix_excluded_motions(points, loads), EXACT * self.tolerance
         try:
-            end = solve_increment(
-                points, self.friction, _fix_excluded_motions(points, loads), last,
-                EXACT * self.tolerance, None if last else self._frictionless_guess(points, loads),
-            )  # fmt: skip
+            end = solve_increment(points, self.friction, held, last, tolerance, guess, free)
         except NotConverged as error:
             self.taken.append(error.iterations)
             raise
         self.taken.append(end.steps)
-        resolved = points.is_resolved(end.pressure)
-        smooth = None if resolved else self._solve_frictionless(loads).contact.radius
-        return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
+        return end
 
     def _solve_frictionless(self, loads: Loads) -> NormalContact:
         """Solve the frictionless contact under the prescribed normal load of an increment.
@@ -351,7 +378,9 @@ class TangentialSteps(StepsOnRings):
         force = self._scene_components(state.forces)
         down, along = compliances(self.scene.rig)
         in_springs = down * state.forces[NORMAL] ** 2 + along * float(np.dot(force, force))
-        stored = end.energy - 0.5 * in_springs
+        free = end.slides and state.prescribed.forces[TORSION] is not None
+        twist = None if free else state.motions[TORSION]
+        stored, lost, work = end.energy - 0.5 * in_springs, state.dissipated, state.work
         share = np.where(np.isfinite(end.share), end.share, 2.0)
         p, gap = np.maximum(p, 0.0), np.maximum(self._interpolate_scalar(points, gap), 0.0)
         if angular:
@@ -370,14 +399,14 @@ class TangentialSteps(StepsOnRings):
             status=state.status,
             stick_radius=state.stick_radius,
             tangential_force=self._scene_components(state.forces),
-            tangential_shift=self._scene_components(state.motions),
+            tangential_shift=None if end.slides else self._scene_components(state.motions),
             torque=state.forces[TORSION] if self.twists else None,
-            twist=state.motions[TORSION] if self.twists else None,
-            dissipated_energy=state.dissipated,
-            dissipation_uncertainty=state.uncertainty,
+            twist=twist if self.twists else None,
+            dissipated_energy=lost,
+            dissipation_uncertainty=None if lost is None else state.uncertainty,
             elastic_energy=stored,
-            input_work=stored + state.dissipated,
-            unresolved_work=state.work - end.energy - state.dissipated,
+            input_work=None if lost is None else stored + lost,
+            unresolved_work=None if lost is None or work is None else work - end.energy - lost,
             radii=points.radii,
             angles=points.output_angles if angular else None,
             pressure=p,
@@ -434,7 +463,7 @@ class TangentialSteps(StepsOnRings):
             missing = np.einsum("kcj,cnj,j->kn", resultants, shear - within, shares)
             moved = within + np.einsum("kcj,kn->cnj", resultants, missing)
             size = np.hypot(*moved)
-            within = moved * np.minimum(1.0, limit / np.maximum(size, np.finfo(float).tiny))
+            within = moved * (limit / np.maximum(np.maximum(size, limit), np.finfo(float).tiny))
         return within
 
     @staticmethod

@@ -52,12 +52,15 @@ class TorsionState:
         return value if kind is ControlKind.FORCE else self.path.torque
 
     @property
-    def twist(self) -> float:
+    def twist(self) -> float | None:
         """Twist of the indenter about the axis [radian].
 
-        The value is the prescribed twist, or the computed twist under a prescribed torque.
+        The value is the prescribed twist, or the computed twist under a prescribed torque. It is
+        None at the friction limit under a prescribed torque.
         """
         kind, value = self.prescribed
+        if self.path.slides:
+            return None
         return self.path.twist if kind is ControlKind.FORCE else value
 
 
@@ -91,7 +94,7 @@ class TorsionSteps(StepsOnRings):
         start     state at the start of the load step; None without contact
         before    state at the end of the previous increment; None without contact
         fraction  fraction of the linear change of the loads, 0 to 1
-        raises    GrossSliding if the torque is not below its friction limit
+        raises    GrossSliding if the torque exceeds its friction limit
         """
         if before is not None and ramp.normal.start == ramp.normal.end:
             normal_contact, path = before.normal_contact, before.path
@@ -137,10 +140,17 @@ class TorsionSteps(StepsOnRings):
         torque, twist = (last.torque or 0.0, last.twist or 0.0) if last else (0.0, 0.0)
         assert made.trapezoidal_work is not None
         assert made.elastic_energy is not None
-        work = made.trapezoidal_work + 0.5 * (torque + state.torque) * (state.twist - twist)
-        stored = made.elastic_energy + state.path.work - state.path.dissipated
-        dissipated = state.path.dissipated
-        stick = state.path.stick
+        stick, dissipated, put_in, left_open = state.path.stick, None, None, None
+        if state.twist is None:
+            stored = made.elastic_energy + state.path.branches[-1].quantity("elastic_energy")
+            if last is not None and last.slip_circumferential is not None:
+                slip = last.slip_circumferential
+        else:
+            work = made.trapezoidal_work + 0.5 * (torque + state.torque) * (state.twist - twist)
+            dissipated = state.path.dissipated
+            stored = made.elastic_energy + state.path.work - dissipated
+            put_in = stored + dissipated
+            left_open = work - put_in
         kind, prescribed = state.prescribed
         largest = self.friction * float(np.max(made.pressure)) or 1.0
         excess = float(np.max(np.abs(shear) - self.friction * made.pressure)) / largest
@@ -168,8 +178,8 @@ class TorsionSteps(StepsOnRings):
             stick_radius=stick * state.normal_contact.contact.radius,
             dissipated_energy=dissipated,
             elastic_energy=stored,
-            input_work=stored + dissipated,
-            unresolved_work=work - stored - dissipated,
+            input_work=put_in,
+            unresolved_work=left_open,
             shear_circumferential=shear,
             slip_circumferential=slip,
             in_stick=x < stick,
@@ -192,7 +202,8 @@ class TorsionSteps(StepsOnRings):
                 share = branch.sense * branch.weight
                 limit = self.friction * pressure[inside]
                 shear[inside] += share * branch.state.shear(x[inside], limit)
-                slip[inside] += share * branch.state.slip(x[inside])
+                if not path.slides:
+                    slip[inside] += share * branch.state.slip(x[inside])
         return shear, slip
 
 

@@ -10,19 +10,18 @@ Layers change f only.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import copysign
 from typing import Literal
 
 from scipy.optimize import brentq
 
-from contact_scene.solver_errors import GrossSliding
+from contact_scene.friction_limit import reaches_limit, refuse_above_limit
+from contact_scene.solver_errors import motion_undefined
 from radial.torsion.torsion import (
     NO_STICK,
     PartialSlip,
     Torsion,
 )
-
-# Relative distance from the torque of gross slip within which the twist is undetermined.
-AT_LIMIT = 1e-12
 
 Named = Literal["twist", "torque"]
 
@@ -67,12 +66,14 @@ class TwistPath:
                 before the first twist
     dissipated  energy dissipated since the start of the history [force length]
     work        work of the torque since the start of the history [force length]
+    slides      true at the friction limit under a prescribed torque: the twist is undefined
     """
 
     of: Torsion
     branches: tuple[Branch, ...] = ()
     dissipated: float = 0.0
     work: float = 0.0
+    slides: bool = False
 
     @property
     def twist(self) -> float:
@@ -112,16 +113,18 @@ class TwistPath:
     def continue_to_torque(self, torque: float) -> TwistPath:
         """Continue the torsion to a prescribed torque, and return the new state.
 
-        A change of direction is a load reversal. Raises GrossSliding if the torque is not below its
-        friction limit.
+        A change of direction is a load reversal. At the friction limit the contact slides. Raises
+        GrossSliding if the torque exceeds the limit.
 
         torque  prescribed torque at the end [force length]
         """
-        if abs(torque) >= self.of.gross_slip_torque * (1 - AT_LIMIT):
-            raise GrossSliding(
-                f"torque {torque:.6g} N m, but friction carries less than "
-                f"{self.of.gross_slip_torque:.6g} N m. Reduce it, or prescribe the twist"
-            )
+        limit = self.of.gross_slip_torque
+        if torque:
+            refuse_above_limit(0.0, abs(torque), limit / abs(torque))
+        if torque and reaches_limit(abs(torque), limit):
+            share = min(1.0, abs(torque) / limit) if limit else 0.0
+            sliding = Branch(copysign(1.0, torque), share, self.of.partial_slip(0.0))
+            return TwistPath(self.of, (sliding,), slides=True)
         return self._continue_to("torque", torque)
 
     def _continue_to(self, of: Named, target: float) -> TwistPath:
@@ -134,6 +137,8 @@ class TwistPath:
         of      "twist" or "torque", the prescribed quantity
         target  value of this quantity [radian or force length]
         """
+        if self.slides:
+            raise motion_undefined()
         if target == getattr(self, of):
             return self
         sense = 1.0 if target > getattr(self, of) else -1.0

@@ -16,7 +16,7 @@ from semi_analytical.increments.full_slip import (
     force_reaches_limit,
     frictionless_state,
     gross_slip_state,
-    refuse_excessive_torque,
+    loads_reach_limit,
 )
 from semi_analytical.increments.increment import (
     State,
@@ -87,12 +87,14 @@ def solve_coupled_increment(
     refuse_unresolved_contact(model, normal)
     last = before.sheared if before is not None and before.sheared is not None else None
     last = last or untouched_state(model.grid.cells)
-    if last.shift is None:
-        raise motion_undefined()
-    if tangential.force is not None and normal.force is not None:
+    slides = False
+    if tangential.force is not None and tangential.torque is None and normal.force is not None:
         carried = model.friction.largest_tangential_force(normal.force)
-        if carried is not None:
-            force_reaches_limit(tangential.force, carried)
+        slides = carried is not None and force_reaches_limit(tangential.force, carried)
+    if last.shift is None:
+        if not slides:
+            raise motion_undefined()
+        last = replace(last, shift=np.zeros(2))  # has no effect on gross slip
     start, shear, iterations = _initial_guess(model, before, last, normal, tangential)
     box = _box_with_margin((start > 0) | (last.shear[0] != 0), model.domain)
     aim, residual = tolerance, np.inf
@@ -315,10 +317,7 @@ class _Trial:
         u_t    tangential displacement (2, nx, ny) [length]
         """
         model, last, load = self.model, self.last, self.tangential
-        if load.torque is not None:
-            refuse_excessive_torque(model, bound, load)
-        elif load.force is not None:
-            force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area)
-            if np.any(bound):
-                return replace(gross_slip_state(model, p, last, load), displacement=u_t)
+        loads_reach_limit(model, bound, load)
+        if np.any(bound):
+            return replace(gross_slip_state(model, p, last, load), displacement=u_t)
         return frictionless_state(model, p, u_t, last, load, self._motion)

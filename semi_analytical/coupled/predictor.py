@@ -156,7 +156,8 @@ def _predict_by_dilation(
 
     The dilation continues the growth of the contact in the last increment. Without a preceding
     increment, or after a much smaller one, contact radius and force follow from the power k of the
-    undeformed gap r^k. None is returned without a prediction.
+    undeformed gap r^k. None is returned without a prediction, also if the predicted contact lies
+    between the centres of the cells.
 
     model        contact model
     now, behind  data of the last converged state and of the state before
@@ -179,7 +180,8 @@ def _predict_by_dilation(
     last_change = np.log(loads[0] / loads[-1])
     if behind is None or abs(change) > FURTHEST * abs(last_change) or behind.normal_force <= 0:
         dilation = Dilation.about(pressure, np.exp(of_radius * change), domain)
-        return dilation.grown(pressure, now.shear, np.exp(of_force * change))
+        p, q = dilation.grown(pressure, now.shear, np.exp(of_force * change))
+        return (p, q) if np.any(p) else None
     ratio = change / last_change
     areas = [covered_cells(p, p > 0, domain) for p in (pressure, behind.pressure)]
     radius = 0.5 * np.log(areas[0] / areas[1])
@@ -190,4 +192,4 @@ def _predict_by_dilation(
     last_p, last_q = last.grown(behind.pressure, behind.shear, np.exp(force))
     p += ratio * dilation(pressure - last_p)
     q += ratio * dilation(now.shear - last_q)
-    return np.maximum(p, 0.0), q
+    return (np.maximum(p, 0.0), q) if np.any(p > 0) else None

@@ -1,6 +1,10 @@
 """Results of the edge correction of a contact state: pressure, shear and their errors."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+
+import numpy as np
 
 from contact_scene.array_types import Field, Mask
 from semi_analytical.edge.displacement import Within
@@ -35,6 +39,23 @@ class CorrectedShear:
     stick_cells: float
     change: float = 0.0
     radius_left: float = 0.0
+
+    @classmethod
+    def zero(cls, cells: tuple[int, ...]) -> CorrectedShear:
+        """Return the state without shear, shift and stick zone.
+
+        cells  number of cells along x and y
+        """
+        nothing, constant = np.zeros((2, *cells)), Within.zero(cells)
+        return cls(
+            shear=nothing,
+            within=(constant, constant),
+            slip=nothing,
+            displacement=nothing,
+            shift=np.zeros(2),
+            stick=np.zeros(cells, dtype=bool),
+            stick_cells=0.0,
+        )
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,19 @@ from dataclasses import replace
 
 import numpy as np
 
+from contact_scene.array_types import Field, Vector
+from contact_scene.rig import compliances
 from semi_analytical.edge.corrected import Corrected, CorrectedShear, EdgeReport
 from semi_analytical.edge.displacement import Within
+from semi_analytical.edge.subcell_tractions import SubcellTractions
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import NotFitted, edge_pressure
-from semi_analytical.edge_correction.shear import EdgeShearProblem, edge_shear, sliding_shear
+from semi_analytical.edge_correction.shear import (
+    EdgeShearProblem,
+    edge_shear,
+    grown_shear,
+    sliding_shear,
+)
 from semi_analytical.edge_correction.shear_at_edge import FollowingShear
 from semi_analytical.increments.increment import State
 from semi_analytical.increments.tangential_state import (
@@ -63,6 +71,8 @@ class EdgeCorrection:
         if free or _determines_border(before, state, sheared):
             shear = self._correct_shear(before, sheared, corrected, tolerance)
             return replace(corrected, sheared=shear)
+        if sheared.free is not None and path_known:
+            return replace(corrected, sheared=self._correct_growth(before, extended, corrected))
         return corrected
 
     def _extend_state(self, state: State) -> State:
@@ -119,22 +129,13 @@ class EdgeCorrection:
         model, edge = self._operators.model, corrected.edge
         bound = model.friction.limit(corrected.pressure)
         if not np.any(solved.shear):
-            zero = np.zeros_like(solved.shear)
-            constant = Within.zero(bound.shape)
-            return CorrectedShear(
-                shear=zero,
-                within=(constant, constant),
-                slip=zero,
-                displacement=zero,
+            return replace(
+                CorrectedShear.zero(bound.shape),
                 shift=solved.shift,
                 stick=corrected.pressure > 0,
                 stick_cells=corrected.contact_cells,
             )
-        parts = model.friction.limit(edge.parts)
-        domain = edge.domain
-        limit = Within.from_subcells(
-            domain.restrict(bound), edge.i, edge.j, parts, domain
-        ).extend_to_window(domain)
+        limit = _within_cells(bound, model.friction.limit(edge.parts), edge)
         if not np.any(solved.in_stick):
             return sliding_shear(self._operators, bound, limit, solved)
         assert before is not None
@@ -160,6 +161,69 @@ class EdgeCorrection:
             tolerance=tolerance,
         )
         return edge_shear(problem, solved, before.sheared.shear)
+
+    def _correct_growth(
+        self, before: State | None, state: State, corrected: Corrected
+    ) -> CorrectedShear | None:
+        """Correct the shear of a contact that has grown without slip to the corrected pressure.
+
+        None is returned if a cell slips or the earlier state has no corrected shear.
+
+        before     state from which the contact has grown; None before first contact
+        state      solved state on the full window
+        corrected  correction of the pressure of the solved state
+        """
+        assert state.sheared is not None
+        if not np.array_equal(state.sheared.in_stick, state.pressing.pressure > 0):
+            return None
+        p, cells = corrected.pressure, corrected.pressure.shape
+        own, was = _within_cells(p, corrected.edge.parts, corrected.edge), Within.zero(cells)
+        last: CorrectedShear | None = CorrectedShear.zero(cells)
+        start = before.corrected if before else None
+        if before:
+            last = start.sheared if start else None
+        if last is None or last.shift is None:
+            return None
+        springs = compliances(self._operators.model.scene.rig)
+        (W_0, T_0, d_0, s_0), (W, T, d, s) = (_bodies(one, springs) for one in (before, state))
+        change, approach = p, corrected.approach - springs[0] * W
+        if start:
+            was = _within_cells(start.pressure, start.edge.parts, start.edge)
+            change, approach = p - start.pressure, approach - start.approach + springs[0] * W_0
+        # The shift of the bodies grows in proportion to their approach.
+        shift = last.shift + (s - s_0) * approach / (d - d_0) + springs[1] * (T - T_0)
+        whole = np.ones(cells)
+        grown = Within.combine(own.slopes - was.slopes, [(whole, own), (-whole, was)])
+        last = replace(last, shift=shift, stick=p > 0, stick_cells=corrected.contact_cells)
+        return grown_shear(self._operators, last, (T - T_0) / (W - W_0), change, grown)
+
+
+def _bodies(
+    state: State | None, springs: tuple[float, float]
+) -> tuple[float, Vector, float, Vector]:
+    """Return normal and tangential force, approach and shift of a state, without springs of a rig.
+
+    state    solved state; None before first contact
+    springs  compliances of the test rig, normal and tangential [length/force]
+    """
+    if state is None:
+        return 0.0, np.zeros(2), 0.0, np.zeros(2)
+    assert state.sheared is not None
+    assert state.sheared.shift is not None
+    W, T = state.normal_force, state.sheared.force
+    return W, T, state.pressing.approach - springs[0] * W, state.sheared.shift - springs[1] * T
+
+
+def _within_cells(means: Field, parts: Field, edge: SubcellTractions) -> Within:
+    """Compute the variation of a traction within cells on the full window.
+
+    means  cell means of the traction (nx, ny) [force/length^2]
+    parts  subcell values in the cells along the edge (n, PARTS, PARTS) [force/length^2]
+    edge   edge of the contact
+    """
+    domain = edge.domain
+    within = Within.from_subcells(domain.restrict(means), edge.i, edge.j, parts, domain)
+    return within.extend_to_window(domain)
 
 
 def _determines_border(before: State | None, state: State, sheared: TangentialState) -> bool:

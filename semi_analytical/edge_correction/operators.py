@@ -6,7 +6,7 @@ uniform in each cell.
 
 from functools import cached_property
 
-from contact_scene.array_types import Mask
+from contact_scene.array_types import Mask, VectorField
 from semi_analytical.edge.displacement import EdgeOperator
 from semi_analytical.edge.film import FilmLaw, film_law
 from semi_analytical.edge.kernels import PART_OFFSETS, PARTS, EdgeKernels
@@ -51,6 +51,14 @@ class EdgeOperators:
         Its fields are on the full window. Shear and displacement have the components x and y.
         """
         return self._build_operator(SHEAR, WINDOW)
+
+    def displace_means(self, shear: VectorField) -> VectorField:
+        """Compute the tangential surface displacement by a shear that is uniform in each cell.
+
+        shear  shear on the full window (2, nx, ny) [force/length^2]
+        """
+        domain, operator = self.model.domain, self.model.operator(self.model.grid.cells)
+        return domain.extend(operator.tangential(domain.restrict(shear)))
 
     @cached_property
     def apart(self) -> EdgeOperator:

@@ -80,17 +80,41 @@ def sliding_shear(
         Within.combine(n * limit.slopes + np.stack(np.gradient(n)) * bound, [(n, limit)])
         for n in slip
     )
-    model = operators.model
-    operator, domain = model.operator(model.grid.cells), model.domain
-    by_means = domain.extend(operator.tangential(domain.restrict(shear)))
     return CorrectedShear(
         shear=shear,
         within=(x, y),
         slip=slip,
-        displacement=by_means + operators.displace_by_shear(x, y),
+        displacement=operators.displace_means(shear) + operators.displace_by_shear(x, y),
         shift=solved.shift,
         stick=nowhere,
         stick_cells=0.0,
+    )
+
+
+def grown_shear(
+    operators: EdgeOperators,
+    last: CorrectedShear,
+    ratio: Vector,
+    change: Field,
+    grown: Within,
+) -> CorrectedShear:
+    """Return the corrected shear of a contact that has grown without slip: q' + k Δp.
+
+    operators  surface displacements by tractions that vary within cells
+    last       corrected shear q' at the start, with stick zone and shift at the end
+    ratio      ratio k of the growth of shear and pressure (2,)
+    change     change Δp of the corrected pressure (nx, ny) [force/length^2]
+    grown      change of the variation of the pressure within the cells
+    """
+    whole = np.ones_like(change)
+    x, y = (
+        Within.combine(one.slopes + k * grown.slopes, [(whole, one), (k * whole, grown)])
+        for k, one in zip(ratio, last.within, strict=True)
+    )
+    shear = last.shear + ratio[:, None, None] * change
+    displacement = operators.displace_means(shear) + operators.displace_by_shear(x, y)
+    return replace(
+        last, shear=shear, within=(x, y), displacement=displacement, slip=np.zeros_like(shear)
     )
 
 

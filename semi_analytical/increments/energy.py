@@ -8,7 +8,7 @@ t₁)·(u₁ - u₀) Δ, for increments of any size. With u_z = g + rigid motion
     input work = ΔE + dissipation + unresolved work
     input work       Σ ½ (f₀ + f₁)(ω₁ - ω₀), forces and moments f, conjugate motions ω
     dissipation      -Σ f·κ(s₁ - s₀) Δ, with the mean friction f and the contact fraction κ
-    unresolved work  ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ
+    unresolved work  ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf·(s₁ - s₀) - ½ (q₀ + q₁)·(s₁ - s₀ + d)) Δ
 
 The mean friction f has the direction of q₁, for which the slip was solved, and the magnitude ½ µ(p₀
 + p₁), the mean of both friction limits. This is exact for constant pressure and for proportional
@@ -49,7 +49,9 @@ class Configuration:
     shear, tangential_displacement  q [force/length^2] and u [length], each (2, nx, ny)
     friction_limit                  µp (nx, ny) [force/length^2]
     slipped                         u less the rigid motion (2, nx, ny) [length]; its change is the
-                                    slip; zero where the motion is undefined
+                                    slip plus the free motion; zero where the motion is undefined
+    free                            free motion d in the increment ending here of cells before their
+                                    contact (2, nx, ny) [length]
     contact_fraction                fraction κ of the increment ending here during which each cell
                                     is in contact (nx, ny)
     forces, motions                 forces and moments f on the indenter, and its conjugate rigid
@@ -63,6 +65,7 @@ class Configuration:
     friction_limit: Field
     tangential_displacement: VectorField
     slipped: VectorField
+    free: VectorField
     contact_fraction: Field
     forces: Vector
     motions: Vector | None
@@ -83,6 +86,7 @@ class Configuration:
             friction_limit=np.zeros_like(after.friction_limit),
             tangential_displacement=unsheared,
             slipped=unsheared,
+            free=unsheared,
             contact_fraction=np.zeros_like(after.contact_fraction),
             forces=np.zeros_like(after.forces),
             motions=np.zeros_like(after.forces),
@@ -224,11 +228,11 @@ def pressed_work(pressure: Field, displacement: Field) -> float:
 def unresolved_work(before: Configuration, after: Configuration, cell_area: float) -> float:
     """Compute the work of one increment that linear interpolation between its ends misses.
 
-    The formula is ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf - ½ (q₀ + q₁))·(s₁ - s₀) Δ [force length]. Indices
-    0 and 1 denote start and end of the increment, p pressure, g gap, q shear, f mean friction, κ
-    contact fraction, s slip and Δ the cell area. The first sum is over cells where contact begins
-    or ends. A gap within lasting contact is a residual of the solution and belongs to the
-    imbalance.
+    The formula is ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf·(s₁ - s₀) - ½ (q₀ + q₁)·(s₁ - s₀ + d)) Δ [force
+    length]. Indices 0 and 1 denote start and end of the increment, p pressure, g gap, q shear, f
+    mean friction, κ contact fraction, s slip, d free motion before contact and Δ the cell area. The
+    first sum is over cells where contact begins or ends. A gap within lasting contact is a residual
+    of the solution and belongs to the imbalance.
 
     before, after  configurations (tractions, displacements, loads) at the start and the end
     cell_area      area Δ of a cell and its mirror images [length^2]
@@ -237,13 +241,14 @@ def unresolved_work(before: Configuration, after: Configuration, cell_area: floa
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
     closing = float(np.sum(p1[begins] * before.gap[begins]))
     opening = float(np.sum(p0[ends] * after.gap[ends]))
-    sliding, slipped = 0.0, after.slipped - before.slipped
-    if np.any(slipped):
+    sliding, moved = 0.0, after.slipped - before.slipped
+    if np.any(moved):
+        slipped = moved - after.free
         friction = sliding_friction(
             before.shear, after.shear, -slipped, before.friction_limit, after.friction_limit
         )
-        missed = after.contact_fraction * friction - 0.5 * (before.shear + after.shear)
-        sliding = float(np.sum(missed * slipped))
+        shear = 0.5 * (before.shear + after.shear)
+        sliding = float(np.sum(after.contact_fraction * friction * slipped - shear * moved))
     return (0.5 * (closing - opening) + sliding) * cell_area
 
 
@@ -257,7 +262,7 @@ def friction_changed(before: Configuration, after: Configuration, cell_area: flo
     before, after  configurations (tractions, displacements, loads) at the start and the end
     cell_area      area Δ of a cell and its mirror images [length^2]
     """
-    changed, slipped = after.shear - before.shear, after.slipped - before.slipped
+    changed, slipped = after.shear - before.shear, after.slipped - before.slipped - after.free
     way = after.contact_fraction * np.hypot(*slipped)
     return float(np.sum(np.hypot(*changed) * way)) * cell_area
 

@@ -5,17 +5,18 @@ from dataclasses import replace
 import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.friction_limit import reaches_limit, refuse_above_limit
 from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.solver_errors import GrossSliding
-from contact_solver.admissible_shear import AT_LIMIT
-from contact_solver.gross_slip import exhausts_friction, limit_load
+from contact_scene.solver_errors import GrossSliding, motion_undefined
+from contact_solver.gross_slip import exhausts_friction, full_slip, limit_load
 from contact_solver.residuals import friction_cone
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import (
     TangentialState,
     bulk_strain_displacement,
     rigid,
+    torque_of,
     torsion_reached,
     touching_share,
 )
@@ -32,18 +33,30 @@ def force_reaches_limit(force: Vector, limit: float) -> bool:
     limit  friction limit Σµp Δ of the contact [force]: sum over the cells of area Δ
     """
     magnitude = float(np.hypot(*force))
-    if magnitude > limit * (1 + AT_LIMIT):
-        raise GrossSliding(
-            f"tangential force {magnitude:.6g} N exceeds the friction limit {limit:.6g} N: gross "
-            f"sliding; prescribe tangential_shift instead"
-        )
-    return magnitude >= limit * (1 - AT_LIMIT)
+    if magnitude:
+        refuse_above_limit(magnitude, 0.0, limit / magnitude)
+    return reaches_limit(magnitude, limit)
 
 
-def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialTarget) -> None:
-    """Raise GrossSliding if friction cannot carry a prescribed torque with the tangential force.
+def loads_reach_limit(model: ContactModel, bound: Field, load: TangentialTarget) -> bool:
+    """Return True if the prescribed tangential loads are at the friction limit.
 
-    The message contains the friction limit of this load.
+    The result is False without friction. Raise GrossSliding if friction cannot carry the loads.
+
+    bound  friction limit µp (nx, ny)
+    load   prescribed tangential load
+    """
+    if load.torque is not None:
+        return torque_reaches_limit(model, bound, load)
+    if load.force is None or not np.any(load.force):
+        return False
+    return force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area)
+
+
+def torque_reaches_limit(model: ContactModel, bound: Field, load: TangentialTarget) -> bool:
+    """Return True if a torque, with the tangential force, is at the friction limit.
+
+    Raise GrossSliding if friction cannot carry them, or at the limit under a prescribed shift.
 
     bound  friction limit µp (nx, ny)
     load   tangential load with a prescribed torque
@@ -51,40 +64,41 @@ def refuse_excessive_torque(model: ContactModel, bound: Field, load: TangentialT
     assert load.torque is not None
     torque, force = abs(load.torque), load.force
     if torque == 0 and (force is None or not np.any(force)):
-        return
+        return False
     if not np.any(bound):
         raise GrossSliding(f"torque {torque:.6g} N m on a contact without friction")
     motions, limits = load.motions(model), points_of(bound)
     if not exhausts_friction(motions, limits):
-        return
-    times = limit_load(motions.held, limits)[0]
-    if force is None or not np.any(force):
-        reached = f"torque {torque:.6g} N m reaches the friction limit {times * torque:.6g} N m"
-    else:
-        reached = (
-            f"torque {torque:.6g} N m and tangential force {np.hypot(*force):.6g} N together reach "
-            f"the friction limit, which is {times:.6g} times both"
-        )
-    raise GrossSliding(f"{reached}: gross sliding; prescribe twist or tangential_shift instead")
+        return False
+    size = 0.0 if force is None else float(np.hypot(*force))
+    refuse_above_limit(size, torque, limit_load(motions.held, limits)[0])
+    if force is None:
+        raise motion_undefined()
+    return True
 
 
 def gross_slip_state(
     model: ContactModel, pressure: Field, last: TangentialState, load: TangentialTarget
 ) -> TangentialState:
-    """Return the tangential state in which a prescribed tangential force is at the friction limit.
+    """Return the tangential state in which prescribed tangential loads are at the friction limit.
 
-    The shear is µp in the direction of the force in all cells. The tangential shift is undefined
-    (None), because the indenter could slide any distance.
+    The shear of all cells is µp, in the direction of the force or of a rotation. Shift, and twist
+    under a torque, are undefined (None), because the indenter could slide any distance. A load
+    below the limit by less than `AT_LIMIT` reduces the shear by this part.
 
     pressure  p (nx, ny) [force/length^2]
     last      tangential state of the previous increment
-    load      tangential load with a prescribed force
+    load      tangential load with a prescribed force, and torque if there is one
     """
     bound, force = model.friction_limit(pressure), load.force
     assert force is not None
-    q = bound * (force / np.hypot(*force))[:, None, None]
+    motions = load.motions(model)
+    q, _ = full_slip(motions, points_of(bound), np.zeros(len(motions)))
+    q = q.reshape(2, *bound.shape)
     defect = model.domain.resultant(q) - force / model.grid.cell_area
-    twist, torque = torsion_reached(model, load, np.zeros(2), q)
+    twist, torque = load.twist, load.torque
+    if twist is not None:
+        torque = torque_of(model, q)
     return replace(
         last,
         shear=q,

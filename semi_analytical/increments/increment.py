@@ -13,6 +13,7 @@ from semi_analytical.increments.energy import (
     NOTHING_YET,
     Energy,
 )
+from semi_analytical.increments.free_motion import growth_without_slip
 from semi_analytical.increments.increment_history import (
     PreviousIncrement,
     further_shear,
@@ -171,14 +172,15 @@ def solve_increment(
     ahead = behind = None
     if before is not None and seen is not None and seen.target == normal:
         ahead, behind = further_shear(seen, before.behind, tangential), seen
-    sheared = slip_and_stick(
-        model,
-        pressing.pressure,
-        last or untouched_state(model.grid.cells),
-        tangential,
-        tolerance,
-        ahead,
-    )
+    last = last or untouched_state(model.grid.cells)
+    growth = None
+    if last.shift is not None and not (before is not None and before.target == normal):
+        start = before.pressing if before is not None else None
+        growth = growth_without_slip(model, last, tangential, start, pressing)
+    if growth is not None:
+        ahead = growth.point, tangential.rigid_motion(growth.shift, last.twist)
+    free = None if growth is None else growth.free
+    sheared = slip_and_stick(model, pressing.pressure, last, tangential, tolerance, ahead, free)
     return State(normal, normal_force, pressing, sheared, moment, behind=behind)
 
 

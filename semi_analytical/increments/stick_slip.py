@@ -15,10 +15,9 @@ from contact_solver.conjugate_gradients import Point
 from contact_solver.residuals import friction_cone, slip_direction
 from contact_solver.shear import ShearSolution
 from semi_analytical.increments.full_slip import (
-    force_reaches_limit,
     frictionless_state,
     gross_slip_state,
-    refuse_excessive_torque,
+    loads_reach_limit,
 )
 from semi_analytical.increments.tangential_solve import (
     TangentialTarget,
@@ -48,6 +47,7 @@ def slip_and_stick(
     load: TangentialTarget,
     tolerance: float,
     guess: tuple[Point, Vector] | None = None,
+    free: VectorField | None = None,
 ) -> TangentialState:
     """Solve the tangential problem of one increment at a given pressure, from the previous state.
 
@@ -60,15 +60,18 @@ def slip_and_stick(
     tolerance  limit of all dimensionless residuals
     guess      initial guess of the shear with its displacement, and of the rigid motion; None for
                those of the previous state
+    free       free motion of cells before their contact (2, nx, ny) [length]; None without
     raises     NotConverged; GrossSliding if a force exceeds the friction limit
     """
     bound = model.friction_limit(pressure)
+    if loads_reach_limit(model, bound, load):
+        return gross_slip_state(model, pressure, last, load)
     if last.shift is None:
         raise motion_undefined()
     trivial = _trivial_state(model, pressure, bound, last, load)
     if trivial is not None:
         return trivial
-    target = surface_target(model, last, load)
+    target = surface_target(model, last, load, free)
     here = Point(last.shear, last.displacement), load.rigid_motion(last.shift, last.twist)
     start, motion = guess or here
     aim, iterations = tolerance, 0
@@ -80,7 +83,10 @@ def slip_and_stick(
         relative_slip = rigid(model, solution.motion) + target - solution.displacement
         residuals = shear_residuals(model, solution, bound, relative_slip, load, last)
         if residuals.worst <= tolerance:
-            return end_state(model, pressure, bound, last, load, solution, relative_slip, residuals)
+            after = end_state(
+                model, pressure, bound, last, load, solution, relative_slip, residuals
+            )
+            return replace(after, free=free)
         start, motion = Point(solution.shear, solution.displacement), solution.motion
         aim *= 0.1
     raise NotConverged("the shear", iterations, residuals.worst, tolerance)
@@ -95,8 +101,7 @@ def _trivial_state(
 ) -> TangentialState | None:
     """Return the tangential state of an increment in cases that need no solve; else None.
 
-    These cases are: no tangential load so far, slip without friction, and a prescribed force at the
-    friction limit.
+    These cases are: no tangential load so far, and slip without friction.
 
     pressure  p at the end of the increment (nx, ny) [force/length^2]
     bound     friction limit µp (nx, ny)
@@ -105,7 +110,6 @@ def _trivial_state(
     """
     nothing, here = np.zeros_like(last.shear), load.rigid_motion(last.shift, last.twist)
     if load.torque is not None:
-        refuse_excessive_torque(model, bound, load)
         if np.any(bound):
             return None
         return frictionless_state(model, pressure, nothing, last, load, here)
@@ -122,10 +126,8 @@ def _trivial_state(
         return replace(
             last, pressure=pressure, in_stick=bound > 0, iterations=0, strain=load.strain
         )
-    if not force_reaches_limit(load.force, float(np.sum(bound)) * model.grid.cell_area):
-        return None
     if np.any(bound):
-        return gross_slip_state(model, pressure, last, load)
+        return None
     return frictionless_state(model, pressure, nothing, last, load, here)
 
 

@@ -39,6 +39,8 @@ class TangentialState:
     iterations         iterations of the tangential solver
     twist, torque      twist and torque of the indenter; None without torsion
     strain             bulk strain of the lower body since first contact; None without strain
+    free               free motion: displacement relative to the indenter, in the increment, of
+                       cells before they come into contact (2, nx, ny) [length]
     """
 
     shear: VectorField
@@ -58,6 +60,7 @@ class TangentialState:
     twist: float | None = None
     torque: float | None = None
     strain: Strain | None = None
+    free: VectorField | None = None
 
     @property
     def motion(self) -> Vector:
@@ -105,18 +108,24 @@ def rigid(model: ContactModel, motion: Vector) -> VectorField:
 
 
 def surface_target(
-    model: ContactModel, last: TangentialState, load: TangentialTarget
+    model: ContactModel,
+    last: TangentialState,
+    load: TangentialTarget,
+    free: VectorField | None = None,
 ) -> VectorField:
     """Compute the relative tangential surface displacement that full stick requires [length].
 
     The result (2, nx, ny) consists of the displacement locked in by the previous increment, the
-    bulk strain of the lower body in this increment, and the prescribed twist. The shift of the
-    indenter is not included, nor a twist that the solver determines.
+    free motion of cells before their contact, the bulk strain of the lower body in this increment,
+    and the prescribed twist. The shift of the indenter is not included, nor a twist that the solver
+    determines.
 
     last  tangential state at the start of the increment
     load  prescribed tangential load at the end of the increment
+    free  free motion of cells before their contact (2, nx, ny) [length]; None without
     """
     target = last.displacement - rigid(model, last.motion)
+    target = target if free is None else target + free
     target = target - bulk_strain_displacement(model, load.strain, last.strain)
     return target if load.twist is None else target + load.twist * model.rotation
 

@@ -181,8 +181,6 @@ def run_with_progress(
         nonlocal computed
         done = left.pop(end.case.name)
         computed += 0 if end.stored else done
-        for warning in end.warnings:
-            print_message(warning)
         rest = ""
         if computed and left:
             seconds = (time.monotonic() - started) * sum(left.values()) / computed
@@ -199,7 +197,7 @@ def run_with_progress(
         )
 
     with cleaned_up_when_stopped(kept=how_to_resume):
-        return run_cases(cases, store, workers, observe, fresh=fresh)
+        return run_cases(cases, store, workers, observe, fresh=fresh, warn=print_message)
 
 
 def outcome_text(end: CaseEnd) -> str:

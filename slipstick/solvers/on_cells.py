@@ -10,6 +10,7 @@ from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.reading.engineering_units import engineering_unit
 from contact_scene.stepping.checkpoint import CheckpointStore
 from semi_analytical import Plan, Result, SurfaceGrid
+from semi_analytical.increment_counts import WITHOUT_SLIP
 from semi_analytical.memory import estimated_bytes
 from slipstick.solvers.solver import (
     MAX_STEPS_SHOWN,
@@ -72,9 +73,9 @@ class OnCells(Solver):
         """Return load step, number of increments and reason of this number, as texts for a table.
 
         The first load steps are listed. The sequence is empty if no load step has an increment
-        error.
+        error or grows without slip.
         """
-        if not any(step.path_matters for step in plan.path):
+        if not any(step.path_matters or step.why == WITHOUT_SLIP for step in plan.path):
             return ()
         shown = [
             (str(number), str(step.count), step.why)

@@ -70,6 +70,7 @@ CASES = (
     "fem_indentation",
     "fem_increments",
     "fem_partial_slip",
+    "growing_loads",
     "fem_torsion",
     "fem_far_field",
     "fem_harmonics",
@@ -94,7 +95,7 @@ MODULES = {
     "partial_slip": ("cattaneo_mindlin", "sheared_cone", "near_sliding", "fem_harmonics"),
     "fretting": (
         *("fretting_loop", "paper_fretting_loop", "fem_partial_slip", "fem_penalty_slip"),
-        "radial_tangential",
+        *("radial_tangential", "growing_loads"),
     ),
     "rig_and_strain": ("series_spring", "eccentric_contact", "strained_ball"),
     "torsion": ("torsion", "torsion_coated", "fem_torsion", "radial_torsion", "radial_turning"),

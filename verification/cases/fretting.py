@@ -50,6 +50,7 @@ from verification.judging.declared_case import (
     judged,
     ladder,
     named,
+    number,
     on_cells,
     on_elements,
     on_radii,
@@ -65,7 +66,9 @@ from verification.observed.ring_errors import judged_within
 from verification.problems.cattaneo_mindlin import (
     AMPLITUDE,
     FRETTING_WINDOW,
+    GROWING,
     LOADED,
+    OVER_FRICTION,
     OVER_LARGEST_SLIP,
     OVER_LARGEST_WAY,
     OVER_LIMIT,
@@ -75,6 +78,7 @@ from verification.problems.cattaneo_mindlin import (
     TWISTED,
     ExactLoop,
     fretting_loop_problem,
+    growing,
     largest_f2,
     loop_cycle,
     loop_steps,
@@ -753,6 +757,71 @@ def _shift_at_reversals(result: Any, _: int, problem: Problem) -> float:
     largest = problem.ends[-1].end.shift
     found = [shift_along_x(end) for end in result.steps[1:]]
     return float(np.max(np.abs(np.subtract(found, (largest, -largest, largest)))))
+
+
+FORCE = number(
+    "tangential_force", "tangential force{when}", quantity="tangential_force_x",
+    exact="tangential_force", over=OVER_FRICTION,
+)  # fmt: skip
+HALVES = {0: 0.5, 1: 1.0}  # normal force over 1 kN, by load step
+
+
+def growing_loads(level: Level = Level.QUICK) -> Case:
+    """Create the verification case of a ball under loads that grow together without slip.
+
+    Normal and tangential load are prescribed as forces and as displacements. The shear follows the
+    pressure, and one increment of each load step is exact. Judged are shear, force, shift, stick
+    radius and dissipated energy on cells, elements and rings.
+
+    level  amount of computation: quick, standard or full
+    """
+    fine = level is not Level.QUICK
+    cells, elements = 128 if fine else 64, 32 if fine else 16
+    of_rings = error_norm(
+        "shear", "mean error of q_x over the contact{when}", _shear_of_circle, OVER_LIMIT
+    )
+    parts = []
+    for of, by_force in (("forces", True), ("motions", False)):
+        problem = growing(f"Loads that grow together, by {of}", by_force=by_force)
+        meshes = with_edge_at(problem, (elements,), of=f"by {of}")
+        on_rings = on_radii(problem, f"by {of}, rings")
+        for levels, shear, side, part in (
+            (on_cells(problem, (cells,), of=f"by {of}"), SHEAR, 3.0 / cells, 3.0 / cells),
+            (meshes, SHEAR, 1 / elements, 1.0),
+            (on_rings, of_rings, 1 / RINGS, 1 / RINGS),
+        ):
+            parts.append(judged(levels, _rows_without_slip(shear, side, part * side)))
+    return case(
+        "growing_loads",
+        "Loads that grow together without slip",
+        "Two equal balls with ν = 0.3. The normal force grows from nothing to 1 kN in two steps, "
+        f"and the tangential force by {GROWING[0]:g} µ and {GROWING[1]:g} µ times as much. Nothing "
+        "slips, so that the shear grows by a constant multiple of the pressure. The solvers take "
+        "one increment for each step.",
+        *parts,
+        no_order="the error is that of the normal contact, whose order other cases judge",
+    )
+
+
+def _rows_without_slip(shear: Observable, side: float, edge: float) -> tuple[Row, ...]:
+    """Return the rows that are judged after each load step of a contact that grows without slip.
+
+    shear  error norm of the shear
+    side   side of a cell, element or ring over the contact radius
+    edge   allowed error of the shear
+    """
+    square = f"a quarter of the square of a side of {side:.2g} a; the approach has order 2"
+    return tuple(
+        row
+        for stop in HALVES.items()
+        for row in (
+            Within(shear.at(*stop, "kN"), edge, "as for the pressure, whose error is at the edge"),
+            Within(SHIFT.at(*stop, "kN"), side**2 / 4, square),
+            Within(FORCE.at(*stop, "kN"), side**2 / 2, "twice as much: W ∝ δ^(3/2)"),
+            Within(STICK_RADIUS.at(*stop, "kN"), 0.1 * side, "a tenth of a side"),
+            Within(WORK.at(*stop, "kN"), 1e-9, "no cell slips: round-off"),
+        )
+    )
 
 
 def radial_tangential(level: Level = Level.QUICK) -> Case:

@@ -184,8 +184,8 @@ def pressed_with_friction(one: Indentation) -> Challenge:
     pressure = interpolate_profile(one, "p_over_pH", r) * HERTZ.peak_pressure
     shear = interpolate_profile(one, "q_over_mu_pH", r) * limit
     points = (
-        AskedPoints("pressure", 1, "Pa", "pressure", places, pressure, HERTZ.peak_pressure,
-                    "p_H", uncertainty=PROFILE_ERROR),
+        AskedPoints("pressure", 1, "Pa", "pressure, positive in compression", places, pressure,
+                    HERTZ.peak_pressure, "p_H", uncertainty=PROFILE_ERROR),
         AskedPoints("shear_radial", 1, "Pa", "shear traction on the lower body, positive outward",
                     places, shear, limit, OVER_LIMIT, uncertainty=PROFILE_ERROR),
     )  # fmt: skip
@@ -313,8 +313,8 @@ def sliding_stress() -> Challenge:
         "before the ball moved: small strains leave it there.", scene,
         "Hamilton 1983, as one integral of the potentials", (), (), SMALL,
         points=tuple(
-            AskedPoints(f"stress_{name}", 2, "Pa", f"σ_{name}", PLACES, stress[n], p0, "p_H",
-                        Grade.B, uncertainty=1e-5)
+            AskedPoints(f"stress_{name}", 2, "Pa", f"σ_{name}, tension positive", PLACES, stress[n],
+                        p0, "p_H", Grade.B, uncertainty=1e-5)
             for n, name in enumerate(COMPONENTS)
         ),
     )  # fmt: skip
@@ -683,14 +683,14 @@ def _pressed_challenge(
     fields = []
     if pressure is not None:
         peak = float(pressure.terms[0].coefficient)
-        meaning = "pressure at the centre, extrapolated as you like"
+        meaning = "pressure at the centre, positive, extrapolated as you like"
         values.append(
             AskedValue("central_pressure", 1, "Pa", meaning, peak, peak, "itself", required=False,
                        uncertainty=u)
         )  # fmt: skip
         fields.append(
-            AskedField("pressure", 1, "pressure, zero outside the contact", pressure, "L2",
-                       NORMAL_FORCE, NORMAL_FORCE, uncertainty=u)
+            AskedField("pressure", 1, "pressure, positive in compression, zero outside the contact",
+                       pressure, "L2", NORMAL_FORCE, NORMAL_FORCE, uncertainty=u)
         )  # fmt: skip
     return Challenge(
         name, title, _problem_text(problem), problem.scene, problem.source, tuple(values),

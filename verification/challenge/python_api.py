@@ -7,19 +7,14 @@ C. Convergence, stated uncertainties, and the areas of field points are judged, 
 
 from __future__ import annotations
 
-import importlib
-import importlib.util
 import json
 import math
-import sys
-import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
 from math import pi
-from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -36,7 +31,12 @@ from verification.challenge.requested_quantities import (
     Grade,
     Key,
     Solver,
-    Vector,
+)
+from verification.challenge.solver_process import (
+    SECONDS_PER_LEVEL,
+    Posed,
+    Solve,
+    answers_of,
 )
 from verification.convergence.observed_order import ILLEGIBLE, observed_order
 from verification.judging.outcome import Status
@@ -189,10 +189,9 @@ def _judge_quantity(
     finest, given = found[-1]
     yield from _missing_on_finest(key, finest, levels[-1])
     errors = [(one.h, _relative_error(asked, value, solver.sampling)) for one, value in found]
-    value = reference = None
-    hint = ""
-    if isinstance(asked, AskedValue):
-        value, reference, hint = given, asked.value, _slip_hint(given, asked)
+    value, reference = (given, asked.value) if isinstance(asked, AskedValue) else (None, None)
+    failed = not errors[-1][1] + 2 * asked.uncertainty <= grade.bound
+    hint = _slip_hint(asked, given, solver.sampling) if failed else ""
     yield _judge_error(key, finest.label, value, reference, errors, grade, asked.uncertainty, hint)
     yield from _judge_convergence(key, solver, errors, asked.uncertainty)
     if isinstance(asked, AskedValue):
@@ -227,13 +226,7 @@ def _relative_error(asked: AskedQuantity, given: Any, sampling: str) -> float:
         return _field_error(asked, given, sampling)
     if isinstance(asked, AskedValue):
         return float(abs(given - asked.value) / asked.scale)
-    values = np.asarray(given)
-    if values.shape != asked.values.shape:
-        raise ValueError(
-            f"{asked.quantity} of step {asked.step}: {values.size} numbers, expected one at "
-            f"each of the {len(asked.places)} places"
-        )
-    return float(np.max(np.abs(values - asked.values)) / asked.scale)
+    return float(np.max(np.abs(given - asked.values)) / asked.scale)
 
 
 def _field_error(asked: AskedField, field: Field, sampling: str) -> float:
@@ -369,7 +362,7 @@ def _judge_error(
     else:
         status, because = Status.FAIL, f"beyond class {grade}{hint}"
         because = because if math.isfinite(error) else "no finite number"
-    met = next((one for one in Grade if error + wide <= one.bound), None)
+    met = _class_of(error + wide)
     fit = _fitted_order(errors, wide)
     return Row(
         *key, level, status, because, value, reference, error, grade.bound, met, fit, tuple(errors)
@@ -422,18 +415,34 @@ def _fitted_order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[f
     return fit.order, fit.half_width
 
 
-def _slip_hint(value: float, asked: AskedValue) -> str:
-    """Return a hint that another sign, a factor of 2 or another unit would explain a wrong number.
+def _slip_hint(asked: AskedQuantity, given: Any, sampling: str) -> str:
+    """Return a hint that another sign, a factor of 2 or another unit would explain a wrong answer.
 
-    The hint is added to the message of a failed verdict. It is empty if no such mistake explains
-    the number.
+    The hint names the accuracy class that the corrected answer meets. It is added to the message of
+    a failed verdict, and is empty if no such mistake explains the answer.
+
+    asked     required quantity with its reference
+    given     answered number, field or numbers at points
+    sampling  meaning of the values of a field: "point", or "cell" for means over squares
     """
-    slips = {"with the other sign": -1.0, "halved": 0.5, "doubled": 2.0}
+    slips = {"with the sign reversed": -1.0, "halved": 0.5, "doubled": 2.0}
     slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
     for words, factor in slips.items():
-        if abs(factor * value - asked.value) <= Grade.C.bound * asked.scale:
-            return f"; {words} it would be within class C"
+        corrected = (
+            replace(given, value=factor * given.value)
+            if isinstance(given, Field)
+            else factor * given
+        )
+        error = _relative_error(asked, corrected, sampling) + 2 * asked.uncertainty
+        if met := _class_of(error):
+            expected = f"; expected: {asked.meaning}" if factor < 0 else ""
+            return f"; {words} it meets class {met}{expected}"
     return ""
+
+
+def _class_of(error: float) -> Grade | None:
+    """Return the best accuracy class whose bound an error meets; None for no class."""
+    return next((one for one in Grade if error <= one.bound), None)
 
 
 PASSED, ACCURACY, GAVE_UP, INCONCLUSIVE = 0, 1, 3, 6  # exit codes
@@ -534,38 +543,6 @@ def judged(
 LEVELS = 4
 
 
-class CannotDo(Exception):
-    """Exception that a solver function raises for a benchmark problem (challenge) outside its
-    scope."""
-
-
-@dataclass(frozen=True)
-class Posed:
-    """Challenge without its reference solution, as passed to a solver function.
-
-    A key is the pair of quantity name and load step, counted from 1.
-
-    scene   scene as in a scene file, in SI; a body and a `patch` if the traction is given
-    loads   normal and tangential force at the end of every load step [N]; NaN for a prescribed
-            motion; `scene["loading"]` contains moments and motions
-    asked   unit of each required number, by key
-    since   load step from whose end a number counts, by key, for numbers that count from there and
-            not from the beginning
-    places  points (points, 3) with x, y and depth z at which numbers are required, by key [m]
-    fields  keys of the tractions that are required at points of the solver's choice
-    window  side of a square that contains the contact with a margin [m]
-    """
-
-    name: str
-    scene: Mapping[str, Any]
-    loads: tuple[tuple[float, tuple[float, float]], ...]
-    asked: Mapping[Key, str]
-    since: Mapping[Key, int]
-    places: Mapping[Key, Vector]
-    fields: tuple[Key, ...]
-    window: float
-
-
 def posed(name: str) -> Posed:
     """Return the challenge of a given name, without its reference solution.
 
@@ -588,20 +565,25 @@ def posed(name: str) -> Posed:
 
 def judge(
     name: str,
-    solve: Callable[[Posed, int], Answer],
+    solve: Solve | str,
     levels: int = LEVELS,
     at_least: str | None = None,
     solver: Solver | None = None,
+    seconds: float | None = SECONDS_PER_LEVEL,
 ) -> Judgement:
     """Judge a solver function on a challenge, with answers on several refinement levels.
+
+    The function runs in a child process with a time limit, and receives a copy of the problem.
 
     Parameters
     ----------
     name
         Name of the challenge.
     solve
-        Function of the problem and the level 0, 1, 2, … that returns an `Answer`. You choose the
-        discretisation of a level. It raises `CannotDo` for a problem outside its scope.
+        Function of the problem and the level 0, 1, 2, … that returns an `Answer`, or its name
+        FILE.py:FUNCTION or MODULE:FUNCTION. You choose the discretisation of a level. It raises
+        `CannotDo` for a problem outside its scope. A function runs in a copy of this process
+        (Linux; elsewhere in this process, without time limit), a name in a new interpreter.
     levels
         Number of refinement levels.
     at_least
@@ -609,21 +591,24 @@ def judge(
         else the class of each quantity.
     solver
         Description of the solver. Default: the name of the function.
+    seconds
+        Time limit of each level. Default: 600 s. None: call the function in this process, without
+        time limit, for example in a debugger.
 
     Raises
     ------
     Refused
         For an answer that does not fit the challenge.
+    SolverFailed
+        If the function raises an exception, ends its process, or exceeds the time limit.
     KeyError
-        For an unknown challenge; exceptions of `solve` are passed on.
+        For an unknown challenge. In this process, exceptions of `solve` are passed on.
     """
     problem, answers = posed(name), []
-    for level in range(levels):
-        started = time.process_time()
-        answer = _checked_answer(solve(problem, level), challenges()[name], level)
-        spent = time.process_time() - started
-        seconds = spent if answer.seconds is None else answer.seconds
-        answers.append(replace(answer, label=answer.label or str(level), seconds=seconds))
+    with closing(answers_of(solve, problem, levels, seconds)) as given:
+        for answer in given:
+            _refuse_other_quantities(answer, challenges()[name])
+            answers.append(answer)
     found = [one for one in answers if 0 not in one.gave_up]
     for coarse, fine in pairwise(found):
         if fine.h > coarse.h:
@@ -633,51 +618,29 @@ def judge(
             )
     if not any(one.scalars or one.points or one.fields or one.gave_up for one in answers):
         raise Refused("nothing is answered; there is nothing to judge")
-    who = solver or Solver(getattr(solve, "__name__", "solver"))
+    own_name = solve if isinstance(solve, str) else getattr(solve, "__name__", "solver")
     grade = None if at_least is None else Grade(at_least)
-    return judged(challenges()[name], who, answers, grade)
+    return judged(challenges()[name], solver or Solver(own_name), answers, grade)
 
 
-def _checked_answer(answer: object, challenge: Challenge, level: int) -> Answer:
-    """Check the answer of a solver function to a challenge on one level, and convert its numbers to
-    float.
+def _refuse_other_quantities(answer: Answer, challenge: Challenge) -> None:
+    """Raise Refused if an answer has a quantity that no challenge requires, or not one number at
+    each of the places of the challenge.
 
-    Raises Refused for an invalid answer. A quantity that only another challenge requires is
-    accepted; other names are refused.
-
-    level  number of the refinement level, for the message
+    A quantity that only another challenge requires is accepted.
     """
-    if not isinstance(answer, Answer):
-        raise Refused(f"level {level}: {type(answer).__name__} came back, expected an Answer")
-    if not 0 < answer.h < math.inf:
-        raise Refused(f"level {level}: h is {answer.h!r}, expected a positive length [m]")
     steps = max((ramp.step for ramp in challenge.ramps), default=1)
-    keys: tuple[Any, ...] = (*answer.scalars, *answer.fields, *answer.points)
-    for key in keys:
-        if not isinstance(key, tuple) or len(key) != 2:
-            raise Refused(f"level {level}: {key!r}, expected a quantity and a loading step")
+    for key in (*answer.scalars, *answer.fields, *answer.points):
         if key[0] not in _known_quantities() or key[1] not in range(1, steps + 1):
             known = ", ".join(map(repr, _required_keys(challenge)))
-            raise Refused(f"level {level}: {key!r} is not asked; asked: {known}")
-    scalars: dict[Key, float | tuple[float, float]] = {}
-    given: dict[Key, Any] = {**answer.scalars}
-    for key, value in given.items():
-        if value is None:
-            continue
-        try:
-            numbers = np.ravel(np.asarray(value, dtype=np.float64))
-        except (ValueError, TypeError):
-            raise Refused(f"level {level}: {key!r} is {value!r}, expected a number") from None
-        if numbers.size == 1:
-            scalars[key] = float(numbers[0])
-        elif isinstance(value, tuple) and numbers.size == 2:
-            scalars[key] = float(numbers[0]), float(numbers[1])
-        else:
+            raise Refused(f"level {answer.label}: {key!r} is not asked; asked: {known}")
+    for asked in challenge.points:
+        values = answer.points.get((asked.quantity, asked.step))
+        if values is not None and values.shape != asked.values.shape:
             raise Refused(
-                f"level {level}: {key!r} has {numbers.size} numbers, expected one, or a pair "
-                "with its uncertainty"
+                f"level {answer.label}: {asked.quantity} of step {asked.step}: {values.size} "
+                f"numbers, expected one at each of the {len(asked.places)} places"
             )
-    return replace(answer, scalars=scalars)
 
 
 def _required_keys(challenge: Challenge) -> list[Key]:
@@ -691,54 +654,3 @@ def _known_quantities() -> frozenset[str]:
     Used to refuse misspelt names in the answer of a solver.
     """
     return frozenset(name for one in challenges().values() for name, _ in _required_keys(one))
-
-
-EXPECTED = "expected FILE.py:FUNCTION or MODULE:FUNCTION"
-
-
-def names_a_solver(text: str) -> bool:
-    """Return True if an argument of the command line names a solver function as FILE.py:FUNCTION.
-
-    The alternative is the folder of an answer. A text with a colon is a folder only if it exists.
-    """
-    return ":" in text and not Path(text).exists()
-
-
-def named_solver(text: str) -> Callable[[Posed, int], Answer]:
-    """Import the solver function that an argument FILE.py:FUNCTION or MODULE:FUNCTION names.
-
-    Raises Refused if there is no such function, or if the execution of the file fails.
-    """
-    place, _, name = text.rpartition(":")
-    module = module_of(Path(place)) if place.endswith(".py") else _import_module(place, text)
-    found: object = getattr(module, name, None)
-    if not callable(found):
-        raise Refused(f"{text}: {place} has no function {name!r}; {EXPECTED}")
-    return found
-
-
-def module_of(path: Path) -> ModuleType:
-    """Execute the Python file of a user's solver function and return its module.
-
-    The file can import modules of its own folder. Raises Refused if the file cannot be read or its
-    execution fails.
-    """
-    if not path.is_file():
-        raise Refused(f"{path}: no such file; {EXPECTED}")
-    spec = importlib.util.spec_from_file_location(path.stem, path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.path.insert(0, str(path.parent.resolve()))
-    try:
-        spec.loader.exec_module(module)
-    except (Exception, SystemExit) as error:
-        raise Refused(f"{path}: {type(error).__name__}: {error}") from error
-    return module
-
-
-def _import_module(place: str, text: str) -> ModuleType:
-    try:
-        return importlib.import_module(place)
-    except (ImportError, ValueError) as error:
-        raise Refused(f"{text}: {error}; {EXPECTED}") from None

@@ -576,7 +576,8 @@ class Field:
     value  one traction component at the points (points,) [Pa]
     area   area of the surface that each point represents (points,) [m²]
 
-    Raises ValueError for arrays of unequal lengths, without points, or areas that are not positive.
+    Raises ValueError for arrays of unequal lengths, complex or without points, or areas that are
+    not positive.
     """
 
     x: Vector
@@ -586,7 +587,10 @@ class Field:
 
     def __post_init__(self) -> None:
         for name in ("x", "y", "value", "area"):
-            flat = np.ravel(np.asarray(getattr(self, name), dtype=np.float64))
+            given = np.asarray(getattr(self, name))
+            if np.iscomplexobj(given):
+                raise ValueError(f"{name} is complex, expected real numbers")
+            flat = np.ravel(np.asarray(given, dtype=np.float64))
             object.__setattr__(self, name, flat)
         sizes = {name: getattr(self, name).size for name in ("x", "y", "value", "area")}
         if len(set(sizes.values())) > 1:

@@ -21,15 +21,16 @@ Chen 1984, Exp. Mech. 24, 208-217). τ is the largest shear at a position in a c
 range of slip, and σ_T the largest surface stress along the force at the ends of the cycle.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import copysign, expm1, log1p, pi
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.huber_stress import (
     stress_by_hertz_pressure,
     stress_by_hertz_shear,
@@ -247,6 +248,53 @@ def superpose(
         modulus_ratio,
         tangential_force,
     )
+
+
+@dataclass(frozen=True)
+class GrownContact:
+    """Hold a contact whose normal and tangential load have grown together without slip.
+
+    The ratio k of their changes is constant in each load step, with |k| <= µ. Every addition to the
+    pressure is that of a flat punch on the present contact, and k times it moves this contact by a
+    uniform shift (Mindlin and Deresiewicz 1953; Jäger 1998).
+
+    contacts       normal contacts at the ends of the load steps; the first grows from nothing
+    rates          k of each load step
+    modulus_ratio  contact modulus over tangential modulus, E*/G*
+    """
+
+    contacts: tuple[PointContact, ...]
+    rates: tuple[float, ...]
+    modulus_ratio: float
+    dissipated_energy: float = 0.0
+
+    @property
+    def tangential_force(self) -> float:
+        """Tangential force Σ k ΔW [force]."""
+        return self._sum_steps([contact.load for contact in self.contacts])
+
+    @property
+    def shift(self) -> float:
+        """Tangential shift of the indenter: E*/G* Σ k Δδ with the approach δ [length]."""
+        return self.modulus_ratio * self._sum_steps([each.approach for each in self.contacts])
+
+    @property
+    def stick_radius(self) -> float:
+        """Radius of the stick zone, which is the whole contact [length]."""
+        return self.contacts[-1].contact_radius
+
+    def shear(self, r: ArrayLike) -> NDArray[np.float64]:
+        """Compute the shear Σ k Δp on the lower body at distances r from the axis [force/length²].
+
+        p is the pressure at the ends of the load steps.
+        """
+        return np.asarray(self._sum_steps([contact.pressure(r) for contact in self.contacts]))
+
+    def _sum_steps(self, values: Sequence[Any]) -> Any:
+        starts = (0.0, *values[:-1])
+        return sum(
+            k * (end - start) for k, start, end in zip(self.rates, starts, values, strict=True)
+        )
 
 
 def _refuse_gross_slip(force: float, limit: float) -> None:

@@ -191,7 +191,8 @@ def value_text(value: float | None, unit: str, digits: int = 6) -> str:
     if unit in ("", "°"):
         return plain(value, digits) + unit
     scale = engineering_unit(abs(value), unit)
-    return f"{value / scale.size:#.{digits}g}".rstrip(".") + f" {scale.name}"
+    text = f"{value / scale.size:#.{digits}g}".rstrip(".")
+    return f"{float(text):.0f} {scale.name}" if "e" in text else f"{text} {scale.name}"
 
 
 def plain(value: float | None, digits: int = 3) -> str:

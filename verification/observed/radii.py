@@ -37,11 +37,15 @@ def states_on_radii(result: Result) -> list[ContactState]:
     """Collect the state of the contact surface at the end of each increment of a radial solver's
     result.
     """
-    states, before = list[ContactState](), None
+    states, before, under_shear = list[ContactState](), None, False
     on_disc, coupled = result.plan.circle is None, result.plan.coupled
     for now in result.increments:
         few = _has_few_rings(now, result)
         grown = before is None or now.contact_radius > GROWTH * before.contact_radius
+        # Particles move relative to the indenter before their contact.
+        under_shear |= any(now.tangential_force or ()) and (
+            before is None or now.contact_radius > before.contact_radius
+        )
         lacking = FEW_RINGS if few or (before and _has_few_rings(before, result)) else ""
         slips = now.in_contact & ~np.asarray(False if now.in_stick is None else now.in_stick)
         annulus = FEW_RINGS if on_disc and np.count_nonzero(slips) < IN_ANNULUS else ""
@@ -52,7 +56,7 @@ def states_on_radii(result: Result) -> list[ContactState]:
             replace(
                 _state_on_radii(now, result, few=few),
                 open=lacking or divided, unseen=bisected or lacking or annulus,
-                told=coupled or few,
+                told=coupled or few or under_shear,
             )
         )  # fmt: skip
         before = now

@@ -7,12 +7,14 @@ whose installation fails is left out with the reason. Each code is run there by 
 
 from __future__ import annotations
 
+import fcntl
 import json
 import os
 import subprocess
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from math import pi, sqrt, tan
 from pathlib import Path
 from typing import Any
@@ -22,17 +24,17 @@ import numpy as np
 from contact_results.blas_threads import VARIABLES
 from contact_results.directory.atomic_file import atomic_file
 from contact_scene.disk_cache import cache_directory
-from verification.challenge.python_api import (
-    CannotDo,
-    Posed,
-)
 from verification.challenge.requested_quantities import Answer, Field, Key
+from verification.challenge.solver_process import CannotDo, Posed
 
 FOLDER = "peers"
 # Why peers could not be installed: a build that waits for what it may not download would take
 # minutes of every run.
 FAILED = "failed.json"
-SECONDS_TO_INSTALL = 180
+# A build of aspher takes three minutes on two cores, and several builds may share the cores.
+SECONDS_TO_INSTALL = 600
+# First words of the reason of a time-out, which says nothing about the next installation.
+TIMED_OUT = "not installed within"
 EIGEN = Path("/usr/include/eigen3")  # of the package libeigen3-dev: else the build downloads it
 
 
@@ -88,10 +90,24 @@ def peers_directory() -> Path:
     return directory / FOLDER
 
 
+@cache
+def peers_environment() -> Installed:
+    """Return the Python environment of the other contact codes; complete it once in this process.
+
+    Other processes wait meanwhile: builds at one time would exceed their time limit.
+    """
+    directory = peers_directory()
+    directory.parent.mkdir(parents=True, exist_ok=True)
+    with directory.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        return made_environment(directory)
+
+
 def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
     """Create or complete the Python environment of the other contact codes, and return it.
 
-    A failed installation is not repeated until the file `failed.json` in the directory is removed.
+    A failed installation is not repeated until the file `failed.json` in the directory is removed;
+    one that exceeded the time limit is repeated.
 
     directory  directory of the environment
     run        replacement of `subprocess.run`, for tests
@@ -100,17 +116,22 @@ def made_environment(directory: Path, run: Run = subprocess.run) -> Installed:
     if not python.exists():
         run([sys.executable, "-m", "venv", str(directory)], check=True)
     failed = directory / FAILED
-    known = json.loads(failed.read_text(encoding="utf-8")) if failed.exists() else {}
+    stored = json.loads(failed.read_text(encoding="utf-8")) if failed.exists() else {}
+    known = _without_time_outs(stored)
     missing = {}
     for peer in PEERS:
         reason = _install_peer(python, peer, run, known.get(peer.distribution, ""))
         if reason:
             missing[peer.distribution] = reason
-    if missing != known:
+    if (remembered := _without_time_outs(missing)) != stored:
         with atomic_file(failed) as unfinished:
-            text = json.dumps(missing, indent=1, ensure_ascii=False)
+            text = json.dumps(remembered, indent=1, ensure_ascii=False)
             unfinished.write_text(text, encoding="utf-8")
     return Installed(python, missing)
+
+
+def _without_time_outs(reasons: Mapping[str, str]) -> dict[str, str]:
+    return {name: text for name, text in reasons.items() if not text.startswith(TIMED_OUT)}
 
 
 def _install_peer(python: Path, peer: Peer, run: Run, failed: str) -> str:
@@ -135,7 +156,7 @@ def _install_peer(python: Path, peer: Peer, run: Run, failed: str) -> str:
             env={**os.environ, **settings}, timeout=SECONDS_TO_INSTALL,
         )  # fmt: skip
     except subprocess.TimeoutExpired:
-        return f"not installed within {SECONDS_TO_INSTALL} s"
+        return f"{TIMED_OUT} {SECONDS_TO_INSTALL} s"
     if done.returncode == 0:
         done = run(probe, capture_output=True, text=True, check=False)
     if done.returncode == 0:

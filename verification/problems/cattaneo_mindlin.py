@@ -16,15 +16,22 @@ import numpy as np
 from scipy.integrate import quad
 
 from contact_scene import Body, CoulombFriction, FlatPunch, IsotropicMaterial, LoadStep, Scene
-from verification.closed_forms.cattaneo_mindlin import CycledContact, TangentialHistory
+from verification.closed_forms.cattaneo_mindlin import (
+    CycledContact,
+    GrownContact,
+    TangentialHistory,
+)
+from verification.closed_forms.hertz import PointContact
 from verification.closed_forms.torsion import StuckTorsion, TorsionalPartialSlip
 from verification.norms import shear_error
 from verification.problems.problem import (
+    CONTACT_MODULUS,
     FRICTION,
     FRICTION_LIMIT,
     HERTZ,
     NORMAL_FORCE,
     NU_ZERO,
+    RADIUS,
     STEEL,
     Problem,
     frictional,
@@ -41,10 +48,13 @@ if TYPE_CHECKING:
 
 
 SOURCE = "Cattaneo 1938; Mindlin 1949"
+LOOP_SOURCE = "Mindlin and Deresiewicz 1953"
 OVER_SLIDING_SHIFT = "the shift at gross sliding"
 OVER_SLIDING_WORK = "the work of µW over the shift at gross sliding"
 OVER_LIMIT = "µp_H"
+OVER_FRICTION = "µW"
 SLIDING_SHIFT = partial_slip(NU_ZERO, 0.0).sliding_shift
+SLIDING_SHIFT_STEEL = partial_slip(STEEL, 0.0).sliding_shift
 
 
 def sheared(
@@ -82,7 +92,49 @@ def sheared(
     )
 
 
-LOOP_SOURCE = "Mindlin and Deresiewicz 1953"
+# Rates dT/dW over µ of two load steps, to half of the normal force and to all of it.
+GROWING = (0.6, -0.4)
+
+
+def growing(title: str, *, by_force: bool) -> Problem:
+    """Create the problem of a ball whose normal and tangential load grow together from nothing.
+
+    The tangential load grows in the first step and falls in the second one, by less than µ times
+    the normal load. Nothing slips. The answer is exact for every Poisson's ratio.
+
+    title     title of the scene
+    by_force  True to prescribe forces, False to prescribe approach and shift
+    """
+    contacts = (PointContact.under_load(0.5 * NORMAL_FORCE, RADIUS, CONTACT_MODULUS), HERTZ)
+    rates = tuple(FRICTION * part for part in GROWING)
+    ratio = SLIDING_SHIFT_STEEL / (FRICTION * HERTZ.approach)
+    ends = tuple(GrownContact(contacts[:n], rates[:n], ratio) for n in (1, 2))
+    steps = (
+        LoadStep(normal_force=at.load, tangential_force=(end.tangential_force, 0.0))
+        if by_force
+        else LoadStep(approach=at.approach, tangential_shift=(end.shift, 0.0))
+        for at, end in zip(contacts, ends, strict=True)
+    )
+    scene = frictional(title, paraboloid(STEEL), STEEL).model_copy(update={"loading": tuple(steps)})
+    return Problem(
+        scene,
+        ends,
+        HERTZ.contact_radius,
+        f"{LOOP_SOURCE}; Jäger 1998",
+        scales={
+            OVER_SLIDING_SHIFT: SLIDING_SHIFT_STEEL,
+            OVER_SLIDING_WORK: FRICTION_LIMIT * SLIDING_SHIFT_STEEL,
+            OVER_FRICTION: FRICTION_LIMIT,
+            OVER_LIMIT: FRICTION * HERTZ.peak_pressure,
+        },
+        equations=(
+            r"q = \sum_i k_i \left[p(r; W_i) - p(r; W_{i-1})\right],\quad k_i = "
+            r"\frac{\Delta T_i}{\Delta W_i},\quad |k_i| \le \mu,\quad "
+            r"\Delta = \tfrac{E^*}{G^*} \sum_i k_i (\delta_i - \delta_{i-1})",
+        ),
+    )
+
+
 OVER_LARGEST_SHIFT = "the largest shift of the loop"
 OVER_LARGEST_SLIP = "the largest slip amplitude"
 OVER_LARGEST_WAY = "the largest way"

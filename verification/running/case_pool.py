@@ -16,7 +16,14 @@ import signal
 import threading
 import time
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    CancelledError,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
@@ -151,6 +158,10 @@ class LocalWorkers:
         lost worker."""
         return []
 
+    def deserted(self) -> str:
+        """Return an empty text, because a local worker that dies is replaced."""
+        return ""
+
     def close(self) -> None:
         """Cancel the function calls that have not started, and end the worker processes of the
         pool."""
@@ -194,6 +205,10 @@ class ThisProcess:
     def lost(self) -> list[str]:
         """Return an empty list of dead workers, because this pool has no worker processes."""
         return []
+
+    def deserted(self) -> str:
+        """Return an empty text, because this pool needs no worker processes."""
+        return ""
 
     def close(self) -> None:
         """Do nothing: this pool has no pending calls and no worker processes."""
@@ -243,7 +258,9 @@ def _obey_parent() -> None:
     threading.Thread(target=wait_for_its_end, daemon=True).start()
 
 
+SECONDS_BETWEEN_LOOKS = 1.0
 KILLED = "its worker was killed, by somebody or for lack of memory"
+CANCELLED = "the scheduler of its worker has ended, or has cancelled the case"
 OTHER_CODE = "its worker has other sources of slipstick, or other libraries: install the same there"
 
 
@@ -256,7 +273,6 @@ class CaseEnd:
     lost     reason why there is no record; None if there is a record
     stored   True if the record was read from the store
     damaged  message on a stored file that could not be used; empty if there was none
-    workers  network addresses of workers found dead since the last outcome
     """
 
     case: StudyCase
@@ -264,14 +280,6 @@ class CaseEnd:
     lost: LostCase | None = None
     stored: bool = False
     damaged: str = ""
-    workers: tuple[str, ...] = ()
-
-    @property
-    def warnings(self) -> tuple[str, ...]:
-        """Messages on problems of a case that do not affect its record: a damaged file, and dead
-        workers."""
-        dead = (f"worker {one} has died: its cases go to other workers" for one in self.workers)
-        return (*((f"{self.damaged}; computed again",) if self.damaged else ()), *dead)
 
 
 Observer = Callable[[CaseEnd], None]
@@ -305,6 +313,9 @@ class Workers(Protocol):
         """Return the network addresses of workers of the pool that have died since the last
         call."""
 
+    def deserted(self) -> str:
+        """Return the reason why no case will be computed any more; empty as long as one may be."""
+
     def close(self) -> None:
         """Cancel the calls that have not started, and release the worker processes of the pool."""
 
@@ -316,6 +327,7 @@ def run_cases(
     observe: Observer,
     *,
     fresh: bool = False,
+    warn: Callable[[str], None] = lambda text: None,
 ) -> tuple[CaseEnd, ...]:
     """Compute the cases of a study that have no stored record, and store their records.
 
@@ -326,12 +338,15 @@ def run_cases(
              end
     observe  function called in this thread with the outcome of every case; stored cases come first
     fresh    if True, compute every case even if it has a stored record
+    warn     function called in this thread with a message on a damaged file or a dead worker
     """
     cases = tuple(cases)
     ends: dict[str, CaseEnd] = {}
 
     def ended(end: CaseEnd) -> None:
         ends[end.case.name] = end
+        if end.damaged:
+            warn(f"{end.damaged}; computed again")
         observe(end)
 
     missing = {}
@@ -344,9 +359,17 @@ def run_cases(
     pool = LocalWorkers(max(1, min(workers, len(missing)))) if isinstance(workers, int) else workers
     try:
         futures = {pool.submit(_compute_case, end.case): end for end in missing.values()}
-        for future in as_completed(futures):
-            end = _computed_end(futures[future], _received_answer(future, pool), store)
-            ended(replace(end, workers=tuple(pool.lost())))
+        while futures:
+            done, _ = wait(futures, SECONDS_BETWEEN_LOOKS, FIRST_COMPLETED)
+            for worker in pool.lost():
+                warn(f"worker {worker} has died: its cases go to other workers")
+            for future in [one for one in futures if one in done]:  # in the order of the cases
+                answer = _received_answer(future, pool)
+                ended(_computed_end(futures.pop(future), answer, store))
+            if reason := pool.deserted():
+                for end in futures.values():
+                    ended(_computed_end(end, Answer(reason, code_digest()), store))
+                break
     finally:
         pool.close()
     return tuple(ends[case.name] for case in cases)
@@ -374,6 +397,8 @@ def _received_answer(future: Future[Answer], pool: Workers) -> Answer:
         answer = future.result()
     except BrokenProcessPool:
         return Answer(KILLED, code_digest())
+    except CancelledError:
+        return Answer(CANCELLED, code_digest())
     except Exception as error:  # raised by the communication with the worker
         return Answer(_error_text(error), code_digest())
     if pool.elsewhere and answer.code != code_digest():
@@ -418,6 +443,8 @@ def _error_text(error: Exception) -> str:
 
 SCHEMES = ("tcp://", "tls://")
 SECONDS_TO_CONNECT = 10
+# A worker that is killed is replaced within seconds, by its nanny; a person needs minutes.
+SECONDS_WITHOUT_WORKER = 300
 
 
 class ClusterUnavailable(Exception):
@@ -431,7 +458,8 @@ class ClusterWorkers:
 
     The workers must have the same sources of slipstick; they need no common disk. Certificates for
     tls are those of dask's configuration (`distributed.comm.tls`). If a worker dies, dask gives its
-    case to another worker, a limited number of times. Raises ClusterUnavailable.
+    case to another worker, a limited number of times. After all workers have died, new ones are
+    awaited for 300 s. Raises ClusterUnavailable.
 
     address  address of the dask scheduler, tcp://host:port or tls://host:port
     """
@@ -458,6 +486,8 @@ class ClusterWorkers:
             raise ClusterUnavailable(f"no dask scheduler answers at {address}: {error}") from error
         self._executor = self._client.get_executor(pure=False, retries=0)
         self._known = set(self._client.nthreads())
+        self._last_dead: list[str] = []
+        self._last_seen = time.monotonic()  # a worker, or none was ever there
 
     def submit(self, compute: Callable[[StudyCase], Answer], case: StudyCase) -> Future[Answer]:
         """Call a function with a case of a study in a worker of the cluster; return the future of
@@ -471,8 +501,20 @@ class ClusterWorkers:
             now = set(self._client.nthreads())
         except OSError:  # the scheduler has gone: every case that is left tells so
             return []
-        gone, self._known = self._known - now, now
-        return sorted(gone)
+        gone, self._known = sorted(self._known - now), now
+        self._last_dead = gone or self._last_dead
+        if now or not self._last_dead:
+            self._last_seen = time.monotonic()
+        return gone
+
+    def deserted(self) -> str:
+        """Return a reason that names the last workers, if all have died and none has come since."""
+        if not self._last_dead or time.monotonic() - self._last_seen < SECONDS_WITHOUT_WORKER:
+            return ""
+        return (
+            f"no worker is left: {', '.join(self._last_dead)} died, and none came within "
+            f"{SECONDS_WITHOUT_WORKER} s"
+        )
 
     def close(self) -> None:
         """Cancel the cases that have not ended, and disconnect from the cluster, which continues to

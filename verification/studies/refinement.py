@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -17,13 +17,14 @@ import numpy as np
 import fem_reference
 import semi_analytical
 from contact_errors.adaptive_refinement import Levels, refine
-from contact_errors.coarse_solves import DiscretisedSolver
+from contact_errors.coarse_solves import DiscretisedSolver, compare_with_coarse_solves
 from contact_errors.error_formula import (
     BELIEVED,
     LIMITS,
     PEAK,
     PER_TOLERANCE,
     Features,
+    SolvedRun,
     Values,
     characteristic_size,
     values_of,
@@ -32,6 +33,7 @@ from contact_errors.on_cells import CellSolver
 from contact_errors.on_elements import ElementSolver
 from contact_scene import Scene, SceneFile, read_scene_file
 from contact_scene.quantities.increment import SCALARS
+from contact_scene.quantities.stated_error import StatedError
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.solver_errors import SolverError
 from contact_scene.stepping.increment_error import has_increment_error
@@ -80,6 +82,8 @@ SMALL = {
     "annulus": "the slip zone around the stick zone",
 }  # fmt: skip
 ORDER, LARGEST, NATURAL, FLOOR = "order", "largest", "natural", "floor"
+UNREFINED = "unrefined"
+INCREMENTS = "increments"
 
 
 class CannotRefine(ValueError):
@@ -168,6 +172,8 @@ class SceneLevel:
     level       name of the level in tables
     size        abscissa of the convergence fit: relative size of an increment; None for the side of
                 a cell or element, which the solver chooses
+    refined     part of the error that the study refines, "cells", "elements" or "increments", if
+                the other parts are estimated on this level; else empty
     """
 
     scene: StudiedScene
@@ -175,6 +181,7 @@ class SceneLevel:
     increments: tuple[int, ...]
     level: str
     size: float | None = None
+    refined: str = ""
 
     @property
     def name(self) -> str:
@@ -216,6 +223,7 @@ class SceneLevel:
         work = "convolutions" if self.scene.on_cells else "iterations"
         features, side = solver.features(result)[-1], max(solver.cell_sides(result))
         ends = list(_key_scalars(steps[-1]))
+        errors = _last_errors(solver, result, self.refined) if self.refined else {}
         return CaseRecord(
             parameters=parameters | {"size": self.size or side},
             measures={
@@ -236,12 +244,58 @@ class SceneLevel:
                         NATURAL: characteristic_size(stem, steps[-1]),
                         ORDER: features.convergence_order(stem),
                         FLOOR: PER_TOLERANCE * result.tolerance + features.left.get(stem, 0.0),
+                        UNREFINED: _unrefined_part(errors.get(stem), name, self.refined),
                     },
                     words={"small": unresolved_features(features, stem)},
                 )
                 for name, stem, _ in ends
             ),
         )
+
+
+def _last_errors(solver: DiscretisedSolver, result: Any, refined: str) -> Mapping[str, StatedError]:
+    """Estimate the errors of all scalars at the end of the last load step, by name.
+
+    The errors are those that `slipstick run` states. If the refined parameter is the only one, the
+    coarse solves are omitted, and only the tolerance and neglected effects have parts.
+
+    solver   solver of the result, with variable discretisation
+    result   result of the finest level
+    refined  part of the error that the study refines
+    """
+    others = any(has_increment_error(result.scene)) or any(
+        True for _ in solver.mesh_coarse_solves(solver.space_of(result), result)
+    )
+    if others or refined != solver.part:
+        run, _ = compare_with_coarse_solves(solver, result)
+    else:
+        run = SolvedRun(
+            scene=result.scene,
+            values=values_of(result),
+            tolerance=solver.residuals(result),
+            features=solver.features(result),
+            comparisons=(),
+            required={},
+            neglected=solver.neglected_errors(result),
+        )
+    return list(run.errors())[-1]
+
+
+def _unrefined_part(stated: StatedError | None, name: str, refined: str) -> float | None:
+    """Return the part of the error of a scalar that a study does not refine, in its unit.
+
+    The tolerance is left out, which has a part of its own in a limit. The result is None if the
+    error is unknown.
+
+    stated   error estimate of the scalar, or of the vector with this component
+    name     name of the scalar, with _x or _y for a component
+    refined  part of the error that the study refines
+    """
+    if stated is None or stated.error is None:
+        return None
+    sizes = [size for part, size in stated.parts.items() if part not in (refined, "tolerance")]
+    component = int(name.endswith("_y"))
+    return sum(size[component] if isinstance(size, tuple) else size for size in sizes)
 
 
 def _key_scalars(values: Values) -> Iterator[tuple[str, str, float]]:
@@ -309,6 +363,7 @@ def discretisation_of_run(
 FEWEST_LEVELS = 4
 NEAR = 3.0  # levels up to this ratio of sizes bound the error without a common power
 COVERAGE = 2.0
+LEAST_ORDER = 0.1  # a lower order has no limit within reach: 1000 times the cells halve its error
 VANISHES = 1e-6  # relative to the natural size; smaller results are zero by symmetry
 REMEDY = "use more --cells"
 
@@ -327,6 +382,7 @@ class Estimate:
     observed     observed convergence order; None if no power of the size explains the values
     limit        estimated limit
     uncertainty  uncertainty of the limit, at 95 %
+    unrefined    part of the uncertainty by what the study does not refine; None if unknown
     remaining    bound of the error on the finest level, at 95 %
     likely       most likely error on the finest level, without safety factor
     open         reason why the levels are not asymptotic, with a remedy; empty if they are
@@ -343,6 +399,7 @@ class Estimate:
     observed: ObservedOrder | None
     limit: float
     uncertainty: float
+    unrefined: float | None
     remaining: float
     likely: float
     open: str
@@ -424,17 +481,38 @@ def _estimate_limit(part: Row, levels: Sequence[CaseRecord], order: float | None
         why = _reason_not_asymptotic(fit.observed, fit.triplets)
         if fit.observed is not None and not why:
             followed = refined_value(sizes, values, fit.observed.order)
-            limit, bound = followed.limit, COVERAGE * followed.uncertainty
+            limit = followed.limit
+            bound = COVERAGE * followed.uncertainty + _reach_of_order(sizes, values, fit.observed)
             likely = abs(values[-1] - limit)
     small = part.words["small"]
     if small:
         why = f"{small}: {REMEDY}, or a smaller window"
-    uncertainty = bound + floor
+    unrefined = measures.get(UNREFINED)
+    if unrefined is None and not why:
+        why = f"the error by what the study does not refine is unknown: {REMEDY}"
+    uncertainty = bound + floor + (unrefined or 0.0)
     return Estimate(
         name, str(part.parameters["of"]), levels[-1].units[name], tuple(sizes), tuple(values),
-        measures[LARGEST], p, fit.observed, limit, uncertainty,
+        measures[LARGEST], p, fit.observed, limit, uncertainty, unrefined,
         abs(values[-1] - limit) + uncertainty, likely, why, not small,
     )  # fmt: skip
+
+
+def _reach_of_order(
+    sizes: Sequence[float], values: Sequence[float], observed: ObservedOrder
+) -> float:
+    """Compute the largest change of a limit by a convergence order within its 95 % interval.
+
+    An error that the study does not refine changes the observed order, and with it the limit.
+
+    sizes, values  size and result of each level
+    observed       observed convergence order
+    """
+    low, limit, high = (
+        refined_value(sizes, values, max(LEAST_ORDER, observed.order + way)).limit
+        for way in (-observed.half_width, 0.0, observed.half_width)
+    )
+    return max(abs(low - limit), abs(high - limit))
 
 
 def _reason_not_asymptotic(observed: ObservedOrder | None, triplets: Triplets) -> str:
@@ -474,8 +552,9 @@ COARSER, FINER = 4, 4  # coarsest and finest increments over those of a run
 
 REMARKS = (
     "Each level is solved as `slipstick run` solves it, edge correction included.",
-    "An uncertainty and a remaining error hold at 95 %. The limit of one kind of refinement still "
-    "has the error of the others.",
+    "An uncertainty and a remaining error hold at 95 %. They contain the errors by what the study "
+    "does not refine (increments, end of the section, …), estimated by coarse solves of the finest "
+    "level.",
     "An order is a finding: numbers are judged where the scene requests an accuracy.",
 )
 
@@ -525,20 +604,28 @@ def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: s
             finest = dict(chosen).get("cells") or usual
             if settings.cells is not None:
                 finest = (settings.cells, settings.cells)
-            return tuple(
-                SceneLevel(scene, (*chosen, ("cells", (nx, ny))), increments, f"{nx} x {ny} cells")
-                for nx, ny in _level_counts(finest, settings, on_cells=True)
+            return _with_errors_on_finest(
+                [
+                    SceneLevel(
+                        scene, (*chosen, ("cells", (nx, ny))), increments, f"{nx} x {ny} cells"
+                    )
+                    for nx, ny in _level_counts(finest, settings, on_cells=True)
+                ],
+                what,
             )
         planned = contents.fem_reference.elements_per_radius
         elements = settings.cells or dict(chosen).get("elements_per_radius", planned)
-        return tuple(
-            SceneLevel(
-                scene,
-                (*chosen, ("elements_per_radius", n)),
-                increments,
-                f"{n} elements over the radius",
-            )
-            for (n,) in _level_counts((elements,), settings, on_cells=False)
+        return _with_errors_on_finest(
+            [
+                SceneLevel(
+                    scene,
+                    (*chosen, ("elements_per_radius", n)),
+                    increments,
+                    f"{n} elements over the radius",
+                )
+                for (n,) in _level_counts((elements,), settings, on_cells=False)
+            ],
+            what,
         )
 
     return _refinement_study(
@@ -552,6 +639,15 @@ def mesh_study(path: Path, overrides: Sequence[str], step: int | None, solver: s
             levels,
         ),
     )
+
+
+def _with_errors_on_finest(levels: list[SceneLevel], refined: str) -> tuple[SceneLevel, ...]:
+    """Return the levels of a study; on the finest one, errors by other causes are estimated.
+
+    levels   levels, coarse to fine
+    refined  part of the error that the study refines
+    """
+    return (*levels[:-1], replace(levels[-1], refined=refined))
 
 
 def _level_counts(
@@ -616,12 +712,12 @@ def increments_study(path: Path, overrides: Sequence[str], step: int | None, sol
                     scene, (*chosen, *_requested_cells(settings, scene)), counts, words, 1 / factor
                 )
             )
-        return tuple(found)
+        return _with_errors_on_finest(found, INCREMENTS)
 
     return _refinement_study(
         scene,
         Refinement(
-            "increments",
+            INCREMENTS,
             f"Increments of {scene.title}",
             f"What error do finite increments leave at the end of step {scene.step}? From level to "
             "level each load step with an increment error has twice the increments.",
@@ -765,11 +861,12 @@ def row_of(one: Estimate) -> Row:
             "finest": one.values[-1],
             "limit": one.limit,
             "uncertainty": one.uncertainty,
+            UNREFINED: one.unrefined,
             "remaining": one.remaining / one.largest,
             "order": None if one.observed is None else one.observed.order,
             "half_width": None if one.observed is None else one.observed.half_width,
         },
-        units=dict.fromkeys(("finest", "limit", "uncertainty"), "its unit"),
+        units=dict.fromkeys(("finest", "limit", "uncertainty", UNREFINED), "its unit"),
         words={"open": one.open} if one.open else {},
     )
 
@@ -782,6 +879,9 @@ def _estimate_table(of: Sequence[Estimate]) -> Table:
             "finest": lambda one: value_text(one.values[-1], one.unit, 7),
             "limit": lambda one: value_text(one.limit, one.unit, 7),
             "uncertainty": lambda one: value_text(one.uncertainty, one.unit, 2),
+            "of it not refined": lambda one: (
+                "unknown" if one.unrefined is None else value_text(one.unrefined, one.unit, 2)
+            ),
             "error on the finest": lambda one: plain(one.remaining / one.largest, 2),
             "observed order": lambda one: one.order_text,
             "theoretical order": lambda one: f"{one.order:g}",

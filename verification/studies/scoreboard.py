@@ -13,20 +13,16 @@ from math import inf
 from contact_results.directory.machine import program_version
 from verification.adapters import own_solvers as own
 from verification.challenge.cases import challenges
-from verification.challenge.python_api import (
-    CannotDo,
-    Judgement,
-    judge,
-)
+from verification.challenge.python_api import Judgement, judge
 from verification.challenge.requested_quantities import Solver
+from verification.challenge.solver_process import CannotDo
 from verification.exhibits.chart import NONE, Table, plain
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.peers.environment import (
     PEERS,
-    made_environment,
     make_answer_function,
-    peers_directory,
+    peers_environment,
 )
 from verification.running.study import (
     CaseRecord,
@@ -87,14 +83,15 @@ class ScoredRun:
         if self.code in OURS:
             solver, answer = OURS[self.code]
             solver = replace(solver, version=program_version())
-            return judge(self.challenge, answer, self.levels, solver=solver)
+            return judge(self.challenge, answer, self.levels, solver=solver, seconds=None)
         (peer,) = (peer for peer in PEERS if peer.module == self.code)
-        installed = made_environment(peers_directory())
+        installed = peers_environment()
         if reason := installed.missing.get(peer.distribution):
             raise CannotDo(f"could not be installed: {reason}")
         solve = make_answer_function(installed.python, peer)
         version = peer.distribution.partition("==")[2]
-        return judge(self.challenge, solve, self.levels, solver=Solver(peer.module, version))
+        described = Solver(peer.module, version)
+        return judge(self.challenge, solve, self.levels, solver=described, seconds=None)
 
 
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:

@@ -25,7 +25,7 @@ judged() { # a name, then what to judge: no pipe, which would hide the exit code
     if [ "$status" = 0 ]; then status=$code; fi
 }
 if [ -n "${SOLVER:-}" ]; then
-    for case in "${cases[@]}"; do judged "$case" "$SOLVER" --case "$case" --levels "${LEVELS:-4}"; done
+    for case in "${cases[@]}"; do judged "$case" "$SOLVER" --case "$case" --levels "${LEVELS:-4}" --seconds "${SECONDS_PER_LEVEL:-600}"; done
 else
     for folder in "${folders[@]}"; do judged "$folder" "$folder"; done
 fi

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import traceback
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -15,15 +14,16 @@ from slipstick.cli.options import optional, refuse_unknown
 from slipstick.cli.terminal import print_table
 from verification.challenge.cases import challenges
 from verification.challenge.files import read_answers
-from verification.challenge.python_api import (
+from verification.challenge.python_api import Judgement, judged
+from verification.challenge.python_api import judge as judge_solver
+from verification.challenge.requested_quantities import Grade
+from verification.challenge.solver_process import (
+    SECONDS_PER_LEVEL,
     CannotDo,
-    Judgement,
-    judged,
-    named_solver,
+    NoSuchSolver,
+    SolverFailed,
     names_a_solver,
 )
-from verification.challenge.python_api import judge as judge_solver
-from verification.challenge.requested_quantities import Grade, Solver
 from verification.report.page import COLUMNS, render_sheet, row_texts
 
 
@@ -55,6 +55,15 @@ def judge(
             min=1,
         ),
     ] = 4,
+    seconds: Annotated[
+        float,
+        typer.Option(
+            "--seconds",
+            metavar="S",
+            help="Time limit of the function on each level, on level 0 with its import.",
+            min=0.0,
+        ),
+    ] = SECONDS_PER_LEVEL,
     page: Annotated[
         Path | None,
         optional(
@@ -86,13 +95,13 @@ def judge(
     - 0: no verdict failed
     - 1: a verdict failed, or a required number is missing
     - 2: the files cannot be read
-    - 3: the solver failed
+    - 3: the solver failed, ended without an answer, or exceeded the time limit
     - 6: a verdict is inconclusive, with --strict
 
-    FILE.py is executed: judge only code that you trust.
+    FILE.py is executed in a process of its own: judge only code that you trust.
     """
     if names_a_solver(answers):
-        found = _judge_function(answers, case, levels, grade, strict)
+        found = _judge_function(answers, case, levels, seconds, grade, strict)
     elif case is not None:
         raise typer.BadParameter("--case applies to functions only; omit it for a folder")
     else:
@@ -112,31 +121,37 @@ def judge(
 
 
 def _judge_function(
-    name: str, case: str | None, levels: int, grade: GradeName | None, strict: bool
+    name: str,
+    case: str | None,
+    levels: int,
+    seconds: float,
+    grade: GradeName | None,
+    strict: bool,
 ) -> Judgement:
     """Call a Python function that solves a challenge, and judge its answers.
 
-    Exits the command if the function cannot solve the challenge or raises an exception.
+    Exits the command if the function cannot solve the challenge or gives no answer.
 
-    name    FILE.py:FUNCTION
-    case    name of the challenge
-    levels  number of refinement levels at which the function is called
-    grade   accuracy class that every error must meet, or None
+    name     FILE.py:FUNCTION
+    case     name of the challenge
+    levels   number of refinement levels at which the function is called
+    seconds  time limit of each level
+    grade    accuracy class that every error must meet, or None
     """
     if case is None:
         raise typer.BadParameter(
             "a function needs --case; 'slipstick challenge list' lists the challenges"
         )
     refuse_unknown("challenge", [case], challenges(), "slipstick challenge list")
-    solve = named_solver(name)
     try:
-        return judge_solver(case, solve, levels, grade, Solver(name))
+        return judge_solver(case, name, levels, grade, seconds=seconds)
+    except NoSuchSolver:
+        raise
     except Refused as reason:
         raise Refused(f"{case} by {name}: {reason}") from None
     except CannotDo as reason:
         typer.echo(f"{case} | {name} | cannot: {reason}")
         raise typer.Exit(ExitCode.INCONCLUSIVE if strict else ExitCode.PASS) from None
-    except (Exception, SystemExit):
-        traceback.print_exc()
-        typer.echo(f"{case}: {name} raised; see above", err=True)
+    except SolverFailed as reason:
+        typer.echo(f"{case}: {name} {reason}", err=True)
         raise typer.Exit(ExitCode.NOT_CONVERGED) from None

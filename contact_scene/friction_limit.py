@@ -1,0 +1,103 @@
+"""Comparison of a tangential load with the friction limit of the whole contact, for all solvers.
+
+At the friction limit all points slip in the direction of the load (gross slip). The motion of the
+indenter that conforms to the load is undefined there. Above the limit there is no equilibrium.
+"""
+
+from collections.abc import Sequence
+from math import hypot
+
+from contact_scene.friction import CoulombFriction
+from contact_scene.solver_errors import GrossSliding
+from contact_scene.stepping.load_path import ControlKind, LoadRamp
+
+# Relative excess of a load over the friction limit that is a rounding error. Products, and pairwise
+# sums over the points of a contact, have errors of about 10 ε = 2e-15. No tolerance of a residual
+# is below 1e-12.
+ROUND_OFF = 1e-12
+# Relative distance from the friction limit within which a load is at the limit. The shift grows
+# like (1 - T/µW)^-½, here by 3e4, which exceeds the contact. A solver would determine it from a
+# difference of forces below the tolerance of equilibrium.
+AT_LIMIT = 1e-9
+
+
+def reaches_limit(load: float, limit: float) -> bool:
+    """Return True if a tangential load is at the friction limit (within `AT_LIMIT`) or above.
+
+    load   magnitude of a tangential force or torque
+    limit  largest load of this kind that friction can carry
+    """
+    return load >= limit * (1 - AT_LIMIT)
+
+
+def exceeds_limit(load: float, limit: float) -> bool:
+    """Return True if a tangential load is above the friction limit by more than rounding errors.
+
+    load   magnitude of a tangential force or torque
+    limit  largest load of this kind that friction can carry
+    """
+    return load > limit * (1 + ROUND_OFF)
+
+
+def refuse_above_limit(force: float, torque: float, times: float) -> None:
+    """Raise GrossSliding if friction cannot carry a tangential force and a torque together.
+
+    force   magnitude of the prescribed tangential force [force]; 0 without one
+    torque  magnitude of the prescribed torque [force length]; 0 without one
+    times   factor on both at which all points slip [1]
+    """
+    if not exceeds_limit(1.0, times):
+        return
+    if not torque:
+        reached = f"tangential force {force:.6g} N exceeds the friction limit {times * force:.6g} N"
+        remedy = "tangential_shift"
+    elif not force:
+        reached = f"torque {torque:.6g} N m exceeds the friction limit {times * torque:.6g} N m"
+        remedy = "twist"
+    else:
+        reached = (
+            f"torque {torque:.6g} N m and tangential force {force:.6g} N together exceed the "
+            f"friction limit, which is {times:.6g} times both"
+        )
+        remedy = "twist or tangential_shift"
+    raise GrossSliding(f"{reached}: gross sliding; prescribe {remedy} instead")
+
+
+def limit_of_step(friction: CoulombFriction | None, ramp: LoadRamp) -> float | None:
+    """Compute the friction limit of the tangential force at the end of a load step [force].
+
+    The result is None if the limit depends on the solution, if the force does, or without friction.
+
+    friction  friction law of the scene; None without friction
+    ramp      load ramp of the load step
+    """
+    if ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tangential.kind) or not friction:
+        return None
+    return friction.largest_tangential_force(ramp.normal.end)
+
+
+def step_at_limit(friction: CoulombFriction | None, ramps: Sequence[LoadRamp]) -> int | None:
+    """Return the first load step that ends with a tangential force at the friction limit.
+
+    Its number counts from 1. The result is None without such a step.
+
+    friction  friction law of the scene; None without friction
+    ramps     load ramps of all load steps
+    """
+    for ramp in ramps:
+        limit, force = limit_of_step(friction, ramp), hypot(*ramp.tangential.end)
+        if limit and reaches_limit(force, limit):
+            return ramp.step
+    return None
+
+
+def undefined_motion_warning(step: int, remedy: str) -> str:
+    """Return the warning about a load step that ends at the friction limit under force control.
+
+    step    number of the load step, counted from 1
+    remedy  key to prescribe instead: "tangential_shift" or "twist"
+    """
+    return (
+        f"step {step} ends at the friction limit: all points slip, and {remedy} and dissipated "
+        f"energy are undefined; prescribe {remedy}"
+    )

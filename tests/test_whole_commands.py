@@ -1,0 +1,111 @@
+"""Tests of whole commands by all solvers: at the friction limit, and of drawn scenes."""
+
+import json
+from math import pi, sqrt
+from pathlib import Path
+
+import pytest
+from contact_scenes import LIMIT, LOAD, PRESS, RIGID_BALL, A, push, scene, steel
+from whole_commands import SOLVERS, campaign, run_command, write_scene
+
+from contact_scene import Body, Layer
+from contact_scene.friction_limit import AT_LIMIT, ROUND_OFF
+
+LAYER = Layer(thickness=A, material=steel(0.3, 2e11))
+COATED = Body(material=steel(), layers=(LAYER,))
+LESS = {"normal_force": 0.5 * LOAD, "increments": 2}
+AT_THE_LIMIT = {
+    "oblique": (scene(PRESS, push(sqrt(0.5), sqrt(0.5))), SOLVERS),
+    "rounding error below": (scene(PRESS, push(1 - 2**-53)), SOLVERS[:2]),
+    "rounding error above": (scene(PRESS, push(1 + 2**-52, increments=2)), SOLVERS[:3]),
+    "just below": (scene(PRESS, push(1 - 0.5 * AT_LIMIT)), SOLVERS),
+    "falling load": (scene(PRESS, push(0.5), LESS), SOLVERS),
+    "reversed": (scene(PRESS, push(0.4), push(-1.0)), SOLVERS),
+    "turned": (scene(PRESS, push(0.4), push(0.0, 1.0, increments=1)), SOLVERS[:2]),
+    "at once": (scene({**PRESS, **push(1.0), "increments": 2}), SOLVERS),
+    "coated": (
+        scene({**PRESS, "increments": 2}, push(1.0, increments=1)).model_copy(
+            update={"body": COATED}
+        ),
+        SOLVERS,
+    ),
+    "coupled": (
+        scene({**PRESS, "increments": 2}, push(1.0, increments=2), indenter=RIGID_BALL),
+        SOLVERS,
+    ),
+}
+
+
+def summary(folder: Path, solver: str, *options: str) -> dict:
+    """Summary of a run of the scene in a folder, which ends with exit code 0."""
+    output = folder / solver
+    ran = run_command(
+        *("run", folder / "scene.toml", "--solver", solver, "--figures", "none"),
+        *("--output", output, *options),
+    )
+    assert ran.code == 0, ran.text
+    return json.loads((output / "summary.json").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(
+    ("name", "solver"),
+    [(name, solver) for name, (_, solvers) in AT_THE_LIMIT.items() for solver in solvers],
+)
+def test_every_solver_slides_at_the_friction_limit(tmp_path: Path, name: str, solver: str) -> None:
+    """The oblique push also by whole commands with errors, plan and export."""
+    write_scene(AT_THE_LIMIT[name][0], tmp_path / "scene.toml")
+    whole = name == "oblique"
+    record = summary(tmp_path, solver, *([] if whole else ["--no-error"]))
+    end = record["steps"][-1]
+    assert (end["status"], end["stick_radius"]) == ("gross sliding", 0)
+    assert end["tangential_shift"] is end["dissipated_energy"] is end["input_work"] is None
+    warned = [text for text in record["warnings"] if "friction limit" in text]
+    assert len(warned) == 1
+    assert "prescribe tangential_shift" in warned[0]
+    if whole:
+        planned = run_command("plan", tmp_path / "scene.toml", "--solver", solver)
+        assert planned.code == 0
+        assert planned.text.count("prescribe tangential_shift") == 1
+        exported = run_command("export", tmp_path / solver, "--output", tmp_path / "surface")
+        assert exported.code == 0, exported.text
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_every_solver_refuses_the_same_force_in_the_same_words(tmp_path: Path, solver: str) -> None:
+    """Where the scene tells the limit, and where the solution does: an approach is prescribed."""
+    file = tmp_path / "scene.toml"
+    for normal, force in ((PRESS, "100.1"), ({"approach": 1e-6}, "100")):
+        write_scene(scene(normal, push(0.5, increments=1)), file)
+        given = f"loading[2].tangential_force=[{force}, 0]"
+        output = tmp_path / "out"
+        ran = run_command("run", file, "--solver", solver, "--set", given, "--output", output)
+        assert ran.code == 2
+        assert f"tangential force {force} N exceeds the friction limit" in ran.text
+        assert "gross sliding; prescribe tangential_shift instead" in ran.text
+
+
+def test_a_torque_at_its_friction_limit_slides(tmp_path: Path) -> None:
+    """Torque 3π/16 µWa of a paraboloid, by the closed form of the radial solver."""
+    limit = 3 * pi / 16 * LIMIT * A
+    for part in (1.0, 1 - 0.5 * AT_LIMIT):
+        write_scene(scene(PRESS, {"torque": part * limit}), tmp_path / "scene.toml")
+        record = summary(tmp_path, "radial", "--overwrite")
+        end = record["steps"][-1]
+        assert (end["status"], end["stick_radius"], end["twist"]) == ("gross sliding", 0, None)
+        assert end["torque"] == part * limit
+        assert sum("prescribe twist" in text for text in record["warnings"]) == 1
+    write_scene(scene(PRESS, {"torque": limit * (1 + 100 * ROUND_OFF)}), tmp_path / "scene.toml")
+    ran = run_command("run", tmp_path / "scene.toml", "--solver", "radial", "--output", tmp_path)
+    assert ran.code == 2
+    assert "exceeds the friction limit" in ran.text
+
+
+def test_commands_of_drawn_scenes_end_as_documented() -> None:
+    done = campaign(4, 7)
+    assert not done.failures
+    assert sum(done.counts.values()) > 30
+
+
+@pytest.mark.slow
+def test_many_commands_of_drawn_scenes_end_as_documented() -> None:
+    assert not campaign(40, 0).failures

@@ -1,0 +1,225 @@
+"""Whole commands of scenes drawn from the stability map, its edges and the friction limit.
+
+Every scene is planned and run by all solvers, and every result is exported. A command must end with
+a documented exit code, without a traceback, an internal error or a RuntimeWarning. All solvers that
+solve a scene must give it the same outcome: solved, gross slip at the limit, or refused above it.
+
+    python tests/whole_commands.py [--count SCENES] [--seed SEED]    prints the failures
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import signal
+import warnings
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import dataclass, field
+from io import StringIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, NamedTuple
+
+import numpy as np
+from pydantic import BaseModel
+
+from contact_scene import RIGID, Scene, SceneError
+from contact_scene.reading.array_file import ArrayFile
+from slipstick.cli.application import main
+from slipstick.cli.errors import ExitCode
+from verification.studies.stability.contacts import LoadingPath, StabilityCell, Surface, pose
+
+SOLVERS = ("semi-analytical", "radial", "fem", "fem-complementarity")
+STOPPED = 128 + signal.SIGPROF
+LONGEST = 10.0  # processor seconds of a command; longer ones are stopped and counted
+ALLOWED = {
+    STOPPED,
+    ExitCode.PASS,
+    ExitCode.INVALID,
+    ExitCode.NOT_CONVERGED,
+    ExitCode.RESOURCES_REFUSED,
+}
+COARSE = (
+    "[semi_analytical]\ncells = [12, 12]\n"
+    "[fem_reference]\nelements_per_radius = 4\nharmonics = 3\noverlap = 0.1\n"
+)
+ABOVE_LIMIT = "exceeds the friction limit"
+UNWANTED = re.compile(r"Traceback|RuntimeWarning|\bnan\b")
+# Ends and middle of the axes of the stability map, and forces at the friction limit.
+AXES: dict[str, Sequence[Any]] = {
+    "friction": (0.0, 1e-6, 0.1, 0.3, 1.0, 5.0),
+    "push": (0.0, 0.3, 0.9, 0.99, 0.99999, 1 - 1e-10, 1 - 2**-52, 1.0, 1.0, 1 + 2**-52, 1.001),
+    "modulus_ratio": (1e-3, 0.05, 1.0, 2.0, 20.0, 1e3),
+    "thickness": (0.01, 0.1, 1.0, 10.0),
+    "poisson_ratio": (0.0, 0.3, 0.5),
+    "base_ratio": (0.0, 0.3, 0.5),
+    "path": tuple(LoadingPath),
+    "surface": (*Surface, Surface.ALIKE_BALL, Surface.BALL),
+    "load": (1e-5, 1.0, 1.0),
+    "length": (1e-9, 1e-3, 1e-3, 1.0),
+    "modulus": (1e3, 210e9, 210e9, 1e12),
+}
+
+
+class Outcome(NamedTuple):
+    """Outcome of a command in this process: its exit code and all text that it printed."""
+
+    code: int
+    text: str
+
+
+def run_command(*arguments: str | Path) -> Outcome:
+    """Run a command of slipstick in this process; a RuntimeWarning becomes an exception.
+
+    A command that takes longer than `LONGEST` is stopped; its exit code is then `STOPPED`.
+    """
+    printed, code = StringIO(), 0
+    signal.signal(signal.SIGPROF, _stop)
+    signal.setitimer(signal.ITIMER_PROF, LONGEST)
+    with warnings.catch_warnings(), redirect_stdout(printed), redirect_stderr(printed):
+        warnings.simplefilter("error", RuntimeWarning)
+        try:
+            main([*map(str, arguments)])
+        except SystemExit as ended:
+            code = int(ended.code or 0)
+        except _Stopped:
+            code = STOPPED
+        finally:
+            signal.setitimer(signal.ITIMER_PROF, 0)
+    return Outcome(code, printed.getvalue())
+
+
+class _Stopped(BaseException):
+    """End of a command after its longest time; no handler of errors catches it."""
+
+
+def _stop(*_: object) -> None:
+    raise _Stopped
+
+
+def draw_cell(rng: np.random.Generator) -> StabilityCell:
+    """Draw a contact of the stability map, each value independent of the others.
+
+    Half of the contacts have two equal bodies without coatings, whose solves are short.
+    """
+    values = {name: axis[rng.integers(len(axis))] for name, axis in AXES.items()}
+    if rng.random() < 0.5:
+        alike = {"surface": Surface.ALIKE_BALL, "modulus_ratio": 1.0}
+        values |= alike | {"base_ratio": values["poisson_ratio"]}
+    return StabilityCell(cells=12, **values)
+
+
+def write_scene(scene: Scene, file: Path) -> None:
+    """Write a scene file and the files of its arrays."""
+
+    def given_keys(model: BaseModel) -> list[tuple[str, Any]]:
+        return [(key, value) for key, value in model if value is not None]
+
+    def text(value: Any, name: str) -> str:
+        if isinstance(value, BaseModel):
+            parts = (f"{key} = {text(part, key)}" for key, part in given_keys(value))
+            return "{ " + ", ".join(parts) + " }"
+        if isinstance(value, ArrayFile):
+            np.save(file.with_name(f"{name}.npy"), value.values)
+            return f'"{name}.npy"'
+        if isinstance(value, list | tuple):
+            return "[" + ", ".join(text(part, name) for part in value) + "]"
+        return json.dumps(value.value if value is RIGID else value)
+
+    lines = (f"{key} = {text(value, key)}\n" for key, value in given_keys(scene))
+    file.write_text("".join(lines) + COARSE, encoding="utf-8")
+
+
+@dataclass
+class Campaign:
+    """Commands of a campaign so far: counts of outcomes, and the failures in words."""
+
+    counts: Counter[str] = field(default_factory=Counter)
+    failures: list[str] = field(default_factory=list)
+
+    def command(self, about: str, name: str, *arguments: str | Path) -> Outcome:
+        """Run a command and note its failure.
+
+        about  solver and scene, for the message
+        """
+        outcome = run_command(name, *arguments)
+        self.counts[f"{name} {outcome.code}"] += 1
+        if outcome.code not in ALLOWED or UNWANTED.search(outcome.text):
+            self.failures.append(f"{about}: {name} ends with {outcome.code}: {_end(outcome)}")
+        return outcome
+
+    def solve_scene(self, name: str, scene: Path) -> None:
+        """Plan, run and export a scene by all solvers, and compare their outcomes.
+
+        name   values of the scene, for the message
+        scene  scene file
+        """
+        found = {}
+        for solver in SOLVERS:
+            about, output = f"{solver}, {name}", scene.parent / solver
+            self.command(about, "plan", scene, "--solver", solver)
+            options = ("--solver", solver, "--figures", "none", "--overwrite", "--output", output)
+            ran = self.command(about, "run", scene, *options)
+            found[solver] = _class_of(ran, output)
+            if ran.code == ExitCode.PASS:
+                self.command(about, "export", output, "--output", output / "surface")
+        if len(set(found.values()) - {None}) > 1:
+            self.failures.append(f"{name}: {found}")
+
+
+def _class_of(ran: Outcome, output: Path) -> str | None:
+    """Return the outcome of a run; None if the solver has no model or no solution of the scene."""
+    if ran.code != ExitCode.PASS:
+        return "above the limit" if ABOVE_LIMIT in ran.text else None
+    end = json.loads((output / "summary.json").read_text(encoding="utf-8"))
+    last = end["steps"][-1]
+    if last["tangential_force"] is None or last["tangential_shift"] is not None:
+        return "solved"
+    warned = sum("prescribe tangential_shift" in warning for warning in end["warnings"])
+    slides = last["status"] == "gross sliding" and last["stick_radius"] == 0 and warned == 1
+    return "gross slip" if slides else f"undefined shift with {last['status']}, {warned} warnings"
+
+
+def _end(outcome: Outcome) -> str:
+    return outcome.text.strip()[-300:]
+
+
+def draw_scenes(count: int, seed: int) -> Iterator[tuple[str, Scene]]:
+    """Draw scenes of the stability map; contacts that no scene can express are left out."""
+    rng = np.random.default_rng(seed)
+    while count:
+        cell = draw_cell(rng)
+        try:
+            scene = pose(cell).scene
+        except SceneError:
+            continue
+        count -= 1
+        yield cell.name, scene
+
+
+def campaign(count: int, seed: int) -> Campaign:
+    """Run all commands of drawn scenes by all solvers.
+
+    count  number of scenes
+    seed   seed of the random numbers
+    """
+    done = Campaign()
+    for name, scene in draw_scenes(count, seed):
+        with TemporaryDirectory() as folder:
+            file = Path(folder) / "scene.toml"
+            write_scene(scene, file)
+            done.solve_scene(name, file)
+    return done
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=0)
+    asked = parser.parse_args()
+    found = campaign(asked.count, asked.seed)
+    print(*found.failures, sep="\n")
+    print(sum(found.counts.values()), "commands:", dict(found.counts))
