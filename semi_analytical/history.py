@@ -179,7 +179,10 @@ class _Solver:
             return replace(after, edge_report=edges)
         stick: float | None = 0.0
         if not self.plan.couples and after.sheared is not None:
-            stick = None if edges.sheared is None else edges.sheared.radius_left
+            if edges.sheared is not None:
+                stick = edges.sheared.radius_left
+            elif np.any(after.sheared.in_stick):
+                stick = None
         return replace(after, corrected=edges, edge_report=replace(edges.report, stick=stick))
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:

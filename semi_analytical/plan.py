@@ -136,7 +136,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         effect.coupled(scene, coupled, why),
         effect.load_history(len(scene.loading) > 1 and shear),
         Effect(MIRROR_PLANES, symmetry != WINDOW, why_symmetry),
-        Effect(EDGES, *_decide_edge_correction(scene, edge, torsion)),
+        Effect(EDGES, *_decide_edge_correction(scene, edge, coupled, torsion)),
     )
     acting = Coupling.FULL if coupled else Coupling.NONE
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
@@ -206,12 +206,15 @@ def _choose_symmetry(
     return found, even + f"solved on {'a quarter' if x and y else 'half'} of the window"
 
 
-def _decide_edge_correction(scene: Scene, asked: EdgeCorrection, torsion: bool) -> tuple[bool, str]:
+def _decide_edge_correction(
+    scene: Scene, asked: EdgeCorrection, coupled: bool, torsion: bool
+) -> tuple[bool, str]:
     """Decide if the edge correction is applied to a scene, and state the reason.
 
     The edge correction accounts for contact edges inside cells.
 
     asked    requested edge correction: "off", or the increments at whose end it is applied
+    coupled  True if the friction of the scene changes its pressure
     torsion  True if the scene has torsion
     """
     if asked == "off":
@@ -220,8 +223,8 @@ def _decide_edge_correction(scene: Scene, asked: EdgeCorrection, torsion: bool) 
         return False, "the pressure of a flat punch is singular at its rim"
     if torsion:
         return False, "not available with torsion"
-    if scene.friction is not None and scene.friction.uniform is None:
-        return False, "the friction limit is not a constant multiple of the pressure"
+    if coupled and scene.friction is not None and scene.friction.uniform is None:
+        return False, "the friction limit of coupled bodies is not a constant times the pressure"
     when = "increment" if asked == "all" else "load step"
     return True, f"tractions vanish within edge cells at the end of each {when}: {EDGE_COST}"
 

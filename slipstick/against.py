@@ -1,7 +1,10 @@
 """Comparison of a stored run with a measured loop or profile, for the command `slipstick against`.
 
-A loop of tangential force over shift is compared in three steps:
+A loop of tangential force over shift is compared in four steps:
 
+- closure: a measured loop of one or more cycles returns to its first point except for drift. A
+  drift that grows in proportion to the number of points is subtracted from shift and force. Without
+  a drift of the force, the energy is then the sum of (T - mean T) Δδ over the measured steps
 - centre: mean of the largest and the smallest shift, and of the largest and the smallest force
 - slope (ratio of the ranges of force and shift) and area (energy per cycle)
 - forces at equal shifts, after both loops were moved to a common centre; the shifts are those of
@@ -11,19 +14,35 @@ A loop of tangential force over shift is compared in three steps:
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_results.files.measured_table import ACTUATOR, LOAD, PLACE, PRESSURE, SHEAR, SHIFT
 from contact_results.files.stored_run import StoredRun
 from contact_results.surface import Rings
 from contact_scene.quantities.summary import StepSummary
+from contact_scene.reading import units
+from contact_scene.reading.text_table import ColumnNames
 from contact_scene.rig import compliances
 
 Numbers = NDArray[np.float64]
+SHIFT, ACTUATOR = "tangential_shift", "actuator_shift"
+LOAD, PLACE, PRESSURE, SHEAR = "tangential_force", "x", "pressure", "shear"
+# Accepted heads of measured columns, including those of increments.csv and profiles.csv.
+MEASURED: ColumnNames = {
+    SHIFT: (
+        units.LENGTH,
+        frozenset({"shift", "delta", "δ", "tangential_shift", "tangential_shift_x"}),
+    ),
+    ACTUATOR: (units.LENGTH, frozenset({"actuator_shift", "actuator_shift_x", "delta*", "δ*"})),
+    LOAD: (units.FORCE, frozenset({"t", "f", "force", "tangential_force", "tangential_force_x"})),
+    PLACE: (units.LENGTH, frozenset({"x"})),
+    PRESSURE: (units.PRESSURE, frozenset({"p", "pressure"})),
+    SHEAR: (units.PRESSURE, frozenset({"q", "shear", "shear_x"})),
+}
 # Largest distance of the last shift of a loop from its first, relative to the range: one half if
 # four points go around, and 1 for one branch.
 GAP = 0.75
@@ -42,6 +61,8 @@ class ComparedNumber:
     error               stated error of the computed number; None if unknown
     gap                 absolute difference; for curves, the root mean square of the differences at
                         all points
+    of_table            error of the measured number, from the closure of a loop and the distance of
+                        its points; None if unknown
     """
 
     name: str
@@ -50,6 +71,7 @@ class ComparedNumber:
     computed: float
     error: float | None
     gap: float
+    of_table: float | None = None
 
     @property
     def ratio(self) -> float | None:
@@ -86,8 +108,7 @@ def comparison(
         if {motion, LOAD} <= table.keys():
             if step is not None:
                 raise NothingToCompare("a loop is compared with the last load cycle; omit --step")
-            theirs = _Loop(table[motion], table[LOAD])
-            theirs.refuse_unless_one_cycle()
+            theirs = np.stack([table[motion], table[LOAD]])
             return tuple(_compare_loops(theirs, run, motion))
     if PLACE in table and {PRESSURE, SHEAR} & table.keys():
         return tuple(_compare_profiles(table, run, step or len(run.summary.steps)))
@@ -99,7 +120,9 @@ def comparison(
 
 @dataclass(frozen=True, eq=False)
 class _Loop:
-    """Closed loop of tangential force over shift, with n points.
+    """Closed loop of tangential force over shift: one or more load cycles with n points.
+
+    The last point is followed by the first one.
 
     shift  tangential shift at each point (n,) [length]
     force  tangential force at each point (n,) [force]
@@ -115,29 +138,34 @@ class _Loop:
 
     @property
     def area(self) -> float:
-        """Area of the polygon through the points: energy per cycle [force length].
+        """Area of the polygon through the points: energy of all cycles [force length].
 
         The area is negative if the points are in reversed order.
         """
         turn = np.roll(self.shift, -1) * self.force - self.shift * np.roll(self.force, -1)
         return 0.5 * float(np.sum(turn))
 
-    def refuse_unless_one_cycle(self) -> None:
-        """Raise NothingToCompare unless the points make up one closed cycle.
+    @property
+    def area_error(self) -> float:
+        """Error of the area due to the distance of the points: its change without every second."""
+        halves = (_Loop(self.shift[first::2], self.force[first::2]) for first in (0, 1))
+        return max(abs(half.area - self.area) for half in halves)
 
-        One branch, several cycles, and a loop without a range of shift are refused.
+    @cached_property
+    def cycles(self) -> tuple[_Loop, ...]:
+        """The load cycles, each from its smallest shift; empty if there is none.
+
+        In a cycle, the shift exceeds a quarter of its range on either side of the centre.
         """
-        apart = self.shift - _loop_centre(self.shift)
-        length = float(np.ptp(self.shift))
-        outer = np.sign(apart[np.abs(apart) > length / 4])
-        cycles = np.count_nonzero(outer != np.roll(outer, 1)) / 2
-        gap = abs(float(apart[-1] - apart[0]))
-        if cycles != 1 or not gap < GAP * length:
-            raise NothingToCompare(
-                f"cycles in the table: got {cycles:g}, expected the points of one cycle in order; "
-                f"gap between the last shift and the first: got {gap:.3g} m, expected less than "
-                f"{GAP * length:.3g} m"
-            )
+        begin = int(np.argmin(self.shift))
+        points = np.roll(np.stack([self.shift, self.force]), -begin, axis=1)
+        apart = points[0] - _loop_centre(points[0])
+        outer = np.flatnonzero(np.abs(apart) > np.ptp(apart) / 4)
+        turns = np.flatnonzero(np.diff(np.sign(apart[outer]))) + 1
+        sides = np.split(outer, turns)
+        count = len(sides) // 2  # a last side without its counterpart belongs to the first one
+        starts = [side[np.argmin(apart[side])] for side in sides[2 : 2 * count : 2]]
+        return tuple(_Loop(*each) for each in np.split(points, starts, axis=1)) if count else ()
 
     @property
     def branches(self) -> tuple[tuple[Numbers, Numbers], ...]:
@@ -160,15 +188,45 @@ def _loop_centre(values: Numbers) -> float:
     return float(np.max(values) + np.min(values)) / 2
 
 
-def _compare_loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[ComparedNumber]:
+def _close_loop(points: Numbers) -> _Loop:
+    """Close a measured loop.
+
+    The last point of the table precedes the first one by one step, or repeats it. The change from
+    the last point to the first is a step if it resembles the first or the last step of the table:
+    half to twice its shift and half to twice its force. Any other change is due to drift, which is
+    subtracted in proportion to the number of points. Raises NothingToCompare unless the points make
+    up whole cycles.
+
+    points  shift and force (2, n)
+    """
+    gap = points[:, -1] - points[:, 0]
+    adjacent = np.diff(points, axis=1)[:, [0, -1]].T if points.shape[1] > 1 else ()
+    if any(np.all((step / 2 + gap) * (2 * step + gap) <= 0) for step in adjacent):
+        loop = _Loop(*points)
+    else:
+        drift = gap[:, None] * np.linspace(0.0, 1.0, points.shape[1])
+        loop = _Loop(*(points - drift)[:, : max(1, points.shape[1] - 1)])
+    most = GAP * float(np.ptp(points[0]))
+    if not loop.cycles or not abs(gap[0]) < most:
+        raise NothingToCompare(
+            f"cycles in the table: got {len(loop.cycles)}, expected the points of one or more "
+            "whole cycles in order; gap between the last shift and the first: got "
+            f"{abs(gap[0]):.3g} m, expected less than {most:.3g} m"
+        )
+    return loop
+
+
+def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Iterator[ComparedNumber]:
     """Compare a measured loop of force over shift with the last load cycle of a run.
 
-    Yields the comparisons of centre, slope and area, and then of the forces along the loop. Raises
-    NothingToCompare if no load cycle of the run closes with slip.
+    Yields the comparisons of the gaps between last and first point, of centre, slope and area, and
+    of the forces along the loop. Raises NothingToCompare if the table has no whole cycles, or if no
+    load cycle of the run closes with slip.
 
-    theirs  measured loop
+    table   measured shift and force (2, n)
     motion  name of the compared shift: that of the actuator of a test rig, or of the contact
     """
+    theirs = _close_loop(table)
     numbered = [(n, end) for n, end in enumerate(run.summary.steps, 1) if end.energy_per_cycle]
     if not numbered:
         raise NothingToCompare(
@@ -191,6 +249,12 @@ def _compare_loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compa
     if of_shift is not None and of_force is not None:
         parts = of_shift / np.ptp(ours.shift) + of_force / np.ptp(ours.force)
         of_slope = float(2 * parts * ours.slope)
+    gaps = table[:, -1] - table[:, 0]
+    for name, unit, gap, each, error in (
+        ("gap of shift", "m", gaps[0], ours.shift, of_shift),
+        ("gap of force", "N", gaps[1], ours.force, of_force),
+    ):
+        yield _compare_number(name, unit, float(gap), float(each[-1] - each[0]), error)
     yield _compare_number(
         "centre of shift", "m", _loop_centre(theirs.shift), _loop_centre(ours.shift), of_shift
     )
@@ -198,17 +262,26 @@ def _compare_loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compa
         "centre of force", "N", _loop_centre(theirs.force), _loop_centre(ours.force), of_force
     )
     yield _compare_number("slope", "N/m", theirs.slope, ours.slope, of_slope)
-    yield _compare_number(
-        "energy per cycle", "J", theirs.area, end.energy_per_cycle or 0.0, of_energy
+    # A drift of any course changes the energy by less than its size times the largest distance of
+    # the other coordinate from its mean.
+    furthest = [np.max(np.abs(each - np.mean(each))) for each in (theirs.force, theirs.shift)]
+    cycles = len(theirs.cycles)
+    yield replace(
+        _compare_number(
+            "energy per cycle", "J", theirs.area / cycles, end.energy_per_cycle or 0.0, of_energy
+        ),
+        of_table=float(np.abs(gaps) @ furthest + theirs.area_error) / cycles,
     )
-    few, many = sorted((theirs, ours), key=lambda loop: len(loop.shift))
-    gaps = [
-        force - np.interp(shift, *finer)
-        for (shift, force), finer in zip(few.branches, many.branches, strict=True)
-    ]
+    differences = []
+    for cycle in theirs.cycles:
+        few, many = sorted((cycle, ours), key=lambda loop: len(loop.shift))
+        differences += [
+            force - np.interp(shift, *finer)
+            for (shift, force), finer in zip(few.branches, many.branches, strict=True)
+        ]
     theirs_half, ours_half = (float(np.ptp(loop.force)) / 2 for loop in (theirs, ours))
     error = None if of_slope is None else of_slope * float(np.ptp(ours.shift)) / 2
-    gap = _root_mean_square(np.concatenate(gaps))
+    gap = _root_mean_square(np.concatenate(differences))
     yield ComparedNumber("force along the loop", "N", theirs_half, ours_half, error, gap)
 
 

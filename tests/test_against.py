@@ -10,6 +10,9 @@ import numpy as np
 import pytest
 from command import outcome, rows
 
+from contact_results.files.stored_run import load
+from slipstick.against import ComparedNumber, comparison
+
 SCENE = """
 [indenter]
 shape = "paraboloid"
@@ -68,10 +71,18 @@ def against(place: Path, measured: Path, *arguments, run: str = "run") -> dict[s
     return {cells[0].split(" (")[0]: cells[1:] for cells in lines if len(cells) == 6}
 
 
+def value(text: str) -> float:
+    """Number of a cell without its error."""
+    return float(text.partition("±")[0])
+
+
 def loop(place: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Actuator shift, shift and force of the last load cycle, from its first point to its end."""
     path = place / "run/increments.csv"
     names = ("actuator_shift_x [m]", "tangential_shift_x [m]", "tangential_force_x [N]")
-    actuator, shift, force = (column(path, name, ("3", "4")) for name in names)
+    actuator, shift, force = (
+        np.append(column(path, name, ("2",))[-1], column(path, name, ("3", "4"))) for name in names
+    )
     return actuator, shift, force
 
 
@@ -93,8 +104,8 @@ def test_offset_slope_and_area_of_a_loop_are_found_with_our_part(place: Path) ->
         place, table(place / "back.csv", **{"shift [m]": shift[::-1], "T [N]": force[::-1]})
     )
     assert float(back["energy per cycle"][2]) == pytest.approx(-1.0, abs=3e-3)
-    finer = [np.interp(np.linspace(0, 47, 142), np.arange(48), each) for each in (shift, force)]
-    columns = zip(("shift [m]", "T [N]"), (np.roll(each, 50) for each in finer), strict=True)
+    finer = [np.interp(np.linspace(0, 48, 145), np.arange(49), each) for each in (shift, force)]
+    columns = zip(("shift [m]", "T [N]"), (np.roll(each[1:], 50) for each in finer), strict=True)
     gap = against(place, table(place / "rolled.csv", **dict(columns)))["force along the loop"][3]
     assert float(gap) < 1e-4 * float(found["force along the loop"][3])
 
@@ -109,20 +120,70 @@ def test_offset_slope_and_area_of_a_loop_are_found_with_our_part(place: Path) ->
     assert float(found["energy per cycle"][4].split()[0]) == pytest.approx(expected, rel=0.03)
 
 
+CLOSED = [(0.01, 0.0), (0.0, 0.01), (0.01, 0.01), (-0.02, 0.01), (0.003, -0.015)]
+
+
+@pytest.mark.parametrize("cycles", [1, 3])
+@pytest.mark.parametrize("start", [0, 7, 24, 31])
+def test_a_drift_of_a_loop_is_no_energy(place: Path, cycles: int, start: int) -> None:
+    """Linear drifts of shift and force, as parts of their ranges, from every start, both ways."""
+    run = load(place / "run")
+    _, *once = loop(place)
+
+    def energy(points: np.ndarray) -> ComparedNumber:
+        columns = {"tangential_shift": points[0], "tangential_force": points[1]}
+        (found,) = (each for each in comparison(columns, run) if each.name == "energy per cycle")
+        return found
+
+    whole = energy(np.array(once))
+    assert whole.measured == pytest.approx(whole.computed, abs=whole.error + whole.of_table)
+    assert whole.of_table < 0.02 * whole.measured
+    one = np.roll(np.array(once)[:, 1:], start, axis=1)
+    table = np.hstack([one] * cycles + [one[:, :1]])
+    time, ranges = np.linspace(0, 1, table.shape[1]), np.ptp(table, axis=1)
+    for drift in CLOSED:
+        drifted = table + np.outer(drift * ranges, time)
+        for points, sign in ((drifted, 1), (drifted[:, ::-1], -1)):
+            found = energy(points)
+            assert sign * found.measured == pytest.approx(whole.measured, rel=1e-9)
+            furthest = np.max(np.abs(table - np.mean(table, axis=1)[:, None]), axis=1)
+            bound = np.abs(drift * ranges) @ furthest[::-1] / cycles
+            assert found.of_table == pytest.approx(bound, abs=1.1 * whole.of_table + 0.02 * bound)
+    # A drift of another course has the same gap, and an energy within the error.
+    bent = energy(table + np.outer((0.01 * ranges[0], 0), time**3))
+    assert bent.measured == pytest.approx(whole.measured, abs=bent.of_table)
+    # Without its last point, the table lacks one step.
+    open_ended = energy(table[:, :-1])
+    assert open_ended.measured == pytest.approx(whole.measured, rel=1e-9)
+    assert open_ended.of_table > whole.of_table
+
+
+def test_the_gap_of_a_loop_is_printed(place: Path) -> None:
+    _, shift, force = loop(place)
+    drift = np.linspace(0, 0.03, 49)
+    measured = table(
+        place / "drift.csv", **{"shift [um]": 1e6 * shift + drift, "T [N]": force - 50 * drift}
+    )
+    found = against(place, measured)
+    assert value(found["gap of shift"][0]) == pytest.approx(30, abs=0.01)  # nm
+    assert value(found["gap of force"][0]) == pytest.approx(-1.5, abs=0.001)
+    assert "±" in found["energy per cycle"][0]
+
+
 def test_a_loop_of_the_actuator_has_the_energy_of_the_contact(place: Path) -> None:
     actuator, shift, force = loop(place)
     energies, slopes = [], []
     for name, motion in (("actuator_shift [m]", actuator), ("shift [m]", shift)):
         found = against(place, table(place / "loop.csv", **{name: motion, "T [N]": force}))
-        energies.append(float(found["energy per cycle"][0]))
+        energies.append(value(found["energy per cycle"][0]))
         slopes.append(float(found["slope"][0]))
         assert float(found["slope"][2]) == pytest.approx(1.0, abs=1e-4)
         assert found["slope"][4] == "100.0 %"
     assert energies[0] == pytest.approx(energies[1], rel=1e-4)
     assert 1 / slopes[0] - 1 / slopes[1] == pytest.approx(1 / 100, rel=1e-3)  # of the spring
     smaller = table(place / "loop.csv", **{"shift [m]": shift, "T [N]": 0.9 * force})
-    both_ways = np.sum(force**2) + np.min(force) ** 2 + np.max(force) ** 2  # with both ends twice
-    gap = 0.1 * np.sqrt(both_ways / (len(force) + 2))
+    both_ways = np.sum(force**2) + np.min(force) ** 2  # with both ends twice
+    gap = 0.1 * np.sqrt(both_ways / (len(force) + 1))
     found = against(place, smaller)["force along the loop"]
     assert float(found[3]) == pytest.approx(gap, rel=1e-3)
 
@@ -130,16 +191,22 @@ def test_a_loop_of_the_actuator_has_the_energy_of_the_contact(place: Path) -> No
 @pytest.mark.parametrize(
     ("columns", "message"),
     [
-        ({"T [mm]": [1], "shift [um]": [1]}, "got the column 'T [mm]', expected a unit of N"),
-        ({"T": [1], "shift [um]": [1]}, "got the column 'T', expected a unit of N"),
-        ({"T [N]": ["two"], "shift [um]": [1]}, "write numbers only"),
-        ({"T [N]": ["nan"], "shift [um]": [1]}, "values that are not finite"),
+        (
+            {"T [mm]": [1], "shift [um]": [1]},
+            'got the column "T [mm]", expected the unit of its numbers, such as "t [N]"',
+        ),
+        ({"T": [1], "shift [um]": [1]}, 'got the column "T", expected the unit of its numbers'),
+        (
+            {"T [N]": ["two"], "shift [um]": [1]},
+            'line 2 of "bad.csv" has no finite number in the column "T [N]"',
+        ),
+        ({"T [N]": ["nan"], "shift [um]": [1]}, "remove rows with missing values"),
         ({"T [N]": [1], "time [s]": [1]}, "got the columns tangential_force, expected shift or"),
         ({"T [N]": [1], "shift [um]": [1]}, "the table: got 0"),
         ({"T [N]": [9, 2, -2, -9], "shift [um]": [3, 1, -1, -3]}, "expected less than 4.5e-06 m"),
         (
-            {"T [N]": [9, -2, -9, 2] * 2, "shift [um]": [3, 0, -3, 0] * 2},
-            "the table: got 2",
+            {"T [N]": [9, -2, -9, 2, 9, -2, -9], "shift [um]": [3, 0, -3, 0, 3, 0, -3]},
+            "one or more whole cycles",
         ),
     ],
 )

@@ -375,7 +375,10 @@ def test_neglected_slip_is_listed() -> None:
     [
         pytest.param((PRESS, push(0.9), push(-0.9)), (1, 1, 1), id="reversal"),
         pytest.param((PRESS, push(0.3), {"normal_force": 500}), (1, 1, 20), id="less pressure"),
-        pytest.param(({**PRESS, **push(0.3)},), (20,), id="both at once"),
+        pytest.param(({**PRESS, **push(0.3)},), (1,), id="both at once"),
+        pytest.param(
+            (PRESS, {"normal_force": 1100, **push(0.3)}), (1, 20), id="growing by more than µW"
+        ),
         pytest.param(({**PRESS, "increments": 7}, push(0.3)), (7, 1), id="as asked"),
         pytest.param((PRESS, {"bulk_strain": (1e-5, 1e-5, 0.0)}), (20, 20), id="strain"),
     ],

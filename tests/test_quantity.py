@@ -27,6 +27,7 @@ from contact_scene.reading.quantity import (
     PoissonRatio,
     PositiveLength,
     PositivePressure,
+    PositiveStiffness,
     PressingForce,
     Rotation,
     SlopeAngle,
@@ -39,8 +40,10 @@ from contact_scene.reading.units import (
     LENGTH,
     MOMENT,
     PRESSURE,
+    SHARE,
     STIFFNESS,
     Kind,
+    equal_unit,
 )
 from slipstick import LoadStep, Paraboloid
 
@@ -140,16 +143,55 @@ def test_bounds_hold(kind: Any, inside: list[Any], outside: list[Any]) -> None:
 @pytest.mark.parametrize(
     ("kind", "written", "hint"),
     [
-        (Length, "18 MM", '"18 mm"'),
+        (Length, "18 Cm", '"18 cm"'),
         (PositivePressure, "5 gpa", '"5 GPa"'),
+        (PositivePressure, "210 GN/m^2", '"210 GPa"'),
+        (PositivePressure, "7 N/um^2", '"7 TPa"'),
         (PressingForce, "1 kn", '"1 kN"'),
+        (PressingForce, "2 mn", '"2 mN"'),
+        (PositiveStiffness, "5 mN/nm", '"5 N/um"'),
+        (Moment, "3 m N", '"3 N m"'),
+        (Moment, "4 kN mm", '"4 N m"'),
         (Length, "0.018", "without quotes"),
+        # m and M are a thousandth and a million: the size of the unit is unknown.
+        (Length, "18 MM", "the units are"),
+        (PositivePressure, "5 mpa", "the units are"),
+        (PressingForce, "100 kg", "the units are"),
+        (Length, "18 mn", "the units are"),
     ],
 )
 def test_a_near_miss_gets_a_suggestion(kind: Any, written: str, hint: str) -> None:
     with pytest.raises(ValidationError) as caught:
         value_of(kind, written)
     assert hint in caught.value.errors()[0]["ctx"]["hint"]
+
+
+WRITTEN = """
+ g kg t lb lbs kgf kp dyn daN cN pN nN GN TN kn KN Kn mn MN Mn N n newton lbf LBF ozf m M km dm cm
+ CM Cm mm MM Mm mM um UM Um uM µm micron nm NM Nm pm Å A in IN inch inches ft mil Pa PA pa hPa kPa
+ KPA Kpa MPa Mpa MPA mpa mPa GPa Gpa gpa TPa N/m2 N/m^2 GN/m^2 MN/m^2 kN/m^2 kN/mm^2 N/mm2 N/um^2
+ mN/um^2 daN/mm^2 bar mbar Bar ksi psi PSI Msi atm kg/mm^2 N/m N/mm N/cm kN/m MN/m GN/m mN/nm uN/nm
+ N/nm N/µm kN/um nN/nm N/m/m mNm kNm Nmm kNmm rad mrad urad deg degree DEG Rad grad %
+ percent ppm s Hz
+"""
+
+
+@pytest.mark.parametrize("kind", [LENGTH, FORCE, MOMENT, STIFFNESS, PRESSURE, ANGLE, SHARE])
+def test_a_suggested_unit_has_the_size_of_the_written_one(kind: Kind) -> None:
+    for written in {*WRITTEN.split()} - {*kind.units}:
+        suggested = equal_unit(written, kind)
+        if suggested is None:
+            continue
+        apart, known = (
+            re.sub("N(?=m)", "N ", re.sub("(?<=m)2", "^2", unit)) for unit in (written, suggested)
+        )
+        if suggested.lower() == written.lower():
+            mega, other = (
+                [letter for letter in unit if letter in "mM"] for unit in (written, suggested)
+            )
+            assert mega == other
+        else:
+            assert UNITS.Quantity(1.0, apart).to(known).magnitude == pytest.approx(1.0)
 
 
 @given(st.text(max_size=30) | st.from_regex(r"[0-9.eE+-]{1,8} ?[A-Za-z*/^ 0-9-]{1,12}"))

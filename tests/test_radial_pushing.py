@@ -165,7 +165,8 @@ def test_at_the_friction_limit_all_points_carry_it_along_the_force(alike: bool) 
     assert end.angles is not None
     limit = FRICTION * end.pressure
     along = end.shear_radial * np.cos(end.angles) - end.shear_circumferential * np.sin(end.angles)
-    assert along == pytest.approx((1 - 5e-10) * limit, rel=1e-10, abs=1e-10 * np.max(limit))
+    # Output angles lie between the points: their shear is interpolated.
+    assert along == pytest.approx(limit, abs=0.02 * np.max(limit))
     assert end.status is ContactStatus.GROSS_SLIDING
     assert (end.tangential_shift, end.dissipated_energy, end.stick_radius) == (None, None, 0)
 

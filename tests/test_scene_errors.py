@@ -63,7 +63,7 @@ MISTAKES = {
     "foreign key": (("radius", "speed = 1\nradius"), 4, "indenter.speed", "the keys here are"),
     "missing key": (('radius = "18 mm"', ""), 2, "indenter.radius", "a positive length"),
     "wrong unit": (("18 mm", "18 s"), 4, "indenter.radius", 'got "18 s", expected a positive le'),
-    "unknown unit": (("18 mm", "18 mn"), 4, "indenter.radius", 'did you mean "18 m'),
+    "unknown unit": (("18 mm", "18 mn"), 4, "indenter.radius", "the units are m, cm"),
     "number as text": (('"18 mm"', '"0.018"'), 4, "indenter.radius", "without quotes"),
     "negative length": (('"18 mm"', "-1"), 4, "indenter.radius", "got -1, expected a positive"),
     "zero length": (('"18 mm"', "0.0"), 4, "indenter.radius", "got 0.0"),

@@ -75,6 +75,28 @@ def at_points(place: Path, source: str, out: str, *arguments: object) -> list[di
     return rows(place / out / "stress_history.csv")
 
 
+def test_points_are_read_from_a_table(place: Path) -> None:
+    table = place / "points.csv"
+    table.write_bytes(
+        "label;x [mm];y [µm];depth [mm]\na;0,1;50;0,03\nb;0;0;0,1\n;;;\n".encode("latin-1")
+    )
+    given = ("--at", "0.1 mm,50 um,0.03 mm", "--at", "0,0,0.1 mm")
+    of_table = at_points(place, "run", "table", "--at", table)
+    for found, expected in zip(of_table, at_points(place, "run", "at", *given), strict=True):
+        assert found["material"] == expected["material"]
+        for name in ("x [m]", "y [m]", "depth [m]", *SIGMA):
+            value = float(expected[name])
+            assert float(found[name]) == pytest.approx(value, rel=1e-9, abs=1e-3)
+    for text, message in (
+        ("x [mm],y [mm]\n1,2\n", "got no column z, expected x, y and z"),
+        ("x [mm],y [mm],z [mm]\n1,2,-1\n", "depth is -0.001"),
+    ):
+        table.write_text(text, encoding="utf-8")
+        ended = outcome("stress", place / "run", "-o", place / "no", "--at", table, cwd=ROOT)
+        assert ended.returncode == 2
+        assert message in " ".join(ended.stderr.replace("│", " ").split())
+
+
 SIGMA = tuple(f"sigma_{name} [Pa]" for name in ("xx", "yy", "zz", "yz", "xz", "xy"))
 
 

@@ -219,32 +219,16 @@ TOLD = (
 PICTURE = TOLD.T[::-1]
 
 
-def printed(separator: str, *, end: str = "", head: str = "", missing: str = "nan") -> str:
-    def field(value: float) -> str:
-        text = missing if np.isnan(value) else repr(float(value))
-        return text.replace(".", ",") if separator != "," else text
-
-    return head + "\n".join(separator.join(map(field, row)) + end for row in PICTURE) + "\n"
-
-
 def read_map(folder: Path, name: str, text: str, **more: object) -> HeightMap:
     (folder / name).write_text(text, encoding="utf-8")
     given = {"shape": "height_map", "material": "rigid", "file": name, "spacing": 1e-5, **more}
     return HeightMap.model_validate(given, context={"folder": folder})
 
 
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("plain.csv", printed(",")),
-        ("spaces.txt", "\ufeff" + printed(" ").replace(",", ".")),
-        ("tabs.txt", printed("\t", head="# Channel: height\n# Width: 80 µm\n")),
-        ("decimal commas.csv", printed(";", end=";", head="Profil 3\nBreite;0,08 mm\n\n")),
-    ],
-)
-def test_a_text_file_is_the_map_as_seen_from_above(name: str, text: str, tmp_path: Path) -> None:
+def test_a_text_file_is_the_map_as_seen_from_above(tmp_path: Path) -> None:
+    text = "\n".join(",".join(map(str, row)) for row in PICTURE.tolist())
     for unit in ("um", "1 um", 1e-6):
-        found = read_map(tmp_path, name, text, height_unit=unit)
+        found = read_map(tmp_path, "plain.csv", text, height_unit=unit)
         np.testing.assert_allclose(found.heights, TOLD * 1e-6, rtol=1e-14)
         assert found.extent == pytest.approx((9e-5, 7e-5))
 
@@ -285,8 +269,8 @@ def test_points_that_were_not_measured_are_never_lowest(word: str, tmp_path: Pat
     [
         ("", "no numbers"),
         ("some\nwords\n", "no numbers"),
-        ("1,2,3,4\n" * 3 + "1,x,3,4\n", 'no number in the line "1,x,3,4"'),
-        ("1,x,3,4\n" + "1,2,3,4\n" * 4, 'no number in the line "1,x,3,4"'),
+        ("1,2,3,4\n" * 3 + "1,x,3,4\n", 'is no number: "1,x,3,4"'),
+        ("1,x,3,4\n" + "1,2,3,4\n" * 4, 'is no number: "1,x,3,4"'),
         ("1,2,3,4\n" * 3 + "1,2,3\n", "3 to 4 numbers"),
         ("0 0 1\n" * 9, "have 3 numbers, expected values without their coordinates"),
         (("1," * 9 + "inf\n") * 9, "holds inf"),
@@ -296,6 +280,39 @@ def test_points_that_were_not_measured_are_never_lowest(word: str, tmp_path: Pat
 def test_a_text_file_that_is_no_map_is_refused(text: str, match: str, tmp_path: Path) -> None:
     with pytest.raises(ValidationError, match=match):
         read_map(tmp_path, "map.csv", text)
+
+
+def warnings_of(folder: Path, values: np.ndarray) -> list[str]:
+    text = "\n".join(",".join(map(str, row)) for row in values.tolist())
+    surface = read_map(folder, "map.csv", text, height_unit="nm")
+    return [each for each in implausible_input(scene(PRESS, indenter=surface)) if "file" in each]
+
+
+@pytest.mark.parametrize("mark", [-9999.0, -32768.0, 9999.0, 1e10, -3.4e38])
+def test_a_mark_among_the_heights_is_named(mark: float, tmp_path: Path) -> None:
+    heights = 500.0 * TOLD
+    assert not any("values are" in each for each in warnings_of(tmp_path, heights))
+    heights[3, 2] = mark
+    (found,) = (each for each in warnings_of(tmp_path, heights) if "values are" in each)
+    assert f"1 of 63 values are {mark:g}, all others between" in found
+    friction = np.where(heights == mark, abs(mark), 0.3 + 1e-4 * heights)
+    coefficient = {"map": friction, "spacing": 1e-3}
+    told = implausible_input(scene(PRESS, friction=CoulombFriction(coefficient=coefficient)))
+    assert any("friction.coefficient.map: 1 of 63 values are" in each for each in told)
+
+
+def test_coordinates_beside_the_heights_are_named(tmp_path: Path) -> None:
+    heights = 5e3 * TOLD
+    places = np.round(np.linspace(-0.02, 0.02, 9), 3)[:, None]
+    both = np.vstack([np.append(np.nan, places[:7, 0]), np.hstack([places, heights])])
+    plane = places + 0.1 * np.arange(7)
+    for values, expected in (
+        (heights, 0), (plane, 0), (plane + heights, 0), (0 * heights, 0),
+        (np.hstack([places, heights]), 1), (np.hstack([places, 0 * heights]), 1),
+        (np.hstack([heights, places[::-1]]), 1), (np.hstack([places, heights]).T, 1), (both, 1),
+    ):  # fmt: skip
+        found = [each for each in warnings_of(tmp_path, values) if "evenly spaced" in each]
+        assert len(found) == expected
 
 
 def test_a_map_of_friction_has_a_value_everywhere() -> None:

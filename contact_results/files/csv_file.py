@@ -7,7 +7,6 @@ table has one row for every column, with its meaning and sign.
 from __future__ import annotations
 
 import csv
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,7 +33,6 @@ class Column:
         return self.name if self.unit is None else f"{self.name} [{self.unit or '1'}]"
 
 
-WITH_UNIT = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")  # inverse of `Column.header`
 STEP = Column("step", None, "Loading step, from 1.")
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from itertools import chain, pairwise, product
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import BaseModel
 
 from contact_scene.checks.expected_contact import (
@@ -17,6 +18,7 @@ from contact_scene.checks.expected_contact import (
     ExpectedContact,
     estimate_contacts,
 )
+from contact_scene.friction import FrictionMap
 from contact_scene.friction_limit import step_at_limit, undefined_motion_warning
 from contact_scene.geometry import HeightMap
 from contact_scene.material import IsotropicMaterial
@@ -74,6 +76,11 @@ USUAL: Mapping[str, Usual] = {
 # Limits of modulus [Pa] and radius [m] of a dimensionless scene: softer than rubber and larger than
 # a ball.
 _SOFTEST, _LARGEST = 1e6, 0.1
+_MARKED = 1 / 3  # largest fraction of marks, as of heights that were not measured
+_FEW = 6  # values that are evenly spaced by chance
+# Largest distance of coordinates from even spacing, in steps, if their steps are written with two
+# digits.
+_ROUNDED = 0.1
 _STEEP = 1.0  # largest difference of adjacent heights over their distance
 _STIFF = 2e10  # least modulus of metals and ceramics [Pa], where hardness limits the mean pressure
 # Ratio of mean pressure to E* above the hardness of most materials: hardness is 0.01 to 0.04 of the
@@ -116,8 +123,9 @@ def unlikely_numbers(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     fineness  discretisation tables of the scene file, by name
     """
     pressed = tuple(estimate_contacts(scene))
+    of_maps = tuple(chain.from_iterable(_map_warnings(*each) for each in _maps(scene)))
     if _is_dimensionless(scene) and not any(_strain_warnings(pressed)):
-        return ()
+        return of_maps
     parts = [
         _scene_numbers(scene, ()),
         *(_scene_numbers(part, (name,)) for name, part in fineness.items()),
@@ -125,6 +133,7 @@ def unlikely_numbers(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:
     unusual = chain.from_iterable(map(_number_warnings, parts))
     return (
         *unusual,
+        *of_maps,
         *(_height_map_warnings(scene.indenter) if isinstance(scene.indenter, HeightMap) else ()),
         *_size_warnings(scene, pressed, fineness),
         *_layer_warnings(scene, pressed),
@@ -188,6 +197,56 @@ def _is_dimensionless(scene: Scene) -> bool:
     moduli = [value for path, value in known if path[-1] == "young_modulus"]
     radii = [value for path, value in known if {"radius", "radii"} & {*path}]
     return max(moduli) < _SOFTEST and min(radii, default=1.0) >= _LARGEST
+
+
+def _maps(scene: Scene) -> Iterator[tuple[str, NDArray[np.float64]]]:
+    """Yield key and values of the height map and the friction map of a scene."""
+    if isinstance(scene.indenter, HeightMap):
+        yield "indenter.file", scene.indenter.file.values
+    if scene.friction and isinstance(scene.friction.coefficient, FrictionMap):
+        yield "friction.coefficient.map", scene.friction.coefficient.map.values
+
+
+def _map_warnings(key: str, values: NDArray[np.float64]) -> Iterator[str]:
+    """Warn about values of a map that probably mark missing values or are coordinates.
+
+    key     key of the map in the scene
+    values  values of the map, NaN where missing (nx, ny)
+    """
+    for extreme in (np.nanmin(values), np.nanmax(values)):
+        others = np.isfinite(values) & (values != extreme)
+        count = np.count_nonzero(values == extreme)
+        low = np.min(values, where=others, initial=np.inf)
+        high = np.max(values, where=others, initial=-np.inf)
+        gap = max(low - extreme, extreme - high)
+        if low < high and gap > high - low and count <= _MARKED * values.size:
+            yield (
+                f"{key}: {count} of {values.size} values are "
+                f"{extreme:g}, all others between {low:g} and {high:g}. Write nan for heights that "
+                "were not measured, and correct other values that are marks"
+            )
+    sides = values, values[::-1], values.T, values.T[::-1]
+    # The corner between a column and a row of coordinates is no coordinate.
+    if any(
+        _unevenness(side[0, part]) <= _ROUNDED and _unevenness(side[1, part]) > 1.0
+        for side in sides
+        if side.shape[1] > _FEW
+        for part in (slice(1, None), slice(None, -1))
+    ):
+        yield (
+            f"{key}: the values of the first or last column or row are evenly spaced, as "
+            "coordinates are, and those next to them are not. Remove coordinates from the file"
+        )
+
+
+def _unevenness(line: NDArray[np.float64]) -> float:
+    """Return the largest distance of values from even spacing over the mean step; NaN if unknown.
+
+    The value is infinite for values without a mean step.
+    """
+    even = np.linspace(line[0], line[-1], len(line))
+    step = abs(line[-1] - line[0]) / (len(line) - 1)
+    return float(np.max(np.abs(line - even)) / step) if step else np.inf
 
 
 def _height_map_warnings(indenter: HeightMap) -> Iterator[str]:

@@ -1,7 +1,6 @@
 """Arrays of a scene that are read from files: height maps and friction maps."""
 
 import hashlib
-import re
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Annotated, Any
@@ -15,17 +14,10 @@ from contact_scene.reading.scene_error import (
     refusal,
     shown,
 )
+from contact_scene.reading.text_table import TABLE_SUFFIXES, read_text_table
 
 _MIN_SIDE, _MAX_SIDE = 4, 16384
 _MAX_VALUES = 4096 * 4096  # 134 MB, more than the largest grid
-_MAX_TEXT = 1 << 28  # bytes
-# Fields of a text file for points without a measurement, in lower case. Spreadsheets write the last
-# ones, which begin no comment.
-_MISSING = {
-    *("", "nan", "bad", "na", "n/a", "null", "***", "---"),
-    *("#n/a", "#num!", "#div/0!", "#value!", "#ref!"),
-}
-_COMMENT = re.compile(r"\s*(?:%|#(?!N/A|[A-Z/0]+!))", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -145,7 +137,7 @@ def _read_array(path: Path, name: str) -> NDArray[Any]:
     try:
         if not path.is_file():
             raise refusal(f"there is no file {shown(name)}", expected)
-        if path.suffix.lower() in (".csv", ".txt"):
+        if path.suffix.lower() in TABLE_SUFFIXES:
             return _read_text_array(path, name)
         values = np.lib.format.open_memmap(path, mode="r")
         if path.stat().st_size > values.offset + values.nbytes:
@@ -159,59 +151,30 @@ def _read_array(path: Path, name: str) -> NDArray[Any]:
 
 
 def _read_text_array(path: Path, name: str) -> NDArray[Any]:
-    """Read a height map or friction map from a text file in the orientation of a top view.
+    """Read a height map or friction map from a text table in the orientation of a top view.
 
-    x points to the right and y upwards. Fields are separated by semicolons, tabs, commas or spaces.
-    Lines that begin with "#" or "%" are skipped, and headings before the first row of numbers. A
-    line with as many fields as the last one and a number among them is no heading. Fields for
-    missing values, such as "nan", become NaN. Raises a validation error for other contents.
+    x points to the right and y upwards. Raises a validation error for a field that is no number,
+    rows of unequal length, and a list of points with their coordinates.
 
     path  path of the file
     name  name of the file in the scene, for messages
     """
-    if path.stat().st_size > _MAX_TEXT:
-        raise refusal(f"the file {shown(name)} is too long", "a .npy file for this array")
-    lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
-    lines = [line for line in lines if not _COMMENT.match(line)]
-    last = next((line for line in reversed(lines) if line.strip()), "")
-    separator = next((mark for mark in ";\t," if mark in last), None)
-    rows, width, ends_empty = list[list[float | None]](), len(last.split(separator)), True
-    for line in lines:
-        # A line of tabs alone is a row of missing values if it has as many fields.
-        if not line.strip() and not (separator == "\t" and line.count("\t") + 1 == width):
-            continue
-        fields = (line if separator == "," else line.replace(",", ".")).split(separator)
-        row = [_read_number(field) for field in fields]
-        # Missing values alone are a row only if as wide as one: dashes may underline headings.
-        known = any(number is not None and number == number for number in row)
-        if None not in row and (rows or known or len(row) == width):
-            rows.append(row)
-            ends_empty = ends_empty and not fields[-1].strip()
-        elif rows or (known and len(row) == width):
+    table = read_text_table(path, name)
+    for row, (position, line) in zip(table.rows, table.lines, strict=True):
+        if None in row:
             raise refusal(
-                f"{shown(name)} has a field that is no number in the line {shown(line)}",
+                f"line {position} of {shown(name)} has a field that is no number: {shown(line)}",
                 'a number or "nan" in every field, and "#" at the start of a heading',
             )
-    if not rows:
-        raise refusal(f"{shown(name)} has no numbers", "equally many numbers in every line")
-    counts = {len(row) for row in rows}
+    counts = {len(row) for row in table.rows}
     if len(counts) > 1 or counts == {3}:
         few_to_many = " to ".join(map(str, sorted({min(counts), max(counts)})))
         raise refusal(
             f"the lines of {shown(name)} have {few_to_many} numbers",
             f"values without their coordinates, equally many in every line, at least {_MIN_SIDE}",
         )
-    values = np.array(rows, dtype=np.float64).T[:, ::-1]
-    return np.ascontiguousarray(values[:-1] if ends_empty else values)
-
-
-def _read_number(field: str) -> float | None:
-    """Return the number in a field of a text file, NaN for a missing value, or None for a word."""
-    text = field.strip(' \t"').lower()
-    try:
-        return np.nan if text in _MISSING else float(text)
-    except ValueError:
-        return None
+    values = np.array(table.rows, dtype=np.float64).T[:, ::-1]
+    return np.ascontiguousarray(values[:-1] if table.ends_with_separator else values)
 
 
 def _array_name(name: str) -> str:

@@ -4,7 +4,6 @@ import math
 import re
 from dataclasses import dataclass, field
 from decimal import Context, Decimal
-from difflib import get_close_matches
 from numbers import Real
 from operator import index
 from typing import Annotated, Any
@@ -28,6 +27,7 @@ from contact_scene.reading.units import (
     SHARE,
     STIFFNESS,
     Kind,
+    equal_unit,
 )
 
 # "number unit"
@@ -133,10 +133,12 @@ class Quantity:
         number, unit = match.groups()
         if (factor := self.kind.units.get(unit)) is not None:
             return WithUnit(_EXACT.multiply(Decimal(number), factor))
-        near = get_close_matches(unit, self.kind.units, n=1, cutoff=0.5)
-        folded = [known for known in self.kind.units if known.lower() == unit.lower()]
-        hint = f'did you mean "{number} {(folded or near)[0]}"?' if folded or near else ""
-        hint = hint or f"the units are {', '.join(self.kind.units)}"
+        near = equal_unit(unit, self.kind)
+        hint = (
+            f'did you mean "{number} {near}"?'
+            if near
+            else f"the units are {', '.join(self.kind.units)}"
+        )
         raise refusal(f"got {shown(text)}", self.expected, hint)
 
     def __get_pydantic_core_schema__(

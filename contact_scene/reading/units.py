@@ -1,5 +1,6 @@
 """Units of physical quantities: tables with exact decimal factors."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from decimal import Decimal
@@ -72,3 +73,43 @@ _ANGLES = unit_factors(**{"rad": "1", "mrad": "1e-3", "deg": _DEGREE, "°": _DEG
 ANGLE = Kind("rad", '"20 deg"', _ANGLES)
 ROTATION = Kind("rad", '"0.1 deg"', _ANGLES)
 SHARE = Kind("1", '"0.1 %"', unit_factors(**{"%": "0.01"}))
+
+_PREFIXES = {
+    **{"": 0, "p": -12, "n": -9, "u": -6, "µ": -6, "μ": -6, "m": -3, "c": -2, "d": -1},
+    **{"da": 1, "h": 2, "k": 3, "M": 6, "G": 9, "T": 12},
+}
+# Powers of metre and newton.
+_SYMBOLS = {"m": (1, 0), "N": (0, 1), "Pa": (-2, 1)}
+_FACTOR = re.compile(r"(da|[pnuµμmcdhkMGT]?)(m|N|Pa)\^?([1-9]?) ?")
+_PRODUCT = re.compile(rf"(?:{_FACTOR.pattern})*")
+
+
+def equal_unit(unit: str, kind: Kind) -> str | None:
+    """Return the unit of a quantity with the meaning of a text that is not among its units.
+
+    An example is GPa for GN/m^2. In a text that is no unit in SI, such as gpa, letters of the other
+    case are accepted, except m and M, which are milli and mega. Returns None if there is no such
+    unit.
+    """
+    size = _size(unit)
+    if size is not None:
+        return next((known for known in kind.units if _size(known) == size), None)
+    return next((known for known in kind.units if _fold_case(known) == _fold_case(unit)), None)
+
+
+def _size(unit: str) -> tuple[int, int, int] | None:
+    """Return the powers of ten, metre and newton in a unit; None for other units."""
+    ten = metre = newton = 0
+    for sign, product in zip((1, -1, -1), unit.split("/"), strict=False):
+        if not product or not _PRODUCT.fullmatch(product):
+            return None
+        for prefix, symbol, power in _FACTOR.findall(product):
+            times = sign * int(power or 1)
+            ten += times * _PREFIXES[prefix]
+            metre += times * _SYMBOLS[symbol][0]
+            newton += times * _SYMBOLS[symbol][1]
+    return ten, metre, newton
+
+
+def _fold_case(unit: str) -> str:
+    return "".join(letter if letter in "mM" else letter.lower() for letter in unit)

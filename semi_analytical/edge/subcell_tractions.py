@@ -133,15 +133,20 @@ class SubcellTractions:
         """Domain of all fields of these tractions: full window or reduced domain."""
         return self.cells.domain
 
+    @property
+    def covered(self) -> Field:
+        """Fraction of each cell inside the edge of the contact area or stick zone (nx, ny)."""
+        covered, fitted = self.cells.region.astype(float), slice(len(self.phi.f))
+        covered[self.i[fitted], self.j[fitted]] = self.phi.cell_mean(0.0)
+        return covered
+
     @cached_property
     def area(self) -> float:
         """Area inside the edge of the contact area or stick zone, in cells, with its mirror images.
 
         Cells that the edge cuts count by their covered fraction.
         """
-        covered, fitted = self.cells.region.astype(float), slice(len(self.phi.f))
-        covered[self.i[fitted], self.j[fitted]] = self.phi.cell_mean(0.0)
-        return self.domain.images * float(np.sum(covered))
+        return self.domain.images * float(np.sum(self.covered))
 
     @cached_property
     def outer(self) -> Mask:
@@ -190,9 +195,10 @@ def fit_edge(
     scaled = means / largest
     shape: EdgeShape
     if film is None:
+        # Fits of other cells lag behind: φ and its weights are theirs, and a change alternates.
         shape = edge_shape(
             scaled, region, STENCIL, rings=0, exponent=exponent, depth=depth, domain=domain,
-            before=before.fits if before else None,
+            before=before.fits if before and same else None,
         )  # fmt: skip
     else:
         line = before.line if before else None

@@ -66,7 +66,11 @@ class EdgeCorrection:
         sheared = extended.sheared
         if self._coupled or sheared is None:
             return corrected
-        free = not np.any(sheared.shear) or not np.any(sheared.in_stick)
+        unloaded = not np.any(sheared.shear)
+        if not unloaded and self._operators.model.friction.uniform is None:
+            # The coefficient may jump between cells, so that no fit of the shear is reliable.
+            return corrected
+        free = unloaded or not np.any(sheared.in_stick)
         before = self._extend_state(last) if last and path_known else None
         if free or _determines_border(before, state, sheared):
             shear = self._correct_shear(before, sheared, corrected, tolerance)

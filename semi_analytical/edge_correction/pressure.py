@@ -42,14 +42,21 @@ from semi_analytical.operator.points import fields_of, points_of
 # multiplied by 1 - (1 - λ) factor. λ lies between 0 (smooth changes) and -2 (changes that alternate
 # between cells, on films thinner than a cell): 1/2 has the smallest bound for these, 1/2.
 LEAST_FACTOR = 0.5
-# The first change is 2e-2 on 32 cells per side; 9 halvings reach SETTLED.
+# The bound 1/2 reaches SETTLED in 7 more iterations, and the edge in a few more.
 MAX_ITERATIONS = 10
 # Reduction of the residual by the linear solve of an iteration.
 INNER_REDUCTION = 0.1
-# SETTLED bounds the predicted next change of the pressure, Σ|Δp|/Σp, and the last change of the
-# contact radius. The remaining error is about equal: the accuracy required of a contact radius on
-# 128 cells per side. LEAST_SETTLED bounds the last change of the pressure after all iterations.
-SETTLED, LEAST_SETTLED = 5e-5, 1e-3
+# Largest predicted next change of a traction over the first one. The first change is the error of
+# uniform cells; a hundredth of it is about the error of the fits, for all sizes of cells.
+SETTLED = 1e-2
+# Largest last travel of the edge over the radius: the accuracy required of a radius on 128
+# cells per side. The next ones are smaller.
+STEADY = 5e-5
+# Largest predicted next change of an iteration that does not halve the change in two steps, as
+# where the fits of neighbouring cells alternate for ever on a film: the accuracy of a radius.
+STALLED = 5e-5
+# Largest last change of the pressure after all iterations, Σ|Δp|/Σp.
+LEAST_SETTLED = 1e-3
 # Largest fraction of the edge without a reliable fit.
 MAX_UNSAFE = 0.03
 
@@ -90,7 +97,7 @@ def edge_pressure(
         edge = problem.fit_edge(p, edge)
         approach, _ = state.target.reached(operators.model, solved.motion)
         response = problem.response(approach, p)
-        if next_change(changes) <= SETTLED and radius_change(before.edge, edge) <= SETTLED:
+        if has_settled(changes, edge_travel(before.edge, edge)):
             break
     change = changes[-1]
     if change > LEAST_SETTLED:
@@ -101,13 +108,24 @@ def edge_pressure(
     return problem.assemble_result(_Iterate(p, edge, response), before, solved, changes)
 
 
+def has_settled(changes: Sequence[float], travel: float) -> bool:
+    """Return True if the iteration of the edge correction has converged, or stalls near the limit.
+
+    changes  relative changes of the traction in all iterations so far, at least one
+    travel   `edge_travel` in the last iteration
+    """
+    predicted = next_change(changes)
+    if len(changes) > 3 and 2 * changes[-1] > changes[-3]:
+        return predicted <= STALLED
+    return predicted <= SETTLED * changes[0] and travel <= STEADY
+
+
 def next_change(changes: Sequence[float]) -> float:
     """Predict the relative change of a traction in the next iteration of the edge correction.
 
-    The iteration ends if this change is small. The prediction multiplies the last change by the
-    ratio of the last two changes, at most 1. The first change is excluded from the ratio, because
-    it is the discretisation error of the cells. With fewer than three changes the last change is
-    returned.
+    The prediction multiplies the last change by the ratio of the last two changes, at most 1. The
+    first change is excluded from the ratio, because it is the discretisation error of the cells.
+    With fewer than three changes the last change is returned.
 
     changes  relative changes of all iterations so far, at least one
     """
@@ -146,14 +164,16 @@ def relaxation_factor(factor: float, last: Field, change: Field) -> float:
     return max(LEAST_FACTOR, min(found, 1.0))
 
 
-def radius_change(before: SubcellTractions, after: SubcellTractions) -> float:
-    """Compute the relative change of the radius of contact or stick zone between two iterations.
+def edge_travel(before: SubcellTractions, after: SubcellTractions) -> float:
+    """Compute the mean distance that an edge moves in one iteration, over the radius √(area/π).
 
-    The radius is √(area/π).
+    Motions inwards and outwards do not cancel: the result bounds the relative change of the radius,
+    and does not vanish by chance.
 
     before, after  tractions along the edge of the region in the two iterations
     """
-    return abs((after.area / before.area) ** 0.5 - 1)
+    moved = float(np.sum(np.abs(after.covered - before.covered)))
+    return moved / float(2 * np.sum(before.covered))
 
 
 class _NormalResult(NamedTuple):
@@ -339,7 +359,7 @@ class _Problem:
             response=left * abs(last.response / before.response - 1),
             peak=left * abs(peak.value / before_peak.value - 1),
             ridge=peak.ridge,
-            radius=left * radius_change(before.edge, edge),
+            radius=left * edge_travel(before.edge, edge),
         )
         return Corrected(
             pressure=p,

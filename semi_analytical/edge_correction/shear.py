@@ -30,10 +30,9 @@ from semi_analytical.edge_correction.pressure import (
     LEAST_SETTLED,
     MAX_ITERATIONS,
     MAX_UNSAFE,
-    SETTLED,
+    edge_travel,
+    has_settled,
     left_over,
-    next_change,
-    radius_change,
     relaxation_factor,
 )
 from semi_analytical.edge_correction.shear_at_edge import direction_of_slip
@@ -284,7 +283,7 @@ def edge_shear(
     full = problem.gross_slip_shear(problem.bound, deficit.slip, problem.before[0])
     deficit = replace(deficit, full=full)
     q, motion = full - deficit.shear, solved.shift
-    step, factor, changes, of_radius = np.zeros_like(q), 1.0, list[float](), inf
+    step, factor, changes, travel = np.zeros_like(q), 1.0, list[float](), inf
     for number in range(MAX_ITERATIONS):
         within = problem.within(q, deficit)
         u = problem.operators.displace_by_shear(*within)
@@ -295,8 +294,7 @@ def edge_shear(
         answer, motion = solution.shear, solution.motion
         last, step = step, answer - q
         changes.append(float(np.sum(magnitude(step)) / np.sum(problem.bound)))
-        settled = next_change(changes) <= SETTLED and of_radius <= SETTLED
-        if settled or number == MAX_ITERATIONS - 1:
+        if has_settled(changes, travel) or number == MAX_ITERATIONS - 1:
             break
         edge, stick = deficit.edge, (problem.bound > 0) & ~solution.in_slip
         if number:
@@ -305,7 +303,7 @@ def edge_shear(
         following = problem.deficit(q, problem.bound, problem.before[0], stick | edge.outer, edge)
         if following is None:
             return None
-        deficit, of_radius = following, radius_change(edge, following.edge)
+        deficit, travel = following, edge_travel(edge, following.edge)
     if changes[-1] > LEAST_SETTLED:
         return None
     return CorrectedShear(
@@ -317,5 +315,5 @@ def edge_shear(
         stick=deficit.edge.region,
         stick_cells=deficit.edge.area,
         change=changes[-1],
-        radius_left=of_radius * left_over(changes),
+        radius_left=travel * left_over(changes),
     )

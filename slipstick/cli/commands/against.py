@@ -8,12 +8,12 @@ from typing import Annotated, Any
 
 import typer
 
-from contact_results.files.measured_table import read_measured
 from contact_results.files.stored_run import load
 from contact_results.number_text import Uncertainty, number_text
 from contact_scene import read_scene_file
 from contact_scene.reading.engineering_units import engineering_unit
-from slipstick.against import NothingToCompare, comparison
+from contact_scene.reading.text_table import read_columns
+from slipstick.against import MEASURED, NothingToCompare, comparison
 from slipstick.cli.options import OptionalSolver, SetOption, optional, refuse_with_run
 from slipstick.cli.terminal import print_table
 from slipstick.solvers.names import SolverName
@@ -26,7 +26,7 @@ def against(
         typer.Argument(
             metavar="TABLE",
             show_default=False,
-            help="CSV with a header of names and units: name [unit].",
+            help="Text table with a line of heads: name [unit].",
         ),
     ],
     source: Annotated[
@@ -60,7 +60,7 @@ def against(
         refuse_with_run({"--set": overrides, "--solver": solver})
     chosen = solver or SolverName.SEMI_ANALYTICAL
     try:
-        measured = read_measured(table)
+        measured = read_columns(table, MEASURED)
         with TemporaryDirectory() as solved:
             directory = source
             if not source.is_dir():
@@ -76,12 +76,14 @@ def against(
     rows = []
     for each in compared:
         unit = engineering_unit(max(abs(each.measured), abs(each.computed)), each.unit)
-        stated = Uncertainty(each.error, True) if each.error else None
+        of_table, of_run = (
+            Uncertainty(error, True) if error else None for error in (each.of_table, each.error)
+        )
         rows.append(
             (
                 f"{each.name} ({unit.name})",
-                number_text(each.measured, None, unit.size),
-                number_text(each.computed, stated, unit.size),
+                number_text(each.measured, of_table, unit.size),
+                number_text(each.computed, of_run, unit.size),
                 "–" if each.ratio is None else f"{each.ratio:.4f}",
                 number_text(each.gap, None, unit.size),
                 "unknown" if each.ours is None else f"{100 * each.ours:.1f} %",

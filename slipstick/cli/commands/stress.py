@@ -29,7 +29,9 @@ from contact_results.stress_result import write_history, write_stress
 from contact_scene import Body, Scene, SceneFile, read_scene_file
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
 from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene.reading import units
 from contact_scene.reading.quantity import Length
+from contact_scene.reading.text_table import TABLE_SUFFIXES, ColumnNames, read_columns
 from contact_scene.solver_errors import ContactNotResolved, SolverError, UnsupportedScene
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.stress import interfaces
@@ -56,6 +58,14 @@ from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
+
+
+# Accepted heads of a table of points.
+POINTS: ColumnNames = {
+    "x": (units.LENGTH, frozenset({"x"})),
+    "y": (units.LENGTH, frozenset({"y"})),
+    "z": (units.LENGTH, frozenset({"z", "depth"})),
+}
 
 
 class Figures(StrEnum):
@@ -97,9 +107,10 @@ def stress(
         list[str] | None,
         optional(
             "--at",
-            metavar="X,Y,Z",
+            metavar="X,Y,Z|FILE",
             help="Compute the stress at a point, such as '0.3 mm,0,20 um'; 'interface 1' as Z "
-            "selects both sides of it. The option may be repeated.",
+            "selects both sides of it. A text table has points in the columns x, y and z with "
+            "units. The option may be repeated.",
         ),
     ] = None,
     history: Annotated[
@@ -308,18 +319,24 @@ def _parse_points(
     """Read the points of the option `--at`: coordinates x and y (n,), and the depth levels.
 
     A point at an interface gives two points, one on each side. Raises BadParameter for other texts,
-    and for a rigid body.
+    tables that cannot be read, and a rigid body.
 
-    at        texts such as "0.3 mm,0,20 um" or "0,0,interface 1"
+    at        texts such as "0.3 mm,0,20 um" or "0,0,interface 1", and names of text tables
     indenter  true for points in the indenter, false for points in the lower body
     """
     _, body = _elastic_body(bodies, indenter)
     sides = {f"interface {k}": pair for k, pair in enumerate(interfaces(body), 1)}
     found = []
     for text in at:
+        if Path(text).suffix.lower() in TABLE_SUFFIXES:
+            found += _read_points(Path(text), bodies, indenter)
+            continue
         parts = [part.strip() for part in text.split(",")]
         if len(parts) != 3:
-            raise typer.BadParameter(f"got --at {text}, expected X,Y,Z such as '0.3 mm,0,20 um'")
+            raise typer.BadParameter(
+                f"got --at {text}, expected X,Y,Z such as '0.3 mm,0,20 um', or a table such as "
+                "points.csv"
+            )
         x, y = (_parse_length(part, "--at") for part in parts[:2])
         if parts[2].startswith("interface") and parts[2] not in sides:
             expected = " or ".join(sides) or "a depth: there is no layer"
@@ -329,6 +346,27 @@ def _parse_points(
         )
         found += [(x, y, level) for level in levels]
     return np.array([p[0] for p in found]), np.array([p[1] for p in found]), [p[2] for p in found]
+
+
+def _read_points(
+    path: Path, bodies: Scene | LoadedBodies, indenter: bool
+) -> list[tuple[float, float, Any]]:
+    """Read points from a text table: coordinates x and y [length], and the depth level.
+
+    Raises BadParameter for a table that cannot be read, and for points outside the body.
+    """
+    try:
+        columns = read_columns(path, POINTS)
+    except ValueError as error:
+        raise typer.BadParameter(f"--at: {error}") from None
+    missing = ", ".join(POINTS.keys() - columns.keys())
+    if missing:
+        raise typer.BadParameter(f"--at {path}: got no column {missing}, expected x, y and z")
+    return [
+        (x, y, level)
+        for x, y, z in zip(*(columns[name].tolist() for name in POINTS), strict=True)
+        for level in _depth_levels(bodies, indenter, [z], f"--at {path}")
+    ]
 
 
 def _depth_levels(

@@ -1,0 +1,188 @@
+"""Tests of text tables: height maps, friction maps, measured tables and points read them alike."""
+
+import codecs
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from contact_scene.friction import FrictionMap
+from contact_scene.geometry import HeightMap
+from contact_scene.reading.text_table import read_columns
+from slipstick.against import MEASURED
+from slipstick.cli.commands.stress import POINTS
+
+HEADS = ("x [mm]", "y [mm]", "z [µm]", "p [MPa]", "q [MPa]")
+SIZES = np.array([1e-3, 1e-3, 1e-6, 1e6, 1e6])
+VALUES = np.array(
+    [
+        [0.25, 0.5, 12.0, 800.5, 80.25],
+        [0.125, 0.0, 1.5, 1900.0, 190.0],
+        [0.0, 0.75, 2e-3, 2100.0, 1.25e2],
+        [0.5, 0.0, 4.25, 30.5, 0.0],
+    ]
+)
+
+
+def height_map(path: Path) -> np.ndarray:
+    given = {"shape": "height_map", "material": "rigid", "file": path.name, "spacing": 1e-5}
+    return HeightMap.model_validate(given, context={"folder": path.parent}).file.values.T[::-1]
+
+
+def friction_map(path: Path) -> np.ndarray:
+    given = {"map": path.name, "spacing": 1e-5}
+    return FrictionMap.model_validate(given, context={"folder": path.parent}).map.values.T[::-1]
+
+
+def measured(path: Path) -> np.ndarray:
+    found = read_columns(path, MEASURED)
+    values = VALUES * SIZES
+    values[:, [0, 3, 4]] = np.transpose([found[name] for name in ("x", "pressure", "shear")])
+    return values / SIZES
+
+
+def points(path: Path) -> np.ndarray:
+    found = read_columns(path, POINTS)
+    values = VALUES * SIZES
+    values[:, :3] = np.transpose([found[name] for name in "xyz"])
+    return values / SIZES
+
+
+USES: dict[str, Callable[[Path], np.ndarray]] = {
+    "height map": height_map,
+    "friction map": friction_map,
+    "against": measured,
+    "points": points,
+}
+
+
+def table(mark: str, *, end: str = "", comma: bool = False, quote: str = "", head: str = "") -> str:
+    """The table as text: heads, then rows."""
+
+    def line(fields: Any) -> str:
+        return mark.join(f"{quote}{field}{quote}" for field in fields) + end + "\n"
+
+    rows = [[str(value) for value in row] for row in VALUES.tolist()]
+    rows = [[text.replace(".", ",") if comma else text for text in row] for row in rows]
+    return head + line(HEADS) + "".join(map(line, rows))
+
+
+NOTES = "Profil 3\nBreite;0,08 mm\n\n# Channel: 1 2\n"
+READ = {
+    "plain": table(",").encode(),
+    "byte-order mark": codecs.BOM_UTF8 + table(",").encode(),
+    "Latin-1": table(",").encode("latin-1"),
+    "decimal commas": table(";", comma=True, head=NOTES).encode("latin-1"),
+    "separator at the end": table(";", comma=True, end=";").encode(),
+    "tabs": table("\t", comma=True, head=NOTES).encode(),
+    "tabs at the end": table("\t", end="\t").encode(),
+    "commas and spaces": table(", ").encode(),
+    "spaces before commas": table(" ,").encode(),
+    "spaces": table("  ").encode(),
+    "spaces and decimal commas": table(" ", comma=True, end="  ").encode(),
+    "quotes": table(",", quote='"').encode(),
+    "quotes and semicolons": table(";", quote='"', comma=True).encode(),
+    "quoted heads": table(",").replace("x [mm]", '"x [mm]"').encode(),
+    "heads in a comment": table(",", head="# by numpy.savetxt\n# ").encode(),
+    "heads in parentheses": table(";").replace("[", "(").replace("]", ")").encode(),
+    "heads without spaces": table(" ").replace(" [", "[").encode(),
+    "lines of Windows": table(",").replace("\n", "\r\n").encode(),
+    "lines of old Macs": table(",").replace("\n", "\r").encode(),
+    "blank lines": table(",").replace("\n", "\n\n").encode() + b"\n \n",
+    "no last line end": table(",").strip().encode(),
+    "UTF-16": table("\t", comma=True).encode("utf-16"),
+    "UTF-16 of the other order": codecs.BOM_UTF16_BE + table(",").encode("utf-16-be"),
+    "Fortran": table(" ").replace("1900.0", "0.19D+04").replace("0.002", "2.0d-3").encode(),
+    "minus signs": table(",").replace("0.125", "1.25e\N{MINUS SIGN}1").encode(),
+    "comments": table(",").replace("0.5,0.0,4", "# turn\n% back\n0.5,0.0,4").encode(),
+}
+
+
+@pytest.mark.parametrize("use", USES)
+@pytest.mark.parametrize("kind", READ)
+def test_a_table_is_read_alike_for_every_use(use: str, kind: str, tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    path.write_bytes(READ[kind])
+    np.testing.assert_allclose(USES[use](path), VALUES, rtol=1e-14)
+
+
+PLAIN = table(",")
+FOURTH = PLAIN.index("0.5,0.0,4")
+REFUSED = {
+    "row behind a comment sign": (PLAIN.replace("0.125,", "#0.125,"), "line 3 .* comment"),
+    "failed value": (PLAIN.replace("0.125,", "#NAME?,"), "line 3 .* comment"),
+    "first failed value": (PLAIN.replace("0.25,", "#NV,"), "line 2 .* comment"),
+    "quoted failed value": (PLAIN.replace("0.25,", '"#NAME?",'), "line 2 .* comment"),
+    "last failed value": (PLAIN.replace("0.5,0.0,4", "#WERT!,0.0,4"), "line 5 .* comment"),
+    "row behind %": (PLAIN.replace("0.125,", "%0.125,"), "line 3 .* comment"),
+    "word": (PLAIN.replace("0.125,0.0,1.5,1900.0,190", "a,a,a,a,a"), "line 3 .* number"),
+    "underscore": (PLAIN.replace("0.125,0.0,1.5,1900.0", "1_0,1_0,1_0,1_0"), "line 3 .* number"),
+    "cut row": (PLAIN.replace("0.125,0.0,", "0.125,"), "4 to 5 numbers|got 4"),
+    "thousands": (table(";").replace("0.125", "1,000.5"), "line 3 .*number"),
+    "two decimal signs": (table(";").replace("1900.0", "1,9"), "with a comma .* with a point"),
+    "UTF-16 without a mark": (PLAIN.encode("utf-16-le"), "UTF-16 with a byte-order mark"),
+    "cut UTF-16": (PLAIN.encode("utf-16") + b"x", "no text"),
+    "workbook": (b"PK\3\4\0\0" + PLAIN.encode(), "no text"),
+    "empty": ("", "no numbers"),
+    "heads alone": (PLAIN[: PLAIN.index("\n")], "no numbers"),
+    "long field": (PLAIN + '"' + "1" * 200_000, "1 to 5 numbers|got 1"),
+}
+
+
+@pytest.mark.parametrize("use", USES)
+@pytest.mark.parametrize("kind", REFUSED)
+def test_a_damaged_table_is_refused_alike_for_every_use(
+    use: str, kind: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "table.csv"
+    content, match = REFUSED[kind]
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises((ValidationError, ValueError), match=match):
+        USES[use](path)
+
+
+@pytest.mark.parametrize("word", ["", "nan", "#N/A", "***"])
+def test_a_missing_value_is_filled_in_heights_alone(word: str, tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text(PLAIN.replace("0.125,", f"{word},"), encoding="utf-8")
+    expected = VALUES.copy()
+    expected[1, 0] = np.nan
+    np.testing.assert_allclose(height_map(path), expected)
+    for use, match in ((friction_map, "nan"), (measured, "line 3"), (points, "line 3")):
+        with pytest.raises(ValueError, match=match):
+            use(path)
+
+
+def test_empty_rows_at_the_end_of_columns_are_ignored(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text(PLAIN + ",,,,\n,,,,\n", encoding="utf-8")
+    np.testing.assert_allclose(measured(path), VALUES, rtol=1e-14)
+    np.testing.assert_allclose(points(path), VALUES, rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("heads", "match"),
+    [
+        ("x [mm],y [mm],z [mm],stress [MPa],q", 'got the column "q", expected the unit'),
+        ("x [mm],y [mm],z [mm],p [bars],q [MPa]", 'got the column "p \\[bars\\]"'),
+        ("x [mm],y [mm],z [mm],p [MPa],pressure [MPa]", "expected one column of pressure"),
+        ("x [mm],y [mm],p [MPa],q [MPa]", "got 5, expected 4 as in"),
+        ("a,b,c,d,e", "no known head"),
+        ("", "no known head"),
+    ],
+)
+def test_a_line_of_heads_without_meaning_is_refused(heads: str, match: str, tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text(PLAIN.replace(",".join(HEADS), heads), encoding="utf-8")
+    with pytest.raises(ValueError, match=match):
+        measured(path)
+
+
+def test_a_row_that_is_cut_off_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text("x [mm],p [GPa]\n1,2\n1", encoding="utf-8")
+    with pytest.raises(ValueError, match=r'line 3 of "table.csv", "1": got 1, expected 2'):
+        measured(path)
