@@ -34,7 +34,7 @@ class Increment(RingIncrement):
 
     factorizations  number of sparse factorisations
     sweeps          number of alternating iterations between the normal and the tangential problem
-    iterations      number of linear systems that the contact algorithm solved
+    iterations      number of linear iterations of the contact algorithm
     path            name of the algorithm that solved the coupled normal and tangential problems;
                     None if these problems are not coupled
     """

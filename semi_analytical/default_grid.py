@@ -18,10 +18,8 @@ from contact_scene.solver_errors import (
 )
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.increments.increment import normal_target
-from semi_analytical.increments.normal_solve import (
-    NormalTarget,
-    press,
-)
+from semi_analytical.increments.normal_solve import press
+from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.model import ContactModel
 from semi_analytical.plan import plan
 

@@ -30,7 +30,7 @@ from semi_analytical.increments.increment import (
     solve_increment,
     tangential_target,
 )
-from semi_analytical.increments.normal_solve import (
+from semi_analytical.increments.normal_target import (
     NormalTarget,
     plane,
 )

@@ -1,18 +1,18 @@
 """Discrete contact model: gap, friction limit and operators on a grid; coarser models."""
 
 from functools import cached_property
+from math import asinh, pi
 
 import numpy as np
 
 from contact_scene import CoulombFriction, Scene
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.friction import FRICTIONLESS
 from contact_scene.rig import compliances
 from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.influence.coefficients import InfluenceCoefficients
-from semi_analytical.normal.initial_pressure import modulus_of
 from semi_analytical.operator.domain import WINDOW, Pair, ReducedDomain, ReducedGrid
 from semi_analytical.operator.operator import DisplacementOperator
 from semi_analytical.operator.transforms import Convolutions, offsets_for
@@ -140,6 +140,14 @@ class ContactModel:
         x, y = self.grid.coordinates()
         return np.stack([-y, x])
 
+    @cached_property
+    def reach(self) -> float:
+        """Length that makes tilt and twist comparable with approach and shift [length].
+
+        It is the largest |x| or |y| of a cell.
+        """
+        return float(np.max(np.abs(self.arms)))
+
     @property
     def self_compliance(self) -> float:
         """Tangential displacement of a cell by unit shear in this cell [length^3/force].
@@ -158,7 +166,7 @@ class ContactModel:
         nx, ny = self.window.cells
         spring = self.springs[0] / self.domain.images
         zz = self.coefficients["zz"][: nx // 4 + 1, : ny // 4 + 1] - spring
-        return modulus_of(zz, self.grid.spacing)
+        return _modulus_of(zz, self.grid.spacing)
 
     def operator(self, shape: Pair) -> DisplacementOperator:
         """Return the map from tractions to surface displacements (operator) on a box of cells.
@@ -203,6 +211,14 @@ class ContactModel:
         return ContactModel(self.scene, grid, coarsen_field(self.gap), self.convolutions)
 
 
+def everywhere(v: Vector) -> VectorField:
+    """Return a vector (2,) as a uniform vector field (2, 1, 1), which broadcasts with (2, nx, ny).
+
+    v  vector, such as the shift of the indenter
+    """
+    return v[:, None, None]
+
+
 def coarsen_field(values: Field) -> Field:
     """Compute the mean of a field over two by two cells: (..., nx, ny) to (..., nx/2, ny/2).
 
@@ -219,3 +235,19 @@ def refine_field(values: Field) -> Field:
     Used to transfer a pressure from a coarse grid to the next finer grid.
     """
     return np.repeat(np.repeat(values, 2, axis=-2), 2, axis=-1)
+
+
+def _modulus_of(compliance: Field, spacing: tuple[float, float]) -> float:
+    """Compute the modulus E* of the half-space that represents layered bodies [force/length^2].
+
+    Under a uniform pressure on a rectangle, the half-space has the same central displacement as the
+    bodies (Johnson 1985, eq. 3.25). The initial guess of the pressure uses E*.
+
+    compliance  normal displacement of a cell by unit pressure on another (nx, ny), at offsets (i
+                dx, j dy) from the centre to half the sides of the rectangle [length^3/force]
+    spacing     cell sides dx, dy [length]
+    """
+    at_middle = 4 * np.sum(compliance) - 2 * np.sum(compliance[0]) - 2 * np.sum(compliance[:, 0])
+    a, b = ((2 * n - 1) * side for n, side in zip(compliance.shape, spacing, strict=True))
+    mean_inverse_distance = 2 * (a * asinh(b / a) + b * asinh(a / b))
+    return mean_inverse_distance / (pi * float(at_middle + compliance[0, 0]))

@@ -1,9 +1,9 @@
-"""Small dense compliance matrices and preconditioners, for tests of the iterative contact
-solvers."""
+"""Small dense compliance matrices, preconditioners and loads, for tests of the contact solver."""
 
 import numpy as np
 
-from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
+from contact_solver.rigid_motion import RigidMotion, RigidMotions
+from contact_solver.slip_compliance_bins import COMPLIANCES
 
 
 def compliance(rng, size: int) -> np.ndarray:
@@ -23,7 +23,7 @@ def graded_inverse(matrix: np.ndarray):
     diagonal = np.diag(matrix)
 
     def divided(fields):
-        held = np.mean(diagonal) * (1 + COMPLIANCES[:, None, None])
+        held = np.mean(diagonal) * (1 + COMPLIANCES[:, None])
         shear = fields[:2] / diagonal.reshape(fields[:2].shape)
         return np.concatenate([shear, fields[2:] / held[: len(fields) - 2]])
 
@@ -33,3 +33,18 @@ def graded_inverse(matrix: np.ndarray):
 def rough_inverse(matrix: np.ndarray):
     """A preconditioner: the inverse of the diagonal."""
     return as_map(np.diag(1 / np.diag(matrix)))
+
+
+def pressed(force=None, approach=0.0):
+    """The motion of an indenter under a normal force, or at an approach."""
+    return RigidMotions(1, (RigidMotion(np.ones((1, 1)), force, approach),))
+
+
+def pushed(force=None, shift=(0.0, 0.0), turn=None, torque=0.0):
+    """The motions of an indenter under a tangential force or at a shift, and under a torque.
+
+    turn  displacement by the unit twist (2, n); without one there is no torque"""
+    forces = (None, None) if force is None else force
+    units = zip(np.eye(2)[:, :, None], forces, shift, strict=True)
+    twist = () if turn is None else (RigidMotion(turn, torque),)
+    return RigidMotions(2, (*(RigidMotion(*unit) for unit in units), *twist))

@@ -1,40 +1,34 @@
 """Tests of the coupled solvers on small dense problems: contact law, friction law, convergence."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from contact_scenes import grid
 from coupled_scenes import bulk, press, push, scene
 from hypothesis import given
 from hypothesis import strategies as st
-from random_compliance import as_map, compliance, graded_inverse, rough_inverse
+from random_compliance import as_map, compliance, graded_inverse, pressed, pushed, rough_inverse
 
-from semi_analytical import solve
-from semi_analytical.coupled.alternating_iteration import solve_coupled
-from semi_analytical.coupled.coupled_problem import CoupledProblem
-from semi_analytical.coupled.generalised_derivative import (
+from contact_solver.admissible_shear import magnitude, project_on_discs
+from contact_solver.alternating_iteration import solve_coupled
+from contact_solver.binned_preconditioner import BinnedPreconditioner
+from contact_solver.coupled_problem import CoupledProblem
+from contact_solver.globalisation import solve_together
+from contact_solver.krylov import least_residual
+from contact_solver.linearised_contact import LinearisedContact
+from contact_solver.natural_map import (
     Natural,
     NewtonPoint,
-    Zones,
+    zones_of,
 )
-from semi_analytical.coupled.globalisation import solve_together
-from semi_analytical.coupled.krylov import least_residual
-from semi_analytical.coupled.linearised_increment import LinearisedIncrement
-from semi_analytical.coupled.newton_iterate import evaluate_point
+from contact_solver.newton_iterate import evaluate_point
+from contact_solver.slip_compliance_bins import COMPLIANCES
+from semi_analytical import solve
 from semi_analytical.model import ContactModel
-from semi_analytical.normal.normal_load import (
-    FixedApproach,
-    PressureSum,
-)
-from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
-from semi_analytical.tangential.admissible_shear import (
-    TangentialLoad,
-    magnitude,
-    project_on_discs,
-)
 
 TOLERANCE = 1e-11
-SHAPE = (3, 4)
-CELLS = 12
+POINTS = 12
 NO_SHIFT = np.zeros(2)
 ANGLES = st.floats(0, 2 * np.pi)
 
@@ -43,14 +37,17 @@ class Held:
     """Roughly the tractions by the diagonal of a compliance alone."""
 
     def __init__(self, diagonal, self_compliance):
-        """diagonal  (3, nx, ny), in front of that of the grades"""
-        grades = np.ones((len(COMPLIANCES), *diagonal.shape[1:]))
-        grades *= self_compliance * (1 + COMPLIANCES[:, None, None])
+        """diagonal  (3, n), in front of that of the grades"""
+        grades = np.ones((len(COMPLIANCES), diagonal.shape[1]))
+        grades *= self_compliance * (1 + COMPLIANCES[:, None])
         self._given = diagonal, self_compliance
         self._held = np.concatenate([diagonal, grades])
 
     def __call__(self, displacements):
         return displacements / self._held
+
+    def in_zones(self, zones):
+        return BinnedPreconditioner(zones, self, self._given[1])
 
     def with_compliance(self, compliance):
         return Held(*(part + compliance for part in self._given))
@@ -64,12 +61,12 @@ class DenseContact:
 
     def __init__(self, seed, friction, coupling=1.0, saturation=np.inf):
         rng = np.random.default_rng(seed)
-        self.matrix = compliance(rng, 3 * CELLS)
-        self.matrix[2 * CELLS :, : 2 * CELLS] *= coupling
-        self.matrix[: 2 * CELLS, 2 * CELLS :] *= coupling
-        self.gap = 3 * rng.random(SHAPE)
-        self.gap.flat[0] = 0.0
-        self.target = 0.3 * rng.standard_normal((2, *SHAPE))
+        self.matrix = compliance(rng, 3 * POINTS)
+        self.matrix[2 * POINTS :, : 2 * POINTS] *= coupling
+        self.matrix[: 2 * POINTS, 2 * POINTS :] *= coupling
+        self.gap = 3 * rng.random(POINTS)
+        self.gap[0] = 0.0
+        self.target = 0.3 * rng.standard_normal((2, POINTS))
         self.friction, self.saturation = friction, saturation
 
     def limit(self, p):
@@ -79,44 +76,44 @@ class DenseContact:
         return self.friction / (1 + p / self.saturation) ** 2
 
     def displacements(self, p, q):
-        u = self.matrix @ np.concatenate([q.ravel(), p.ravel()])
-        return u[2 * CELLS :].reshape(SHAPE), u[: 2 * CELLS].reshape(2, *SHAPE)
+        u = self.matrix @ np.concatenate([q.ravel(), p])
+        return u[2 * POINTS :], u[: 2 * POINTS].reshape(2, POINTS)
 
     def problem(self, normal_load, tangential_load):
-        tangent, normal = np.split(np.arange(3 * CELLS), [2 * CELLS])
+        tangent, normal = np.split(np.arange(3 * POINTS), [2 * POINTS])
         A_tt, A_zz = self.matrix[np.ix_(tangent, tangent)], self.matrix[np.ix_(normal, normal)]
         A_zt = self.matrix[np.ix_(normal, tangent)]
         self_compliance = float(np.mean(np.diag(A_tt)))
         return CoupledProblem(
             normal=as_map(A_zz),
-            precondition_normal=rough_inverse(A_zz),
-            shear=as_map(A_tt),
-            invert_shear=graded_inverse(A_tt),
-            normal_by_shear=lambda q: (A_zt @ q.ravel()).reshape(SHAPE),
-            shear_by_pressure=lambda p: (A_zt.T @ p.ravel()).reshape(2, *SHAPE),
+            inverse_on=lambda contact: rough_inverse(A_zz),
+            tangential=as_map(A_tt),
+            inverse_in=lambda zones: partial(zones.precondition, inverse=graded_inverse(A_tt)),
+            normal_by_shear=lambda q: A_zt @ q.ravel(),
+            shear_by_pressure=lambda p: (A_zt.T @ p).reshape(2, POINTS),
             together=as_map(self.matrix),
-            precondition_together=Held(np.diag(self.matrix).reshape(3, *SHAPE), self_compliance),
+            inverse=Held(np.diag(self.matrix).reshape(3, POINTS), self_compliance),
             gap=self.gap,
             friction_limit=self.limit,
             friction_slope=self.slope,
             target=self.target,
-            normal_load=normal_load,
-            tangential_load=tangential_load,
+            closing=normal_load,
+            shifting=tangential_load,
             self_compliance=self_compliance,
         )
 
     def solved(self, normal_load, tangential_load, tolerance=TOLERANCE, solver=solve_coupled):
         problem = self.problem(normal_load, tangential_load)
-        return solver(problem, np.ones(SHAPE), np.zeros((2, *SHAPE)), NO_SHIFT, tolerance)
+        return solver(problem, np.ones(POINTS), np.zeros((2, POINTS)), NO_SHIFT, tolerance)
 
     def by_small_steps(self, approach, shift):
         """Relax each cell on its own, pressure and shear at once: slow, and quite another way."""
-        p, q = np.ones(SHAPE), np.zeros((2, *SHAPE))
+        p, q = np.ones(POINTS), np.zeros((2, POINTS))
         step = 0.5 / np.linalg.norm(self.matrix, 2)
         for _ in range(20000):
             u_z, u_t = self.displacements(p, q)
             p = np.maximum(p - step * (self.gap + u_z - approach), 0.0)
-            slip = shift[:, None, None] + self.target - u_t
+            slip = shift[:, None] + self.target - u_t
             q = project_on_discs(q + step * slip, self.limit(p))
         return p, q
 
@@ -125,8 +122,9 @@ def assert_lawful(contact, solution):
     """No tension, no overlap, no gap under pressure; sticks inside the disc, slips on its edge."""
     p, q = solution.pressure, solution.shear
     u_z, u_t = contact.displacements(p, q)
-    g = contact.gap + u_z - solution.approach
-    slip = solution.shift[:, None, None] + contact.target - u_t
+    (approach,) = solution.closing
+    g = contact.gap + u_z - approach
+    slip = solution.motion[:, None] + contact.target - u_t
     bound = contact.limit(p)
     assert np.all(p >= 0)
     assert np.all(g >= -1e-9)
@@ -149,10 +147,10 @@ BOTH_WAYS = pytest.mark.parametrize("solver", [solve_coupled, solve_together])
 def test_under_forces_all_laws_hold_and_the_loads_are_carried(solver, seed, friction, part, angle):
     contact, total = DenseContact(seed, friction), 7.0
     force = part * friction * total * np.array([np.cos(angle), np.sin(angle)])
-    solution = contact.solved(PressureSum(total), TangentialLoad(force), solver=solver)
+    solution = contact.solved(pressed(total), pushed(force), solver=solver)
     assert_lawful(contact, solution)
     assert np.sum(solution.pressure) == pytest.approx(total, rel=1e-12)
-    np.testing.assert_allclose(np.sum(solution.shear, axis=(1, 2)), force, atol=1e-11 * total)
+    np.testing.assert_allclose(np.sum(solution.shear, axis=1), force, atol=1e-11 * total)
 
 
 @BOTH_WAYS
@@ -160,9 +158,9 @@ def test_under_forces_all_laws_hold_and_the_loads_are_carried(solver, seed, fric
 def test_under_prescribed_motions_all_laws_hold(solver, seed, friction, size, angle):
     contact = DenseContact(seed, friction, coupling=0.5)
     shift = size * np.array([np.cos(angle), np.sin(angle)])
-    solution = contact.solved(FixedApproach(2.0), TangentialLoad(shift=shift), solver=solver)
-    assert solution.approach == 2.0
-    np.testing.assert_array_equal(solution.shift, shift)
+    solution = contact.solved(pressed(approach=2.0), pushed(shift=shift), solver=solver)
+    assert solution.closing == [2.0]
+    np.testing.assert_array_equal(solution.motion, shift)
     assert_lawful(contact, solution)
 
 
@@ -172,16 +170,16 @@ def test_strong_coupling_converges():
     assert_lawful(contact, contact.solved(*LOADS))
 
 
-LOADS = PressureSum(7.0), TangentialLoad(np.array([0.5, 0.3]))
+LOADS = pressed(7.0), pushed(np.array([0.5, 0.3]))
 
 
 def test_a_start_in_equilibrium_with_the_wrong_shear_is_not_taken_for_the_answer():
     """The pressure fits the first shear, the shear does not fit the load: only a look at both
     residuals tells."""
     contact = DenseContact(10, 0.3)
-    before = contact.solved(PressureSum(7.0), TangentialLoad(np.zeros(2)))
+    before = contact.solved(pressed(7.0), pushed(np.zeros(2)))
     after = solve_coupled(
-        contact.problem(*LOADS), before.pressure, before.shear, before.shift, TOLERANCE
+        contact.problem(*LOADS), before.pressure, before.shear, before.motion, TOLERANCE
     )
     assert after.outer_iterations > 1
     assert_lawful(contact, after)
@@ -190,13 +188,13 @@ def test_a_start_in_equilibrium_with_the_wrong_shear_is_not_taken_for_the_answer
 @pytest.mark.parametrize("excess", [1.0, 1.5])
 def test_at_and_beyond_the_friction_limit_all_slips_along_the_force(excess):
     contact, direction = DenseContact(11, 0.2), np.array([0.6, 0.8])
-    solution = contact.solved(PressureSum(7.0), TangentialLoad(excess * 0.2 * 7.0 * direction))
+    solution = contact.solved(pressed(7.0), pushed(excess * 0.2 * 7.0 * direction))
     assert solution.at_limit
     assert np.all(solution.in_slip == (solution.pressure > 0))
-    expected = 0.2 * solution.pressure * direction[:, None, None]
+    expected = 0.2 * solution.pressure * direction[:, None]
     np.testing.assert_allclose(solution.shear, expected, atol=1e-14)
     u_z, _ = contact.displacements(solution.pressure, solution.shear)
-    g = contact.gap + u_z - solution.approach
+    g = contact.gap + u_z - solution.closing
     assert np.max(np.abs(g * solution.pressure)) <= 1e-8 * np.max(solution.pressure)
 
 
@@ -250,10 +248,10 @@ def test_a_step_near_the_solution_squares_the_error(seed, saturation, rng):
 
     def left(size):
         t = exact + size * direction * (exact[2] > 0)
-        t[2] = problem.normal_load.admissible(t[2])
-        at = NewtonPoint(t, problem.together(t), solution.approach, solution.motion)
-        zones = Zones.from_natural_map(Natural.evaluate(at, problem), problem)
-        increment = LinearisedIncrement(problem, zones)
+        t[2] = problem.pressing.admissible(t[2])
+        at = NewtonPoint(t, problem.together(t), solution.closing, solution.motion)
+        zones = zones_of(Natural.evaluate(at, problem), problem)
+        increment = LinearisedContact(problem, zones)
         base, _ = evaluate_point(problem, increment.admissible(t), solution.motion)
         residual = increment.residual(base, Natural.evaluate(base, problem))
         step = increment.solve(residual, 1e-13)

@@ -1,28 +1,23 @@
 """Tests of contact and stick radii that are determined from values at the rings."""
 
+from functools import partial
 from math import pi
 
 import numpy as np
 import pytest
 from contact_scenes import LOAD, A, scene
 from fem_scenes import end
-from hypothesis import given
-from hypothesis import strategies as st
+from random_compliance import as_map, pressed
 from scipy.linalg import toeplitz
 
 from contact_scene import Body, IsotropicMaterial
+from contact_solver.dense_inverse import inverse_on
+from contact_solver.pressure import PressureProblem, solve_pressure
 from fem_reference.compliance.ring_edge import (
     GaussEdge,
     HatEdge,
     beyond_pressure,
     stick_area,
-)
-from fem_reference.contact import pressure_program
-from fem_reference.contact.pressure_program import (
-    PressureProgram,
-    PressureSolution,
-    Total,
-    solve_program,
 )
 
 CENTRE = 200
@@ -53,9 +48,9 @@ def plane_contact(half_width: float) -> np.ndarray:
     # Under a given load the constant is free, so any may be added for the matrix to be positive.
     matrix = toeplitz(kernel) + 20.0
     gap = pi * ((n - CENTRE) ** 2 / 2 + 1 / 12)
-    load = Total(np.ones(len(n)), pi * half_width**2 / 2)
-    program = PressureProgram(matrix, -gap, load)
-    return solve_program(program, np.ones(len(n), bool)).values[CENTRE:]
+    load = pressed(pi * half_width**2 / 2)
+    problem = PressureProblem(as_map(matrix), partial(inverse_on, matrix), gap, load)
+    return solve_pressure(problem, np.ones(len(n)), 1e-9).pressure[CENTRE:]
 
 
 @pytest.mark.parametrize("beyond", [0.05, 0.3, 0.5, 0.8, 0.99])
@@ -123,56 +118,3 @@ def test_slip_narrower_than_an_element_is_found_by_what_is_missing_from_the_limi
         radii, bound, way * (bound - missing)[None], nothing, 1e6 + contact, HatEdge()
     )
     assert np.sqrt(area / pi) - 1e6 == pytest.approx(stick, abs=3e-3)
-
-
-# ---- Quadratic programs of the pressure: the answer is the minimum, however it was found.
-
-
-ENOUGH = 1e-9
-
-
-@st.composite
-def programs(draw, largest=9):
-    """Random programs, well conditioned, with and without a prescribed force."""
-    n = draw(st.integers(1, largest))
-    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    B = rng.normal(size=(n, n))
-    A = B @ B.T + 0.05 * n * np.eye(n)
-    c = 3 * rng.normal(size=n)
-    total = Total(0.2 + rng.random(n), draw(st.floats(0.02, 2.0))) if draw(st.booleans()) else None
-    return PressureProgram(A, c, total)
-
-
-def assert_optimal(program: PressureProgram, found: PressureSolution) -> None:
-    """Karush, Kuhn and Tucker's conditions, with a slack of round-off only."""
-    x, size = found.values, 1 + np.max(np.abs(program.right))
-    assert np.all(x >= 0)
-    gradient = program.matrix @ x - program.right
-    if program.total is not None:
-        gradient -= found.multiplier * program.total.weights
-        assert program.total.weights @ x == pytest.approx(program.total.value, abs=ENOUGH)
-    assert np.all(np.abs(gradient[x > 0]) < ENOUGH * size)
-    assert np.all(gradient > -ENOUGH * size)
-
-
-@given(programs(), st.integers(0, 2**9 - 1))
-def test_solution_is_optimal_from_any_guess(program: PressureProgram, code: int) -> None:
-    guess = np.array([code >> k & 1 for k in range(len(program.right))], dtype=bool)
-    assert_optimal(program, solve_program(program, guess))
-
-
-@given(programs())
-def test_descent_alone_finds_the_same(program: PressureProgram) -> None:
-    free = np.ones(len(program.right), bool)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pressure_program, "MAX_STEPS", 0)
-        slow = solve_program(program, free)
-    assert_optimal(program, slow)
-    assert slow.values == pytest.approx(solve_program(program, free).values, abs=1e-8)
-
-
-def test_who_rests_at_a_bound_without_being_pulled_stays_there() -> None:
-    """Its gradient is zero: it could be free as well, and then would be told so."""
-    program = PressureProgram(np.array([[4.0, 1.0], [1.0, 2.0]]), np.array([4.0, 1.0]))
-    found = solve_program(program, np.array([True, False]))
-    assert (found.values.tolist(), found.free.tolist(), found.steps) == ([1, 0], [True, False], 1)

@@ -148,7 +148,8 @@ def test_equations_hold_however_strong_the_coupling(
     result = solved(asked, law=law, overlap=1.0)
     for increment in result.increments:
         assert increment.residuals.worst < 1e-10
-        assert np.all(np.abs(increment.shear_radial) <= mu * increment.pressure)
+        limit = mu * increment.pressure * (1 + 4 * np.finfo(float).eps)
+        assert np.all(np.abs(increment.shear_radial) <= limit)
 
 
 @both_laws

@@ -10,28 +10,20 @@ import pytest
 from contact_scenes import APPROACH, LIMIT, LOAD, MU, PRESS, RIGID_BALL, A, grid, push, scene
 from fem_scenes import elements
 
-from contact_scene import CoulombFriction, Scene
+from contact_scene import Scene
 from contact_scene.quantities.residuals import (
     Residuals,
     ShearResiduals,
     worst,
 )
 from contact_scene.solver_errors import NotConverged
+from contact_solver import residuals as of_cells
+from contact_solver.residuals import complementarity, friction_cone, penetration, slip_direction
 from fem_reference import Method, residuals, solve
 from fem_reference import residuals as of_rings
 from fem_reference import solve as solve_by_elements
-from fem_reference.compliance.angular_grid import end_grid
-from fem_reference.compliance.point_compliance import PointCompliance
-from fem_reference.compliance.ring_compliance import RingCompliance
-from fem_reference.compliance.ring_edge import HatEdge
 from fem_reference.contact import increment
-from fem_reference.contact.alternating_iteration import CoupledProblem
-from fem_reference.contact.natural_map import Equations, Iterate
-from fem_reference.loads import NormalTarget, TangentialTarget
-from fem_reference.plan import Path
-from semi_analytical import residuals as of_cells
 from semi_analytical import solve as solve_by_superposition
-from semi_analytical.residuals import complementarity, friction_cone, penetration, slip_direction
 
 WEIGHTS = np.array([0.1, 0.4, 0.5])
 PRESSURE = np.array([2.0, 1.0, 0.0])
@@ -60,13 +52,13 @@ def test_slip_along_the_shear_or_below_the_limit_counts(shear: float) -> None:
 @pytest.mark.parametrize("what", ["pressure", "shear"])
 def test_wrong_answer_of_a_solver_is_not_accepted(what: str, method: Method, monkeypatch) -> None:
     """The last check of an increment starts from its fields, whatever the solver says."""
-    honest = increment.solve_coupled
+    honest = increment.solve_points
 
     def wrong(*arguments):
         answer = honest(*arguments)
         return replace(answer, **{what: 1.001 * getattr(answer, what)})
 
-    monkeypatch.setattr(increment, "solve_coupled", wrong)
+    monkeypatch.setattr(increment, "solve_points", wrong)
     with pytest.raises(NotConverged, match="residual"):
         solve(scene(PRESS, push(0.5)), elements(), method)
 
@@ -217,47 +209,3 @@ def test_a_field_that_is_not_a_number_somewhere_has_no_measure(measure: str) -> 
             ill = argument.astype(float)
             ill[place] = np.nan
             assert np.isnan(of(*given[:number], ill, *given[number + 1 :])), (number, place)
-
-
-# ---- The tangent of Newton's method is the derivative of the contact equations
-
-RINGS, HIGHEST = 5, 4
-STEP, LEAST_PRESSURE = 1e-5, 0.1  # shears in slip bend with the radius of the friction limit
-
-
-def random_state(rng: np.random.Generator, springs: float) -> tuple[Equations, Iterate]:
-    """Draw contact equations on rings with a positive definite compliance, and an iterate."""
-    factors = rng.normal(size=(HIGHEST + 1, 3 * RINGS, 3 * RINGS))
-    harmonics = tuple((f @ f.T).reshape(3, RINGS, 3, RINGS) / RINGS for f in factors)
-    radii, areas = np.arange(RINGS) / RINGS, rng.uniform(0.5, 1.0, RINGS)
-    rings = RingCompliance(
-        radii, areas, 0.0 * radii, harmonics, Path.HARMONICS, np.zeros((2, RINGS)), 0.0 * radii,
-        1.0, HatEdge(),
-    )  # fmt: skip
-    compliance = PointCompliance(rings, end_grid(HIGHEST), springs)
-    points = len(compliance.areas)
-    problem = CoupledProblem(
-        compliance, rng.uniform(-0.5, 0.5, points), CoulombFriction(coefficient=0.4),
-        rng.uniform(-0.1, 0.1, (2, points)), NormalTarget(force=1.0), TangentialTarget(load=0.2),
-    )  # fmt: skip
-    tractions = np.append(rng.uniform(-0.2, 0.2, 2 * points), rng.uniform(0, 1, points))
-    return Equations(problem), Iterate(tractions, 0.1, 0.5, 0.2)
-
-
-@pytest.mark.parametrize("springs", [0.0, 0.3], ids=["exact", "penalty"])
-def test_tangent_is_the_derivative_where_no_point_changes_its_state(springs, rng) -> None:
-    equations, here = random_state(rng, springs)
-    _, tangent, _ = equations.linearise(here)
-    errors = []
-    for column, change in enumerate(STEP * np.eye(len(here.values))):
-        ends = [Iterate.of(here.values + sign * change) for sign in (1, -1)]
-        slips = [equations.linearise(end)[2] for end in ends]
-        p = [equations.solution(end, s, 0).pressure for end, s in zip(ends, slips, strict=True)]
-        apart = np.max(p, axis=0) == 0
-        smooth = (apart | (np.min(p, axis=0) > LEAST_PRESSURE)) & (slips[0] == slips[1])
-        rows = np.append(np.tile(smooth, 3), [True, True])
-        difference = (equations.residual_vector(ends[0]) - equations.residual_vector(ends[1])) / (
-            2 * STEP
-        )
-        errors.append(np.abs(difference - tangent[:, column])[rows].max())
-    assert np.max(errors) <= 1e-8

@@ -1,4 +1,5 @@
-"""Tests of the import order: scene <- solvers <- results <- errors <- verification <- command.
+"""Tests of the import order: scene <- contact_solver <- solvers <- results <- errors <-
+verification <- command.
 
 CONTRIBUTING.md states the order. `ORDERS` holds the reading order of a package: a module imports
 only from entries above its own. An entry that is a package stands for all its modules, which may
@@ -16,8 +17,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 # From the ground up: a package imports those before it, but for what FORBIDDEN says.
 PACKAGES = (
-    *("contact_scene", "semi_analytical", "fem_reference", "radial", "contact_results"),
-    *("contact_errors", "verification", "slipstick"),
+    *("contact_scene", "contact_solver", "semi_analytical", "fem_reference", "radial"),
+    *("contact_results", "contact_errors", "verification", "slipstick"),
 )
 
 ORDER = (
@@ -26,10 +27,6 @@ ORDER = (
     "influence",
     "operator",
     "edge",
-    "multipliers",
-    "residuals",
-    "normal",
-    "tangential",
     "increment_counts",
     "plan",
     "fields",
@@ -47,14 +44,40 @@ ORDER = (
 )
 
 ORDERS = {
+    "contact_solver": (
+        "residuals",
+        "slip_compliance_bins",
+        "multipliers",
+        "rigid_motion",
+        "conjugate_gradients",
+        "admissible_pressure",
+        "pressure",
+        "admissible_shear",
+        "gross_slip",
+        "shear_zones",
+        "linearised_shear",
+        "shear",
+        "zones",
+        "binned_preconditioner",
+        "dense_inverse",
+        "coupled_problem",
+        "alternating_iteration",
+        "natural_map",
+        "krylov",
+        "linearised_contact",
+        "newton_iterate",
+        "newton_increment",
+        "proximal_point",
+        "globalisation",
+    ),
     "semi_analytical": ORDER,
     "semi_analytical.operator": (
         "domain",
         "box",
         "transforms",
         "spectra",
-        "slip_compliance_bins",
         "operator",
+        "points",
     ),
     "semi_analytical.edge": (
         "clipped_power_means",
@@ -117,18 +140,12 @@ ORDERS = {
         *("factored_section", "compliance", "hat_functions"),
     ),
     "fem_reference.contact": (
-        "pressure_program",
         "friction_limit",
         "point_state",
         "augmented_lagrangian",
         "point_contact",
+        "point_problem",
         "free_motion",
-        "admissible_shear",
-        "tangential_newton",
-        "alternating_iteration",
-        "natural_map",
-        "coupled_newton",
-        "continuation",
         "increment",
         "increment_report",
         "method",
@@ -195,25 +212,15 @@ FORBIDDEN = {
     "fem_reference": ("semi_analytical", "verification"),
     "radial": ("semi_analytical", "fem_reference", "verification"),
     "verification.closed_forms": ("contact_scene", "semi_analytical", "fem_reference"),
-    # The solvers see arrays and callables: a dense 4x4 matrix is as good an operator as any.
-    "semi_analytical.normal.normal_problem": (
-        "contact_scene",
-        "semi_analytical.grid",
-        "semi_analytical.frf",
-        "semi_analytical.influence",
-        "semi_analytical.operator",
-    ),
+    # It sees arrays and callables: a dense 4x4 matrix is as good an operator as any.
+    "contact_solver": ("contact_scene",),
 }
-# Array types, errors and residuals are no part of a scene.
+# Array types, errors and the comparison with the friction limit are no part of a scene.
 BESIDE_THE_SCENE = (
-    *(
-        "contact_scene.array_types",
-        "contact_scene.quantities.residuals",
-        "contact_scene.solver_errors",
-    ),
+    "contact_scene.array_types",
+    "contact_scene.friction_limit",
+    "contact_scene.solver_errors",
 )
-for module in ("normal.normal_load", "tangential.tangential_problem"):
-    FORBIDDEN[f"semi_analytical.{module}"] = FORBIDDEN["semi_analytical.normal.normal_problem"]
 # What the radial solver has from the semi-analytical one: how layers answer one wavenumber.
 SHARED = "semi_analytical.frf"
 ONLY_SCRIPTS = ("tests", "examples")
@@ -310,7 +317,11 @@ def test_imports_go_one_way() -> None:
 def test_what_takes_as_long_as_a_contact_is_imported_where_it_is_called() -> None:
     """Of scipy, a tenth of a second each: films and fitted edges alone need them."""
     slow = {f"scipy.{part}" for part in ("interpolate", "optimize", "sparse", "spatial")}
-    modules = [*(ROOT / "semi_analytical").rglob("*.py")]
+    modules = [
+        path
+        for name in ("contact_solver", "semi_analytical")
+        for path in (ROOT / name).rglob("*.py")
+    ]
     assert modules
     for path in modules:
         top = ast.parse(path.read_text(encoding="utf-8")).body
@@ -326,7 +337,8 @@ def test_results_bring_in_no_solver_by_themselves() -> None:
 import importlib, sys
 for name in {ours}:
     importlib.import_module(name)
-print(*{{"semi_analytical", "fem_reference", "radial", "verification"}} & set(sys.modules))"""
+solvers = {{"contact_solver", "semi_analytical", "fem_reference", "radial"}}
+print(*{{*solvers, "verification"}} & set(sys.modules))"""
     ran = subprocess.run(
         [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True
     )
@@ -341,8 +353,9 @@ PLANTED = {
     "semi_analytical/grid.py": "from .solve import solve",
     "semi_analytical/model.py": "from semi_analytical import SurfaceGrid",
     "semi_analytical/frf/half_space.py": "from ..operator import InfluenceOperator",
-    "semi_analytical/normal/normal_problem.py": "from contact_scene import Scene",
-    "semi_analytical/tangential/tangential_problem.py": "from .. import grid",
+    "contact_solver/pressure.py": "from contact_scene import Scene",
+    "contact_solver/shear.py": "from semi_analytical import grid",
+    "contact_solver/rigid_motion.py": "from contact_solver.pressure import solve_pressure",
     "semi_analytical/helpers.py": "import math",
     "fem_reference/elasticity/motion.py": "import importlib\n"
     "importlib.import_module('semi_analytical.grid')",

@@ -39,7 +39,7 @@ from semi_analytical.increments.increment_history import (
     further,
     further_shear,
 )
-from semi_analytical.increments.normal_solve import NormalTarget
+from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.operator.operator import DisplacementOperator
 

@@ -1,39 +1,41 @@
-"""Tests of the solver of the normal problem against an independent active-set method."""
+"""Tests of the solvers of pressure alone and of shear alone on small dense problems."""
+
+from functools import partial
 
 import numpy as np
 import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
-from random_compliance import as_map, compliance, graded_inverse, rough_inverse
+from random_compliance import as_map, compliance, graded_inverse, pressed, pushed, rough_inverse
 
 from contact_scene.solver_errors import NotConverged
-from semi_analytical.normal import normal_problem
-from semi_analytical.normal.normal_load import (
-    FixedApproach,
-    PressureSum,
-)
-from semi_analytical.normal.normal_problem import solve_normal
-from semi_analytical.tangential.admissible_shear import (
-    TangentialLoad,
+from contact_solver import pressure
+from contact_solver.admissible_shear import (
+    admissible_shear,
     magnitude,
     project_on_discs,
+    project_trial,
 )
-from semi_analytical.tangential.linearised_shear import Point
-from semi_analytical.tangential.tangential_problem import solve_tangential
+from contact_solver.conjugate_gradients import Point
+from contact_solver.dense_inverse import inverse_on
+from contact_solver.gross_slip import exhausts_friction, full_slip
+from contact_solver.pressure import PressureProblem, solve_pressure
+from contact_solver.shear import ShearProblem, solve_shear
 
 TOLERANCE = 1e-11
-SHAPE = (4, 5)
+POINTS = 20
 
 
-def solved(A, h, load, start=None, tolerance=TOLERANCE):
-    start = np.ones(SHAPE) if start is None else start
-    return solve_normal(as_map(A), rough_inverse(A), h.reshape(SHAPE), load, start, tolerance)
+def solved(A, h, load, start=None, tolerance=TOLERANCE, *, exact=False):
+    inverse = partial(inverse_on, A) if exact else lambda contact: rough_inverse(A)
+    problem = PressureProblem(as_map(A), inverse, h, load)
+    return solve_pressure(problem, np.ones(len(h)) if start is None else start, tolerance)
 
 
 @st.composite
 def contacts(draw):
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    h = draw(st.sampled_from([0.1, 1.0, 10.0])) * rng.random(np.prod(SHAPE))
+    h = draw(st.sampled_from([0.1, 1.0, 10.0])) * rng.random(POINTS)
     h[rng.random(h.size) < draw(st.sampled_from([0.0, 0.4]))] = np.inf
     h[0] = 0.0
     return compliance(rng, h.size), h
@@ -41,27 +43,26 @@ def contacts(draw):
 
 def assert_contact(A, h, solution):
     """No tension, no overlap, no gap under pressure: the conditions have one solution."""
-    p, finite = solution.pressure.ravel(), np.isfinite(h)
-    u = A @ p
-    gap = (u + h - solution.motion)[finite]
+    p, finite = solution.pressure, np.isfinite(h)
+    u, (approach,) = A @ p, solution.motion
+    gap = (u + h - approach)[finite]
     assert np.all(p >= 0)
     assert np.all(p[~finite] == 0)
-    assert np.min(gap) >= -TOLERANCE * solution.motion
-    assert np.sum(np.abs(gap) * p[finite]) <= TOLERANCE * solution.motion * np.sum(p)
-    np.testing.assert_allclose(
-        solution.displacement.ravel(), u, rtol=0, atol=1e-10 * np.max(np.abs(u))
-    )
+    assert np.min(gap) >= -TOLERANCE * approach
+    assert np.sum(np.abs(gap) * p[finite]) <= TOLERANCE * approach * np.sum(p)
+    np.testing.assert_allclose(solution.displacement, u, rtol=0, atol=1e-10 * np.max(np.abs(u)))
 
 
-@given(contacts(), st.floats(0.01, 10), st.booleans(), st.integers(0, 2**32 - 1))
-def test_solution_obeys_the_conditions_of_contact(contact, size, forced, seed):
+@given(contacts(), st.floats(0.01, 10), st.booleans(), st.integers(0, 2**32 - 1), st.booleans())
+def test_solution_obeys_the_conditions_of_contact(contact, size, forced, seed, exact):
     solution = solved(
         *contact,
-        PressureSum(size) if forced else FixedApproach(size),
-        np.random.default_rng(seed).random(SHAPE) + 1e-3,
+        pressed(size) if forced else pressed(approach=size),
+        np.random.default_rng(seed).random(POINTS) + 1e-3,
+        exact=exact,
     )
     assert_contact(*contact, solution)
-    assert (np.sum(solution.pressure) if forced else solution.motion) == pytest.approx(
+    assert (np.sum(solution.pressure) if forced else solution.motion[0]) == pytest.approx(
         size, rel=1e-13
     )
     assert solution.iterations < 200  # 59 at most in 1 000 draws
@@ -69,23 +70,23 @@ def test_solution_obeys_the_conditions_of_contact(contact, size, forced, seed):
 
 def test_a_solution_is_left_as_it_is(rng):
     A, h = compliance(rng, 20), rng.random(20)
-    first = solved(A, h, PressureSum(3.0))
-    assert solved(A, h, PressureSum(3.0), first.pressure, 2 * TOLERANCE).iterations == 0
+    first = solved(A, h, pressed(3.0))
+    assert solved(A, h, pressed(3.0), first.pressure, 2 * TOLERANCE).iterations == 0
 
 
 def test_an_operator_that_is_not_positive_is_reported(rng):
     A = -compliance(rng, 20)
     with pytest.raises(NotConverged) as caught:
-        solved(A, rng.random(20), PressureSum(3.0))
+        solved(A, rng.random(20), pressed(3.0))
     assert not caught.value.residual <= TOLERANCE
     assert caught.value.tolerance == TOLERANCE
 
 
 @pytest.mark.parametrize("limit", ["MAX_STEPS", "MAX_ITERATIONS"])
 def test_a_stop_above_the_tolerance_is_an_error(rng, monkeypatch, limit):
-    monkeypatch.setattr(normal_problem, limit, 1)
+    monkeypatch.setattr(pressure, limit, 1)
     with pytest.raises(NotConverged, match="the pressure") as caught:
-        solved(compliance(rng, 20), rng.random(20), PressureSum(3.0))
+        solved(compliance(rng, 20), rng.random(20), pressed(3.0))
     assert caught.value.residual > caught.value.tolerance == TOLERANCE
 
 
@@ -103,29 +104,25 @@ def test_cells_that_lift_others_take_few_iterations(shape, most, touching, rng):
     A = np.exp(-far / 20) * np.cos(far / 1.5)
     A += (1e-3 - min(np.linalg.eigvalsh(A)[0], 0)) * np.eye(len(A))
     u = A @ np.maximum(rng.random(len(A)) - 0.5, 0)
-    gap = np.reshape(np.max(u) - u if touching else 3 * rng.random(len(A)), shape)
-    inputs = (
-        as_map(A), rough_inverse(A), gap, FixedApproach(float(np.max(u)) if touching else 1.0),
-        np.ones(shape), TOLERANCE,
-    )  # fmt: skip
-    solution = solve_normal(*inputs)
-    assert_contact(A, gap.ravel(), solution)
+    gap = np.max(u) - u if touching else 3 * rng.random(len(A))
+    solution = solved(A, gap, pressed(approach=float(np.max(u)) if touching else 1.0))
+    assert_contact(A, gap, solution)
     assert solution.iterations < most  # 43, 51, 20; 105, 63, 20 if each step is solved to the end
 
 
 # ---- The shear solver against the conditions of stick and slip, and against a general optimis
 
 
-SHEAR_SHAPE = (3, 4)
-AT_REST = Point(np.zeros((2, *SHEAR_SHAPE)), np.zeros((2, *SHEAR_SHAPE)))
+FEW = 12
+AT_REST = Point(np.zeros((2, FEW)), np.zeros((2, FEW)))
 
 
 def random_surface(seed, size):
     """Compliance, friction limit and target of a random surface."""
     rng = np.random.default_rng(seed)
-    bound = rng.random(SHEAR_SHAPE) * (rng.random(SHEAR_SHAPE) < 0.8)
-    bound.flat[:2] = 0.5
-    target = size * rng.standard_normal((2, *SHEAR_SHAPE))
+    bound = rng.random(FEW) * (rng.random(FEW) < 0.8)
+    bound[:2] = 0.5
+    target = size * rng.standard_normal((2, FEW))
     return compliance(rng, 2 * bound.size), bound, target
 
 
@@ -133,26 +130,22 @@ def problems():
     return st.builds(random_surface, st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.3, 3.0]))
 
 
+def graded(A):
+    return lambda zones: partial(zones.precondition, inverse=graded_inverse(A))
+
+
 def shear_solved(problem, load, tolerance=TOLERANCE):
     A, bound, target = problem
-    return solve_tangential(
-        as_map(A),
-        graded_inverse(A),
-        bound,
-        target,
-        load,
-        AT_REST,
-        np.zeros(2),
-        float(np.mean(np.diag(A))),
-        tolerance,
-    )
+    own = float(np.mean(np.diag(A)))
+    problem = ShearProblem(as_map(A), graded(A), bound, target, load, own)
+    return solve_shear(problem, AT_REST, np.zeros(2), tolerance)
 
 
 def assert_sticks_or_slips(problem, solution):
     """Coulomb's law in every cell: no slip inside the disc, slip along the shear on its edge."""
     A, bound, target = problem
     q = solution.shear
-    slip = solution.motion[:, None, None] + target - as_map(A)(q)
+    slip = solution.motion[:, None] + target - as_map(A)(q)
     assert np.all(magnitude(q) <= bound * (1 + 1e-12))
     missing = bound * magnitude(slip) - q[0] * slip[0] - q[1] * slip[1]
     assert np.sum(missing) <= 1e-8 * np.sum(bound) * np.max(magnitude(slip)[bound > 0] + 1)
@@ -168,17 +161,17 @@ ANGLES = st.floats(0, 2 * np.pi)
 @example(random_surface(1348, 0.3), 0.999, 4.599260885499501)
 def test_shear_under_a_force_sticks_or_slips_and_carries_it(problem, part, angle):
     total = part * np.sum(problem[1]) * np.array([np.cos(angle), np.sin(angle)])
-    solution = shear_solved(problem, TangentialLoad(total))
+    solution = shear_solved(problem, pushed(total))
     assert_sticks_or_slips(problem, solution)
     np.testing.assert_allclose(
-        np.sum(solution.shear, axis=(1, 2)), total, atol=1e-12 * np.sum(problem[1])
+        np.sum(solution.shear, axis=1), total, atol=1e-12 * np.sum(problem[1])
     )
 
 
 @given(problems(), st.sampled_from([0.0, 1e-3, 1.0, 1e3]), ANGLES)
 def test_shear_under_a_shift_sticks_or_slips(problem, size, angle):
     shift = size * np.array([np.cos(angle), np.sin(angle)])
-    solution = shear_solved(problem, TangentialLoad(shift=shift))
+    solution = shear_solved(problem, pushed(shift=shift))
     np.testing.assert_array_equal(solution.motion, shift)
     assert_sticks_or_slips(problem, solution)
 
@@ -186,21 +179,20 @@ def test_shear_under_a_shift_sticks_or_slips(problem, size, angle):
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 @pytest.mark.parametrize("call", [1, 2, 3])
 def test_a_displacement_that_is_no_number_ends_as_not_converged(value, call, rng):
-    A, bound = compliance(rng, 24), 0.2 + rng.random(SHEAR_SHAPE)
+    A, bound = compliance(rng, 24), 0.2 + rng.random(FEW)
     calls = []
 
     def displace(q):
         calls.append(q)
         u = as_map(A)(q)
         if len(calls) == call:
-            u[0, 0, 0] = value
+            u[0, 0] = value
         return u
 
-    load, target = TangentialLoad(np.array([0.5, 0.1]) * np.sum(bound)), np.zeros((2, *SHEAR_SHAPE))
+    load = pushed(np.array([0.5, 0.1]) * np.sum(bound))
+    problem = ShearProblem(displace, graded(A), bound, np.zeros((2, FEW)), load, 1.0)
     with np.errstate(all="ignore"), pytest.raises(NotConverged):
-        solve_tangential(
-            displace, graded_inverse(A), bound, target, load, AT_REST, np.zeros(2), 1.0, TOLERANCE
-        )
+        solve_shear(problem, AT_REST, np.zeros(2), TOLERANCE)
 
 
 # ---- The projection on admissible shears: feasible, nearest, and it gives the sum exactly.
@@ -219,10 +211,10 @@ def round_off(problem):
 def disc_problems(draw):
     """Any shear, a friction limit with zeros in it, and a sum that it can carry."""
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    shape = draw(st.tuples(st.integers(2, 7), st.integers(2, 7)))
-    bound = rng.random(shape) * (rng.random(shape) < draw(st.floats(0.3, 1.0)))
+    points = draw(st.integers(4, 49))
+    bound = rng.random(points) * (rng.random(points) < draw(st.floats(0.3, 1.0)))
     assume(np.count_nonzero(bound) >= 2)
-    y = draw(st.sampled_from([1e-6, 1.0, 1e3])) * rng.standard_normal((2, *shape))
+    y = draw(st.sampled_from([1e-6, 1.0, 1e3])) * rng.standard_normal((2, points))
     part = draw(st.sampled_from([0.0, 1e-9, 0.3, 0.9, 0.999, 1 - 1e-6]))
     angle = draw(st.floats(0, 2 * np.pi))
     total = part * np.sum(bound) * np.array([np.cos(angle), np.sin(angle)])
@@ -232,25 +224,25 @@ def disc_problems(draw):
 def assert_feasible(q, problem):
     _, bound, total = problem
     assert np.all(magnitude(q) <= bound * (1 + ROUND_OFF))
-    assert np.max(np.abs(np.sum(q, axis=(1, 2)) - total)) <= bound.size * round_off(problem)
+    assert np.max(np.abs(np.sum(q, axis=1) - total)) <= bound.size * round_off(problem)
 
 
 @given(disc_problems())
 def test_projection_is_feasible_and_a_shift_cut_off_at_the_discs(problem):
     """q = P(y + λ) with one vector λ for all cells, the optimality conditions of the projection."""
     y, bound, total = problem
-    q, multiplier = TangentialLoad(total).project_trial(y, bound, 1.0, np.zeros(2))
+    q, multiplier = project_trial(pushed(total), y, bound, 1.0, np.zeros(2))
     assert_feasible(q, problem)
-    expected = project_on_discs(y + multiplier[:, None, None], bound)
+    expected = project_on_discs(y + multiplier[:, None], bound)
     np.testing.assert_allclose(q, expected, rtol=0, atol=10 * round_off(problem))
 
 
 @pytest.mark.parametrize("part", [1e-30, 1e-15, 1e-9, 1e-3])
 def test_a_tiny_sum_is_carried_to_its_own_precision(part, rng):
-    bound = rng.random((9, 9))
+    bound = rng.random(81)
     total = part * np.sum(bound) * np.array([0.6, -0.8])
-    q = TangentialLoad(total).admissible(part * rng.standard_normal((2, 9, 9)), bound)
-    assert np.max(np.abs(np.sum(q, axis=(1, 2)) - total)) < 1e-13 * part * np.sum(bound)
+    q = admissible_shear(pushed(total), part * rng.standard_normal((2, 81)), bound)
+    assert np.max(np.abs(np.sum(q, axis=1) - total)) < 1e-13 * part * np.sum(bound)
 
 
 @given(disc_problems())
@@ -266,20 +258,20 @@ def test_without_a_sum_every_cell_is_projected_alone(problem):
 
 
 def test_a_force_and_the_shift_that_it_leads_to_have_the_same_shear(rng):
-    y, bound = rng.standard_normal((2, 5, 4)), rng.random((5, 4))
+    y, bound = rng.standard_normal((2, 20)), rng.random(20)
     total, gamma, unknown = np.sum(bound) * np.array([0.4, -0.5]), 3.0, np.zeros(2)
-    q, shift = TangentialLoad(total).project_trial(y, bound, gamma, unknown)
-    led, same = TangentialLoad(shift=shift).project_trial(y, bound, gamma, unknown)
+    q, shift = project_trial(pushed(total), y, bound, gamma, unknown)
+    led, same = project_trial(pushed(shift=shift), y, bound, gamma, unknown)
     np.testing.assert_allclose(led, q, rtol=0, atol=100 * ROUND_OFF)
     np.testing.assert_array_equal(same, shift)
 
 
 def test_a_force_is_exhausted_by_the_sum_of_the_limits_and_then_all_slips_along_it(rng):
-    bound, motion, along = rng.random((5, 4)), np.array([1.0, 2.0]), np.array([0.6, -0.8])
+    bound, motion, along = rng.random(20), np.array([1.0, 2.0]), np.array([0.6, -0.8])
     carried = np.sum(bound)
-    assert not TangentialLoad(0.9 * carried * along).exhausts(bound)
-    assert TangentialLoad(carried * along).exhausts(bound)
-    assert TangentialLoad(1.1 * carried * along).exhausts(bound)
-    q, kept = TangentialLoad(carried * along).full_slip(bound, motion)
-    np.testing.assert_allclose(q, bound * along[:, None, None], rtol=ROUND_OFF)
+    assert not exhausts_friction(pushed(0.9 * carried * along), bound)
+    assert exhausts_friction(pushed(carried * along), bound)
+    assert exhausts_friction(pushed(1.1 * carried * along), bound)
+    q, kept = full_slip(pushed(carried * along), bound, motion)
+    np.testing.assert_allclose(q, bound * along[:, None], rtol=ROUND_OFF)
     np.testing.assert_array_equal(kept, motion)

@@ -35,13 +35,13 @@ from contact_scene import (
     Paraboloid,
 )
 from contact_scene.geometry import Gap
+from contact_solver.slip_compliance_bins import COMPLIANCES, RATIO, beyond, shares
 from semi_analytical import SurfaceGrid, all_effects, plan, solve
 from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.box import box_around
 from semi_analytical.operator.domain import QUARTER, WINDOW, ReducedDomain
 from semi_analytical.operator.operator import BINS, DisplacementOperator, inverse_2x2
-from semi_analytical.operator.slip_compliance_bins import COMPLIANCES, RATIO, beyond, shares
 from semi_analytical.operator.transforms import MAX_BY_MATRIX, Convolutions, offsets_for
 from semi_analytical.plan import MIRROR_PLANES
 from verification.problems.problem import ShiftedGrid

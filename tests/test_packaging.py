@@ -24,7 +24,7 @@ from verification.studies.catalogue import SCENE_STUDIES, STUDIES
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 PACKAGES = (
-    *("contact_scene", "semi_analytical", "fem_reference", "radial"),
+    *("contact_scene", "contact_solver", "semi_analytical", "fem_reference", "radial"),
     *("contact_results", "contact_errors", "verification", "slipstick"),
 )
 # Name, version, and whatever follows up to the next one.

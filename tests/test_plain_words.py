@@ -10,6 +10,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # Per cent of the texts. A limit may fall and never rises.
 LIMITS = {
     "contact_scene": 3,
+    "contact_solver": 3,
     "semi_analytical": 10,
     "fem_reference": 1,
     "radial": 1,

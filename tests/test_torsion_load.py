@@ -5,51 +5,54 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from random_compliance import as_map, compliance, rough_inverse
+from random_compliance import as_map, compliance, pushed, rough_inverse
 
-from semi_analytical.normal.normal_problem import solve_normal
-from semi_analytical.normal.tilting import PressureMoments
-from semi_analytical.tangential.admissible_shear import TangentialLoad, magnitude
+from contact_scene.solver_errors import NotConverged
+from contact_solver.admissible_shear import admissible_shear, magnitude
+from contact_solver.gross_slip import exhausts_friction, full_slip, limit_load
+from contact_solver.pressure import PressureProblem, solve_pressure
+from contact_solver.rigid_motion import RigidMotion, RigidMotions
+from semi_analytical.increments.normal_target import NormalTarget
 
-SHAPE = (4, 5)
-Y, X = np.meshgrid(np.arange(5) - 2.0, np.arange(4) - 1.5)
+Y, X = (one.ravel() for one in np.meshgrid(np.arange(5) - 2.0, np.arange(4) - 1.5))
+POINTS = X.size
 ROTATION = np.stack([-Y, X])
 
 
 def forces(q):
-    return np.array([*np.sum(q, axis=(1, 2)), np.sum(q * ROTATION)])
+    return np.array([*np.sum(q, axis=1), np.sum(q * ROTATION)])
 
 
 def load_of(target):
-    return TangentialLoad(target[:2], torque=float(target[2]), rotation=ROTATION)
+    return pushed(target[:2], turn=ROTATION, torque=float(target[2]))
 
 
 def discs(bound, rng):
     """A shear within the discs."""
-    angle = 2 * np.pi * rng.random(SHAPE)
-    return rng.random(SHAPE) * bound * np.stack([np.cos(angle), np.sin(angle)])
+    angle = 2 * np.pi * rng.random(POINTS)
+    return rng.random(POINTS) * bound * np.stack([np.cos(angle), np.sin(angle)])
 
 
 @st.composite
 def problems(draw):
     """Any shear, a friction limit with zeros in it, and forces that it can carry."""
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    bound = rng.random(SHAPE) * (rng.random(SHAPE) < 0.8)
+    bound = rng.random(POINTS) * (rng.random(POINTS) < 0.8)
     assume(np.count_nonzero(bound) >= 4)
-    y = draw(st.sampled_from([1e-3, 1.0, 1e3])) * rng.standard_normal((2, *SHAPE))
+    y = draw(st.sampled_from([1e-3, 1.0, 1e3])) * rng.standard_normal((2, POINTS))
     load = load_of(forces(discs(bound, rng)))
-    part = draw(st.sampled_from([0.0, 0.5, 0.99, 0.9999])) * load.limit(bound)[0]
+    part = draw(st.sampled_from([0.0, 0.5, 0.99, 0.9999])) * limit_load(load, bound)[0]
     return rng, y, bound, load_of(part * forces_of(load))
 
 
 def forces_of(load):
-    return np.array([*load.total, load.torque])
+    return load.prescribed_forces
 
 
 @given(problems())
 def test_projection_is_feasible(problem):
     _, y, bound, load = problem
-    q = load.admissible(y, bound)
+    q = admissible_shear(load, y, bound)
     assert np.all(magnitude(q) <= bound * (1 + 1e-12))
     blur = 1e-11 * (np.max(bound) + 1e-3 * np.max(np.abs(y)))
     np.testing.assert_allclose(forces(q), forces_of(load), atol=X.size * blur)
@@ -59,8 +62,8 @@ def test_projection_is_feasible(problem):
 def test_nothing_admissible_is_nearer(problem):
     """The variational inequality (y - q)·(z - q) <= 0 for every admissible z."""
     rng, y, bound, load = problem
-    q = load.admissible(y, bound)
-    z = load.admissible(rng.standard_normal(y.shape) * np.max(np.abs(y)), bound)
+    q = admissible_shear(load, y, bound)
+    z = admissible_shear(load, rng.standard_normal(y.shape) * np.max(np.abs(y)), bound)
     scale = np.max(np.abs(y - q)) * np.sum(bound)
     assert np.sum((y - q) * (z - q)) <= 1e-9 * scale
 
@@ -69,11 +72,10 @@ def test_nothing_admissible_is_nearer(problem):
 def test_at_its_limit_a_load_is_carried_by_full_slip_alone(problem):
     rng, _, bound, load = problem
     load = load_of(forces(discs(bound, rng)))
-    times, velocity = load.limit(bound)
-    q, _ = load.full_slip(bound, np.zeros(3))
-    moves = magnitude(
-        sum(v * u for v, u in zip(velocity, load.free_motions(ROTATION.shape), strict=True))
-    )
+    times, velocity = limit_load(load, bound)
+    q, _ = full_slip(load_of(times * forces_of(load)), bound, np.zeros(3))
+    speed = load.displacement(velocity)
+    moves = magnitude(speed)
     # Smoothing at the pole of the motion, 1e-8 of the largest speed, reduces the shear by less than
     # 1e-8 of itself in these cells. Shear in other cells hardly changes the power.
     slips = moves > 1e-4 * np.max(moves)
@@ -82,26 +84,23 @@ def test_at_its_limit_a_load_is_carried_by_full_slip_alone(problem):
     assert np.all(magnitude(q) <= bound * (1 + 1e-12))
     np.testing.assert_allclose(magnitude(q)[slips], bound[slips])
     # The power of friction in that motion bounds the work of every admissible shear.
-    speed = sum(
-        v * unit for v, unit in zip(velocity, load.free_motions(ROTATION.shape), strict=True)
-    )
     other = discs(bound, rng)
     assert np.sum(other * speed) <= times * (1 + 1e-9)
-    assert load_of(0.999 * times * forces_of(load)).exhausts(bound) is False
-    assert load_of(1.001 * times * forces_of(load)).exhausts(bound) is True
+    assert exhausts_friction(load_of(0.999 * times * forces_of(load)), bound) is False
+    assert exhausts_friction(load_of(1.001 * times * forces_of(load)), bound) is True
 
 
 def test_the_limit_of_torque_alone_is_friction_times_arm():
-    bound = np.ones(SHAPE)
-    times, _ = load_of(np.array([0.0, 0.0, 2.0])).limit(bound)
+    bound = np.ones(POINTS)
+    times, _ = limit_load(load_of(np.array([0.0, 0.0, 2.0])), bound)
     assert 2 * times == pytest.approx(np.sum(np.hypot(X, Y)), rel=1e-12)
-    held = TangentialLoad(shift=np.array([1.0, 2.0]), torque=2.0, rotation=ROTATION)
-    assert held.limit(bound)[0] == pytest.approx(times, rel=1e-12)
+    led = pushed(shift=(1.0, 2.0), turn=ROTATION, torque=2.0)
+    assert limit_load(led.held, bound)[0] == pytest.approx(times, rel=1e-12)
 
 
 def test_the_limit_of_force_alone_is_friction():
-    bound = np.ones(SHAPE)
-    times, _ = load_of(np.array([0.6, 0.8, 0.0])).limit(bound)
+    bound = np.ones(POINTS)
+    times, _ = limit_load(load_of(np.array([0.6, 0.8, 0.0])), bound)
     assert times == pytest.approx(np.sum(bound), rel=1e-12)
 
 
@@ -109,9 +108,7 @@ def test_the_limit_of_force_alone_is_friction():
 
 
 TOLERANCE = 1e-11
-Y, X = np.meshgrid(np.arange(5) - 2.0, np.arange(4) - 1.5)
-ARMS = np.stack([Y, X])
-EVERYWHERE = np.ones(SHAPE, dtype=bool)
+EVERYWHERE = np.ones(POINTS, dtype=bool)
 
 
 def sums(p):
@@ -122,66 +119,80 @@ def sums(p):
 def carried(draw):
     """Sums of some pressure on some of the cells, and those cells."""
     rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    cells = rng.random(SHAPE) < draw(st.floats(0.4, 1.0))
+    cells = rng.random(POINTS) < draw(st.floats(0.4, 1.0))
     assume(np.count_nonzero(cells) >= 4)
-    p = cells * (0.01 + rng.random(SHAPE) ** draw(st.sampled_from([1, 8])))
+    p = cells * (0.01 + rng.random(POINTS) ** draw(st.sampled_from([1, 8])))
     return rng, cells, sums(p)
 
 
-def loads(target, cells=EVERYWHERE):
-    total, M_x, M_y = target
-    moments = np.array([M_x, M_y])
-    return PressureMoments(ARMS, cells, moments, total=total), PressureMoments(
-        ARMS, cells, moments, approach=2.0
-    )
+def motions(target, *, forced=True):
+    """Approach and tilts under moments, and under a normal force or at an approach of 2."""
+    total, *moments = target
+    approach = RigidMotion(np.ones((1, 1)), total if forced else None, 2.0)
+    tilts = (RigidMotion(arm[None], moment) for arm, moment in zip((Y, X), moments, strict=True))
+    return RigidMotions(1, (approach, *tilts))
+
+
+def problem_of(target, cells=EVERYWHERE, *, forced=True, matrix=None, gap=0.0):
+    matrix = np.eye(POINTS) if matrix is None else matrix
+    gap = np.where(cells, gap, np.inf)
+    load = motions(target, forced=forced)
+    return PressureProblem(as_map(matrix), lambda contact: rough_inverse(matrix), gap, load)
+
+
+class Model:
+    """Arms of cells, as the contact model has them."""
+
+    arms = np.stack([Y, X])
+
+
+def touches(target, cells, *, forced=True):
+    total, *moments = target
+    load = NormalTarget(*((total, None) if forced else (None, 2.0)), moment=tuple(moments))
+    return load.touches(Model, np.where(cells, 0.0, np.inf))
 
 
 @given(carried(), st.sampled_from([1e-6, 1.0, 1e6]))
 def test_admissible_pressure_has_no_tension_and_carries_force_and_moments(problem, size):
     rng, cells, target = problem
-    load, _ = loads(target, cells)
-    assume(load.touches(np.where(cells, 0.0, np.inf)))
-    p = load.admissible(size * cells * rng.random(SHAPE))
+    assume(touches(target, cells))
+    p = problem_of(target, cells).admissible(size * cells * rng.random(POINTS))
     assert np.all(p >= 0)
     assert np.all(p[~cells] == 0)
     np.testing.assert_allclose(sums(p), target, atol=1e-12 * (target[0] + size))
 
 
 @given(carried())
-def test_what_other_cells_carry_is_taken_off_force_and_moments(problem):
+def test_what_other_points_carry_is_taken_off_force_and_moments(problem):
     rng, cells, target = problem
-    elsewhere = ~cells * rng.random(SHAPE)
-    by_force, by_approach = (load.less(elsewhere) for load in loads(target))
-    assert by_force.total + np.sum(elsewhere) == pytest.approx(target[0])
-    assert by_approach.total is None
-    for rest in (by_force, by_approach):
-        assert not np.any(rest.cells & (elsewhere > 0))
-        np.testing.assert_allclose(rest.moments + sums(elsewhere)[1:], target[1:], atol=1e-12)
+    elsewhere = ~cells * rng.random(POINTS)
+    rest = motions(target).less(elsewhere[None]).held.prescribed_forces
+    np.testing.assert_allclose(rest + sums(elsewhere), target, atol=1e-12)
+    led = motions(target, forced=False).less(elsewhere[None])
+    np.testing.assert_array_equal(led.held.prescribed_forces, rest[1:])
+    np.testing.assert_array_equal(led.values, [2.0, 0.0, 0.0])
 
 
-@given(carried())
-def test_a_plane_gap_is_closed_by_its_own_motion(problem):
+@given(carried(), st.booleans())
+def test_a_plane_gap_is_closed_by_its_own_motion(problem, forced):
     rng, _, target = problem
     motion = np.array([2.0, *rng.normal(size=2)])
-    by_force, by_approach = (
-        load.motion(rng.random(SHAPE), load.closure(motion)) for load in loads(target)
-    )
-    np.testing.assert_allclose(by_force, motion, atol=1e-9)
-    np.testing.assert_allclose(by_approach, motion, atol=1e-9)
+    of = problem_of(target, forced=forced)
+    found = of.motion(rng.random(POINTS), of.closure(motion))
+    np.testing.assert_allclose(found, motion, atol=1e-9)
 
 
 @given(carried(), st.booleans())
 def test_pressure_under_force_and_moments_closes_the_gap_where_it_presses(problem, forced):
     rng, cells, target = problem
-    load = loads(target, cells)[0 if forced else 1]
-    gap = np.where(cells, rng.random(SHAPE), np.inf)
-    assume(load.touches(gap))
-    A = compliance(rng, X.size)
-    start = np.where(cells, 1.0, 0.0)
-    solution = solve_normal(as_map(A), rough_inverse(A), gap, load, start, TOLERANCE)
+    gap = np.where(cells, rng.random(POINTS), np.inf)
+    assume(touches(target, cells, forced=forced))
+    A = compliance(rng, POINTS)
+    of = problem_of(target, cells, forced=forced, matrix=A, gap=gap)
+    solution = solve_pressure(of, np.where(cells, 1.0, 0.0), TOLERANCE)
     p = solution.pressure
     approach, tilt_x, tilt_y = solution.motion
-    g = gap + as_map(A)(p) - approach - tilt_x * Y - tilt_y * X
+    g = gap + A @ p - approach - tilt_x * Y - tilt_y * X
     scale = max(abs(approach), abs(tilt_x), abs(tilt_y), 1.0)
     assert np.all(p >= 0)
     assert np.min(g) >= -1e-9 * scale
@@ -197,11 +208,16 @@ def test_pressure_under_force_and_moments_closes_the_gap_where_it_presses(proble
     ("arm", "carried"), [(1.4, True), (1.49, True), (1.51, False), (9.0, False)]
 )
 def test_a_force_beyond_the_outermost_cells_is_not_carried(arm, carried):
-    load = PressureMoments(ARMS, EVERYWHERE, np.array([0.0, 3.0 * arm]), total=3.0)
-    assert load.touches(np.zeros(SHAPE)) is carried
+    target = np.array([3.0, 0.0, 3.0 * arm])
+    assert touches(target, EVERYWHERE) is carried
+    if carried:
+        found = sums(problem_of(target).admissible(np.ones(POINTS)))
+        np.testing.assert_allclose(found, target, atol=1e-12)
+    else:
+        with pytest.raises(NotConverged, match="the pressure under its moments"):
+            problem_of(target).admissible(np.ones(POINTS))
 
 
 @pytest.mark.parametrize(("M_y", "carried"), [(1.0, True), (-1.0, False), (0.0, True)])
 def test_under_a_given_approach_only_the_side_of_the_moment_matters(M_y, carried):
-    load = PressureMoments(ARMS, X > 0, np.array([0.0, M_y]), approach=1.0)
-    assert load.touches(np.where(X > 0, 0.0, np.inf)) is carried
+    assert touches(np.array([0.0, 0.0, M_y]), X > 0, forced=False) is carried

@@ -27,8 +27,8 @@ PROTOCOL = 5
 LONGEST_LINE = 1000
 
 PACKAGES = (
-    *("contact_scene", "semi_analytical", "fem_reference", "radial", "contact_results"),
-    "contact_errors",
+    *("contact_scene", "contact_solver", "semi_analytical", "fem_reference", "radial"),
+    *("contact_results", "contact_errors"),
 )
 DTYPES = frozenset(np.dtype(kind).str for kind in "?bBhHiIqQfdFD")
 FAR_FIELDS = "fem_reference.elasticity.motion"  # its pure functions are in stored values

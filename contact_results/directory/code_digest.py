@@ -10,7 +10,7 @@ from pathlib import Path
 
 from contact_results.directory.machine import version_of
 
-SOLVERS = ("contact_scene", "semi_analytical", "fem_reference", "radial")
+SOLVERS = ("contact_scene", "contact_solver", "semi_analytical", "fem_reference", "radial")
 PACKAGES = (*SOLVERS, "contact_results", "contact_errors", "verification")
 LIBRARIES = ("numpy", "scipy", "scikit-fem", "pydantic")
 

@@ -1,8 +1,7 @@
 """Solve one load increment: from the contact state at its start to the state at its end.
 
-Pressure and shear of coupled bodies follow from the alternating iteration, completed by Newton's
-method. If both fail, they follow from continuation. With a penalty an increment has several passes.
-The multipliers of a pass are the tractions of the previous pass (see `augmented_lagrangian`).
+Pressure and shear follow from `contact_solver`. With a penalty an increment has several passes. The
+multipliers of a pass are the tractions of the previous pass (see `augmented_lagrangian`).
 """
 
 from dataclasses import dataclass, replace
@@ -17,18 +16,11 @@ from contact_scene.quantities.residuals import (
     ShearResiduals,
 )
 from contact_scene.solver_errors import NotConverged, NothingTouches, motion_undefined
-from fem_reference.contact.alternating_iteration import (
-    AlternationFailed,
-    CoupledProblem,
-    CoupledSolution,
-    solve_coupled,
-)
 from fem_reference.contact.augmented_lagrangian import repeat_passes
-from fem_reference.contact.continuation import solve_by_continuation
-from fem_reference.contact.coupled_newton import InitialGuess, solve_by_newton
 from fem_reference.contact.free_motion import free_motion
 from fem_reference.contact.friction_limit import contact_status
 from fem_reference.contact.point_contact import PointContact
+from fem_reference.contact.point_problem import PointProblem, PointSolution, solve_points
 from fem_reference.contact.point_state import PointState
 from fem_reference.loads import Loads
 from fem_reference.plan import Path
@@ -41,9 +33,6 @@ from fem_reference.residuals import (
 )
 
 MAX_ATTEMPTS = 4
-# Relative change of the pressure by an alternating iteration, below which Newton's method starts.
-# From 1e-2 to 1e-4 the time of an increment varies by 25 %.
-NEAR = 1e-3
 # Smallest tangential displacement over the approach that is not round-off of uncoupled bodies.
 ROUND_OFF = 1e-6
 # Largest ratio of overlap to approach at which penalty springs do not affect the contact edge.
@@ -136,8 +125,8 @@ class _Pass:
     solves        number of linear systems in all attempts
     """
 
-    problem: CoupledProblem
-    solution: CoupledSolution
+    problem: PointProblem
+    solution: PointSolution
     multiplier: Field
     displacement: Field
     law_gap: Vector
@@ -230,8 +219,7 @@ class _Increment:
             multiplier[:2] = before.shear
         elif penalty is not None and penalty.augmentations > 0:
             multiplier = before.tractions
-        motion = before.motion or 0.0, before.approach
-        return self._solve_pass(multiplier, before.tractions, motion)
+        return self._solve_pass(multiplier, before.tractions, before.motion or 0.0)
 
     def next_pass(self, last: _Pass) -> _Pass:
         """Solve the contact problem of the increment again, with updated penalty multipliers.
@@ -241,7 +229,7 @@ class _Increment:
 
         last  solution of the last pass
         """
-        motion = last.motion, last.solution.approach
+        motion = self.before.motion or 0.0 if last.motion is None else last.motion
         after = self._solve_pass(last.tractions, last.tractions, motion)
         outer_iterations, solves = (
             last.outer_iterations + after.outer_iterations,
@@ -348,12 +336,10 @@ class _Increment:
             solves=last.solves,
             augmentations=len(passes) - 1,
             strain=self.loads.strain,
-            algorithm=solution.algorithm if compliance.couples else None,
+            algorithm=solution.algorithm,
         )
 
-    def _solve_pass(
-        self, multiplier: Field, start: Field, motion: tuple[float | None, float]
-    ) -> _Pass:
+    def _solve_pass(self, multiplier: Field, start: Field, motion: float) -> _Pass:
         """Solve the contact problem of the increment for given multipliers of the penalty law.
 
         If a residual exceeds the tolerance, the solve is repeated with a smaller tolerance of the
@@ -362,7 +348,7 @@ class _Increment:
 
         multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
         start       initial guess of the tractions r, θ, z (3, points)
-        motion      initial guess of the shift or twist, and of the approach
+        motion      initial guess of the shift or twist
         raises      NotConverged, GrossSliding
         """
         contact, before, loads = self.contact, self.before, self.loads
@@ -371,7 +357,7 @@ class _Increment:
         # displacements of the bodies cannot follow it.
         strained = 0.0 if contact.at_gauss_points else before.shear - before.multiplier[:2]
         memory = before.displacement + compliance.springs * (multiplier[:2] + strained)
-        problem = CoupledProblem(
+        problem = PointProblem(
             compliance,
             contact.gap - compliance.springs * multiplier[2],
             contact.friction,
@@ -382,11 +368,10 @@ class _Increment:
             loads.normal,
             loads.tangential,
         )
-        (q, p), (moved, approach) = (start[:2], start[2]), motion
-        at = InitialGuess(p, q, moved if moved is not None else before.motion or 0.0, approach)
+        p, q = start[2], start[:2]
         aim, outer_iterations, solves = 0.5 * self.tolerance, 0, 0
         for _ in range(MAX_ATTEMPTS):
-            solution = _solve_pressure_and_shear(problem, at, aim)
+            solution = solve_points(problem, p, q, motion, aim)
             outer_iterations, solves = (
                 outer_iterations + solution.outer_iterations,
                 solves + solution.solves,
@@ -395,8 +380,8 @@ class _Increment:
             done = self._judge_solution(problem, solution, multiplier, outer_iterations, solves)
             if done.residuals.worst <= self.tolerance:
                 return done
-            moved = at.shift if solution.shift is None else solution.shift
-            at = InitialGuess(solution.pressure, solution.shear, moved, solution.approach)
+            p, q = solution.pressure, solution.shear
+            motion = motion if solution.shift is None else solution.shift
             aim *= 0.1
         raise NotConverged("the increment", solves, done.residuals.worst, self.tolerance)
 
@@ -412,8 +397,8 @@ class _Increment:
 
     def _judge_solution(
         self,
-        problem: CoupledProblem,
-        solution: CoupledSolution,
+        problem: PointProblem,
+        solution: PointSolution,
         multiplier: Field,
         outer_iterations: int,
         solves: int,
@@ -480,7 +465,7 @@ class _Increment:
         return np.concatenate([axis[:1], *others])
 
     def _law_residuals(
-        self, problem: CoupledProblem, solution: CoupledSolution, g: Vector, passed: Field | None
+        self, problem: PointProblem, solution: PointSolution, g: Vector, passed: Field | None
     ) -> Residuals:
         """Compute the residuals of the contact law, the friction law and the loads for a solution.
 
@@ -524,65 +509,6 @@ class _Increment:
                 torque_equilibrium=missing if twists else None,
             )
         )
-
-
-def _solve_pressure_and_shear(
-    problem: CoupledProblem, start: InitialGuess, tolerance: float
-) -> CoupledSolution:
-    """Solve pressure and shear of an increment by the first of three algorithms that converges.
-
-    The algorithms are alternating iteration, Newton's method and continuation. For coupled bodies
-    the alternating iteration provides the initial guess of Newton's method, which then converges to
-    round-off in a few steps. If Newton's method fails from there, the alternating iteration
-    continues. Only the alternating iteration can end at the friction limit, where the motion of the
-    indenter is undefined. If the alternating iteration fails, Newton's method and then continuation
-    start from the initial guess of the increment.
-
-    problem    compliance, gap, friction and prescribed loads of the increment
-    start      initial guess of tractions and rigid motion
-    tolerance  limit of the relative residual of the algorithm [1]
-    raises     NotConverged
-    """
-    outer_iterations = spent = 0
-    try:
-        if not problem.compliance.couples:
-            return solve_coupled(problem, start.pressure, start.shear, tolerance)
-        near = solve_coupled(problem, start.pressure, start.shear, max(NEAR, tolerance))
-        outer_iterations, spent = near.outer_iterations, near.solves
-        if near.shift is not None:
-            at = InitialGuess(near.pressure, near.shear, near.shift, near.approach)
-            try:
-                solution = solve_by_newton(problem, at, tolerance)
-                return replace(
-                    solution,
-                    outer_iterations=outer_iterations,
-                    solves=spent + solution.solves,
-                    algorithm=near.algorithm,
-                )
-            except NotConverged as error:
-                spent += error.iterations
-        solution = solve_coupled(problem, near.pressure, near.shear, tolerance)
-        return replace(
-            solution,
-            outer_iterations=outer_iterations + solution.outer_iterations,
-            solves=spent + solution.solves,
-        )
-    except AlternationFailed as error:
-        failed = error
-    outer_iterations, spent = outer_iterations + failed.outer_iterations, spent + failed.solves
-    for algorithm, solve in (("newton", solve_by_newton), ("continuation", solve_by_continuation)):
-        try:
-            solution = solve(problem, start, tolerance)
-        except NotConverged as error:
-            spent += error.iterations
-            continue
-        return replace(
-            solution,
-            outer_iterations=outer_iterations,
-            solves=spent + solution.solves,
-            algorithm=algorithm,
-        )
-    raise NotConverged("the coupled increment", spent, failed.residual, tolerance)
 
 
 def touching_share(

@@ -1,18 +1,16 @@
 """One load increment of bodies whose normal and tangential problems are coupled."""
 
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
-from contact_scene.array_types import Field, Mask, VectorField
+from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_scene.quantities.residuals import worst
 from contact_scene.solver_errors import NotConverged, motion_undefined
-from semi_analytical.coupled.coupled_problem import (
-    CoupledProblem,
-    CoupledSolution,
-)
-from semi_analytical.coupled.globalisation import solve_together
+from contact_solver.coupled_problem import CoupledProblem, CoupledSolution
+from contact_solver.globalisation import solve_together
+from contact_solver.residuals import complementarity, penetration
+from contact_solver.shear import ShearSolution
 from semi_analytical.coupled.predictor import predict_tractions
 from semi_analytical.increments.full_slip import (
     force_reaches_limit,
@@ -28,11 +26,11 @@ from semi_analytical.increments.increment_history import further_motion
 from semi_analytical.increments.normal_solve import (
     MARGIN,
     NormalState,
-    NormalTarget,
     refuse_contact_at_edge,
     refuse_unresolved_contact,
     rough_initial_guess,
 )
+from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.increments.stick_slip import (
     end_state,
     shear_residuals,
@@ -52,10 +50,17 @@ from semi_analytical.operator.box import (
     box_around,
 )
 from semi_analytical.operator.domain import ReducedDomain
-from semi_analytical.residuals import complementarity, penetration
-from semi_analytical.tangential.tangential_problem import TangentialSolution
+from semi_analytical.operator.points import (
+    InverseOnCells,
+    fields_of,
+    map_of_points,
+    points_of,
+    shear_inverse_in,
+)
 
 MAX_ATTEMPTS = 4
+# Patches along the shorter side of a box: more make Newton's method stall, fewer cost iterations.
+PATCHES = 40
 # Margin of the box over the width of the contact; a tangential load step moves the edge by less.
 RELATIVE_MARGIN = 1 / 32
 
@@ -99,7 +104,13 @@ def solve_coupled_increment(
     for _ in range(MAX_ATTEMPTS):
         problem = _coupled_problem(model, box, last, normal, tangential)
         inside = (..., *box.slices)
-        solution = solve_together(problem, start[inside], shear[inside], motion, 0.8 * aim)
+        solution = solve_together(
+            problem,
+            points_of(start[box.slices]),
+            points_of(shear[inside]),
+            tangential.scaled(model, motion),
+            0.8 * aim,
+        )
         iterations += solution.iterations
         trial = _Trial(model, last, normal, tangential, box, solution, iterations)
         state, g = trial.whole_state()
@@ -171,28 +182,34 @@ def _coupled_problem(
     last                tangential state at the start of the increment
     normal, tangential  prescribed loads at the end of the increment
     """
-    operator = model.operator(box.shape)
+    shape, operator = box.shape, model.operator(box.shape)
     target = surface_target(model, last, tangential)
-    rotation = model.rotation[(..., *box.slices)] if tangential.twists else None
+
+    def limit(p: Vector) -> Vector:
+        return points_of(model.friction_limit(p.reshape(shape), box.first))
+
+    def slope(p: Vector) -> Vector:
+        return points_of(model.friction_slope(p.reshape(shape), box.first))
+
+    precondition = map_of_points(operator.precondition, shape)
     return CoupledProblem(
-        normal=operator.normal,
-        precondition_normal=operator.precondition,
-        shear=operator.tangential,
-        invert_shear=lambda v: operator.shear_inverse(v),  # built on first use
-        normal_by_shear=operator.normal_by_shear,
-        shear_by_pressure=operator.tangential_by_pressure,
-        together=operator.together,
-        precondition_together=operator.inverse,
-        gap=normal.gap(model)[box.slices],
-        friction_limit=partial(model.friction_limit, first=box.first),
-        friction_slope=partial(model.friction_slope, first=box.first),
-        target=target[(..., *box.slices)],
-        normal_load=normal.as_load(model, box),
-        tangential_load=tangential.as_load(
-            model.grid.cell_area, rotation, model.domain, model.springs[1]
-        ),
+        normal=map_of_points(operator.normal, shape),
+        tangential=map_of_points(operator.tangential, shape),
+        normal_by_shear=map_of_points(operator.normal_by_shear, shape),
+        shear_by_pressure=map_of_points(operator.tangential_by_pressure, shape),
+        inverse_on=lambda contact: precondition,
+        inverse_in=shear_inverse_in(operator, shape),
+        together=map_of_points(operator.together, shape),
+        inverse=InverseOnCells(operator.inverse, model.self_compliance, shape),
+        gap=points_of(normal.gap(model)[box.slices]),
+        friction_limit=limit,
+        friction_slope=slope,
+        target=points_of(target[(..., *box.slices)]),
+        closing=normal.motions(model, box),
+        shifting=tangential.motions(model, box),
         self_compliance=model.self_compliance,
-        domain=model.domain,
+        patch=max(1.0, min(model.domain.window(shape)) / PATCHES),
+        images=model.domain.images,
     )
 
 
@@ -219,6 +236,11 @@ class _Trial:
     solution: CoupledSolution
     iterations: int
 
+    @property
+    def _motion(self) -> Vector:
+        """Shift of the indenter (2,) [length], or shift and twist (3,) under a torque."""
+        return self.tangential.unscaled(self.model, self.solution.motion)
+
     def whole_state(self) -> tuple[State, Field]:
         """Build the contact state on the whole domain from the solution in a box of cells.
 
@@ -226,15 +248,17 @@ class _Trial:
         cells. Return the state, and its gap (nx, ny) [length].
         """
         model, solution, cells = self.model, self.solution, self.model.grid.cells
-        p, q = self.box.embed(solution.pressure, cells), self.box.embed(solution.shear, cells)
+        shape = self.box.shape
+        p = self.box.embed(solution.pressure.reshape(shape), cells)
+        q = self.box.embed(solution.shear.reshape(2, *shape), cells)
         u = model.operator(cells).together(np.concatenate([q, p[None]]))
         u_t, u_z = u[:2], u[2]
         gap = self.normal.gap(model)
-        load = self.normal.as_load(model, Box.whole(cells))
-        g = np.where(np.isfinite(gap), gap, np.inf) + u_z - load.closure(solution.closing)
-        overlap = load.overlap(solution.closing, gap, np.isfinite(gap))
+        pressing = self.normal.problem(model, Box.whole(cells))
+        g = gap + u_z - fields_of(pressing.closure(solution.closing), cells)
+        overlap = pressing.overlap(solution.closing)
         approach, tilt = self.normal.reached(model, solution.closing)
-        pressing = NormalState(
+        pressed = NormalState(
             pressure=p,
             displacement=u_z,
             approach=approach,
@@ -244,10 +268,10 @@ class _Trial:
             tilt=tilt,
         )
         normal_force = float(np.sum(p)) * model.grid.cell_area
-        moment = reached_moment(model, self.normal, pressing.pressure)
+        moment = reached_moment(model, self.normal, p)
         sheared = self._tangential_state(p, q, u_t)
         rounds = self.solution.outer_iterations
-        return State(self.normal, normal_force, pressing, sheared, moment, rounds=rounds), g
+        return State(self.normal, normal_force, pressed, sheared, moment, rounds=rounds), g
 
     def _tangential_state(self, p: Field, q: VectorField, u_t: VectorField) -> TangentialState:
         """Build the tangential state on the whole domain from the solution in a box of cells.
@@ -268,16 +292,17 @@ class _Trial:
         moved = u_t
         if not np.any(solution.in_slip):
             moved = np.maximum(np.abs(model.operator(cells).tangential(q)), np.max(np.abs(u_t)))
-        shearing = TangentialSolution(
+        in_slip = solution.in_slip.reshape(self.box.shape)
+        shearing = ShearSolution(
             shear=q,
             displacement=moved,
-            motion=solution.motion,
-            in_slip=self.box.embed(solution.in_slip.astype(np.float64), cells) > 0,
+            motion=self._motion,
+            in_slip=self.box.embed(in_slip.astype(np.float64), cells) > 0,
             residual=0.0,
             iterations=0,
         )
         target = surface_target(model, self.last, self.tangential)
-        passed = rigid(model, solution.motion) + target - u_t
+        passed = rigid(model, self._motion) + target - u_t
         residuals = shear_residuals(model, shearing, bound, passed, self.tangential, self.last)
         after = end_state(model, p, bound, self.last, self.tangential, shearing, passed, residuals)
         return replace(after, displacement=u_t)
@@ -295,4 +320,4 @@ class _Trial:
         loads_reach_limit(model, bound, load)
         if np.any(bound):
             return replace(gross_slip_state(model, p, last, load), displacement=u_t)
-        return frictionless_state(model, p, u_t, last, load, self.solution.motion)
+        return frictionless_state(model, p, u_t, last, load, self._motion)

@@ -20,7 +20,7 @@ from semi_analytical.increments.increment_history import (
     PreviousIncrement,
     further,
 )
-from semi_analytical.increments.normal_solve import NormalTarget
+from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.domain import WINDOW, Parity, ReducedDomain

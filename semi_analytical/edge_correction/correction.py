@@ -16,7 +16,7 @@ from semi_analytical.edge.subcell_tractions import SubcellTractions
 from semi_analytical.edge_correction.operators import EdgeOperators
 from semi_analytical.edge_correction.pressure import NotFitted, edge_pressure
 from semi_analytical.edge_correction.shear import (
-    ShearProblem,
+    EdgeShearProblem,
     edge_shear,
     grown_shear,
     sliding_shear,
@@ -152,7 +152,7 @@ class EdgeCorrection:
         if not np.any(slips):
             return None
         reversed_load = np.sum(last.slip * solved.shear * slips) < 0
-        problem = ShearProblem(
+        problem = EdgeShearProblem(
             operators=self._operators,
             bound=bound,
             limit=limit,

@@ -8,14 +8,16 @@ coupled bodies the shear is updated with the pressure and contributes to u_z.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from contact_scene.array_types import Field, Mask
+from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.body_pair import outermost_beta
+from contact_solver.conjugate_gradients import Point
+from contact_solver.pressure import close_gap
 from semi_analytical.edge.clipped_power_means import Exponent
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.edge.displacement import Within
@@ -30,12 +32,11 @@ from semi_analytical.edge_correction.shear_at_edge import FollowingShear
 from semi_analytical.increments.increment import State
 from semi_analytical.increments.normal_solve import MARGIN
 from semi_analytical.model import ContactModel
-from semi_analytical.normal.normal_load import Motion
-from semi_analytical.normal.normal_problem import close_gap
 from semi_analytical.operator.box import (
     Box,
     box_around,
 )
+from semi_analytical.operator.points import fields_of, points_of
 
 # Least relaxation factor. With λ an eigenvalue of the derivative of one iteration, the error is
 # multiplied by 1 - (1 - λ) factor. λ lies between 0 (smooth changes) and -2 (changes that alternate
@@ -179,13 +180,13 @@ class _NormalResult(NamedTuple):
     """Result of one normal solve of the edge correction, with a fixed contact edge.
 
     pressure           mean pressure of each cell (nx, ny) [force/length^2]
-    motion             rigid motion of the indenter
+    motion             rigid motions of the indenter, see `NormalTarget.motions`
     edge_displacement  normal displacement by the pressure variation within cells and by the shear
                        (nx, ny) [length]
     """
 
     pressure: Field
-    motion: Motion
+    motion: Vector
     edge_displacement: Field
 
 
@@ -294,18 +295,27 @@ class _Problem:
         p     mean pressure of each cell in the preceding iteration (nx, ny) [force/length^2]
         edge  contact edge fitted to that pressure
         """
-        box, operator = self.box.slices, self.model.operator(self.box.shape)
-        contact, outer = edge.region[box], np.where(edge.outer, edge.means, 0.0)[box]
+        box, target = self.box.slices, self.state.target
+        contact = points_of(edge.region[box])
+        outer = points_of(np.where(edge.outer, edge.means, 0.0)[box])
         edge_displacement = self.edge_displacement(p, edge)
-        gap = np.where(contact, (self.gap + edge_displacement)[box], 0.0)  # removes infinite gaps
-        load = self.state.target.as_load(self.model, self.box).less(outer)
-        inner = load.admissible(np.where(contact, p[box], 0.0))
-        u = operator.normal(inner + outer)
-        residual = u + gap - load.closure(load.motion(inner, u + gap))
-        solver = operator.normal, operator.precondition, load.projection(contact.astype(np.float64))
-        inner, u, _ = close_gap(*solver, inner, u, residual, INNER_REDUCTION)
-        pressure = self.box.embed(load.admissible(inner) + outer, p.shape)
-        return _NormalResult(pressure, load.motion(inner, u + gap), edge_displacement)
+        gap = points_of((self.gap + edge_displacement)[box])
+        problem = replace(
+            target.problem(self.model, self.box),
+            gap=np.where(contact, gap, np.inf),
+            motions=target.motions(self.model, self.box).less(outer[None]),
+        )
+        gap = problem.finite_gap
+        inner = problem.admissible(np.where(contact, points_of(p[box]), 0.0))
+        u = problem.displace(inner + outer)
+        open_gap = u + gap - problem.closure(problem.motion(inner, u + gap))
+        (inner, u), _ = close_gap(problem, contact, Point(inner, u), open_gap, INNER_REDUCTION)
+        pressure = problem.admissible(inner) + outer
+        return _NormalResult(
+            self.box.embed(pressure.reshape(self.box.shape), p.shape),
+            problem.motion(inner, u + gap),
+            edge_displacement,
+        )
 
     def edge_displacement(self, p: Field, edge: SubcellTractions) -> Field:
         """Compute the normal surface displacement that a pressure uniform in each cell omits.
@@ -338,9 +348,9 @@ class _Problem:
         edge = last.edge
         target, extend = self.state.target, self.model.domain.extend
         approach, tilt = target.reached(self.model, solved.motion)
-        load = target.as_load(self.model, Box.whole(self.gap.shape))
+        closure = target.motions(self.model, Box.whole(self.gap.shape)).displacement(solved.motion)
         u = solved.edge_displacement + self.model.operator(self.gap.shape).normal(solved.pressure)
-        gap = np.maximum(self.gap + u - load.closure(solved.motion), 0.0)
+        gap = np.maximum(self.gap + u - fields_of(closure[0], self.gap.shape), 0.0)
         gap[edge.region] = 0.0
         p = extend(last.pressure)
         peak, before_peak = peak_of(p), peak_of(extend(before.pressure))

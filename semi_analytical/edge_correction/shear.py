@@ -15,6 +15,9 @@ import numpy as np
 
 from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_scene.solver_errors import NotConverged
+from contact_solver.admissible_shear import magnitude
+from contact_solver.conjugate_gradients import Point
+from contact_solver.shear import ShearProblem, ShearSolution, solve_shear
 from semi_analytical.edge.corrected import CorrectedShear
 from semi_analytical.edge.displacement import Within
 from semi_analytical.edge.subcell_tractions import (
@@ -33,16 +36,9 @@ from semi_analytical.edge_correction.pressure import (
     relaxation_factor,
 )
 from semi_analytical.edge_correction.shear_at_edge import direction_of_slip
+from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import TangentialState
-from semi_analytical.tangential.admissible_shear import (
-    TangentialLoad,
-    magnitude,
-)
-from semi_analytical.tangential.linearised_shear import Point
-from semi_analytical.tangential.tangential_problem import (
-    TangentialSolution,
-    solve_tangential,
-)
+from semi_analytical.operator.points import map_of_points, points_of, shear_inverse_in
 
 WithinVector = tuple[Within, Within]
 
@@ -122,7 +118,7 @@ def grown_shear(
 
 
 @dataclass(frozen=True)
-class ShearProblem:
+class EdgeShearProblem:
     """Tangential problem of an increment of uncoupled bodies at the edge-corrected pressure.
 
     The previous state is the corrected state from which the shear and the stick border of this
@@ -229,7 +225,7 @@ class ShearProblem:
 
     def solve(
         self, q: VectorField, motion: Field, deficit: Deficit, u: VectorField
-    ) -> TangentialSolution:
+    ) -> ShearSolution:
         """Solve the tangential problem for a given displacement by shear variation within cells.
 
         The solution is computed on the reduced domain and extended to the full window. In cells
@@ -244,31 +240,31 @@ class ShearProblem:
         model = self.operators.model
         domain, operator = model.domain, model.operator(model.grid.cells)
         outer = magnitude(deficit.full - deficit.edge.means * deficit.slip)
-        q, target = domain.restrict(q), domain.restrict(self.target - u)
-        solution = solve_tangential(
-            operator.tangential,
-            operator.shear_inverse,
-            domain.restrict(
-                np.where(deficit.edge.outer, np.minimum(outer, self.bound), self.bound)
-            ),
-            target,
-            TangentialLoad(self.force / model.grid.cell_area, summed=domain.summed),
-            Point(q, operator.tangential(q)),
-            motion,
+        bound = np.where(deficit.edge.outer, np.minimum(outer, self.bound), self.bound)
+        q = domain.restrict(q)
+        load = TangentialTarget(force=self.force)
+        problem = ShearProblem(
+            map_of_points(operator.tangential, q.shape[1:]),
+            shear_inverse_in(operator, q.shape[1:]),
+            points_of(domain.restrict(bound)),
+            points_of(domain.restrict(self.target - u)),
+            load.motions(model),
             model.self_compliance,
-            self.tolerance,
-            INNER_REDUCTION,
         )
+        start = Point(points_of(q), points_of(operator.tangential(q)))
+        guess = load.scaled(model, motion)
+        solution = solve_shear(problem, start, guess, self.tolerance, INNER_REDUCTION)
         return replace(
             solution,
-            shear=domain.extend(solution.shear),
-            displacement=domain.extend(solution.displacement),
-            in_slip=domain.extend(solution.in_slip),
+            shear=domain.extend(solution.shear.reshape(q.shape)),
+            displacement=domain.extend(solution.displacement.reshape(q.shape)),
+            in_slip=domain.extend(solution.in_slip.reshape(q.shape[1:])),
+            motion=load.unscaled(model, solution.motion),
         )
 
 
 def edge_shear(
-    problem: ShearProblem, solved: TangentialState, before: VectorField
+    problem: EdgeShearProblem, solved: TangentialState, before: VectorField
 ) -> CorrectedShear | None:
     """Correct the shear of a state for a stick border that cuts cells, by fixed-point iteration.
 

@@ -20,8 +20,8 @@ import numpy as np
 
 from contact_scene import CoulombFriction
 from contact_scene.array_types import Field, Mask, VectorField
+from contact_solver.admissible_shear import magnitude
 from semi_analytical.edge.contact_area import near
-from semi_analytical.tangential.admissible_shear import magnitude
 
 # Layers of cells next to slipping cells to which their direction of slip is extended.
 LAYERS = 12

@@ -15,8 +15,7 @@ from semi_analytical.increments.tangential_state import (
     rigid,
     strain_moments,
 )
-from semi_analytical.model import ContactModel
-from semi_analytical.tangential.admissible_shear import everywhere
+from semi_analytical.model import ContactModel, everywhere
 
 
 def add_energies(

@@ -8,12 +8,11 @@ import numpy as np
 
 from contact_scene.array_types import Vector, VectorField
 from contact_scene.stepping.growing_contact import GrowingContact
+from contact_solver.conjugate_gradients import Point
 from semi_analytical.increments.normal_solve import NormalState
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import TangentialState
-from semi_analytical.model import ContactModel
-from semi_analytical.tangential.admissible_shear import everywhere
-from semi_analytical.tangential.linearised_shear import Point
+from semi_analytical.model import ContactModel, everywhere
 
 
 class Growth(NamedTuple):

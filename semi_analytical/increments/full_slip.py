@@ -9,6 +9,8 @@ from contact_scene.friction_limit import reaches_limit, refuse_above_limit
 from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding, motion_undefined
+from contact_solver.gross_slip import exhausts_friction, full_slip, limit_load
+from contact_solver.residuals import friction_cone
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import (
     TangentialState,
@@ -19,7 +21,7 @@ from semi_analytical.increments.tangential_state import (
     touching_share,
 )
 from semi_analytical.model import ContactModel
-from semi_analytical.residuals import friction_cone
+from semi_analytical.operator.points import points_of
 
 
 def force_reaches_limit(force: Vector, limit: float) -> bool:
@@ -65,11 +67,11 @@ def torque_reaches_limit(model: ContactModel, bound: Field, load: TangentialTarg
         return False
     if not np.any(bound):
         raise GrossSliding(f"torque {torque:.6g} N m on a contact without friction")
-    held = load.as_load(model.grid.cell_area, model.rotation, model.domain)
-    if not held.exhausts(bound):
+    motions, limits = load.motions(model), points_of(bound)
+    if not exhausts_friction(motions, limits):
         return False
     size = 0.0 if force is None else float(np.hypot(*force))
-    refuse_above_limit(size, torque, held.limit(bound)[0])
+    refuse_above_limit(size, torque, limit_load(motions.held, limits)[0])
     if force is None:
         raise motion_undefined()
     return True
@@ -90,9 +92,9 @@ def gross_slip_state(
     """
     bound, force = model.friction_limit(pressure), load.force
     assert force is not None
-    held = load.as_load(model.grid.cell_area, model.rotation, model.domain)
-    q, _ = held.full_slip(bound, np.zeros(2 if load.torque is None else 3))
-    q /= max(1.0, held.limit(bound)[0])
+    motions = load.motions(model)
+    q, _ = full_slip(motions, points_of(bound), np.zeros(len(motions)))
+    q = q.reshape(2, *bound.shape)
     defect = model.domain.resultant(q) - force / model.grid.cell_area
     twist, torque = load.twist, load.torque
     if twist is not None:

@@ -7,6 +7,7 @@ import numpy as np
 from contact_scene import LoadRamp
 from contact_scene.array_types import Field
 from contact_scene.quantities.residuals import Residuals
+from contact_solver.admissible_shear import magnitude
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.increments.energy import (
     NOTHING_YET,
@@ -17,12 +18,8 @@ from semi_analytical.increments.increment_history import (
     PreviousIncrement,
     further_shear,
 )
-from semi_analytical.increments.normal_solve import (
-    NormalState,
-    NormalTarget,
-    Pair,
-    press,
-)
+from semi_analytical.increments.normal_solve import NormalState, press
+from semi_analytical.increments.normal_target import NormalTarget, Pair
 from semi_analytical.increments.stick_slip import slip_and_stick
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import (
@@ -30,7 +27,6 @@ from semi_analytical.increments.tangential_state import (
     untouched_state,
 )
 from semi_analytical.model import ContactModel
-from semi_analytical.tangential.admissible_shear import magnitude
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
-from semi_analytical.increments.normal_solve import NormalTarget
+from contact_solver.conjugate_gradients import Point
+from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.increments.tangential_solve import TangentialTarget
-from semi_analytical.tangential.linearised_shear import Point
 
 # Largest relative deviation of an increment of the tangential load from a multiple of the last
 # increment, for extrapolation.

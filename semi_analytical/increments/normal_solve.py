@@ -12,22 +12,13 @@ from contact_scene.solver_errors import (
     NotConverged,
     NothingTouches,
 )
+from contact_solver.pressure import solve_pressure
+from contact_solver.residuals import complementarity, penetration
+from semi_analytical.increments.initial_pressure import bearing_pressure
+from semi_analytical.increments.normal_target import NormalTarget, Pair, plane
 from semi_analytical.model import ContactModel, refine_field
-from semi_analytical.normal.initial_pressure import bearing_pressure
-from semi_analytical.normal.normal_load import (
-    FixedApproach,
-    Motion,
-    NormalLoad,
-    PressureSum,
-)
-from semi_analytical.normal.normal_problem import solve_normal
-from semi_analytical.operator.box import (
-    Box,
-    box_around,
-)
-from semi_analytical.residuals import complementarity, penetration
-
-Pair = tuple[float, float]
+from semi_analytical.operator.box import Box, box_around
+from semi_analytical.operator.points import fields_of
 
 # Tolerance of solves that yield an initial guess: the discretisation error of their grid is larger.
 COARSE_TOLERANCE = 1e-3
@@ -67,79 +58,6 @@ class NormalState:
         return np.asarray(self.approach + plane(model, self.tilt))
 
 
-@dataclass(frozen=True)
-class NormalTarget:
-    """Prescribed normal load of an increment: force or approach, and moment or tilt.
-
-    force, approach  normal force [force] or approach [length]: exactly one is given
-    moment, tilt     moment (M_x, M_y) [force length] or tilt (φ_x, φ_y): one is given; both None
-                     without tilt
-    """
-
-    force: float | None = None
-    approach: float | None = None
-    moment: Pair | None = None
-    tilt: Pair | None = None
-
-    def gap(self, model: ContactModel) -> Field:
-        """Return the undeformed gap of the bodies at first contact (nx, ny) [length].
-
-        For a prescribed tilt, the gap is that of the tilted indenter at its first contact.
-        """
-        if self.tilt is None:
-            return model.gap
-        tilted = model.gap - plane(model, self.tilt)
-        return tilted - np.min(tilted)
-
-    def _first_touch(self, model: ContactModel) -> float:
-        """Return the approach at which the indenter, tilted as prescribed, first touches a cell.
-
-        The approach [length] counts from first contact without tilt. It is 0 without a tilt.
-        """
-        return 0.0 if self.tilt is None else float(np.min(model.gap - plane(model, self.tilt)))
-
-    def as_load(self, model: ContactModel, box: Box) -> NormalLoad:
-        """Convert the prescribed normal load to the load object of the normal solver.
-
-        The object computes rigid motions and admissible pressures. Its approach counts from first
-        touch of the tilted indenter, as `NormalTarget.gap` does.
-
-        model  contact model
-        box    box of cells in which the normal problem is solved
-        """
-        total = None if self.force is None else self.force / model.grid.cell_area
-        if self.moment is not None:
-            from semi_analytical.normal.tilting import PressureMoments
-
-            moments = np.array(self.moment) / model.grid.cell_area
-            arms = model.arms[(..., *box.slices)]
-            cells = np.isfinite(model.gap[box.slices])
-            return PressureMoments(arms, cells, moments, total, self.approach)
-        if total is not None:
-            return PressureSum(total)
-        assert self.approach is not None
-        return FixedApproach(self.approach - self._first_touch(model))
-
-    def reached(self, model: ContactModel, motion: Motion) -> tuple[float, Pair | None]:
-        """Convert the rigid motion found by the normal solver to approach [length] and tilt.
-
-        motion  approach relative to first contact of the tilted indenter, or (approach, tilt x,
-                tilt y) under a prescribed moment
-        """
-        if self.moment is None:
-            return float(motion) + self._first_touch(model), self.tilt
-        approach, tilt_x, tilt_y = map(float, np.ravel(motion))
-        return approach, (tilt_x, tilt_y)
-
-
-def plane(model: ContactModel, tilt: Pair) -> Field:
-    """Compute the reduction of the gap by a tilt of the indenter (nx, ny) [length].
-
-    tilt  (φ_x, φ_y): slopes along y and x
-    """
-    return np.asarray(tilt[0] * model.arms[0] + tilt[1] * model.arms[1])
-
-
 def press(model: ContactModel, target: NormalTarget, tolerance: float) -> NormalState:
     """Solve the normal problem of a contact model for a prescribed normal load, without shear.
 
@@ -157,24 +75,16 @@ def press(model: ContactModel, target: NormalTarget, tolerance: float) -> Normal
     gap = target.gap(model)
     box = box_around(start > 0, MARGIN, model.domain)
     whole = Box.whole(gap.shape)
-    allowed = np.isfinite(gap)
-    load = target.as_load(model, whole)
+    everywhere = target.problem(model, whole)
     aim, residual = tolerance, np.inf
     for _ in range(MAX_ATTEMPTS):
-        operator = model.operator(box.shape)
-        solution = solve_normal(
-            operator.normal,
-            operator.precondition,
-            gap[box.slices],
-            target.as_load(model, box),
-            start[box.slices],
-            0.5 * aim,
-        )
+        problem = target.problem(model, box)
+        solution = solve_pressure(problem, start[box.slices].ravel(), 0.5 * aim)
         iterations += solution.iterations
-        p = box.embed(solution.pressure, whole.shape)
+        p = box.embed(solution.pressure.reshape(box.shape), whole.shape)
         u = model.operator(whole.shape).normal(p)
-        g = gap + u - load.closure(solution.motion)
-        overlap = load.overlap(solution.motion, gap, allowed)
+        g = gap + u - fields_of(everywhere.closure(solution.motion), gap.shape)
+        overlap = everywhere.overlap(solution.motion)
         measures = (complementarity(p, g, overlap), penetration(g, overlap))
         residual = worst(*measures)
         if residual <= tolerance:
@@ -196,10 +106,8 @@ def nested_initial_guess(model: ContactModel, target: NormalTarget) -> tuple[Fie
     contact.
     """
     coarse = model.coarse
-    if coarse is None or not _makes_contact(coarse, target):
-        gap = target.gap(model)
-        load = target.as_load(model, Box.whole(gap.shape))
-        return bearing_pressure(gap, load, model.bearing_modulus, model.grid.cell_area), 0
+    if coarse is None or not target.touches(coarse, target.gap(coarse)):
+        return bearing_pressure(model, target), 0
     pressure, iterations = rough_initial_guess(coarse, target)
     return np.where(np.isfinite(model.gap), refine_field(pressure), 0.0), iterations
 
@@ -211,28 +119,9 @@ def rough_initial_guess(model: ContactModel, target: NormalTarget) -> tuple[Fiel
     the next finer grid, and that of the coupled problem.
     """
     start, iterations = nested_initial_guess(model, target)
-    gap = target.gap(model)
-    operator = model.operator(gap.shape)
-    solution = solve_normal(
-        operator.normal,
-        operator.precondition,
-        gap,
-        target.as_load(model, Box.whole(gap.shape)),
-        start,
-        COARSE_TOLERANCE,
-    )
-    return solution.pressure, iterations + solution.iterations
-
-
-def _makes_contact(model: ContactModel, target: NormalTarget) -> bool:
-    """Return True if a prescribed normal load brings at least one cell into contact.
-
-    model   contact model, whose grid may be too coarse
-    target  prescribed normal load
-    """
-    gap = target.gap(model)
-    load = target.as_load(model, Box.whole(gap.shape))
-    return load.touches(gap)
+    problem = target.problem(model, Box.whole(start.shape))
+    solution = solve_pressure(problem, start.ravel(), COARSE_TOLERANCE)
+    return solution.pressure.reshape(start.shape), iterations + solution.iterations
 
 
 def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None:
@@ -245,8 +134,8 @@ def refuse_unresolved_contact(model: ContactModel, target: NormalTarget) -> None
     model   contact model
     target  prescribed normal load
     """
-    if _makes_contact(model, target):
-        undeformed = target.gap(model)
+    undeformed = target.gap(model)
+    if target.touches(model, undeformed):
         if target.moment is None and np.min(model.domain.rim(undeformed)) <= np.min(undeformed):
             raise ContactAtWindowEdge(
                 "the lowest point of the indenter lies at the border of the window, so that the "

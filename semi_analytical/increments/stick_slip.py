@@ -10,6 +10,10 @@ from contact_scene.friction import sliding_friction
 from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import NotConverged, motion_undefined
+from contact_solver.admissible_shear import magnitude
+from contact_solver.conjugate_gradients import Point
+from contact_solver.residuals import friction_cone, slip_direction
+from contact_solver.shear import ShearSolution
 from semi_analytical.increments.full_slip import (
     frictionless_state,
     gross_slip_state,
@@ -28,10 +32,6 @@ from semi_analytical.increments.tangential_state import (
     touching_share,
 )
 from semi_analytical.model import ContactModel
-from semi_analytical.residuals import friction_cone, slip_direction
-from semi_analytical.tangential.admissible_shear import magnitude
-from semi_analytical.tangential.linearised_shear import Point
-from semi_analytical.tangential.tangential_problem import TangentialSolution
 
 MAX_ATTEMPTS = 3
 SLIDING = 1e-6
@@ -133,7 +133,7 @@ def _trivial_state(
 
 def shear_residuals(
     model: ContactModel,
-    solution: TangentialSolution,
+    solution: ShearSolution,
     bound: Field,
     relative_slip: VectorField,
     load: TangentialTarget,
@@ -175,7 +175,7 @@ def end_state(
     bound: Field,
     last: TangentialState,
     load: TangentialTarget,
-    solution: TangentialSolution,
+    solution: ShearSolution,
     relative_slip: VectorField,
     residuals: ShearResiduals,
 ) -> TangentialState:

@@ -6,12 +6,12 @@ import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.bulk_strain import Strain
+from contact_solver.conjugate_gradients import Point
+from contact_solver.rigid_motion import RigidMotion, RigidMotions
+from contact_solver.shear import ShearProblem, ShearSolution, solve_shear
 from semi_analytical.model import ContactModel
-from semi_analytical.operator.box import box_around
-from semi_analytical.operator.domain import WINDOW, ReducedDomain
-from semi_analytical.tangential.admissible_shear import TangentialLoad
-from semi_analytical.tangential.linearised_shear import Point
-from semi_analytical.tangential.tangential_problem import TangentialSolution, solve_tangential
+from semi_analytical.operator.box import Box, box_around
+from semi_analytical.operator.points import map_of_points, points_of, shear_inverse_in
 
 
 @dataclass(frozen=True)
@@ -45,30 +45,58 @@ class TangentialTarget:
         assert shift is not None
         return shift if self.torque is None else np.array([*shift, twist or 0.0])
 
-    def as_load(
-        self,
-        cell_area: float,
-        rotation: VectorField | None,
-        domain: ReducedDomain = WINDOW,
-        spring: float = 0.0,
-    ) -> TangentialLoad:
-        """Convert the prescribed tangential load to the load object of the tangential solver.
+    def motions(self, model: ContactModel, box: Box | None = None) -> RigidMotions:
+        """Return the tangential rigid motions of the indenter: shifts, and twist under a torque.
 
-        The object projects shears on the prescribed forces.
+        A prescribed twist is not among them: it changes the displacement that stick requires. On a
+        reduced domain, a component of the shear that is odd about a mirror plane has no resultant,
+        and the indenter does not move along it. With force or torque prescribed, only the
+        displacement operator contains the spring of a test rig.
 
-        cell_area  area of a cell and its mirror images [length^2]
-        rotation   (-y, x) of the cells (2, nx, ny) [length]; None without torsion
-        domain     domain of the cells: full window or reduced by symmetry
-        spring     displacement of a test rig's spring per sum of the shear [length^3/force]
+        model  contact model
+        box    box of cells in which the tangential problem is solved; None for all cells
         """
-        return TangentialLoad(
-            total=None if self.force is None else self.force / cell_area,
-            shift=self.shift,
-            torque=(self.torque or 0.0) / cell_area,
-            rotation=None if self.torque is None else rotation,
-            compliance=spring if self.force is None and self.torque is None else 0.0,
-            summed=domain.summed,
-        )
+        area, found = model.grid.cell_area, list[RigidMotion]()
+        for unit, axis in zip(np.eye(2)[:, :, None], (0, 1), strict=True):
+            if not model.domain.summed[axis]:
+                continue
+            if self.force is not None:
+                found.append(RigidMotion(unit, float(self.force[axis]) / area))
+            else:
+                assert self.shift is not None
+                spring = model.springs[1] if self.torque is None else 0.0
+                found.append(RigidMotion(unit, None, float(self.shift[axis]), spring))
+        if self.torque is not None:
+            cells = (...,) if box is None else (..., *box.slices)
+            turn = points_of(model.rotation[cells]) / model.reach
+            found.append(RigidMotion(turn, self.torque / (area * model.reach)))
+        return RigidMotions(2, tuple(found))
+
+    def scaled(self, model: ContactModel, motion: Vector) -> Vector:
+        """Convert shift (2,), or shift and twist (3,), to rigid motions in the order of `motions`.
+
+        model   contact model
+        motion  shift and twist as in `rigid_motion`
+        """
+        chosen, scales = self._order(model)
+        return np.asarray((motion * scales)[chosen])
+
+    def unscaled(self, model: ContactModel, motion: Vector) -> Vector:
+        """Convert rigid motions in the order of `motions` to shift, or shift and twist.
+
+        model   contact model
+        motion  rigid motions (k,)
+        """
+        chosen, scales = self._order(model)
+        found = np.zeros(len(scales))
+        found[chosen] = motion
+        return np.asarray(found / scales)
+
+    def _order(self, model: ContactModel) -> tuple[list[bool], Vector]:
+        """Return which of shift x, shift y and twist are among `motions`, and their scales."""
+        if self.torque is None:
+            return [*model.domain.summed], np.ones(2)
+        return [*model.domain.summed, True], np.array([1.0, 1.0, model.reach])
 
 
 def shear(
@@ -79,7 +107,7 @@ def shear(
     start: Point,
     motion: Vector,
     tolerance: float,
-) -> TangentialSolution:
+) -> ShearSolution:
     """Solve the tangential problem of one increment at a given pressure.
 
     The problem is solved in a box around the contact. The solution is then extended to the whole
@@ -94,26 +122,26 @@ def shear(
     tolerance      limit of the residuals of friction law and slip direction
     raises         NotConverged
     """
-    cells = bound.shape
     box = box_around(bound > 0, 0, model.domain)
-    operator = model.operator(box.shape)
+    operator, cells = model.operator(box.shape), bound.shape
     inside = (..., *box.slices)
-    rotation = model.rotation[inside] if load.twists else None
-    solution = solve_tangential(
-        operator.tangential,
-        operator.shear_inverse,
-        bound[box.slices],
-        target[inside],
-        load.as_load(model.grid.cell_area, rotation, model.domain, model.springs[1]),
-        Point(start.shear[inside], start.displacement[inside]),
-        motion,
+    problem = ShearProblem(
+        map_of_points(operator.tangential, box.shape),
+        shear_inverse_in(operator, box.shape),
+        points_of(bound[box.slices]),
+        points_of(target[inside]),
+        load.motions(model, box),
         model.self_compliance,
-        tolerance,
     )
-    q, u = box.embed(solution.shear, cells), solution.displacement
+    guess = Point(*(points_of(field[inside]) for field in start))
+    solution = solve_shear(problem, guess, load.scaled(model, motion), tolerance)
+    q = box.embed(solution.shear.reshape(2, *box.shape), cells)
+    u = solution.displacement.reshape(2, *box.shape)
+    in_slip = solution.in_slip.reshape(box.shape).astype(np.float64)
     return replace(
         solution,
         shear=q,
         displacement=u if box.shape == cells else model.operator(cells).tangential(q),
-        in_slip=box.embed(solution.in_slip.astype(np.float64), cells) > 0,
+        in_slip=box.embed(in_slip, cells) > 0,
+        motion=load.unscaled(model, solution.motion),
     )

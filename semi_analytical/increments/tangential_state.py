@@ -9,8 +9,7 @@ from contact_scene.bulk_strain import UNSTRAINED, Strain
 from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
 from semi_analytical.increments.tangential_solve import TangentialTarget
-from semi_analytical.model import ContactModel
-from semi_analytical.tangential.admissible_shear import everywhere
+from semi_analytical.model import ContactModel, everywhere
 
 # Number of distances between cells that are computed at once, which limits the memory.
 PAIRS = 1 << 16

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.array_types import Field
+from contact_solver.slip_compliance_bins import COMPLIANCES
 from semi_analytical.influence.coefficients import PARITY, InfluenceCoefficients
 from semi_analytical.operator.domain import Pair, ReducedDomain
-from semi_analytical.operator.slip_compliance_bins import COMPLIANCES
 from semi_analytical.operator.spectra import KernelSpectrum, kernel_spectrum
 from semi_analytical.operator.transforms import Convolutions, Transforms
 

@@ -14,7 +14,7 @@ from typing import Any
 from verification.running.cold_cache import clear_caches
 
 PRODUCT = (
-    *("contact_scene", "semi_analytical", "fem_reference", "radial"),
+    *("contact_scene", "contact_solver", "semi_analytical", "fem_reference", "radial"),
     *("contact_results", "verification", "slipstick"),
 )
 # The modules that run studies have no caches that depend on a defect.

@@ -19,14 +19,11 @@ from contact_scene.stepping.load_path import (
     Control,
     ControlKind,
 )
+from contact_solver import admissible_pressure, admissible_shear, pressure, residuals
 from fem_reference.elasticity import compliance
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import TORSION
-from semi_analytical import (
-    history,
-    residuals,
-    surface_tensile_stress,
-)
+from semi_analytical import history, surface_tensile_stress
 from semi_analytical.coupled import coupled_increment
 from semi_analytical.increments import (
     energy,
@@ -43,10 +40,7 @@ from semi_analytical.increments.tangential_state import (
 )
 from semi_analytical.influence.coefficients import Composite
 from semi_analytical.model import ContactModel
-from semi_analytical.normal import normal_problem
-from semi_analytical.normal.normal_load import PressureSum
 from semi_analytical.stress import field
-from semi_analytical.tangential import admissible_shear
 from verification.defects.defect import Defect, Replacement, Replacements, replaces
 
 LESS = 1 - 1e-9
@@ -310,8 +304,8 @@ CONTACT_AND_FRICTION = (
     Defect(
         "force-not-met", "Pressures add up to 0.1 % less than the normal force.",
         ("dissimilar_bodies",),
-        replaces(PressureSum, "admissible")(
-            lambda whole, self, p: whole(replace(self, total=0.999 * self.total), p)
+        replaces(admissible_pressure, "admissible_pressure")(
+            lambda whole, *given: 0.999 * whole(*given)
         ),
     ),
     Defect(
@@ -319,7 +313,7 @@ CONTACT_AND_FRICTION = (
         "inaccurate.",
         # The repeated solves of an edge correction would make the pressure accurate again.
         ("hertz_approach_control",),
-        replaces(normal_problem, "solve_normal")(
+        replaces(pressure, "solve_pressure")(
             lambda whole, *given: whole(*given[:-1], max(given[-1], 1e-2))
         ) + NO_CONTACT_RESIDUALS,
     ),

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 from contact_scene.disk_cache import without_cache
 
-SOLVERS = ("semi_analytical", "fem_reference", "radial")
+SOLVERS = ("contact_solver", "semi_analytical", "fem_reference", "radial")
 ENOUGH_SECONDS = 1.0  # CPU time after which repetitions add no accuracy
 MAX_REPEATS = 5
 

@@ -23,8 +23,8 @@ from contact_scene.reading.description import Description
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = (
-    *("contact_scene", "semi_analytical", "fem_reference", "radial", "contact_errors"),
-    *("contact_results", "verification"),
+    *("contact_scene", "contact_solver", "semi_analytical", "fem_reference", "radial"),
+    *("contact_errors", "contact_results", "verification"),
 )
 # It exports the challenges, on which the other modules do not depend.
 EXPORTS = "verification/__init__.py"

@@ -1,0 +1,70 @@
+"""Preconditioned conjugate gradients for tractions in fixed zones of contact, stick and slip."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from contact_scene.array_types import Field
+
+Map = Callable[[Field], Field]
+
+
+class Point(NamedTuple):
+    """Iterate of a contact problem: tractions, and the surface displacements that they cause.
+
+    tractions      pressure (n,) or shear (2, n) [force/length^2]
+    displacements  displacement components of the same shape [length]
+    """
+
+    tractions: Field
+    displacements: Field
+
+
+def inner(a: Field, b: Field) -> float:
+    """Compute the scalar product Σ a b of two fields of the same shape.
+
+    Its rounding does not depend on the number of threads, unlike that of BLAS.
+    """
+    return float(np.einsum("i,i->", a.ravel(), b.ravel()))
+
+
+def solve_in_zones(
+    displace: Map,
+    rows: Callable[[Field, Field], Field],
+    precondition: Map,
+    base: Point,
+    residual: Field,
+    depth: float,
+    most: int,
+) -> tuple[Point, int]:
+    """Solve a contact problem linearised in fixed zones by preconditioned conjugate gradients.
+
+    Displacements are carried along, so that the result needs no further product. Return the point
+    and the number of iterations.
+
+    displace      map from tractions to displacements; symmetric, positive
+    rows          map from a change of the tractions and its displacements to the rows of the linear
+                  system, in free components only
+    precondition  approximate inverse, from rows to changes that keep the prescribed forces
+    base          start
+    residual      residual at the start, in free components only
+    depth         reduction of the residual norm at which the iteration stops
+    most          largest number of iterations
+    """
+    t, u, r = base.tractions.copy(), base.displacements.copy(), residual
+    d = z = precondition(r)
+    rz = first = inner(r, z)
+    iterations = 0
+    while rz > depth**2 * first and iterations < most:
+        iterations += 1
+        d_u = displace(d)
+        fall = rows(d, d_u)
+        step = rz / inner(d, fall)
+        t += step * d
+        u += step * d_u
+        r = r - step * fall
+        z = precondition(r)
+        rz, last = inner(r, z), rz
+        d = z + (rz / last) * d
+    return Point(t, u), iterations

@@ -1,0 +1,137 @@
+"""Exact inverse of the derivative in zones, for points whose compliance is a matrix.
+
+A Krylov solver with this preconditioner needs one or two iterations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve, lu_factor, lu_solve
+
+from contact_scene.array_types import Field, Indices, Mask, Matrix, Vector
+from contact_scene.solver_errors import NotConverged
+from contact_solver.conjugate_gradients import Map
+from contact_solver.shear_zones import ShearZones
+from contact_solver.zones import Zones
+
+
+@dataclass(frozen=True)
+class DenseInverse:
+    """Inverse of the compliance of n points in zones of contact, stick and slip.
+
+    matrix  compliance: displacements by tractions, components (q_x, q_y, p) outermost (3 n, 3 n);
+            symmetric
+    """
+
+    matrix: Matrix
+
+    def on_contact(self, contact: Mask) -> Map:
+        """Return the inverse of the map from pressure to normal displacement on a contact set.
+
+        contact  points in contact (n,)
+        raises   NotConverged if the matrix is not positive definite
+        """
+        normal = slice(2 * contact.size, None)
+        return inverse_on(self.matrix[normal, normal], contact)
+
+    def in_stick_and_slip(self, zones: ShearZones) -> Map:
+        """Return the inverse of the shear problem in zones of stick and slip.
+
+        zones   zones of an iterate
+        raises  NotConverged if the matrix is not positive definite
+        """
+        n = zones.slip.size
+        stick, slip = np.flatnonzero(zones.stick), np.flatnonzero(zones.slip)
+        tangent = zones.tangent[:, slip]
+        rows = _free_rows(self.matrix[: 2 * n, : 2 * n], stick, slip, tangent)
+        derivative = _free_rows(rows.T, stick, slip, tangent).T.copy()
+        along = np.arange(2 * len(stick), len(derivative))
+        derivative[along, along] += zones.slip_compliance[slip]
+        solve = _symmetric_inverse(derivative)
+
+        def inverse(v: Field) -> Field:
+            q = np.zeros_like(v)
+            free = solve(
+                np.concatenate([v[0][stick], v[1][stick], np.sum(tangent * v[:, slip], axis=0)])
+            )
+            q[0][stick], q[1][stick] = free[: 2 * len(stick)].reshape(2, -1)
+            q[:, slip] = tangent * free[along]
+            return q
+
+        return inverse
+
+    def in_zones(self, zones: Zones) -> Callable[[Vector], Vector]:
+        """Return the inverse of the coupled problem in zones of contact, stick and slip.
+
+        zones   zones of an iterate
+        raises  NotConverged if the derivative is singular
+        """
+        n, at = zones.contact.size, (zones.stick_points, zones.slip, zones.tangent)
+        rows = _free_rows(self.matrix, *at, zones.contact_points)
+        derivative = _free_rows(rows.T, *at, zones.contact_points).T.copy()
+        stuck, slips = 2 * len(zones.stick_points), len(zones.slip)
+        along = np.arange(stuck, stuck + slips)
+        derivative[along, along] += zones.slip_compliance
+        # In slipping points the shear along the slip follows the pressure.
+        pressed = stuck + slips + np.searchsorted(zones.contact_points, zones.slip)
+        for axis, slope in enumerate(zones.friction_slope):
+            derivative[:, pressed] += rows[:, axis * n + zones.slip] * slope
+        factors = lu_factor(derivative, check_finite=False)
+        if not np.all(np.diagonal(factors[0])):
+            raise NotConverged("the linear system of a contact step", 0, np.inf, 0.0)
+        return lambda v: np.asarray(lu_solve(factors, v, check_finite=False))
+
+    def with_compliance(self, compliance: float) -> DenseInverse:
+        """Return the inverse for surfaces with an additional compliance of each point.
+
+        compliance  additional displacement of a point by its own unit traction [length^3/force]
+        """
+        return replace(self, matrix=self.matrix + compliance * np.eye(len(self.matrix)))
+
+
+def inverse_on(matrix: Matrix, contact: Mask) -> Map:
+    """Return the inverse of a map from pressure to normal displacement on a contact set.
+
+    matrix   displacements by pressures (n, n); symmetric
+    contact  points in contact (n,)
+    raises   NotConverged if the matrix is not positive definite
+    """
+    chosen = np.flatnonzero(contact)
+    solve = _symmetric_inverse(matrix[np.ix_(chosen, chosen)])
+
+    def inverse(gap: Field) -> Field:
+        p = np.zeros_like(gap)
+        p[chosen] = solve(gap[chosen])
+        return p
+
+    return inverse
+
+
+def _free_rows(
+    matrix: Matrix, stick: Indices, slip: Indices, tangent: Field, contact: Indices | None = None
+) -> Matrix:
+    """Restrict the rows of a matrix to the free unknowns in zones, in the order of `Zones`.
+
+    matrix   rows for the components (q_x, q_y, p) of n points (3 n, k)
+    stick    indices of sticking points
+    slip     indices of slipping points
+    tangent  unit vectors perpendicular to the slip (2, slip)
+    contact  indices of points whose pressure is free; None for shear alone
+    """
+    n = len(matrix) // 3 if contact is not None else len(matrix) // 2
+    across = tangent[0][:, None] * matrix[slip] + tangent[1][:, None] * matrix[n + slip]
+    parts = [matrix[stick], matrix[n + stick], across]
+    if contact is not None:
+        parts.append(matrix[2 * n + contact])
+    return np.concatenate(parts)
+
+
+def _symmetric_inverse(matrix: Matrix) -> Map:
+    try:
+        factor = cho_factor(matrix, lower=True, check_finite=False)
+    except np.linalg.LinAlgError as error:
+        raise NotConverged("the linear system of a contact step", 0, np.inf, 0.0) from error
+    return lambda right: np.asarray(cho_solve(factor, right, check_finite=False))

@@ -1,0 +1,195 @@
+"""Linear system of one semismooth Newton step in fixed zones of contact, stick and slip.
+
+The system is solved by GMRES.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from contact_scene.array_types import Field, Matrix, Vector
+from contact_scene.solver_errors import NotConverged
+from contact_solver.admissible_shear import admissible_shear
+from contact_solver.coupled_problem import CoupledProblem
+from contact_solver.krylov import least_residual
+from contact_solver.natural_map import (
+    Natural,
+    NewtonPoint,
+    Tractions,
+)
+from contact_solver.zones import Zones
+
+MAX_ITERATIONS = 40
+# Relative cutoff of the pseudo-inverse: slip in one direction leaves a force undetermined.
+UNDETERMINED = 1e-12
+
+
+@dataclass(frozen=True)
+class Step:
+    """Newton step of a coupled increment: changes of the iterate.
+
+    tractions      changes of the tractions (q_x, q_y, p) (3, n) [force/length^2]
+    displacements  changes of the surface displacements (3, n) [length]
+    closure        change of the reduction of the gap by approach and tilt, a number or a field (nx,
+                   ny) [length]
+    iterations     GMRES iterations of the linear solve
+    """
+
+    tractions: Tractions
+    displacements: Field
+    closure: Field
+    iterations: int
+
+
+class LinearisedContact:
+    """Linear system of a Newton step in given zones of contact, stick and slip.
+
+    Unknowns are the free tractions (shear in the stick zone, shear across the slip direction,
+    pressure in contact) and the rigid motions with a prescribed force. Steps do not change the
+    prescribed forces.
+
+    problem   operators, loads and friction law of the increment
+    zones     zones of the iterate
+    carriers  tractions that change the prescribed forces (k, unknowns), one row per force; None to
+              compute them
+    """
+
+    def __init__(
+        self, problem: CoupledProblem, zones: Zones, carriers: Matrix | None = None
+    ) -> None:
+        """Assemble the linear system of a Newton step.
+
+        carriers  tractions that change the prescribed forces, from similar zones (see
+                  `carriers_in`), which saves their computation; None to compute them
+        """
+        self._problem, self._zones = problem, zones
+        self._shifts, self._closures = problem.shifting.held, problem.closing.held
+        if carriers is None:
+            units = self._free_units()
+            for number, unit in enumerate(units):
+                units[number] = self._precondition(unit)
+            carriers = units
+        self._carriers, count = carriers, len(carriers)
+        responses = np.array([self._force_changes(carrier) for carrier in carriers])
+        self._inverse = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
+
+    @cached_property
+    def _precondition(self) -> Callable[[Vector], Vector]:
+        """Approximate inverse in the zones, on first use: the last iterate needs none."""
+        return self._problem.inverse.in_zones(self._zones)
+
+    def carriers_in(self, zones: Zones) -> Matrix:
+        """Map the carriers to the free unknowns of other zones of contact, stick and slip.
+
+        Carriers are tractions that change the prescribed forces. The result (k, unknowns) has one
+        row per prescribed force.
+
+        zones  zones of the next iterate
+        """
+        transferred = (zones.free(self._zones.field(carrier)) for carrier in self._carriers)
+        return np.array([*transferred]).reshape(-1, zones.size)
+
+    def _free_units(self) -> Matrix:
+        """Restrict the unit rigid motions of the indenter to the free unknowns (k, unknowns).
+
+        Only motions with a prescribed force are included. Rows are the shifts and the twist of the
+        tangential load, then approach and tilts of the normal load.
+        """
+        zones, free = self._zones, []
+        for parts, motions in ((slice(2), self._shifts), (slice(2, 3), self._closures)):
+            for motion in motions.each:
+                unit = np.zeros((3, zones.contact.size))
+                unit[parts] = motion.shape
+                free.append(zones.free(unit))
+        return np.array(free).reshape(len(free), zones.size)
+
+    def admissible(self, tractions: Tractions) -> Tractions:
+        """Return tractions near given ones that satisfy friction and loads in the present zones.
+
+        Pressure is non-negative and zero outside the contact zone. The shear is within the friction
+        limit, and at the limit in the slip zone. Forces have the prescribed values.
+
+        tractions  (q_x, q_y, p), shape (3, n)
+        raises     NotConverged if the load reaches the friction limit
+        """
+        problem, zones, shifts = self._problem, self._zones, self._shifts
+        p = problem.pressing.admissible(np.maximum(tractions[2], 0.0) * zones.contact)
+        bound = problem.friction_limit(p)
+        if problem.exhausts_friction(bound):
+            raise NotConverged("the coupled increment", 0, np.inf, 0.0)
+        t = zones.admissible_tractions(np.concatenate([tractions[:2], p[None]]), bound)
+        carriers = self._carriers[: len(shifts)]
+        forces = np.array([shifts.forces(zones.field(carrier)[:2]) for carrier in carriers])
+        forces = forces.reshape(len(carriers), len(carriers))
+        weights = np.linalg.pinv(forces.T, rcond=UNDETERMINED) @ (
+            shifts.prescribed_forces - shifts.forces(t[:2])
+        )
+        t[:2] += zones.field(np.einsum("i,ik->k", weights, carriers))[:2]
+        t[:2] = admissible_shear(problem.shifting, t[:2], bound)
+        return t
+
+    def residual(self, base: NewtonPoint, natural: Natural) -> Vector:
+        """Compute the residual of the linearised contact and friction conditions of a Newton step.
+
+        The residual has one row per free unknown [length]: slip in the stick zone, slip across the
+        slip direction less the term of the slip compliance in the slip zone, and negative gap in
+        contact.
+
+        base, natural  iterate, and natural map at the iterate
+        """
+        zones = self._zones
+        rows = zones.free(np.concatenate([natural.slipped, -natural.gap[None]]))
+        rows -= zones.slip_terms(zones.free(base.tractions))
+        return rows
+
+    def solve(self, residual: Vector, depth: float) -> Step:
+        """Solve the linearised contact and friction conditions for a Newton step, by GMRES.
+
+        residual  residual of the iterate, one row per free unknown [length]
+        depth     reduction of the residual at which GMRES stops
+        """
+        zones, problem = self._zones, self._problem
+
+        def apply_operator(rows: Vector) -> tuple[Vector, Vector, Vector]:
+            free = self._preconditioned_change(rows)
+            u = problem.together(zones.tractions(free))
+            return free, zones.free(u) + zones.slip_terms(free), zones.restrict_to_fixed(u)
+
+        extra = 3 * zones.contact.size - zones.size
+        found = least_residual(
+            apply_operator, residual, self._free_units(), extra, depth, MAX_ITERATIONS
+        )
+        free = found.solution
+        return Step(
+            zones.tractions(free),
+            zones.assemble_field(found.image - zones.slip_terms(free), found.extra),
+            -self._closures.displacement(found.motion[len(self._shifts) :])[0],
+            found.iterations,
+        )
+
+    def _preconditioned_change(self, rows: Vector) -> Vector:
+        """Convert a residual to a change of the tractions by the preconditioner.
+
+        The change is corrected so that the prescribed forces stay constant. The result are changes
+        of the free unknowns.
+
+        rows  residual, one row per free unknown
+        """
+        free = self._precondition(rows)
+        for weight, carrier in zip(
+            self._inverse @ self._force_changes(free), self._carriers, strict=True
+        ):
+            free -= weight * carrier
+        return free
+
+    def _force_changes(self, free: Vector) -> Vector:
+        """Compute the change of the prescribed forces and moments by a change of the tractions.
+
+        The changes are divided by the area of a point (k,).
+
+        free  change of the free unknowns
+        """
+        t = self._zones.tractions(free)
+        return np.array([*self._shifts.forces(t[:2]), *self._closures.forces(t[2:])])

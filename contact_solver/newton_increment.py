@@ -1,0 +1,87 @@
+"""Semismooth Newton method for a coupled increment, on the natural map of contact and friction."""
+
+import numpy as np
+
+from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.solver_errors import NotConverged
+from contact_solver.coupled_problem import (
+    CoupledProblem,
+    CoupledSolution,
+)
+from contact_solver.newton_iterate import NewtonIterate
+from contact_solver.residuals import complementarity, penetration, slip_direction
+
+MAX_STEPS = 40
+# Successive steps that may reduce the residual by less than 10 %.
+MAX_IDLE = 3
+# Largest reduction factor of a linear solve; used while the zones change.
+ROUGH_REDUCTION = 0.05
+# Smallest residual of a linear solve over the tolerance: the rest is left to its non-linear terms.
+FINE = 0.3
+
+
+def solve_by_newton(
+    problem: CoupledProblem,
+    pressure: Field,
+    shear: VectorField,
+    motion: Vector,
+    tolerance: float,
+    furthest: float = np.inf,
+) -> CoupledSolution:
+    """Solve a coupled increment by the semismooth Newton method from an initial guess.
+
+    problem                  operators, loads and friction law of the increment
+    pressure, shear, motion  initial guesses: p (n,), q (2, n) and rigid tangential motion
+    tolerance                limit of all dimensionless residuals
+    furthest                 largest merit (relative error) of the first iterate, above which the
+                             method is not tried
+    raises                   NotConverged if the iteration stalls, the load reaches the friction
+                             limit, or the first merit exceeds `furthest`
+    """
+    at = NewtonIterate(problem, np.concatenate([shear, pressure[None]]), motion)
+    best, idle = np.inf, 0
+    for number in range(1, MAX_STEPS + 1):
+        at.linearise()
+        residual = _largest_residual(problem, at)
+        if residual <= tolerance:
+            in_slip = at.natural.slip & (at.natural.bound > 0)
+            q, p = at.point.tractions[:2], at.point.tractions[2]
+            return CoupledSolution(
+                p, q, at.closing, at.natural.motion, in_slip, False, at.iterations, number
+            )
+        if number == 1 and at.natural.merit > furthest:
+            break
+        idle = 0 if residual < 0.9 * best else idle + 1
+        best = min(best, residual)
+        if idle >= MAX_IDLE:
+            break
+        depth = min(ROUGH_REDUCTION, at.natural.merit) if at.settled else ROUGH_REDUCTION
+        at.step(min(ROUGH_REDUCTION, max(depth, FINE * tolerance / residual)))
+    raise NotConverged("the coupled increment", at.iterations, best, tolerance)
+
+
+def _largest_residual(problem: CoupledProblem, at: NewtonIterate) -> float:
+    """Return the largest dimensionless residual of an iterate of Newton's method.
+
+    The residuals are those of contact conditions, friction law and slip direction. The tractions of
+    the iterate must be admissible (non-negative pressure, shear within friction, prescribed
+    forces).
+
+    problem  operators, loads and friction law of the increment
+    at       iterate
+    """
+    point, natural = at.point, at.natural
+    q, p = point.tractions[:2], point.tractions[2]
+    overlap = problem.pressing.overlap(at.closing)
+    # In full stick the surface may not move; the displacement by the shear of a point is then the
+    # scale of slip. In a single point only the surface around the point moves: take the maximum.
+    moved = np.maximum(np.abs(point.displacements[:2]), problem.self_compliance * np.abs(q))
+    if not np.any(natural.slip & (natural.bound > 0)):
+        moved = np.full_like(moved, np.max(moved))
+    measures = (
+        complementarity(p, natural.gap, overlap),
+        penetration(natural.gap, overlap),
+        natural.shear_error,
+        slip_direction(q, natural.bound, natural.slipped, moved),
+    )
+    return float(np.max(measures))  # keeps a NaN

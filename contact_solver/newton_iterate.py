@@ -1,0 +1,166 @@
+"""Iterates of the semismooth Newton method for a coupled increment.
+
+A step determines the zones of contact, stick and slip from the natural map, solves the linear
+system in these zones by GMRES, and applies a line search. The motion of the indenter comes from
+the exact projection, not from the linear system, whose motion may empty the stick zone.
+"""
+
+import numpy as np
+
+from contact_scene.array_types import Vector
+from contact_scene.solver_errors import NotConverged
+from contact_solver.coupled_problem import CoupledProblem
+from contact_solver.linearised_contact import (
+    LinearisedContact,
+    Step,
+)
+from contact_solver.natural_map import (
+    Natural,
+    NewtonPoint,
+    Tractions,
+    zones_of,
+)
+from contact_solver.zones import Zones
+
+# Zones have settled if at most this part of the root of the number of contact points changes zone.
+SETTLED = 0.1
+STEP_FACTORS = 0.5 ** np.arange(5)
+
+
+class NewtonIterate:
+    """Current iterate of Newton's method for a coupled increment.
+
+    The tractions are admissible (non-negative pressure, shear within the friction limit, prescribed
+    forces) after `linearise` only.
+
+    point       tractions and displacements
+    natural     contact and friction conditions at the iterate (natural map)
+    closing     rigid normal motion that closes the gap of the iterate
+    settled     True if the last step changed the zone (contact, stick, slip) of only few points
+    iterations  sum of GMRES iterations
+    """
+
+    natural: Natural
+    closing: Vector
+
+    def __init__(self, problem: CoupledProblem, start: Tractions, motion: Vector) -> None:
+        """Start Newton's method at given tractions.
+
+        Their pressure is scaled to the normal load in place. All methods of this class raise
+        NotConverged at the friction limit, for non-finite tractions or without contact.
+
+        problem  operators, loads and friction law of the increment
+        start    initial tractions (q_x, q_y, p), shape (3, n)
+        motion   initial guess of the rigid tangential motion
+        """
+        start[2] = problem.pressing.admissible(np.where(problem.pressing.allowed, start[2], 0.0))
+        self._problem = problem
+        self.point, _ = evaluate_point(problem, start, motion)
+        self.natural = natural_map(problem, self.point)
+        self.iterations, self.settled = 0, False
+        self._zones: Zones | None = None
+        self._increment: LinearisedContact | None = None
+
+    def linearise(self) -> None:
+        """Linearise the contact and friction conditions at the iterate, for the next Newton step.
+
+        The zones of contact, stick and slip follow from the natural map. The tractions are changed
+        so that they are admissible in these zones, and the natural map is evaluated again.
+        """
+        problem, motion = self._problem, self.natural.motion
+        zones = zones_of(self.natural, problem)
+        images = problem.images
+        contact, changed = np.sum(zones.contact), zones.changes(self._zones)
+        self.settled = bool(images * changed <= SETTLED * np.sqrt(images * contact))
+        increment = self._increment
+        carriers = increment.carriers_in(zones) if increment and self.settled else None
+        self._zones, self._increment = zones, None
+        del increment  # limit the memory to one increment
+        increment = self._increment = LinearisedContact(problem, zones, carriers)
+        tractions = increment.admissible(self.point.tractions)
+        self.point, self.closing = evaluate_point(problem, tractions, motion)
+        self.natural = natural_map(problem, self.point)
+
+    def step(self, depth: float) -> None:
+        """Take a Newton step: solve the linear system in fixed zones, then apply a line search.
+
+        Zones are the points in contact, in stick and in slip.
+
+        depth  reduction of the residual by the linear solve
+        """
+        assert self._increment is not None
+        merit = self.natural.merit
+        residual = self._increment.residual(self.point, self.natural)
+        del self.natural  # release its memory before the solve
+        step = self._increment.solve(residual, depth)
+        self.iterations += step.iterations
+        self.point, self.natural = _line_search(self._problem, self.point, step, merit)
+
+
+def evaluate_point(
+    problem: CoupledProblem, tractions: Tractions, motion: Vector
+) -> tuple[NewtonPoint, Vector]:
+    """Compute displacements and rigid normal motion for given tractions of a coupled increment.
+
+    Return the iterate of Newton's method, and the rigid normal motion that closes its gap on
+    average.
+
+    problem    operators, loads and friction law of the increment
+    tractions  (q_x, q_y, p), shape (3, n)
+    motion     initial guess of the rigid tangential motion
+    """
+    u, pressing = problem.together(tractions), problem.pressing
+    closing = pressing.motion(tractions[2], pressing.finite_gap + u[2])
+    return NewtonPoint(tractions, u, pressing.closure(closing), motion), closing
+
+
+def natural_map(problem: CoupledProblem, point: NewtonPoint) -> Natural:
+    """Evaluate the contact and friction conditions at an iterate, written as a natural map.
+
+    The natural map yields zones of contact, stick and slip, residuals and slip of the iterate.
+
+    problem  operators, loads and friction law of the increment
+    point    tractions, displacements and rigid motion of the iterate
+    raises   NotConverged at the friction limit, for non-finite tractions or without contact
+    """
+    bound = problem.friction_limit(np.maximum(point.tractions[2], 0.0))
+    if problem.exhausts_friction(bound) or not np.all(np.isfinite(point.tractions)):
+        raise NotConverged("the coupled increment", 0, np.inf, 0.0)
+    natural = Natural.evaluate(point, problem)
+    if not np.any(natural.contact):
+        raise NotConverged("the coupled increment", 0, np.inf, 0.0)
+    return natural
+
+
+def _line_search(
+    problem: CoupledProblem, base: NewtonPoint, step: Step, merit: float
+) -> tuple[NewtonPoint, Natural]:
+    """Return the first point along a Newton step at which the merit decreases sufficiently.
+
+    The step is halved up to four times. Without sufficient decrease the point of lowest merit is
+    returned. The merit is the sum of the relative errors of pressure and shear. Displacements are
+    linear in tractions, so the search needs no convolutions.
+
+    problem     operators, loads and friction law of the increment
+    base, step  iterate before the Newton step, and the step
+    merit       merit of the iterate before the step
+    """
+    lowest: tuple[NewtonPoint, Natural] | None = None
+    for factor in STEP_FACTORS:
+        point = NewtonPoint(
+            base.tractions + factor * step.tractions,
+            base.displacements + factor * step.displacements,
+            base.closure + factor * step.closure,
+            base.motion,
+        )
+        try:
+            natural = natural_map(problem, point)
+        except NotConverged:
+            continue
+        if natural.merit <= (1 - 0.1 * factor) * merit:
+            return point, natural
+        if lowest is None or natural.merit < lowest[1].merit:
+            lowest = point, natural
+    if lowest is None:
+        raise NotConverged("the coupled increment", step.iterations, merit, 0.0)
+    return lowest

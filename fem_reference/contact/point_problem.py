@@ -1,0 +1,231 @@
+"""Contact problem of one increment at the points of the surface, solved by `contact_solver`.
+
+Points represent different areas w. The solver knows points of equal area: it receives tractions,
+displacements, gap and friction limit multiplied by the root s of the area over the mean area. Then
+the compliance is symmetric, and sums over points are integrals over the surface.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from contact_scene.array_types import Field, Mask, Vector
+from contact_scene.friction import CoulombFriction
+from contact_solver.conjugate_gradients import Point
+from contact_solver.coupled_problem import CoupledProblem
+from contact_solver.dense_inverse import DenseInverse
+from contact_solver.globalisation import solve_together
+from contact_solver.gross_slip import full_slip
+from contact_solver.pressure import solve_pressure
+from contact_solver.rigid_motion import RigidMotion, RigidMotions
+from contact_solver.shear import solve_shear
+from fem_reference.compliance.point_compliance import PointCompliance
+from fem_reference.loads import NormalTarget, TangentialTarget
+
+# Tolerance of the solver. With exact inverses the last Newton step has an error far below that of
+# the increment; round-off is 1e-13.
+ACCURATE = 1e-11
+
+
+@dataclass(frozen=True)
+class PointProblem:
+    """Contact problem of one increment at the points of the surface, with its loads.
+
+    compliance  displacement of all points per traction on all points
+    gap         gap without tractions (points,) [length]
+    friction    Coulomb friction between the surfaces
+    target      tangential displacement of the points under full stick and zero shift of the
+                indenter (2, points) [length]: displacement at the start of the increment minus the
+                rigid motion at the start, corrected for penalty springs and imposed strain
+    normal      prescribed normal force or approach
+    tangential  prescribed tangential load or motion
+    """
+
+    compliance: PointCompliance
+    gap: Vector
+    friction: CoulombFriction
+    target: Field
+    normal: NormalTarget
+    tangential: TangentialTarget
+
+    def bound(self, pressure: Vector) -> Vector:
+        """Compute the friction limit µp (largest shear) of every point [force/length^2].
+
+        The result has the shape (points,). µ is the coefficient of friction. The limit is zero at
+        points that cannot carry shear, such as a point on the axis.
+
+        pressure  p at the points (points,) [force/length^2]
+        """
+        carrying = np.where(self.compliance.carries_shear, pressure, 0.0)
+        return self.friction.limit(carrying)
+
+    def capacity(self, pressure: Vector) -> float:
+        """Compute the largest tangential load that friction can carry under a given pressure.
+
+        The load is a force, or a torque in torsion. The result is the sum of friction limit times
+        area times lever arm over all points; the lever arm is 1 for a force. Used to detect gross
+        slip.
+
+        pressure  pressure at the points (points,) [force/length^2]
+        """
+        lever = np.hypot(*self.compliance.motion)
+        return float(np.sum(self.compliance.areas * lever * self.bound(pressure)))
+
+    @cached_property
+    def roots(self) -> Vector:
+        """Roots s of the areas of the points over their mean (points,)."""
+        return np.sqrt(self.compliance.areas / self._mean_area)
+
+    @cached_property
+    def _mean_area(self) -> float:
+        return float(np.mean(self.compliance.areas))
+
+    @cached_property
+    def reach(self) -> float:
+        """Largest displacement of a point by a unit shift or twist; 1 if no motion is possible."""
+        return float(np.max(np.hypot(*self.compliance.motion))) or 1.0
+
+    @cached_property
+    def _closing(self) -> RigidMotions:
+        """Approach of the indenter, with prescribed force or value."""
+        force, approach = self.normal.force, self.normal.approach
+        shape = self.roots[None]
+        if force is not None:
+            return RigidMotions(1, (RigidMotion(shape, force / self._mean_area),))
+        assert approach is not None
+        return RigidMotions(1, (RigidMotion(shape, value=approach),))
+
+    @cached_property
+    def _shifting(self) -> RigidMotions:
+        """Shift or twist of the indenter times `reach`; none where symmetry excludes a motion."""
+        if not np.any(self.compliance.motion):
+            return RigidMotions(2)
+        shape, load = self.roots * self.compliance.motion / self.reach, self.tangential.load
+        if load is not None:
+            force = load / (self._mean_area * self.reach)
+            return RigidMotions(2, (RigidMotion(shape, force),))
+        assert self.tangential.motion is not None
+        return RigidMotions(2, (RigidMotion(shape, value=self.tangential.motion * self.reach),))
+
+    @cached_property
+    def coupled(self) -> CoupledProblem:
+        """The problem of pressure and shear for points of equal area."""
+        s, n = self.roots, len(self.roots)
+        all_roots = np.tile(s, 3)
+        matrix = self.compliance.matrix / (self._mean_area * np.outer(all_roots, all_roots))
+        tangential, normal = matrix[: 2 * n], matrix[2 * n :]
+        inverse = DenseInverse(matrix)
+        own = float(np.median(np.diagonal(matrix)[: 2 * n]))
+        carries_shear, friction = self.compliance.carries_shear, self.friction
+        return CoupledProblem(
+            normal=lambda p: normal[:, 2 * n :] @ p,
+            tangential=lambda q: (tangential[:, : 2 * n] @ q.ravel()).reshape(2, n),
+            normal_by_shear=lambda q: normal[:, : 2 * n] @ q.ravel(),
+            shear_by_pressure=lambda p: (tangential[:, 2 * n :] @ p).reshape(2, n),
+            inverse_on=inverse.on_contact,
+            inverse_in=inverse.in_stick_and_slip,
+            together=lambda t: (matrix @ t.ravel()).reshape(3, n),
+            inverse=inverse,
+            gap=s * self.gap,
+            friction_limit=lambda p: s * self.bound(p / s),
+            friction_slope=lambda p: np.where(carries_shear, friction.slope(p / s), 0.0),
+            target=s * self.target,
+            closing=self._closing,
+            shifting=self._shifting,
+            self_compliance=own,
+        )
+
+
+@dataclass(frozen=True)
+class PointSolution:
+    """Solution of the contact problem of an increment: tractions and rigid motion of the indenter.
+
+    pressure   pressure at the points (points,) [force/length^2]
+    shear      shear at the points (2, points) [force/length^2]
+    approach   rigid approach [length]
+    shift      shift [length] or twist [radian]; None if the load is at the friction limit (gross
+               slip)
+    in_slip    True for slipping points (points,)
+    outer_iterations, solves
+               numbers of outer iterations of the coupled problem and of linear iterations
+    algorithm  name of the algorithm that found the solution; None without coupling
+    """
+
+    pressure: Vector
+    shear: Field
+    approach: float
+    shift: float | None
+    in_slip: Mask
+    outer_iterations: int
+    solves: int
+    algorithm: str | None = None
+
+
+def solve_points(
+    problem: PointProblem, pressure: Vector, shear: Field, shift: float, tolerance: float
+) -> PointSolution:
+    """Solve pressure and shear of an increment at the points of the surface.
+
+    problem                 compliance, gap, friction and prescribed loads of the increment
+    pressure, shear, shift  initial guesses: p (points,), q (2, points), and shift or twist
+    tolerance               limit of the dimensionless residuals
+    raises                  NotConverged
+    """
+    coupled, s, aim = problem.coupled, problem.roots, min(tolerance, ACCURATE)
+    motion = np.full(len(coupled.shifting), shift * problem.reach)
+    p, q = s * _loaded(problem, pressure), s * shear
+    if problem.compliance.couples:
+        found = solve_together(coupled, p, q, motion, aim)
+        return PointSolution(
+            found.pressure / s,
+            found.shear / s,
+            float(found.closing[0]),
+            None if found.at_limit else _shift(problem, found.motion),
+            found.in_slip,
+            found.outer_iterations,
+            found.iterations,
+            found.algorithm,
+        )
+    pressed = solve_pressure(coupled.pressing, p, aim)
+    p, approach = pressed.pressure, float(pressed.motion[0])
+    bound = coupled.friction_limit(p)
+    if coupled.exhausts_friction(bound):
+        q, motion = full_slip(coupled.shifting, bound, motion)
+        moved = None if coupled.shifting.held.each else _shift(problem, motion)
+        in_slip = bound > 0
+        return PointSolution(p / s, q / s, approach, moved, in_slip, 1, pressed.iterations)
+    start = Point(q, coupled.tangential(q))
+    sheared = solve_shear(coupled.shearing_at(p), start, motion, aim)
+    return PointSolution(
+        p / s,
+        sheared.shear / s,
+        approach,
+        _shift(problem, sheared.motion),
+        sheared.in_slip,
+        1,
+        pressed.iterations + sheared.iterations,
+    )
+
+
+def _shift(problem: PointProblem, motion: Vector) -> float:
+    return float(motion[0]) / problem.reach if len(motion) else 0.0
+
+
+def _loaded(problem: PointProblem, pressure: Vector) -> Vector:
+    """Return the initial guess of the pressure, which must touch at some point.
+
+    Without any pressure it is that of separate points at half the approach, or uniform under a
+    force.
+
+    pressure  pressure at the start of the increment (points,) [force/length^2]
+    """
+    approach = problem.normal.approach
+    if np.any(pressure > 0):
+        return pressure
+    if approach is None:
+        return np.ones_like(pressure)
+    n = len(pressure)
+    own = np.diagonal(problem.compliance.matrix)[2 * n :] / problem.compliance.areas
+    depth = 0.5 * (approach + float(np.min(problem.gap)))
+    return np.maximum(depth - problem.gap, 0.0) / own

@@ -1,1 +1,0 @@
-"""Normal problem: pressure for a given shear, in terms of arrays and operators."""

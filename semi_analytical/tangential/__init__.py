@@ -1,1 +1,0 @@
-"""Tangential problem: shear for a given pressure, in terms of arrays and operators."""

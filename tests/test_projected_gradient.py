@@ -1,0 +1,123 @@
+"""Tests of the contact solver against an accelerated projected gradient method (Nesterov 1983).
+
+The method knows no zones, multipliers or preconditioners. At the rigid motions of a solution it
+computes the tractions anew, which are unique; the forces of the solution are checked by their sums.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from contact_scenes import APPROACH, LOAD, A, grid, scene
+from coupled_scenes import coated
+from coupled_scenes import scene as coupled_scene
+
+from contact_scene import Scene
+from contact_solver.conjugate_gradients import Map
+from contact_solver.pressure import PressureProblem
+from contact_solver.shear import ShearProblem
+from semi_analytical import solve
+from semi_analytical.coupled import coupled_increment
+from semi_analytical.increments import normal_solve, tangential_solve
+
+Law = Callable[[Any, float], Any]
+
+
+def disc(z: Any, limit: Any) -> Any:
+    return z * np.minimum(1, limit / np.maximum(np.hypot(*z), 1e-300))
+
+
+def by_projected_gradient(apply: Map, law: Law, shape: Any) -> Any:
+    """Fixed point of a law: function of the trial tractions t - step u, and of the step."""
+    t = v = np.random.default_rng(1).random(shape)
+    for _ in range(20):  # largest eigenvalue of the compliance
+        v = apply(v / np.linalg.norm(v))
+    step, t, y, speed = 0.9 / np.linalg.norm(v), 0 * t, 0 * t, 1.0
+    for _ in range(50_000):
+        last, t = t, law(y - step * apply(y), step)
+        if np.sum((y - t) * (t - last)) > 0:  # restart, O'Donoghue and Candès 2015
+            speed = 1.0
+        faster = 0.5 * (1 + np.sqrt(1 + 4 * speed**2))
+        moved, y, speed = t - y, t + (speed - 1) / faster * (t - last), faster
+        if np.max(np.abs(moved)) <= 1e-11 * np.max(np.abs(t)):
+            return t
+    raise AssertionError("the projected gradient method did not converge")
+
+
+def again(problem: Any, solution: Any) -> tuple[Any, Any]:
+    """Tractions of a solution, and those by projected gradients at its rigid motions."""
+    if isinstance(problem, PressureProblem):
+        closed = problem.gap - problem.closure(solution.motion)
+        return solution.pressure, by_projected_gradient(
+            problem.displace, lambda p, step: np.maximum(p - step * closed, 0), closed.shape
+        )
+    if isinstance(problem, ShearProblem):
+        slip = problem.target + problem.motions.displacement(solution.motion)
+        return solution.shear, by_projected_gradient(
+            problem.displace, lambda q, step: disc(q + step * slip, problem.bound), slip.shape
+        )
+    closed = problem.gap - problem.pressing.closure(solution.closing)
+    slip = problem.target + problem.shifting.displacement(solution.motion)
+
+    def law(t: Any, step: float) -> Any:
+        p = np.maximum(t[2] - step * closed, 0)
+        return np.stack([*disc(t[:2] + step * slip, problem.friction_limit(p)), p])
+
+    found = by_projected_gradient(problem.together, law, (3, *closed.shape))
+    return np.stack([*solution.shear, solution.pressure]), found
+
+
+def drawn(seed: int) -> Scene:
+    """A load history of two to four steps on similar or on coated bodies, and its friction."""
+    rng = np.random.default_rng(seed)
+    friction = float(10 ** rng.uniform(-2, -0.3))
+    press = {"normal_force": LOAD * rng.uniform(0.5, 1)}
+    alike = rng.random() < 0.5
+    if alike and rng.random() < 0.3:
+        press = {"approach": APPROACH * rng.uniform(0.7, 1)}
+    if rng.random() < 0.2:
+        press["moment"] = tuple(0.1 * LOAD * A * rng.uniform(-1, 1, 2))
+    loading = [press]
+    for _ in range(rng.integers(1, 4)):
+        angle, part = rng.uniform(0, 2 * np.pi), rng.choice([0.3, 0.6, 0.9])
+        along = np.array([np.cos(angle), np.sin(angle)])
+        step = {"tangential_force": tuple(0.3 * friction * LOAD * part * along)}
+        if rng.random() < 0.3:
+            step = {"tangential_shift": tuple(0.3 * friction * APPROACH * part * along)}
+        if rng.random() < 0.2:
+            step["torque"] = 0.02 * friction * LOAD * A * rng.uniform(-1, 1)
+        loading.append(step)
+    loading = [{"increments": 1, **step} for step in loading]
+    if alike:
+        return scene(*loading, friction=friction)
+    film = coated(10 ** rng.uniform(-0.7, 1), rng.uniform(0.1, 1), rng.choice([0.0, 0.3, 0.49]))
+    return coupled_scene(*loading, body=film, friction=friction)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_drawn_increments_have_the_tractions_of_projected_gradients(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solved: list[tuple[Any, Any]] = []
+
+    def watched(solver: Any) -> Any:
+        def solve_and_keep(problem: Any, *given: Any, **more: Any) -> Any:
+            solution = solver(problem, *given, **more)
+            solved.append((problem, solution))
+            return solution
+
+        return solve_and_keep
+
+    for module, name in (
+        (normal_solve, "solve_pressure"),
+        (tangential_solve, "solve_shear"),
+        (coupled_increment, "solve_together"),
+    ):
+        monkeypatch.setattr(module, name, watched(getattr(module, name)))
+    solve(drawn(seed), grid(20, 2.0), 1e-10)
+    by_kind = {type(problem): (problem, solution) for problem, solution in solved[1:]}
+    assert by_kind
+    for problem, solution in by_kind.values():
+        own, found = again(problem, solution)
+        assert np.max(np.abs(own - found)) <= 1e-6 * np.max(np.abs(own))
