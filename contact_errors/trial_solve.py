@@ -50,8 +50,6 @@ def estimate_seconds(solver: DiscretisedSolver, run: Fineness) -> float:
         trial.discretisation.tolerance,
         edges=False,
     )
-    if trial.work(run).unknowns < trial.work(coarse).unknowns:
-        coarse = replace(coarse, space=run.space)
     ends: list[float] = []
 
     def solve(fineness: Fineness) -> Any:
@@ -59,7 +57,11 @@ def estimate_seconds(solver: DiscretisedSolver, run: Fineness) -> float:
         ends[:] = [time.process_time()]
         return trial.solve(fineness, lambda _: ends.append(time.process_time()))
 
-    coarse = trial.fineness_of(solve_coarsest(trial, coarse, solve))
+    if trial.work(run).unknowns < trial.work(coarse).unknowns:
+        result = solve(replace(coarse, space=run.space))
+    else:
+        result = solve_coarsest(trial, coarse, solve)
+    coarse = trial.fineness_of(result)
     # Other work of the process only adds to a time, and one of the two may include set-up.
     increment = min(ends[-1] - ends[-2], ends[-2] - ends[-3])
     set_up = max(0.0, ends[-1] - ends[0] - increment * (len(ends) - 1))

@@ -814,7 +814,8 @@ def test_an_iteration_leaves_its_last_change_times_the_contraction(changes, left
 def test_what_an_iteration_leaves_covers_what_it_misses(monkeypatch: pytest.MonkeyPatch) -> None:
     posed = scene(PRESS, friction=None)
     exact = package.solve(posed, "semi-analytical", cells(24)).steps[0]
-    monkeypatch.setattr(pressure_correction, "SETTLED", 1e-3)
+    monkeypatch.setattr(pressure_correction, "SETTLED", 0.1)
+    monkeypatch.setattr(pressure_correction, "STEADY", 1e-2)
     result = package.solve(posed, "semi-analytical", cells(24))
     (features,), (rough,) = CellSolver.of(result).features(result), result.steps
     for name in ("approach", "contact_radius", "peak_pressure"):

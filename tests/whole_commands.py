@@ -105,7 +105,7 @@ def draw_cell(rng: np.random.Generator) -> StabilityCell:
 
     Half of the contacts have two equal bodies without coatings, whose solves are short.
     """
-    values = {name: axis[rng.integers(len(axis))] for name, axis in AXES.items()}
+    values = {name: axis[int(rng.integers(len(axis)))] for name, axis in AXES.items()}
     if rng.random() < 0.5:
         alike = {"surface": Surface.ALIKE_BALL, "modulus_ratio": 1.0}
         values |= alike | {"base_ratio": values["poisson_ratio"]}
