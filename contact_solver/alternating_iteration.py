@@ -180,8 +180,9 @@ class _AndersonMixing:
         d_x, d_r = (
             np.diff(x, axis=0).reshape(len(x) - 1, -1) for x in (self._points, self._residuals)
         )
-        size = np.sqrt(np.sum(d_r * d_r, axis=1))[:, None]
-        unit_x, unit_r = d_x / size, d_r / size
+        size = np.sqrt(np.sum(d_r * d_r, axis=1))
+        moved = size > 0  # exact solves may repeat a residual
+        unit_x, unit_r = (d[moved] / size[moved, None] for d in (d_x, d_r))
         # The rounding of matrix products depends on the number of threads; that of einsum does not.
         products = np.einsum("ik,jk->ij", unit_r, unit_r)
         c = np.linalg.lstsq(products, np.einsum("ik,k->i", unit_r, r.ravel()), DEPENDENT)[0]

@@ -82,6 +82,8 @@ def _first_converged(
         except NotConverged as stalled:
             iterations += stalled.iterations
             residual = stalled.residual
+        except np.linalg.LinAlgError:  # of tractions that are no numbers
+            continue
         else:
             return replace(
                 found,

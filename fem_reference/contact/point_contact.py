@@ -24,7 +24,7 @@ from fem_reference.memory import require_memory
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
 
-COPIES = 4  # copies of the compliance matrix of all points during assembly and restriction
+COPIES = 5  # of the matrix of all points: two in its units, its rows and their factors in zones
 
 
 @dataclass(frozen=True)

@@ -113,7 +113,8 @@ class PointProblem:
         """The problem of pressure and shear for points of equal area."""
         s, n = self.roots, len(self.roots)
         all_roots = np.tile(s, 3)
-        matrix = self.compliance.matrix / (self._mean_area * np.outer(all_roots, all_roots))
+        matrix = self.compliance.matrix / all_roots
+        matrix /= self._mean_area * all_roots[:, None]
         tangential, normal = matrix[: 2 * n], matrix[2 * n :]
         inverse = DenseInverse(matrix)
         own = float(np.median(np.diagonal(matrix)[: 2 * n]))
