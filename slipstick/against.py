@@ -164,16 +164,21 @@ def _compare_loops(theirs: _Loop, run: StoredRun, motion: str) -> Iterator[Compa
     """Compare a measured loop of force over shift with the last load cycle of a run.
 
     Yields the comparisons of centre, slope and area, and then of the forces along the loop. Raises
-    NothingToCompare if no load cycle of the run closes with slip.
+    NothingToCompare if no load cycle of the run closes with slip under changing force and shift.
 
     theirs  measured loop
     motion  name of the compared shift: that of the actuator of a test rig, or of the contact
     """
-    numbered = [(n, end) for n, end in enumerate(run.summary.steps, 1) if end.energy_per_cycle]
+    # Both ratios have a value only if the force and both shifts change in the cycle.
+    numbered = [
+        (n, end)
+        for n, end in enumerate(run.summary.steps, 1)
+        if end.energy_ratio and end.gross_slip_share
+    ]
     if not numbered:
         raise NothingToCompare(
-            "the table is a loop, and no load cycle of the run closes with slip; end a load step "
-            "with the loads of an earlier one"
+            "the table is a loop, and no load cycle of the run closes with slip under a force and "
+            "a shift that change; end a load step with the loads of an earlier one"
         )
     (last, end), increments = numbered[-1], run.increments
     steps = increments["step"].array
