@@ -21,13 +21,11 @@ import numpy as np
 
 from contact_scene.array_types import Field, Vector
 from contact_scene.body_pair import UNCOUPLED, contact_modulus, dundurs_beta
+from contact_scene.friction_limit import reaches_limit
 from contact_scene.geometry import Cone, FlatPunch, SmoothTip
 from contact_scene.rig import compliances
 from contact_scene.scene import Scene
 from contact_scene.stepping.load_path import ControlKind, LoadRamp
-
-# Relative distance from the friction limit below which a load counts as gross slip.
-AT_LIMIT = 1e-6
 
 
 class GrowingContact(NamedTuple):
@@ -110,4 +108,4 @@ def grows_without_slip(scene: Scene, ramp: LoadRamp) -> bool:
         # On an ellipse ρ is between 1 and 1/(1-ν) of the bodies: k is not larger than Δω/Δδ.
     elif normal.kind is not tangential.kind:
         return False
-    return growth < friction.smallest * (1 - AT_LIMIT)
+    return not reaches_limit(growth, friction.smallest)
