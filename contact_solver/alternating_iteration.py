@@ -57,7 +57,9 @@ def solve_coupled(
     most_iterations          limit of the sum of inner iterations, at most MAX_ITERATIONS
     raises                   NotConverged
     """
-    p, first, first_motion = pressure, Point(shear, problem.tangential(shear)), motion
+    # The solution may be the initial guess, which must carry the load.
+    p = pressure = problem.pressing.admissible(np.where(problem.pressing.allowed, pressure, 0.0))
+    first, first_motion = Point(shear, problem.tangential(shear)), motion
     point = first
     iterations, reduction = 0, INNER_REDUCTION
     mixing = _AndersonMixing(problem.pressing)

@@ -185,6 +185,16 @@ def test_a_start_in_equilibrium_with_the_wrong_shear_is_not_taken_for_the_answer
     assert_lawful(contact, after)
 
 
+@BOTH_WAYS
+def test_a_single_point_carries_the_load_although_the_start_does_not(solver):
+    contact = DenseContact(3, 0.0)
+    contact.gap[1:] = 1e3
+    problem = contact.problem(pressed(7.0), pushed((0.0, 0.0)))
+    start = np.where(contact.gap == 0, 1.0, 0.0)
+    found = solver(problem, start, np.zeros((2, POINTS)), NO_SHIFT, TOLERANCE)
+    assert np.sum(found.pressure) == pytest.approx(7.0, rel=1e-14)
+
+
 @pytest.mark.parametrize("excess", [1.0, 1.5])
 def test_at_and_beyond_the_friction_limit_all_slips_along_the_force(excess):
     contact, direction = DenseContact(11, 0.2), np.array([0.6, 0.8])
