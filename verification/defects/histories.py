@@ -371,8 +371,8 @@ CONTACT_AND_FRICTION = (
     Defect(
         "slip-range", "The slip amplitude is the whole range of slip, not half of it.",
         LOOP,
-        replaces(cycles, "_half_diameter")(
-            lambda whole, path: 2 * whole(path)
+        replaces(cycles, "_slip_amplitude")(
+            lambda whole, slips: 2 * whole(slips)
         ),
     ),
     Defect(
