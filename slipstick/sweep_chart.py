@@ -87,7 +87,7 @@ def write_sweep_chart(
         keys = [Variation("part of the sample below", "%", tuple(shares.tolist()))]
     with style.figure_style(), atomic_file(path) as temporary:
         figure = style.new_figure(5.2, 0.4 + 2.9 * len(quantities))
-        figure.suptitle(title, fontsize=style.STYLE["axes.titlesize"])
+        figure.suptitle(title, fontsize=style.STYLE["axes.titlesize"], parse_math=False)
         axes = figure.subplots(len(quantities), squeeze=False)[:, 0]
         for ax, quantity in zip(axes, quantities, strict=True):
             (_draw_curve, _draw_map)[len(keys) - 1](ax, quantity, *keys)

@@ -10,8 +10,8 @@ from scene_texts import STEEL_BALL_PRESSED
 
 ROOT = Path(__file__).resolve().parents[1]
 
-SCENE = """
-title = "coated"
+SCENE = r"""
+title = 'coated $\frac{$'
 [indenter]
 shape = "paraboloid"
 radius = "18 mm"

@@ -123,7 +123,7 @@ def test_a_map_has_every_value_at_its_place_and_the_largest_error(tmp_path, monk
     ]
     values = np.arange(6.0).reshape(2, 3, 1)
     swept = [SweptQuantity("c", "", values, 0.02 * values)]
-    write_sweep_chart(keys, swept, tmp_path / "map.png", "")
+    write_sweep_chart(keys, swept, tmp_path / "map.png", r"$\frac{$")
     ax = drawn[0].axes[0]
     assert ax.get_title().split() == ["largest", "numerical", "error:", "0.1"]
     assert np.array_equal(ax.collections[0].get_array(), values[..., 0].T)

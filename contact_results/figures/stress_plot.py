@@ -212,7 +212,7 @@ def _titled_figure(width: float, height: float, title: str) -> Figure:
     width, height  size of the figure [inch]
     """
     figure = style.new_figure(width, height, arranged=False)
-    figure.suptitle(fill(title, int(13 * width)), fontsize=9.0)
+    figure.suptitle(fill(title, int(13 * width)), fontsize=9.0, parse_math=False)
     return figure
 
 
@@ -227,7 +227,7 @@ def write_history_figure(
     count = len(history[0].errors)
     with style.figure_style():
         figure = style.new_figure(6.4, 0.5 + 2.6 * count)
-        figure.suptitle(title, fontsize=style.STYLE["axes.titlesize"])
+        figure.suptitle(title, fontsize=style.STYLE["axes.titlesize"], parse_math=False)
         axes = figure.subplots(count, sharex=True, squeeze=False)[:, 0]
         for n, ax in enumerate(axes):
             _draw_point(ax, history, n, layers)
