@@ -418,8 +418,9 @@ def refine(
         if stopped is None:
             try:
                 level = levels.solve_level(following)
-            except SolverError as error:
-                stopped = f"the next round has no answer: {error}"
+            except Exception as error:  # the solved level must not be lost
+                kind = "" if isinstance(error, SolverError) else f"{type(error).__name__}: "
+                stopped = f"the next round has no answer: {kind}{error}"
     accuracy = AccuracyReached(
         asked=shares,
         reached=reached,

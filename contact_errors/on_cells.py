@@ -203,7 +203,7 @@ class CellSolver(DiscretisedSolver):
         from contact_results.stress import on_cells as stress_on_cells
 
         stress = stress_on_cells.estimated_bytes(fineness.space)
-        return max(run, memory.LIBRARIES + stress)
+        return max(run, memory.LIBRARIES + memory.SCIPY + stress)
 
 
 def _remaining_edge_errors(report: EdgeReport) -> Mapping[str, float]:

@@ -27,8 +27,9 @@ from contact_scene.quantities.summary import Regime
 if TYPE_CHECKING:
     from contact_results.surface import Increment
 
-# Limits of a cycle without force or slip: tangential force relative to the normal force, and
-# dissipated energy relative to force amplitude times shift amplitude.
+# Round-off: of a tangential force relative to the largest normal force of the cycle, and of a
+# motion relative to the largest approach or motion. Limit of a cycle without slip: dissipated
+# energy relative to force amplitude times shift amplitude.
 ROUND_OFF, NO_SLIP = 1e-9, 1e-9
 AT_GROSS_SLIP = 0.2  # E_d/4Q*δ of Mindlin's loop at gross slip
 
@@ -43,8 +44,9 @@ def loop_numbers(
     friction    friction law of the scene; None without friction
     surface     surface grid of the increments
 
-    Returns the numbers by the names of `contact_scene.quantities.summary.ClosedCycle`. A cycle with
-    constant tangential force has only the regime and the stick centre.
+    Returns the numbers by the names of `contact_scene.quantities.summary.ClosedCycle`. A ratio is
+    None if its denominator is 0 or round-off, such as the energy ratio of a cycle at constant
+    shift. A cycle with constant tangential force has only the regime and the stick centre.
     """
     end = path[-1]
     numbers: dict[str, Any] = {"stick_centre": _stick_centre(end, surface)}
@@ -55,27 +57,41 @@ def loop_numbers(
     changes = force - force[0]
     furthest = changes[np.argmax(np.hypot(*changes.T))]
     size = float(np.hypot(*furthest))
-    if size <= ROUND_OFF * end.normal_force:
+    normal, approach = (
+        max(abs(getattr(i, name)) for i in path) for name in ("normal_force", "approach")
+    )
+    along = furthest / (size or 1.0)
+    shifts = _components_along(path, "tangential_shift", along)
+    if size <= ROUND_OFF * normal or shifts is None:
+        if dissipated <= np.finfo(float).eps * normal * approach:
+            numbers["regime"] = Regime.STICK
         return numbers
-    along = furthest / size
-    forces, shifts = force @ along, _components_along(path, "tangential_shift", along)
-    assert shifts is not None
     actuated = _components_along(path, "actuator_shift", along)
+    motions = shifts if actuated is None else actuated
+    forces = force @ along
     Q, shift, opening = _half_range(forces), _half_range(shifts), _half_opening(forces, shifts)
-    opened = opening > ROUND_OFF * shift
-    moved = shift if actuated is None else _half_range(actuated)
+    moved = _half_range(motions)
     limit = friction.largest_tangential_force(end.normal_force) if friction else None
-    if dissipated <= NO_SLIP * Q * shift:
+    negligible = ROUND_OFF * max(approach, float(np.max(np.abs([shifts, motions]))))
+    # Forces at constant shift: the surfaces move by about as much as under the normal force.
+    if dissipated * normal <= NO_SLIP * Q * max(shift * normal, approach * Q):
         numbers["regime"] = Regime.STICK
+
+    def share(force: float, length: float) -> float | None:
+        """Compare the dissipated energy with that of a rectangular loop of these half ranges."""
+        resolved = force > ROUND_OFF * normal and length > negligible
+        return dissipated / (4 * force * length) if resolved else None
+
+    of_gross_slip = share(Q, shift)
     return numbers | {
         "force_amplitude": Q,
         "shift_amplitude": shift,
         "actuator_amplitude": None if actuated is None else moved,
         "loop_opening": opening,
-        "energy_ratio": dissipated / (4 * Q * moved),
-        "energy_friction": dissipated / (4 * end.normal_force * opening) if opened else None,
+        "energy_ratio": share(Q, moved),
+        "energy_friction": share(end.normal_force, opening),
         "limit_share": Q / limit if limit else None,
-        "gross_slip_share": dissipated / (4 * Q * shift * AT_GROSS_SLIP),
+        "gross_slip_share": None if of_gross_slip is None else of_gross_slip / AT_GROSS_SLIP,
     }
 
 

@@ -104,7 +104,7 @@ class Cells:
         field: NDArray[Any] | None = getattr(increment, name, None)
         return field
 
-    components = vector = scalar
+    vector = scalar
 
     def along(self, field: Field) -> Field:
         """Evaluate a field (…, nx, ny) of the cells at all x on the line y = 0.

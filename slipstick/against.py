@@ -221,17 +221,22 @@ def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Iterator[Comp
 
     Yields the comparisons of the gaps between last and first point, of centre, slope and area, and
     of the forces along the loop. Raises NothingToCompare if the table has no whole cycles, or if no
-    load cycle of the run closes with slip.
+    load cycle of the run closes with slip under changing force and shift.
 
     table   measured shift and force (2, n)
     motion  name of the compared shift: that of the actuator of a test rig, or of the contact
     """
     theirs = _close_loop(table)
-    numbered = [(n, end) for n, end in enumerate(run.summary.steps, 1) if end.energy_per_cycle]
+    # Both ratios have a value only if the force and both shifts change in the cycle.
+    numbered = [
+        (n, end)
+        for n, end in enumerate(run.summary.steps, 1)
+        if end.energy_ratio and end.gross_slip_share
+    ]
     if not numbered:
         raise NothingToCompare(
-            "the table is a loop, and no load cycle of the run closes with slip; end a load step "
-            "with the loads of an earlier one"
+            "the table is a loop, and no load cycle of the run closes with slip under a force and "
+            "a shift that change; end a load step with the loads of an earlier one"
         )
     (last, end), increments = numbered[-1], run.increments
     steps = increments["step"].array

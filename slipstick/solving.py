@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from contextlib import nullcontext
 from os import PathLike
 from pathlib import Path
@@ -178,7 +179,8 @@ def save(
 ) -> None:
     """Write the files of `slipstick run`: summary, tables, fields, figures and page.
 
-    The directory is written atomically; an earlier run in it is replaced.
+    The directory is written atomically; an earlier run in it is replaced. A part that cannot be
+    computed from the result is omitted with a Python warning.
 
     Parameters
     ----------
@@ -207,13 +209,15 @@ def save(
             f"errors is a {kind}, expected what slipstick.stated_errors returns, or None"
         )
     with run_directory(Path(directory)) as staging:
-        write_result(
+        omitted = write_result(
             result,
             staging,
             figures=figures,
             errors=errors,
             all_fields=all_fields,
         )
+    for text in omitted.warnings:
+        warnings.warn(text, stacklevel=2)
 
 
 def _solve_to_accuracy(

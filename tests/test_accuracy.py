@@ -80,7 +80,7 @@ from contact_scene.reading.scene_file import (
 from contact_scene.solver_errors import AccuracyOutOfReach
 from fem_reference import Method
 from semi_analytical import solve
-from semi_analytical.memory import LIBRARIES
+from semi_analytical.memory import LIBRARIES, SCIPY
 from slipstick import solve as solve_file
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.hertz import tangential_modulus
@@ -248,7 +248,7 @@ def test_levels_with_a_largest_stress_take_the_memory_that_is_estimated() -> Non
     assert 0.5 * expected < peak < expected
     finer = Fineness(grid.refined().refined().refined(), (1,), 1e-6)
     with_stress, without = (on_cells(pressed, at).solver.memory(finer) for at in (1, None))
-    assert without < with_stress == LIBRARIES + stress_on_cells.estimated_bytes(finer.space)
+    assert without < with_stress == LIBRARIES + SCIPY + stress_on_cells.estimated_bytes(finer.space)
 
 
 def test_the_largest_tension_is_as_accurate_as_was_asked() -> None:
@@ -463,7 +463,7 @@ def test_a_killed_run_resumes_the_solve_of_its_last_level(
 
     monkeypatch.setattr(checkpoint, "SECONDS_BETWEEN", 0.0)
     with monkeypatch.context() as writing:
-        writing.setattr(result_files, "write_result", killed)
+        writing.setattr(result_files, "write_computed", killed)
         run = get_context("fork").Process(target=slipstick, args=("run", path, "-o", out, *asked))
         run.start()
         run.join()

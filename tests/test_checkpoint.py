@@ -3,6 +3,7 @@
 import hashlib
 import os
 import pickle
+import tracemalloc
 from collections.abc import Callable, Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields, is_dataclass, replace
@@ -42,7 +43,7 @@ from contact_scene import (
 )
 from contact_scene.discretisation import EdgeCorrection
 from contact_scene.quantities import stored_fields
-from contact_scene.quantities.stored_fields import WithFields
+from contact_scene.quantities.stored_fields import StoredArray, WithFields
 from contact_scene.solver_errors import GrossSliding
 from contact_scene.stepping.checkpoint import (
     Checkpoint,
@@ -222,6 +223,21 @@ def test_motions_of_the_elements_return_from_a_file(motion: Any, tmp_path: Path)
     """With the function of their far field, which is the only kind of code that a file may name."""
     write_checkpoint_file(motion, "this solve", tmp_path / "motion")
     assert read_checkpoint_file(tmp_path / "motion", "this solve") == motion
+
+
+def test_writer_keeps_none_of_the_arrays_that_it_has_written(tmp_path: Path) -> None:
+    size, peaks = 1 << 20, []
+    with (tmp_path / "fields").open("wb+") as fields:
+        fields.write(bytes(size))
+        fields.flush()
+        for count in (4, 40):
+            arrays = tuple(StoredArray(fields, 0, np.dtype("B"), (size,)) for _ in range(count))
+            tracemalloc.start()
+            write_checkpoint_file(arrays, "solve", tmp_path / "part")
+            peaks.append(tracemalloc.get_traced_memory()[1])
+            tracemalloc.stop()
+            assert np.shape(read_checkpoint_file(tmp_path / "part", "solve")) == (count, size)
+    assert peaks[1] < 1.1 * peaks[0] < 3 * size
 
 
 def packed(value: Any) -> bytes:

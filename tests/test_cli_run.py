@@ -4,16 +4,21 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import jsonschema
+import numpy as np
 import pytest
 from command import outcome
 from conftest import leave_figures_undrawn
 from scene_texts import COARSE, STEEL_BALL_PRESSED
+from synthetic_result import synthetic_result
 
 from contact_results.directory.file_names import SUMMARY
 from contact_scene.quantities.summary import summary_schema
+from slipstick import load, save
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -118,3 +123,110 @@ def test_output_that_nobody_reads_has_a_code_of_its_own(scene: Path) -> None:
         assert outcome.returncode == 141
         assert b"Error" not in outcome.stderr
     assert (scene.parent / "out" / "summary.json").is_file()
+
+
+SOLVERS = "semi-analytical", "radial", "fem", "fem-complementarity"
+ALIKE = """
+[indenter]
+shape = "paraboloid"
+radius = "5 mm"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.4
+[semi_analytical]
+cells = [48, 48]
+"""
+# Cycles of the normal load, of the approach and of the bulk strain at a constant tangential shift.
+AT_CONSTANT_SHIFT = {
+    "load": ({"normal_force": 200}, {"tangential_shift": [3e-7, 0]}, {"normal_force": 50},
+             {"normal_force": 200}),
+    "approach": ({"approach": 5e-6}, {"tangential_shift": [3e-7, 0]}, {"approach": 2e-6},
+                 {"approach": 5e-6}),
+    "strain": ({"normal_force": 200}, {"tangential_shift": [3e-7, 0], "bulk_strain": [0, 0, 0]},
+               {"bulk_strain": [-1e-4, 0, 0]}, {"bulk_strain": [0, 0, 0]}),
+}  # fmt: skip
+# Energy per cycle [J], which the four solvers give within 6 %.
+LOST = {"load": 5.96e-7, "approach": 5.1e-7, "strain": 3.24e-9}
+
+
+def alike(loading: Sequence[Mapping[str, object]]) -> str:
+    steps = ("".join(f"{key} = {value}\n" for key, value in step.items()) for step in loading)
+    return ALIKE + "".join(f"[[loading]]\n{step}" for step in steps)
+
+
+@pytest.mark.parametrize(
+    ("name", "solver"),
+    # The other solvers refuse the strain beside a tangential load.
+    [
+        (name, solver)
+        for name in AT_CONSTANT_SHIFT
+        for solver in SOLVERS[: 1 if name == "strain" else 4]
+    ],
+)
+def test_a_cycle_at_constant_shift_has_numbers_and_no_ratio_over_its_range(
+    name: str, solver: str, tmp_path: Path
+) -> None:
+    scene = tmp_path / "scene.toml"
+    scene.write_text(alike(AT_CONSTANT_SHIFT[name]), encoding="utf-8")
+    assert outcome("plan", scene, "--solver", solver, cwd=ROOT).returncode == 0
+    ended = run(scene, "--solver", solver, "--figures", "none")
+    assert ended.returncode == 0, ended.stderr
+    end: Any = summary(scene)["steps"][-1]
+    assert end["energy_per_cycle"] == pytest.approx(LOST[name], rel=0.08)
+    assert end["force_amplitude"] > 0
+    assert end["shift_amplitude"] == end["loop_opening"] == 0
+    ratios = "energy_ratio", "energy_friction", "gross_slip_share"
+    assert [end[ratio] for ratio in ratios] == [None] * 3
+    assert end["limit_share"] == pytest.approx(end["force_amplitude"] / (0.4 * end["normal_force"]))
+    exported = outcome("export", tmp_path / "out", "-o", tmp_path / "surface", cwd=ROOT)
+    assert exported.returncode == 0, exported.stderr
+
+
+PARTS = {
+    "the load cycles": "contact_results.result_files.fretting_cycles",
+    "the errors": "contact_errors.coarse_solves.compare_with_coarse_solves",
+    "the tables": "contact_results.files.tables.write_profiles",
+    "the figures": "contact_results.figures.figure_files.overview",
+    "the page": "contact_results.figures.run_page.key_numbers",
+}
+REVERSED = [{"normal_force": 200}, *({"tangential_force": [t, 0]} for t in (40, -40, 40))]
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_a_part_that_cannot_be_computed_is_named_and_the_rest_is_written(
+    part: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The directory is then still that of a run, for all commands that read one."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text(alike(REVERSED), encoding="utf-8")
+    with monkeypatch.context() as planted:
+        planted.setattr(PARTS[part], lambda *_, **__: 1 / 0)
+        ended = run(scene, "--set", "semi_analytical.cells=[16,16]")
+    assert ended.returncode == 70
+    told = f"{part} could not be computed: ZeroDivisionError: division by zero"
+    assert told in " ".join(ended.stderr.split())
+    assert [text for text in summary(scene)["warnings"] if told in str(text)]
+    out = tmp_path / "out"
+    stored = load(out)
+    assert np.max(stored.end_of_step(3).pressure) > 0
+    assert len(stored.last_cycle) == 0 if part == "the load cycles" else stored.last_cycle
+    profile = tmp_path / "profile.csv"
+    profile.write_text("x [um],p [MPa]\n0,1000\n10,900\n", encoding="utf-8")
+    for words in (
+        ("export", out, "-o", tmp_path / "surface"),
+        ("stress", out, "-o", tmp_path / "stress", "--figures", "none"),
+        ("against", profile, out),
+    ):
+        read = outcome(*words, cwd=ROOT)
+        assert read.returncode == 0, read.stderr
+
+
+def test_a_saved_result_names_what_could_not_be_computed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(PARTS["the page"], lambda *_: 1 / 0)
+    with pytest.warns(UserWarning, match="the page could not be computed"):
+        save(synthetic_result(), tmp_path / "out")
+    assert load(tmp_path / "out").summary.warnings[-1].startswith("the page could not")

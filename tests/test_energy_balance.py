@@ -2,6 +2,7 @@
 
 from itertools import combinations
 from math import cos, pi, sin, sqrt
+from time import process_time
 
 import contact_scenes
 import coupled_scenes
@@ -261,16 +262,34 @@ def loop(cells, *loading, window=1.1):
     return solve(described, grid(cells, window), TOLERANCE)
 
 
-def test_slip_amplitude_is_half_the_largest_distance_of_two_slips(monkeypatch):
-    """Of more cells than are told at once, too."""
-    monkeypatch.setattr(cycles, "MAX_AT_ONCE", 1000)
-    monkeypatch.setattr(cycles, "MAX_IN_CACHE", 200)
+def test_slip_amplitude_is_half_the_largest_distance_of_two_slips():
     result = loop(16, PRESS, push(0.8, 0.1), push(-0.8, increments=4), push(0.8, 0.1, increments=4))
     (found,) = fretting_cycles(result)
     slips = [i.slip for i in result.increments if i is result.steps[1] or i.step in (3, 4)]
     assert len(slips) == 9
     largest = np.max([np.hypot(*(a - b)) for a, b in combinations(slips, 2)], axis=0)
     np.testing.assert_allclose(found.slip_amplitude, largest / 2, rtol=1e-13)
+
+
+@pytest.mark.parametrize("width", [0.0, 0.3, 1.0])
+def test_slip_amplitude_keeps_its_bound_in_linear_time(width):
+    """On lines in all directions, exactly; on ellipses and random paths within the bound."""
+    angle, turn = np.linspace(0, 2 * pi, 64), np.linspace(0, pi, 50)
+    along, across = np.cos(angle)[:, None], width * np.sin(angle)[:, None]
+    path = np.stack([along * np.cos(turn) - across * np.sin(turn),
+                     along * np.sin(turn) + across * np.cos(turn)], axis=1)  # fmt: skip
+    path += 0.3 * width * np.random.default_rng(7).normal(size=path.shape)
+    exact = np.max([np.hypot(*(a - b)) for a, b in combinations(path, 2)], axis=0) / 2
+    ratio = cycles._slip_amplitude(lambda: iter(path)) / exact
+    assert np.all(ratio <= 1 + 1e-12)
+    assert np.all(ratio >= (cos(pi / 2 / cycles.DIRECTIONS) if width else 1 - 1e-12))
+    seconds = []
+    for times in (8, 64):
+        long = np.concatenate([path] * times)
+        begin = process_time()
+        cycles._slip_amplitude(lambda long=long: iter(long))
+        seconds.append(process_time() - begin)
+    assert seconds[1] < 20 * seconds[0]  # 64 times as long if every pair is compared
 
 
 def test_the_tension_of_a_loop_is_that_along_its_force():

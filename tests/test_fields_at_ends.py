@@ -5,6 +5,7 @@ Every reader finds the fields, or names the option that stores them.
 
 import csv
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ import fem_reference
 import semi_analytical
 import slipstick
 from contact_results.directory.file_names import FIELDS, INCREMENTS, SUMMARY
+from contact_results.files import stored_run
 from contact_results.files.field_file import write_fields
 from contact_results.result_files import write_result
 from contact_scene import (
@@ -95,11 +97,27 @@ def test_one_increment_is_found_or_refused(directories: tuple[Path, Path]) -> No
         ends.increment(int(ENDS[1]) - 1)
 
 
+def test_a_damaged_file_is_refused_before_hdf5_reads_it(
+    directories: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its library may raise any error, such as SystemError, or crash."""
+    _, ends = directories
+    content, rng = (ends / FIELDS).read_bytes(), np.random.default_rng(3)
+    shutil.copytree(ends, tmp_path, dirs_exist_ok=True)
+    assert slipstick.load(tmp_path).increments
+    monkeypatch.setattr(stored_run, "open_hdf5", None)
+    for place in rng.integers(len(content), size=300).tolist():
+        flipped = bytes([content[place] ^ int(rng.integers(1, 256))])
+        (tmp_path / FIELDS).write_bytes(content[:place] + flipped + content[place + 1 :])
+        with pytest.raises(ValueError, match=r"result\.h5 was changed or damaged.*; run again"):
+            slipstick.load(tmp_path)
+
+
 def test_fields_that_stay_are_those_of_every_increment(tmp_path):
     """Pressures while the load rests are packed once, between others that are not."""
     lighter = {"normal_force": 0.5 * LOAD, "increments": 2}
     result = solve(scene(PRESS, push(0.2, increments=3), lighter, push(-0.2)), grid(16), 1e-8)
-    write_fields(result, (), tmp_path, all_fields=True)
+    write_fields(result, tmp_path, all_fields=True)
     assert len(result.increments) == 7
     with h5py.File(tmp_path / FIELDS) as file:
         for name in ("pressure", "in_contact", "gap", "shear", "slip"):

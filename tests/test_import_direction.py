@@ -153,6 +153,7 @@ ORDERS = {
     "contact_results": (
         "blas_threads",
         "number_text",
+        "omitted_parts",
         "directory",
         "surface",
         "result_warnings",

@@ -4,6 +4,8 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
+from html import escape
 from pathlib import Path
 
 import numpy as np
@@ -55,6 +57,17 @@ def test_equal_results_give_equal_bytes(written: tuple[Result, Path], tmp_path: 
     )
     first = {path.name: path.read_bytes() for path in written[1].iterdir()}
     assert first == {path.name: path.read_bytes() for path in again.iterdir()}
+
+
+@pytest.mark.parametrize("title", ["日本語 😀", r"$x_ \frac{$ 100 % \n<b>&"])
+def test_a_title_of_any_characters_is_drawn_without_a_warning(
+    title: str, tmp_path: Path, recwarn: pytest.WarningsRecorder
+) -> None:
+    result = synthetic_result()
+    named = replace(result, scene=result.scene.model_copy(update={"title": title}))
+    assert not write_result(named, tmp_path).causes
+    assert (tmp_path / PAGE).read_text(encoding="utf-8").count(escape(title)) >= 2
+    assert [str(warning.message) for warning in recwarn] == []
 
 
 def test_summary_fulfils_its_schema_and_reads_back(written: tuple[Result, Path]) -> None:

@@ -18,7 +18,6 @@ from scipy.stats import norm
 import semi_analytical
 from contact_errors import on_cells
 from contact_errors.on_cells import CellSolver
-from contact_results.files.summary_file import summary_of
 from contact_results.result_warnings import warnings_of
 from contact_scene import (
     RIGID,
@@ -246,7 +245,7 @@ def test_ball_is_told_by_its_contact_radius(radii: float, large: bool) -> None:
     ball = Paraboloid(radius=MILLIMETRE, material=RIGID)
     result = strain_solved(ball, Body(material=STEEL), radii**2 * MILLIMETRE)
     assert bool(strain_remarks(result)) is large
-    said = summary_of(result, ()).warnings
+    said = warnings_of(result)
     assert tuple(told for told in said if told.startswith("strains of")) == strain_remarks(result)
 
 

@@ -50,7 +50,9 @@ def write_checkpoint_file(value: Any, identity: str, path: Path) -> None:
         file.write(FORMAT + b"\n" + identity.encode() + b"\n")
         before, content = file.tell(), _DigestWriter(file)
         file.write(bytes(2 * content.digest.digest_size) + b"\n")
-        _Writer(content, PROTOCOL).dump(value)
+        writer = _Writer(content, PROTOCOL)
+        writer.fast = True  # the memo of a pickler would keep every array that it has written
+        writer.dump(value)
         file.seek(before)
         file.write(content.digest.hexdigest().encode())
 

@@ -27,13 +27,16 @@ class Stopwatch:
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
-        """Measure wall-clock and CPU time of the `with` block, as the phase with this name."""
+        """Measure wall-clock and CPU time of the `with` block, added to the phase of this name."""
         wall, cpu = time.perf_counter(), time.process_time()
         try:
             yield
         finally:
-            self.wall_seconds[name] = time.perf_counter() - wall
-            self.cpu_seconds[name] = time.process_time() - cpu
+            for seconds, spent in (
+                (self.wall_seconds, time.perf_counter() - wall),
+                (self.cpu_seconds, time.process_time() - cpu),
+            ):
+                seconds[name] = seconds.get(name, 0.0) + spent
 
 
 def write_timing(

@@ -71,16 +71,18 @@ def draw_loop(ax: Any, loop: Loop) -> None:
     ax  axes of matplotlib
     """
     words = "" if loop.along is None else _direction_name(loop.along)
-    x, across = scale_for_axis(loop.motion, loop.motions, words)
+    motions = [loop.motions]
+    actuator = [i.actuator_shift for i in loop.path]
+    if loop.along is not None and all(shift is not None for shift in actuator):
+        motions.append(np.array(actuator) @ loop.along)
+    (x, *of_actuator), across = scale_for_axis(loop.motion, np.array(motions), words)
     y, upward = scale_for_axis(loop.force, loop.forces, words)
     ax.axhline(0.0, color=style.GREY, linewidth=0.5)
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)
     ax.plot(x, y, color=style.LINE_COLOURS[0], marker=".", markersize=3.5, linewidth=1.2)
-    actuator = [i.actuator_shift for i in loop.path]
-    if loop.along is not None and all(shift is not None for shift in actuator):
-        unit = loop.motions @ x / (loop.motions @ loop.motions)  # from SI to the unit of the axis
+    for values in of_actuator:
         style_of = {"color": style.LINE_COLOURS[2], "linestyle": "--", "linewidth": 1.0}
-        ax.plot(unit * (np.array(actuator) @ loop.along), y, label="actuator", **style_of)
+        ax.plot(values, y, label="actuator", **style_of)
     ends = [n for n, i in enumerate(loop.path) if i.index == i.increments_in_step]
     ax.plot(x[ends], y[ends], "o", color=style.LINE_COLOURS[1], markersize=5, label="end of a step")
     ax.margins(0.08)

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 from contact_results.directory import file_names
 from contact_results.key_numbers import key_numbers
-from contact_results.result_warnings import warnings_of
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.reading.engineering_units import engineering_unit
 
@@ -65,6 +64,7 @@ def write_page(
     directory: Path,
     errors: Mapping[str, StatedError] | None = None,
     cycles: Mapping[str, Sequence[str]] | None = None,
+    warnings: Sequence[str] = (),
 ) -> None:
     """Write the HTML page of a run, with the figures that are in its directory.
 
@@ -73,6 +73,7 @@ def write_page(
     directory  directory of the run
     errors     stated errors of the last load step; None if they were not computed
     cycles     columns of `cycle_columns`; None or empty without load cycles
+    warnings   warnings about the result
     """
     parts = [
         f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
@@ -81,7 +82,7 @@ def write_page(
         "</table>" + ("" if errors is not None else "<p>Errors were left out.</p>"),
         *(_cycle_section(cycles) if cycles else ()),
         f'<p class="soft">{READ_ON}</p>',
-        *(f"<p><strong>Warning:</strong> {escape(text)}.</p>" for text in warnings_of(result)),
+        *(f"<p><strong>Warning:</strong> {escape(text)}.</p>" for text in warnings),
         *_figures_html(directory / name for name in file_names.FIGURES),
         "<h2>Settings</h2><table>",
         *(_row_html(name, text) for name, text in _setting_rows(result)),

@@ -1,5 +1,6 @@
 """Style of the figures, and reproducible image files."""
 
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -42,9 +43,15 @@ CAPTION_SIZE = 7.5
 
 @contextmanager
 def figure_style() -> Iterator[None]:
-    """Apply the style of all figures in the `with` block, without the matplotlibrc of the user."""
+    """Apply the style of all figures in the `with` block, without the matplotlibrc of the user.
+
+    Characters of a title that the font lacks are drawn as boxes without a warning: pages and
+    summaries have the title as well.
+    """
     defaults: Any = {k: v for k, v in matplotlib.rcParamsDefault.items() if k != "backend"}
-    with matplotlib.rc_context(defaults | STYLE):  # rcdefaults would read all style files
+    # rcdefaults would read all style files
+    with matplotlib.rc_context(defaults | STYLE), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", r"Glyph \d+ .* missing from font")
         yield
 
 

@@ -6,7 +6,7 @@ import io
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import h5py
 import numpy as np
@@ -43,30 +43,22 @@ PER_INCREMENT, PER_STEP, COMPONENT = ("increment",), (STEP,), ("component",)
 PLACES = {"step": "loading step, from 1", "increment": "increment within the step, from 1"}
 
 
-def write_fields(
-    result: Result,
-    cycles: Sequence[FrettingCycle],
-    directory: Path,
-    *,
-    all_fields: bool = False,
-) -> None:
+def write_fields(result: Result, directory: Path, *, all_fields: bool = False) -> None:
     """Write `result.h5`: scene, coordinates, scalars and surface fields of a result.
 
-    The file also contains the surface fields of the last load cycle. Equal results give equal
-    bytes.
+    Equal results give equal bytes.
 
     The first array index is the increment for scalars. For fields, it is the load step, or the
     increment with `all_fields`. A field has one chunk per value of this index. Quantities of an
     effect that the solve omits, such as the shear without friction, have no dataset. If some
     increments have angles, fields that depend on the radius alone are repeated at every angle.
 
-    cycles      closed load cycles of the result
     directory   directory of the run
     all_fields  store the fields of all increments, not only of the last one of each load step
     """
     surface = surface_of(result)
     increments: Sequence[Increment] = result.increments
-    with _fields_file(directory / FIELDS) as file:
+    with _fields_file(directory / FIELDS, "w") as file:
         axes = ", ".join(surface.axes)
         file.attrs["description"] = f"slipstick, SI units; fields are [increment, (x, y), {axes}]"
         file.attrs["convention"] = CONVENTION
@@ -90,9 +82,17 @@ def write_fields(
             if mark.kind is Kind.FIELD:
                 _write_field(group, name, mark, surface, shown, counted)
         _write_scalars(group, increments)
-        if cycles:
-            places = tuple(surface.axes)
-            _write_cycle(file.create_group("last_cycle", track_order=False), cycles[-1], places)
+
+
+def add_cycle_fields(result: Result, cycle: FrettingCycle, directory: Path) -> None:
+    """Add the surface fields of the last load cycle of a result to its `result.h5`.
+
+    cycle      last closed load cycle of the result
+    directory  directory of the run
+    """
+    with _fields_file(directory / FIELDS, "r+") as file:
+        places = tuple(surface_of(result).axes)
+        _write_cycle(file.create_group("last_cycle", track_order=False), cycle, places)
 
 
 class _NeverFull(io.FileIO):
@@ -114,11 +114,14 @@ class _NeverFull(io.FileIO):
 
 
 @contextmanager
-def _fields_file(path: Path) -> Iterator[h5py.File]:
-    """Create an HDF5 file for the `with` block; raise a recorded write error at its end."""
-    with _NeverFull(path, "w+") as disk:
+def _fields_file(path: Path, mode: Literal["w", "r+"]) -> Iterator[h5py.File]:
+    """Open an HDF5 file for the `with` block; raise a recorded write error at its end.
+
+    mode  "w" to create the file, "r+" to add to it
+    """
+    with _NeverFull(path, "w+" if mode == "w" else "r+") as disk:
         try:
-            with h5py.File(disk, "w") as file:
+            with h5py.File(disk, mode) as file:
                 yield file
         finally:
             if disk.full is not None:

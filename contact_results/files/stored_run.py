@@ -192,6 +192,12 @@ def load(directory: str | PathLike[str]) -> StoredRun:
         record = load_summary(summary.read_text(encoding="utf-8"))
     except ValueError as error:
         raise ValueError(f"{summary} is not the {SUMMARY} of a run: {error}") from None
+    # Before HDF5 reads a byte: its library may raise any error, or crash, in a damaged file.
+    if record.fields_digest != fields_digest(fields):
+        raise ValueError(
+            f"{fields} was changed or damaged, or is of another run: its digest is not that in "
+            f"{summary}; run again"
+        )
     try:
         with open_hdf5(fields) as file:
             arrays = {key: read_dataset(array) for key, array in file.get(MAPS, {}).items()}
@@ -206,11 +212,6 @@ def load(directory: str | PathLike[str]) -> StoredRun:
         groups = [StoredGroup(fields, group) for group in ("/", "increments", "last_cycle")]
     except (*MISREAD, SceneError) as error:
         raise ValueError(f"{fields} is not the {FIELDS} of a run: {error}") from None
-    if record.fields_digest != fields_digest(fields):
-        raise ValueError(
-            f"{fields} was changed or damaged, or is of another run: its digest is not that in "
-            f"{summary}; run again"
-        )
     places, increments, cycle = groups
     direction = float(x), float(y)
     return StoredRun(record, scene, places, increments, cycle, direction, fineness)

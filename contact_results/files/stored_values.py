@@ -27,7 +27,10 @@ from contact_scene.solver_errors import ResourceRefused
 LARGEST_RATIO = 4096
 MAX_CHUNKS = 10_000  # largest number in one read; fields have one chunk per increment
 # Exceptions that h5py, or code that uses its values, raises for a file of other content.
-MISREAD = (OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError)
+MISREAD = (
+    *(OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, RuntimeError),
+    SystemError,  # h5py raises it for some damaged attributes
+)
 
 MAPS = "maps"  # group of the arrays that the scene reads from files
 # Label of the first index of fields at the ends of load steps.
@@ -53,7 +56,7 @@ def open_hdf5(path: Path) -> Iterator[h5py.File]:
             if (name := file.visititems_links(_name_of_link)) is not None:
                 raise ValueError(f"{path}: {name!r} links to another place; expected its values")
             yield file
-    except (OSError, RuntimeError) as error:
+    except (OSError, RuntimeError, SystemError) as error:
         if getattr(error, "errno", None) in (EACCES, EAGAIN) and "lock" in str(error):
             raise ValueError(
                 f"{path} is in use by another process; wait until it is closed there"

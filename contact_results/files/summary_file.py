@@ -11,7 +11,6 @@ import numpy as np
 
 from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_values import fields_digest
-from contact_results.result_warnings import warnings_of
 from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.increment import SCALARS, columns
 from contact_scene.quantities.stated_error import (
@@ -32,26 +31,18 @@ if TYPE_CHECKING:
     from contact_results.surface import Increment, Result
 
 
-def write_summary(
-    result: Result,
-    cycles: Sequence[FrettingCycle],
-    directory: Path,
-    errors: StatedErrors | None = None,
-    accuracy: AccuracyReached | None = None,
-) -> None:
+def write_summary(summary: RunSummary, directory: Path, warnings: tuple[str, ...]) -> None:
     """Write `summary.json`, which contains the SHA-256 of the file of fields in the directory.
 
     The file of fields must exist already. Equal results give equal bytes.
 
-    cycles     closed load cycles of the result
+    summary    summary of the result
     directory  directory of the run
-    errors     stated errors; None if they were not computed
-    accuracy   requested and reached accuracy; None if none was requested
+    warnings   warnings about the result, which replace those of the summary
     """
-    summary = summary_of(result, cycles, errors, accuracy)
     digest = fields_digest(directory / FIELDS)
-    text = dump_summary(summary.model_copy(update={"fields_digest": digest}))
-    (directory / SUMMARY).write_text(text, encoding="utf-8")
+    told = summary.model_copy(update={"fields_digest": digest, "warnings": warnings})
+    (directory / SUMMARY).write_text(dump_summary(told), encoding="utf-8")
 
 
 def summary_of(
@@ -61,6 +52,8 @@ def summary_of(
     accuracy: AccuracyReached | None = None,
 ) -> RunSummary:
     """Create the summary of a result of any solver; quantities that the solver lacks are None.
+
+    The summary has no warnings.
 
     cycles    closed load cycles of the result
     errors    stated errors; None if they were not computed
@@ -83,7 +76,6 @@ def summary_of(
                 groupby(increments, lambda increment: increment.step), stated, strict=False
             )
         ),
-        warnings=warnings_of(result),
         coarse_solves=errors.coarse_solves if errors else None,
         accuracy=accuracy,
     )

@@ -74,15 +74,17 @@ def _missing_package(error: Exception) -> str:
     return package if package and find_spec(package) is None else ""
 
 
-def explain(error: Exception) -> ExitCode:
-    """Print the message of an exception to stderr, and return the exit code.
-
-    If the environment variable SLIPSTICK_DEBUG is set, the traceback is printed as well.
-    """
-    import typer
-
+def print_traceback(error: Exception) -> None:
+    """Print where an exception was raised, if the environment variable SLIPSTICK_DEBUG is set."""
     if os.environ.get("SLIPSTICK_DEBUG"):
         traceback.print_exception(error)
+
+
+def explain(error: Exception) -> ExitCode:
+    """Print the message of an exception to stderr, and return the exit code."""
+    import typer
+
+    print_traceback(error)
     typer.secho("error: ", fg="red", bold=True, nl=False, err=True)
     typer.echo(message(error), err=True)
     return exit_code(error)

@@ -14,6 +14,7 @@ from slipstick.cli.accuracy_option import (
     remove_level_checkpoints,
     solve_to_accuracy,
 )
+from slipstick.cli.errors import exit_code, print_traceback
 from slipstick.cli.options import (
     OutputOption,
     SceneArgument,
@@ -77,7 +78,8 @@ def run(
 
     DIR is written atomically. Results of an earlier run in DIR are replaced; other files remain. A
     run of more than some seconds stores checkpoints next to DIR: after it was killed, the same
-    command resumes it.
+    command resumes it. A part of the results that cannot be computed is named in a warning; the
+    solved fields and the other parts are written.
 
     With --accuracy, or a table [accuracy] in the scene, the scene is first solved on a coarse grid
     or mesh. Cells and increments are then refined until the stated errors meet the request.
@@ -87,6 +89,7 @@ def run(
     from contact_results.directory.run_directory import run_directory
     from contact_results.directory.stop_signals import NOTHING_KEPT, cleaned_up_when_stopped
     from contact_results.directory.timing import Stopwatch, write_timing
+    from contact_results.omitted_parts import OmittedParts
     from contact_scene import read_scene_file
     from slipstick.cli.terminal import print_message
 
@@ -118,33 +121,41 @@ def run(
             else:
                 with solve_progress(decided.increments) as observe:
                     result = chosen.solve(contents.scene, fineness, decided, observe, store)
+        omitted = OmittedParts()
+        with stopwatch.phase("write"):
+            from contact_results.files.field_file import write_fields
+            from contact_results.result_files import write_computed
+
+            write_fields(result, staging, all_fields=all_fields)
         if error and stated is None:
             with stopwatch.phase("error"), show_coarse_solves():
-                stated = chosen.errors(result)
+                stated = omitted.compute("the errors", lambda: chosen.errors(result), None)
         with stopwatch.phase("write"):
-            from contact_results.result_files import write_result
-
-            cycles = write_result(
+            written = write_computed(
                 result,
                 staging,
+                omitted,
                 figures=figures.value,
                 errors=stated,
                 accuracy=reached,
-                all_fields=all_fields,
             )
         write_timing(stopwatch, staging, result.increments)
-    from contact_results.result_warnings import warnings_of
 
     if request is None:
         remove_level_checkpoints(output)
-    _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds, cycles)
-    for warning in warnings_of(result):
+    _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds, written.cycles)
+    for warning in written.warnings:
         if warning not in printed:
             print_message(f"warning: {warning}")
     if not error:
         typer.echo("  no errors, because of --no-error")
     typer.echo(f"results in {output}")
     exit_unless_met(reached)
+    causes = list(omitted.causes.values())
+    for cause in causes:
+        print_traceback(cause)
+    if causes:
+        raise typer.Exit(exit_code(causes[0]))
 
 
 def _print_outcome(
