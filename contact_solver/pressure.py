@@ -127,8 +127,11 @@ class PressureProblem:
         total = p.sum()  # zero where a step under a prescribed approach has overshot
         complementarity = inner(np.abs(g), p) / total if total > 0 else 0.0
         penetration = -np.where(self.allowed, g, 0.0).min()
+        overlap = self.overlap(motion)
+        if not overlap > 0:  # a diverging step
+            return np.inf
         # A NaN is larger than any number.
-        return float(np.maximum(complementarity, penetration) / self.overlap(motion))
+        return float(np.maximum(complementarity, penetration) / overlap)
 
     def admissible(self, p: Vector) -> Vector:
         """Return a non-negative pressure near a given one with the prescribed forces.

@@ -33,7 +33,7 @@ class Increment(RingIncrement):
     a gap of exactly zero in contact and a slip of exactly zero in stick.
 
     factorizations  number of sparse factorisations
-    sweeps          number of alternating iterations between the normal and the tangential problem
+    sweeps          number of outer iterations of the coupled problem; 1 without coupling
     iterations      number of linear iterations of the contact algorithm
     path            name of the algorithm that solved the coupled normal and tangential problems;
                     None if these problems are not coupled

@@ -269,7 +269,7 @@ class Counters:
     ] = None
     sweeps: Annotated[
         Count | None,
-        Reported("", "Alternating iterations of pressure and shear on elements.", Kind.COUNTER),
+        Reported("", "Outer iterations of pressure and shear on elements.", Kind.COUNTER),
     ] = None
     augmentations: Annotated[
         Count | None,

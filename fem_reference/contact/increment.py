@@ -121,8 +121,8 @@ class _Pass:
                   load
     residuals     residuals of the contact and friction laws
     outer_iterations
-                  number of alternating iterations in all attempts
-    solves        number of linear systems in all attempts
+                  number of outer iterations in all attempts
+    solves        number of linear iterations in all attempts
     """
 
     problem: PointProblem
@@ -412,7 +412,7 @@ class _Increment:
         solution    tractions and rigid motion of the indenter
         multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
         outer_iterations, solves
-                    numbers of alternating iterations and of linear systems so far
+                    numbers of outer iterations and of linear iterations so far
         """
         compliance, motion = problem.compliance, solution.shift
         if motion is None and not np.any(problem.bound(solution.pressure)):

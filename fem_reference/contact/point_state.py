@@ -41,7 +41,7 @@ class PointState:
     moved           largest mean tangential displacement in the history, weighted with the shear
                     [length]
     outer_iterations, solves
-                    numbers of alternating iterations and of linear systems
+                    numbers of outer iterations and of linear iterations
     augmentations   number of augmented-Lagrangian updates of the multipliers
     strain          equibiaxial strain imposed on the lower body since first contact [1]
     algorithm       algorithm that solved pressure and shear; None if they are not coupled
