@@ -51,6 +51,9 @@ class InThisProcess:
     def lost(self) -> list[str]:
         return ["tcp://here:1"]
 
+    def deserted(self) -> str:
+        return ""
+
     def submit(self, compute: Callable[..., Answer], case: Square) -> Future[Answer]:
         future: Future[Answer] = Future()
         answer = compute(case)
@@ -310,8 +313,8 @@ def test_the_time_left_is_in_proportion_to_the_work_left(monkeypatch, capsys) ->
 
     monkeypatch.setattr(
         "verification.running.case_pool.run_cases",
-        lambda cases, store, workers, observe, fresh: [
-            observe(SimpleNamespace(case=case, stored=False, warnings=())) for case in cases
+        lambda cases, store, workers, observe, fresh, warn: [
+            observe(SimpleNamespace(case=case, stored=False)) for case in cases
         ],
     )
     progress.run_with_progress(cases, cast("Any", None), 1, str, {"small": 1, "large": 3})
