@@ -178,20 +178,21 @@ WRITTEN = """
 
 @pytest.mark.parametrize("kind", [LENGTH, FORCE, MOMENT, STIFFNESS, PRESSURE, ANGLE, SHARE])
 def test_a_suggested_unit_has_the_size_of_the_written_one(kind: Kind) -> None:
-    for written in {*WRITTEN.split()} - {*kind.units}:
-        suggested = equal_unit(written, kind)
-        if suggested is None:
-            continue
-        apart, known = (
-            re.sub("N(?=m)", "N ", re.sub("(?<=m)2", "^2", unit)) for unit in (written, suggested)
-        )
-        if suggested.lower() == written.lower():
-            mega, other = (
-                [letter for letter in unit if letter in "mM"] for unit in (written, suggested)
-            )
-            assert mega == other
-        else:
-            assert UNITS.Quantity(1.0, apart).to(known).magnitude == pytest.approx(1.0)
+    pairs = [(written, equal_unit(written, kind)) for written in {*WRITTEN.split()} - {*kind.units}]
+    sizes = {pair: size_of_one_in(*pair) for pair in pairs if pair[1] is not None}
+    assert sizes == pytest.approx(dict.fromkeys(sizes, 1.0))
+
+
+def size_of_one_in(written: str, suggested: str) -> float:
+    """One written unit in suggested ones; units that differ by case alone agree in m and M."""
+    if suggested.lower() == written.lower():
+        mega, other = ([one for one in unit if one in "mM"] for unit in (written, suggested))
+        return float(mega == other)
+    apart, known = (
+        re.sub("N(?=m)", "N ", re.sub("(?<=m)2", "^2", unit)) for unit in (written, suggested)
+    )
+    size: float = UNITS.Quantity(1.0, apart).to(known).magnitude
+    return size
 
 
 @given(st.text(max_size=30) | st.from_regex(r"[0-9.eE+-]{1,8} ?[A-Za-z*/^ 0-9-]{1,12}"))

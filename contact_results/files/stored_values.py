@@ -32,6 +32,9 @@ MISREAD = (
     SystemError,  # h5py raises it for some damaged attributes
 )
 
+# Bytes of the superblock of an HDF5 file that contain the size of the file.
+END_OF_FILE = slice(40, 48)
+
 MAPS = "maps"  # group of the arrays that the scene reads from files
 # Label of the first index of fields at the ends of load steps.
 STEP = "step"
@@ -70,8 +73,16 @@ def _name_of_link(name: str, link: object) -> str | None:
 
 
 def fields_digest(path: Path) -> str:
-    """Compute the SHA-256 of a file, which `summary.json` records for the file of fields."""
+    """Compute the SHA-256 of a file, which `summary.json` records for the file of fields.
+
+    The result is empty for a file whose size is not that in its superblock (HDF5 File Format
+    Specification 3.0, section II.A, version 0): a damaged file may be too large to be read.
+    """
     with path.open("rb") as file:
+        size = int.from_bytes(file.read(END_OF_FILE.stop)[END_OF_FILE], "little")
+        if size != path.stat().st_size:
+            return ""
+        file.seek(0)
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
