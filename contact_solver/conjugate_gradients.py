@@ -60,7 +60,10 @@ def solve_in_zones(
         iterations += 1
         d_u = displace(d)
         fall = rows(d, d_u)
-        step = rz / inner(d, fall)
+        curvature = inner(d, fall)
+        if curvature == 0:  # d is round-off: prescribed forces leave no free direction
+            break
+        step = rz / curvature
         t += step * d
         u += step * d_u
         r = r - step * fall

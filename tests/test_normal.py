@@ -16,7 +16,7 @@ from contact_solver.admissible_shear import (
     project_on_discs,
     project_trial,
 )
-from contact_solver.conjugate_gradients import Point
+from contact_solver.conjugate_gradients import Point, solve_in_zones
 from contact_solver.dense_inverse import inverse_on
 from contact_solver.gross_slip import exhausts_friction, full_slip
 from contact_solver.pressure import PressureProblem, solve_pressure
@@ -72,6 +72,16 @@ def test_a_solution_is_left_as_it_is(rng):
     A, h = compliance(rng, 20), rng.random(20)
     first = solved(A, h, pressed(3.0))
     assert solved(A, h, pressed(3.0), first.pressure, 2 * TOLERANCE).iterations == 0
+
+
+def test_conjugate_gradients_end_where_forces_leave_no_free_direction():
+    """The force on a single point prescribes its pressure; its residual is round-off."""
+    start = Point(np.ones(1), np.ones(1))
+    found, iterations = solve_in_zones(
+        np.copy, lambda d, d_u: 0.0 * d_u, np.copy, start, np.array([1e-17]), 1e-2, 10
+    )
+    assert iterations == 1
+    assert found.tractions == start.tractions
 
 
 def test_an_operator_that_is_not_positive_is_reported(rng):
