@@ -90,6 +90,8 @@ def _value_text(value: object, unit: str = "") -> str:
     if value is None or value == ():
         return ""
     if isinstance(value, ArrayFile):
+        if 2 in value.shape:  # radii and heights of a profile
+            return f"{value} ({max(value.shape)} points)"
         low, high = np.nanmin(value.values), np.nanmax(value.values)
         points = " x ".join(map(str, value.shape))
         return f"{value} ({points} values from {low:.4g} to {high:.4g})"
