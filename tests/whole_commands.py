@@ -24,7 +24,7 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import numpy as np
-from pydantic import BaseModel
+from pydantic import BaseModel, ValidationError
 
 from contact_scene import RIGID, Scene, SceneError
 from contact_scene.reading.array_file import ArrayFile
@@ -194,7 +194,7 @@ def draw_scenes(count: int, seed: int) -> Iterator[tuple[str, Scene]]:
         cell = draw_cell(rng)
         try:
             scene = pose(cell).scene
-        except SceneError:
+        except (SceneError, ValidationError):
             continue
         count -= 1
         yield cell.name, scene
