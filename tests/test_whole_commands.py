@@ -9,7 +9,7 @@ import pytest
 from contact_scenes import LIMIT, LOAD, PRESS, RIGID_BALL, A, push, scene, steel
 from whole_commands import SOLVERS, campaign, run_command, write_scene
 
-from contact_scene import Body, Layer
+from contact_scene import Body, CoulombFriction, Layer, LoadStep, Paraboloid, Scene
 from contact_scene.friction_limit import AT_LIMIT, ROUND_OFF
 
 LAYER = Layer(thickness=A, material=steel(0.3, 2e11))
@@ -54,6 +54,25 @@ def summary(folder: Path, solver: str, *options: str) -> dict[str, Any]:
     assert ran.code == 0, ran.text
     record: dict[str, Any] = json.loads((output / "summary.json").read_text(encoding="utf-8"))
     return record
+
+
+def test_round_off_at_the_friction_limit_is_no_stick_zone(tmp_path: Path) -> None:
+    """Few elements below a stiff film: the friction limit exceeds the shear by 1e-10."""
+    film = Layer(thickness=1e-5, material=steel(0.3, 1e15))
+    base = Body(material=steel(0.3, 1e12), layers=(film,))
+    contact = Scene(
+        indenter=Paraboloid(radius=0.0464, **dict(base)),
+        body=base,
+        friction=CoulombFriction(coefficient=1.0),
+        loading=[
+            LoadStep(normal_force=20341.4793441547, increments=3),
+            LoadStep(tangential_force=(20341.479342120554, 0.0), increments=1),
+        ],
+    )
+    write_scene(contact, tmp_path / "scene.toml")
+    record = summary(tmp_path, "fem")
+    assert record["steps"][-1]["stick_radius"] == 0
+    assert not [text for text in record["warnings"] if "could not be computed" in text]
 
 
 @pytest.mark.parametrize(

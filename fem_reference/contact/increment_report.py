@@ -167,6 +167,9 @@ def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float
     state    contact state with tractions and slipping points
     edges    radius of the contact edge on every ray (angles,) [length]
     """
+    if state.motion is None:
+        # At the friction limit the shear may differ from it by round-off, which is no stick zone.
+        return 0.0
     contact_area = _contact_area(contact, edges)
     if state.status is ContactStatus.FULL_STICK and contact.at_gauss_points:
         return contact_area
