@@ -376,6 +376,9 @@ class SolvedRun:
         parts = {part: np.maximum(size, last.get(part, 0.0)) for part, size in parts.items()}
         before[name] = parts
         small = np.all(sum(parts.values()) <= LARGEST_SHARE * largest + parts["tolerance"])
+        if np.all(largest <= floor) and np.all(sum(parts.values()) <= 2 * floor):
+            # Zero within the tolerance at every fineness so far: no cell has to resolve its cause.
+            return build_stated_error(parts, name not in AT_EDGES)
         nearly = name in OF_SLIP and self._near_gross_slip[step]
         return build_stated_error(parts, bool(small and not nearly and features.resolve(name)))
 

@@ -151,6 +151,22 @@ def test_a_worked_example() -> None:
 
 
 @pytest.mark.parametrize(
+    ("size", "status"),
+    [(1e-20, ErrorStatus.ESTIMATED), (1e-6, ErrorStatus.NOT_CONVERGED)],
+    ids=["round-off", "slip"],
+)
+def test_a_shift_that_is_round_off_needs_no_cells(size: float, status: ErrorStatus) -> None:
+    """A slip annulus narrower than half a cell leaves the shift open only where something slips."""
+    names = ("approach", "normal_force", "contact_radius", "contact_area", "peak_pressure")
+    sizes = {name: np.ones(1) for name in names}
+    fine, coarse = ([{**sizes, "tangential_shift": np.array([x, 0.0])}] for x in (size, 2 * size))
+    cells = Comparison("cells", fine, coarse, [2.0])
+    posed, features = scene({**PRESS, **push(0.1)}), Features(10, annulus=0.0)
+    run = SolvedRun(posed, fine, [1e-8], [features], [cells], {"cells": [True]}, {})
+    assert next(run.errors())["tangential_shift"].status is status
+
+
+@pytest.mark.parametrize(
     ("name", "expected"),
     {"torque": 15.0, "approach": 2.0, "twist": 0.4, "elastic_energy": 6.0}.items(),
 )
