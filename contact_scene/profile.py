@@ -23,7 +23,8 @@ _BISECTIONS = 64
 # Quadrature points over the angle, for estimates of the contact radius.
 _ANGLES = 64
 # Limits of the contact radius in estimates, over the radius of the last point.
-_SMALLEST, _LARGEST = 1e-12, 1e6
+_SMALLEST = 1e-12
+_LARGEST = 1e6
 
 
 @dataclass(frozen=True)

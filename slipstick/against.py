@@ -29,8 +29,12 @@ from contact_scene.reading.text_table import ColumnNames
 from contact_scene.rig import compliances
 
 Numbers = NDArray[np.float64]
-SHIFT, ACTUATOR = "tangential_shift", "actuator_shift"
-LOAD, PLACE, PRESSURE, SHEAR = "tangential_force", "x", "pressure", "shear"
+SHIFT = "tangential_shift"
+ACTUATOR = "actuator_shift"
+LOAD = "tangential_force"
+PLACE = "x"
+PRESSURE = "pressure"
+SHEAR = "shear"
 # Accepted heads of measured columns, including those of increments.csv and profiles.csv.
 MEASURED: ColumnNames = {
     SHIFT: (

@@ -140,13 +140,25 @@ cells = [48, 48]
 """
 # Cycles of the normal load, of the approach and of the bulk strain at a constant tangential shift.
 AT_CONSTANT_SHIFT = {
-    "load": ({"normal_force": 200}, {"tangential_shift": [3e-7, 0]}, {"normal_force": 50},
-             {"normal_force": 200}),
-    "approach": ({"approach": 5e-6}, {"tangential_shift": [3e-7, 0]}, {"approach": 2e-6},
-                 {"approach": 5e-6}),
-    "strain": ({"normal_force": 200}, {"tangential_shift": [3e-7, 0], "bulk_strain": [0, 0, 0]},
-               {"bulk_strain": [-1e-4, 0, 0]}, {"bulk_strain": [0, 0, 0]}),
-}  # fmt: skip
+    "load": (
+        {"normal_force": 200},
+        {"tangential_shift": [3e-7, 0]},
+        {"normal_force": 50},
+        {"normal_force": 200},
+    ),
+    "approach": (
+        {"approach": 5e-6},
+        {"tangential_shift": [3e-7, 0]},
+        {"approach": 2e-6},
+        {"approach": 5e-6},
+    ),
+    "strain": (
+        {"normal_force": 200},
+        {"tangential_shift": [3e-7, 0], "bulk_strain": [0, 0, 0]},
+        {"bulk_strain": [-1e-4, 0, 0]},
+        {"bulk_strain": [0, 0, 0]},
+    ),
+}
 # Energy per cycle [J], which the four solvers give within 6 %.
 LOST = {"load": 5.96e-7, "approach": 5.1e-7, "strain": 3.24e-9}
 

@@ -276,8 +276,13 @@ def test_slip_amplitude_keeps_its_bound_in_linear_time(width):
     """On lines in all directions, exactly; on ellipses and random paths within the bound."""
     angle, turn = np.linspace(0, 2 * pi, 64), np.linspace(0, pi, 50)
     along, across = np.cos(angle)[:, None], width * np.sin(angle)[:, None]
-    path = np.stack([along * np.cos(turn) - across * np.sin(turn),
-                     along * np.sin(turn) + across * np.cos(turn)], axis=1)  # fmt: skip
+    path = np.stack(
+        [
+            along * np.cos(turn) - across * np.sin(turn),
+            along * np.sin(turn) + across * np.cos(turn),
+        ],
+        axis=1,
+    )
     path += 0.3 * width * np.random.default_rng(7).normal(size=path.shape)
     exact = np.max([np.hypot(*(a - b)) for a, b in combinations(path, 2)], axis=0) / 2
     ratio = cycles._slip_amplitude(lambda: iter(path)) / exact

@@ -293,9 +293,14 @@ def test_loads_that_grow_by_more_than_friction_take_many(solver):
         assert has_increment_error(described)[-1]
 
 
-BUMPS = np.minimum(*((np.add.outer((np.linspace(-2, 2, 65) * A - x) ** 2,
-                                   np.linspace(-2, 2, 65) ** 2 * A**2)) / 2 / RADIUS
-                     for x in (-0.8 * A, 0.9 * A)))  # fmt: skip
+BUMPS = np.minimum(
+    *(
+        (np.add.outer((np.linspace(-2, 2, 65) * A - x) ** 2, np.linspace(-2, 2, 65) ** 2 * A**2))
+        / 2
+        / RADIUS
+        for x in (-0.8 * A, 0.9 * A)
+    )
+)
 GROWING = {
     "cone": ({"indenter": Cone(slope_angle=0.02, material=steel())}, None, True),
     "ellipse, obliquely": (

@@ -9,9 +9,11 @@ from contact_scene.body import Body
 from contact_scene.material import IsotropicMaterial
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 
-GROWTH, GROWTH_SIZE = 1.2, 1.0 / 32
+GROWTH = 1.2
 """Ratio of the sizes of neighbouring elements outside the contact zone, if those of the zone have
-the side GROWTH_SIZE, in contact radii, that of the default number of elements."""
+the side GROWTH_SIZE."""
+GROWTH_SIZE = 1.0 / 32
+"""Side of the elements of the contact zone by default, in contact radii."""
 
 CONTACT_ZONE = 1.1
 """Least outer radius of the zone of equal elements, in contact radii."""

@@ -760,9 +760,12 @@ def _shift_at_reversals(result: Any, _: int, problem: Problem) -> float:
 
 
 FORCE = number(
-    "tangential_force", "tangential force{when}", quantity="tangential_force_x",
-    exact="tangential_force", over=OVER_FRICTION,
-)  # fmt: skip
+    "tangential_force",
+    "tangential force{when}",
+    quantity="tangential_force_x",
+    exact="tangential_force",
+    over=OVER_FRICTION,
+)
 HALVES = {0: 0.5, 1: 1.0}  # normal force over 1 kN, by load step
 
 
