@@ -5,6 +5,7 @@
     errors = slipstick.stated_errors(result)       # error of every scalar
     slipstick.save(result, "out", errors=errors)   # summary, tables, fields, figures
     run = slipstick.load("out")                    # arrays with units and meanings
+    slipstick.surface_response(body, m, n)         # displacement of a body by a wave of traction
 
 The names of this module are imported on first use. The solvers' own interfaces are in
 `semi_analytical`, `fem_reference` and `radial`.
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
         SurfaceDiscretisation,
         load_scene,
     )
+    from semi_analytical.frf.response_matrix import surface_response
     from slipstick.solving import plan, save, solve, stated_errors
 
 __all__ = [
@@ -64,12 +66,14 @@ __all__ = [
     "save",
     "load",
     "StoredRun",
+    "surface_response",
 ]
 
 HOMES = {
     **dict.fromkeys(__all__, "contact_scene"),
     **dict.fromkeys(("plan", "solve", "stated_errors", "save"), "slipstick.solving"),
     **dict.fromkeys(("load", "StoredRun"), "contact_results.files.stored_run"),
+    "surface_response": "semi_analytical.frf.response_matrix",
 }
 
 

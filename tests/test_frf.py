@@ -11,6 +11,7 @@ from scipy.linalg import expm
 from stack_strategies import stacks
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
+from semi_analytical.frf.response_matrix import response_matrix
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.frf.surface import half_space_scalars, remainder_scalars, scalars
 from verification.laws.limit_laws import (
@@ -20,7 +21,6 @@ from verification.laws.limit_laws import (
     apart,
     combined,
     composite_frf_matrix,
-    frf_matrix,
     worst_violation,
 )
 from verification.references import load_reference
@@ -54,7 +54,7 @@ def test_matrix_agrees_with_reference(row):
     F = {key: float(value) for key, value in row["F"].items()}
     xz, yz = 1j * F["im_xz"], 1j * F["im_yz"]
     expected = np.array([[F["xx"], F["xy"], xz], [F["xy"], F["yy"], yz], [-xz, -yz, F["zz"]]])
-    got = frf_matrix(stack_of_row(row), row["m"], row["n"])
+    got = response_matrix(stack_of_row(row), row["m"], row["n"])
     assert np.abs(got - expected).max() < ACCURACY * np.abs(expected).max()
 
 
@@ -133,7 +133,7 @@ def test_rigid_body_does_not_deform():
     assert not np.any(scalars(rigid, [1.0, 2.0]))
     elastic = Stack((), (1.0, 0.3))
     F = composite_frf_matrix(elastic, rigid, 1.0, 2.0)
-    np.testing.assert_array_equal(F, frf_matrix(elastic, 1.0, 2.0))
+    np.testing.assert_array_equal(F, response_matrix(elastic, 1.0, 2.0))
 
 
 def test_stack_of_a_body_keeps_the_order():

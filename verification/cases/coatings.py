@@ -21,6 +21,7 @@ from contact_scene.quantities.residuals import worst
 from radial.normal.disc import disc
 from radial.normal.surface import pressure
 from radial.response.bodies import Bodies
+from semi_analytical.frf.response_matrix import response_matrix
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.layered import LayeredCoefficients
@@ -69,7 +70,7 @@ from verification.judging.declared_case import (
     scaled_tolerance,
 )
 from verification.judging.drawings import PRESSURE, convergence, profile
-from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS, frf_matrix, worst_violation
+from verification.laws.limit_laws import LIMIT_LAWS, SYMMETRY_LAWS, worst_violation
 from verification.observed.ring_errors import normal_force
 from verification.problems.indentation import (
     BARE,
@@ -789,7 +790,7 @@ def _frf_errors(number: int) -> tuple[float, float]:
     F = {key: float(value) for key, value in row["F"].items()}
     xz, yz = 1j * F["im_xz"], 1j * F["im_yz"]
     expected = np.array([[F["xx"], F["xy"], xz], [F["xy"], F["yy"], yz], [-xz, -yz, F["zz"]]])
-    difference = frf_matrix(_reference_stack(row), row["m"], row["n"]) - expected
+    difference = response_matrix(_reference_stack(row), row["m"], row["n"]) - expected
     return (
         float(np.max(np.abs(got - (c11, c12, c22, csh)) / scale)),
         float(np.abs(difference).max() / np.abs(expected).max()),

@@ -14,6 +14,7 @@ from numpy.random import Generator
 from numpy.typing import ArrayLike, NDArray
 
 from semi_analytical.frf.depth import Descent, Level
+from semi_analytical.frf.response_matrix import matrix_for_axes, response_matrix
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import (
     SurfaceScalars,
@@ -88,20 +89,6 @@ def deficit(larger: NDArray[np.complex128], smaller: NDArray[np.complex128]) -> 
     return max(0.0, -least / float(np.abs(larger).max()))
 
 
-def frf_matrix(stack: Stack, m: ArrayLike, n: ArrayLike) -> NDArray[np.complex128]:
-    """Compute the FRF matrix of the surface of one layered body, for fields exp(+i(m x + n y)).
-
-    FRF (frequency response function): displacement per unit traction. The z axis points into the
-    body. The result has the shape (..., 3, 3): row = displacement (x, y, z), column = traction
-    (q_x, q_y, p) [length^3/force]. It is Hermitian and positive definite.
-
-    stack  layers and base of the body
-    m, n   wavenumbers along x and y [1/length], broadcast together, not both zero
-    """
-    m, n = _wave_vector(m, n)
-    return rotated(scalars(stack, np.hypot(m, n)), m, n)
-
-
 def composite_frf_matrix(
     lower: Stack, upper: Stack, m: ArrayLike, n: ArrayLike
 ) -> NDArray[np.complex128]:
@@ -114,9 +101,9 @@ def composite_frf_matrix(
     lower, upper  layers and base of both bodies
     m, n          wavenumbers along x and y [1/length], broadcast together, not both zero
     """
-    m, n = _wave_vector(m, n)
+    m, n = np.broadcast_arrays(np.asarray(m, np.float64), np.asarray(n, np.float64))
     alpha = np.hypot(m, n)
-    return rotated(combined(scalars(lower, alpha), scalars(upper, alpha)), m, n)
+    return matrix_for_axes(combined(scalars(lower, alpha), scalars(upper, alpha)), m, n)
 
 
 def combined(lower: SurfaceScalars, upper: SurfaceScalars) -> SurfaceScalars:
@@ -126,38 +113,6 @@ def combined(lower: SurfaceScalars, upper: SurfaceScalars) -> SurfaceScalars:
     """
     signs = (1, -1, 1, 1)
     return SurfaceScalars(*(a + sign * b for a, sign, b in zip(lower, signs, upper, strict=True)))
-
-
-def rotated(
-    response: SurfaceScalars, m: NDArray[np.float64], n: NDArray[np.float64]
-) -> NDArray[np.complex128]:
-    """Convert FRF scalars, which belong to the direction of the wave, to the matrix for the axes x,
-    y, z.
-
-    The result has the shape (..., 3, 3): row = displacement, column = traction.
-
-    response  responses along, across and normal to the wave, and their coupling [length^3/force]
-    m, n      wavenumbers along x and y [1/length]
-    """
-    alpha = np.hypot(m, n)
-    mm, nn = m / alpha, n / alpha
-    c11, c12, c22, csh = response
-    F = np.empty((*alpha.shape, 3, 3), dtype=np.complex128)
-    F[..., 0, 0] = mm * mm * c11 + nn * nn * csh
-    F[..., 1, 1] = nn * nn * c11 + mm * mm * csh
-    F[..., 0, 1] = F[..., 1, 0] = mm * nn * (c11 - csh)
-    F[..., 2, 2] = c22
-    F[..., 0, 2] = 1j * mm * c12
-    F[..., 1, 2] = 1j * nn * c12
-    F[..., 2, 0] = -F[..., 0, 2]
-    F[..., 2, 1] = -F[..., 1, 2]
-    return F
-
-
-def _wave_vector(m: ArrayLike, n: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Convert the wavenumbers along x and y to arrays of one shape."""
-    m, n = np.broadcast_arrays(np.asarray(m, np.float64), np.asarray(n, np.float64))
-    return m, n
 
 
 SPECIAL_RATIOS = (0.0, 0.3, 0.5)
@@ -250,7 +205,7 @@ def _stiffer_layer_deficit(rng: Generator) -> float:
     else:
         stiffer = _replace_layer(body, place, body.layers[place]._replace(
             shear_modulus=factor * body.layers[place].shear_modulus))  # fmt: skip
-    return deficit(frf_matrix(body, *k), frf_matrix(stiffer, *k))
+    return deficit(response_matrix(body, *k), response_matrix(stiffer, *k))
 
 
 def _less_compressible_deficit(rng: Generator) -> float:
@@ -258,7 +213,7 @@ def _less_compressible_deficit(rng: Generator) -> float:
     low, high = sorted((body.layers[0].poisson_ratio, half_space(rng).poisson_ratio))
     return deficit(
         *(
-            frf_matrix(_replace_layer(body, 0, body.layers[0]._replace(poisson_ratio=nu)), *k)
+            response_matrix(_replace_layer(body, 0, body.layers[0]._replace(poisson_ratio=nu)), *k)
             for nu in (low, high)
         )
     )
@@ -267,7 +222,7 @@ def _less_compressible_deficit(rng: Generator) -> float:
 def _thicker_layer_deficit(rng: Generator) -> float:
     (G, nu), k = half_space(rng), wave_vector(rng)
     soft, h, factor = G / decades(rng, 0, 3), film(rng).thickness, rng.uniform(1, 10)
-    thick, thin = (frf_matrix(Stack([(soft, nu, t)], (G, nu)), *k) for t in (factor * h, h))
+    thick, thin = (response_matrix(Stack([(soft, nu, t)], (G, nu)), *k) for t in (factor * h, h))
     return deficit(thick, thin)
 
 
@@ -275,9 +230,9 @@ def _half_space_bounds_deficit(rng: Generator) -> float:
     one, other, k = half_space(rng), half_space(rng), wave_vector(rng)
     soft = HalfSpace(*map(min, one, other))
     stiff = HalfSpace(*map(max, one, other))
-    F = frf_matrix(Stack([(*soft, film(rng).thickness)], stiff), *k)
-    below = frf_matrix(Stack((), soft), *k)
-    return max(deficit(below, F), deficit(F, frf_matrix(Stack((), stiff), *k)))
+    F = response_matrix(Stack([(*soft, film(rng).thickness)], stiff), *k)
+    below = response_matrix(Stack((), soft), *k)
+    return max(deficit(below, F), deficit(F, response_matrix(Stack((), stiff), *k)))
 
 
 def _rigid_base_order_error(rng: Generator) -> float:
@@ -308,7 +263,7 @@ def _long_wave_error(rng: Generator) -> float:
     uniform = np.diag([shear.sum(), shear.sum(), (shear * (0.5 - nu) / (1 - nu)).sum()])
     contrast = max(f.shear_modulus for f in films) / softest
     alpha = 1e-9 / (contrast * sum(f.thickness for f in films))
-    return apart(frf_matrix(Stack(films), alpha, 0.0), uniform.astype(np.complex128))
+    return apart(response_matrix(Stack(films), alpha, 0.0), uniform.astype(np.complex128))
 
 
 def _incompressible_limit_error(rng: Generator) -> float:
@@ -339,7 +294,7 @@ def _layer_echo_excess(rng: Generator) -> float:
 
 def _count_non_finite_entries(rng: Generator) -> float:
     body, m = stack(rng), decades(rng, 3, 6)
-    values = [*frf_matrix(body, m, -m).ravel(), *remainder_scalars(body, m)]
+    values = [*response_matrix(body, m, -m).ravel(), *remainder_scalars(body, m)]
     return float(np.count_nonzero(~np.isfinite(values)))
 
 
@@ -405,18 +360,18 @@ LIMIT_LAWS = (
 
 
 def _reciprocity_error(rng: Generator) -> float:
-    F = frf_matrix(stack(rng), *wave_vector(rng))
+    F = response_matrix(stack(rng), *wave_vector(rng))
     return apart(F, F.conj().T)
 
 
 def _real_response_error(rng: Generator) -> float:
     body, (m, n) = stack(rng), wave_vector(rng)
-    return apart(frf_matrix(body, -m, -n), frf_matrix(body, m, n).conj())
+    return apart(response_matrix(body, -m, -n), response_matrix(body, m, n).conj())
 
 
 def _parity_error(rng: Generator) -> float:
     body, (m, n) = stack(rng), wave_vector(rng)
-    F, turned = frf_matrix(body, m, n), frf_matrix(body, -m, -n)
+    F, turned = response_matrix(body, m, n), response_matrix(body, -m, -n)
     sign = np.array([[1, 1, -1], [1, 1, -1], [-1, -1, 1]])
     imaginary = np.where(sign > 0, F.imag, F.real)
     return max(apart(turned, sign * F), float(np.abs(imaginary).max() / np.abs(F).max()))
@@ -427,7 +382,7 @@ def _negative_energy(rng: Generator) -> float:
     c11, c12, c22, csh = scalars(body, np.hypot(*k))
     if not (c11 > 0 and c22 > 0 and csh > 0 and c11 * c22 > c12**2):
         return np.inf
-    F = frf_matrix(body, *k)
+    F = response_matrix(body, *k)
     return max(0.0, -float(np.linalg.eigvalsh(F).min() / np.abs(F).max()))
 
 
@@ -436,7 +391,7 @@ def _rotation_error(rng: Generator) -> float:
     cos, sin = np.cos(angle), np.sin(angle)
     Q = np.array([[cos, -sin, 0], [sin, cos, 0], [0, 0, 1]]) @ np.diag([1, rng.choice([-1, 1]), 1])
     m, n = Q[:2, :2] @ k
-    return apart(frf_matrix(body, m, n), Q @ frf_matrix(body, *k) @ Q.T)
+    return apart(response_matrix(body, m, n), Q @ response_matrix(body, *k) @ Q.T)
 
 
 def _scaling_error(rng: Generator) -> float:
@@ -444,14 +399,16 @@ def _scaling_error(rng: Generator) -> float:
     length, stiffness = decades(rng, -3, 3), decades(rng, -3, 3)
     films = [(G * stiffness, nu, h * length) for G, nu, h in body.layers]
     base = None if body.base is None else (body.base[0] * stiffness, body.base[1])
-    scaled = frf_matrix(Stack(films, base), m / length, n / length)
-    return apart(scaled, frf_matrix(body, m, n) * length / stiffness)
+    scaled = response_matrix(Stack(films, base), m / length, n / length)
+    return apart(scaled, response_matrix(body, m, n) * length / stiffness)
 
 
 def _homogeneous_layers_error(rng: Generator) -> float:
     material, k = half_space(rng), wave_vector(rng)
     films = [(*material, film(rng).thickness) for _ in range(rng.integers(1, 6))]
-    return apart(frf_matrix(Stack(films, material), *k), frf_matrix(Stack((), material), *k))
+    return apart(
+        response_matrix(Stack(films, material), *k), response_matrix(Stack((), material), *k)
+    )
 
 
 def _cut_layer_error(rng: Generator) -> float:
@@ -460,7 +417,8 @@ def _cut_layer_error(rng: Generator) -> float:
     parts = rng.uniform(0.05, 1, rng.integers(2, 7))
     pieces = [(G, nu, h * part) for part in parts / parts.sum()]
     return apart(
-        frf_matrix(Stack([*pieces, *body.layers[1:]], body.base), *k), frf_matrix(body, *k)
+        response_matrix(Stack([*pieces, *body.layers[1:]], body.base), *k),
+        response_matrix(body, *k),
     )
 
 
@@ -468,7 +426,7 @@ def _vanishing_layer_error(rng: Generator) -> float:
     body, k, place = stack(rng), wave_vector(rng), int(rng.integers(0, 6))
     # Thinner than rounding: at most max(G)/min(G) alpha h = 1e6 * 1e4 * 1e-28.
     films = [*body.layers[:place], (*half_space(rng), 1e-28), *body.layers[place:]]
-    return apart(frf_matrix(Stack(films, body.base), *k), frf_matrix(body, *k))
+    return apart(response_matrix(Stack(films, body.base), *k), response_matrix(body, *k))
 
 
 def _operator_asymmetry(rng: Generator) -> float:
@@ -506,7 +464,7 @@ def dense_operator(K: LayeredCoefficients, shape: tuple[int, int]) -> np.ndarray
 
 def _identical_bodies_error(rng: Generator) -> float:
     body, k = stack(rng), wave_vector(rng)
-    twice = 2 * frf_matrix(body, *k)
+    twice = 2 * response_matrix(body, *k)
     twice[:2, 2] = twice[2, :2] = 0
     return apart(composite_frf_matrix(body, body, *k), twice)
 
