@@ -118,3 +118,13 @@ def test_slip_narrower_than_an_element_is_found_by_what_is_missing_from_the_limi
         radii, bound, way * (bound - missing)[None], nothing, 1e6 + contact, HatEdge()
     )
     assert np.sqrt(area / pi) - 1e6 == pytest.approx(stick, abs=3e-3)
+
+
+@pytest.mark.parametrize("excess", [0.0, 1e-9])
+def test_a_stuck_ring_at_its_limit_ends_the_stick_zone(excess: float) -> None:
+    """By round-off the shear of a stuck ring may exceed its friction limit."""
+    radii = np.arange(6.0)
+    bound = np.array([8.0, 7.0, 6.0, 4.0, 1.0, 0.0])
+    shear = np.array([[1.0, 2.0, 3.0, 4.0 - 1e-9, 1.0 + excess, 0.0]])
+    area = stick_area(radii, bound, shear, np.zeros(6, dtype=bool), 4.5, HatEdge())
+    assert np.sqrt(area / np.pi) == pytest.approx(4.0, abs=1e-5)

@@ -12,11 +12,14 @@ import pytest
 from contact_scenes import APPROACH, LOAD, A, grid, scene
 from coupled_scenes import coated
 from coupled_scenes import scene as coupled_scene
+from fem_scenes import solved
 
 from contact_scene import Scene
 from contact_solver.conjugate_gradients import Map
 from contact_solver.pressure import PressureProblem
 from contact_solver.shear import ShearProblem
+from fem_reference import Method
+from fem_reference.contact import point_problem
 from semi_analytical import solve
 from semi_analytical.coupled import coupled_increment
 from semi_analytical.increments import normal_solve, tangential_solve
@@ -95,29 +98,71 @@ def drawn(seed: int) -> Scene:
     return coupled_scene(*loading, body=film, friction=friction)
 
 
-@pytest.mark.parametrize("seed", range(40))
-def test_drawn_increments_have_the_tractions_of_projected_gradients(
-    seed: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    solved: list[tuple[Any, Any]] = []
+def drawn_of_revolution(seed: int) -> Scene:
+    """A load history of two to four steps with the symmetry of rings: along x, or torsion."""
+    rng = np.random.default_rng(seed)
+    friction = float(10 ** rng.uniform(-2, -0.3))
+    loading = [{"normal_force": LOAD * rng.uniform(0.5, 1)}]
+    alike = rng.random() < 0.4
+    twists = alike and rng.random() < 0.3  # elements do not combine torsion and coupling
+    for part in rng.choice([-0.9, -0.5, 0.3, 0.6, 0.9], rng.integers(1, 4)):
+        if twists:
+            loading.append({"torque": 0.2 * friction * LOAD * A * part})
+        else:
+            loading.append({"tangential_force": (0.4 * friction * LOAD * part, 0.0)})
+    loading = [{"increments": 1, **step} for step in loading]
+    if alike:
+        return scene(*loading, friction=friction)
+    film = coated(10 ** rng.uniform(-0.7, 1), rng.uniform(0.3, 1), rng.choice([0.0, 0.3, 0.49]))
+    return coupled_scene(*loading, body=film, friction=friction)
+
+
+def keep_increments(monkeypatch: pytest.MonkeyPatch, *solvers: tuple[Any, str]) -> list[Any]:
+    """A list to which these functions, by module and name, append their problems and solutions."""
+    kept: list[Any] = []
 
     def watched(solver: Any) -> Any:
         def solve_and_keep(problem: Any, *given: Any, **more: Any) -> Any:
             solution = solver(problem, *given, **more)
-            solved.append((problem, solution))
+            kept.append((problem, solution))
             return solution
 
         return solve_and_keep
 
-    for module, name in (
-        (normal_solve, "solve_pressure"),
-        (tangential_solve, "solve_shear"),
-        (coupled_increment, "solve_together"),
-    ):
+    for module, name in solvers:
         monkeypatch.setattr(module, name, watched(getattr(module, name)))
-    solve(drawn(seed), grid(20, 2.0), 1e-10)
-    by_kind = {type(problem): (problem, solution) for problem, solution in solved[1:]}
+    return kept
+
+
+def assert_same_tractions(kept: list[Any]) -> None:
+    """Compare the last increment of each kind of problem with projected gradients."""
+    by_kind = {type(problem): (problem, solution) for problem, solution in kept}
     assert by_kind
     for problem, solution in by_kind.values():
         own, found = again(problem, solution)
         assert np.max(np.abs(own - found)) <= 1e-6 * np.max(np.abs(own))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_drawn_increments_on_cells_have_the_tractions_of_projected_gradients(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept = keep_increments(
+        monkeypatch,
+        (normal_solve, "solve_pressure"),
+        (tangential_solve, "solve_shear"),
+        (coupled_increment, "solve_together"),
+    )
+    solve(drawn(seed), grid(20, 2.0), 1e-10)
+    assert_same_tractions(kept[1:])
+
+
+@pytest.mark.parametrize("law", Method)
+@pytest.mark.parametrize("seed", range(20))
+def test_drawn_increments_on_elements_have_the_tractions_of_projected_gradients(
+    seed: int, law: Method, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = ("solve_pressure", "solve_shear", "solve_together")
+    kept = keep_increments(monkeypatch, *((point_problem, name) for name in names))
+    solved(drawn_of_revolution(seed), 6, law, harmonics=3)
+    assert_same_tractions(kept[1:])

@@ -243,7 +243,8 @@ def stick_area(
     area, at_stick = 0.0, edge.stick_rule
     if stuck[last]:
         rim = last == len(radii) - 1
-        left = bound - np.sqrt(np.sum(shear**2, axis=0))
+        # A ring at its limit may exceed it by round-off.
+        left = np.maximum(bound - np.sqrt(np.sum(shear**2, axis=0)), 0.0)
         outer = contact_radius if rim else at_stick.radius(radii, left, last)
         area = pi * min(outer, contact_radius) ** 2
     for ring in np.flatnonzero(stuck[1:] != stuck[:-1]).tolist():
@@ -251,6 +252,6 @@ def stick_area(
         # Difference from the friction limit in the direction of the shear of the adjacent slipping
         # ring. After a load reversal the limit in the opposite direction may be nearer.
         direction = shear[:, beside] / (np.hypot.reduce(shear[:, beside]) or 1.0)
-        missing = bound - direction @ shear
+        missing = np.maximum(bound - direction @ shear, 0.0)
         area += step * pi * at_stick.radius(radii, missing, at, step) ** 2
     return float(area)
