@@ -128,3 +128,15 @@ def test_a_stuck_ring_at_its_limit_ends_the_stick_zone(excess: float) -> None:
     shear = np.array([[1.0, 2.0, 3.0, 4.0 - 1e-9, 1.0 + excess, 0.0]])
     area = stick_area(radii, bound, shear, np.zeros(6, dtype=bool), 4.5, HatEdge())
     assert np.sqrt(area / np.pi) == pytest.approx(4.0, abs=1e-5)
+
+
+def test_a_stuck_ring_beyond_the_contact_edge_has_no_area() -> None:
+    """The fitted contact edge may lie inside the outermost ring in contact, if this ring sticks."""
+    radii = np.arange(6.0)
+    bound = np.array([5.0, 4.0, 3.0, 2.0, 1.0, 0.0])
+    slips = bound > 1.0
+    shear = np.where(slips, bound, 0.0)[None]
+    assert stick_area(radii, bound, shear, slips, 3.4, HatEdge()) == 0.0
+    assert stick_area(radii, bound, shear, slips, 4.2, HatEdge()) == pytest.approx(
+        pi * (4.2**2 - 3.5**2)
+    )

@@ -240,18 +240,29 @@ def stick_area(
     stuck = ~slips[: last + 1]
     if bound[0] == 0:
         stuck[0] = stuck[1]
-    area, at_stick = 0.0, edge.stick_rule
-    if stuck[last]:
-        rim = last == len(radii) - 1
-        # A ring at its limit may exceed it by round-off.
-        left = np.maximum(bound - np.sqrt(np.sum(shear**2, axis=0)), 0.0)
-        outer = contact_radius if rim else at_stick.radius(radii, left, last)
-        area = pi * min(outer, contact_radius) ** 2
-    for ring in np.flatnonzero(stuck[1:] != stuck[:-1]).tolist():
-        at, beside, step = (ring, ring + 1, 1) if stuck[ring] else (ring + 1, ring, -1)
+    at_stick = edge.stick_rule
+
+    def radius_between(at: int, beside: int) -> float:
+        """Compute the radius of the edge between a stuck ring and the slipping ring beside it."""
         # Difference from the friction limit in the direction of the shear of the adjacent slipping
-        # ring. After a load reversal the limit in the opposite direction may be nearer.
+        # ring. After a load reversal the limit in the opposite direction may be nearer. A ring at
+        # its limit may exceed it by round-off.
         direction = shear[:, beside] / (np.hypot.reduce(shear[:, beside]) or 1.0)
         missing = np.maximum(bound - direction @ shear, 0.0)
-        area += step * pi * at_stick.radius(radii, missing, at, step) ** 2
-    return float(area)
+        return at_stick.radius(radii, missing, at, beside - at)
+
+    def outermost() -> float:
+        """Compute the outer radius of a stick zone that reaches the last ring in contact."""
+        if last == len(radii) - 1:
+            return contact_radius
+        left = np.maximum(bound - np.sqrt(np.sum(shear**2, axis=0)), 0.0)
+        return min(at_stick.radius(radii, left, last), contact_radius)
+
+    area = 0.0
+    changes = np.flatnonzero(np.diff(stuck, prepend=False, append=False)).tolist()
+    for first, after in zip(changes[::2], changes[1::2], strict=True):
+        inner = radius_between(first, first - 1) if first else 0.0
+        outer = radius_between(after - 1, after) if after <= last else outermost()
+        # The contact edge of a single stuck ring at the end may lie within the edge of its stick.
+        area += pi * max(0.0, outer**2 - inner**2)
+    return area
