@@ -98,6 +98,16 @@ def test_every_solver_slides_at_the_friction_limit(tmp_path: Path, name: str, so
         assert exported.code == 0, exported.text
 
 
+@pytest.mark.parametrize("solver", ["semi-analytical", "fem", "fem-complementarity"])
+def test_nothing_sticks_without_friction(tmp_path: Path, solver: str) -> None:
+    """A coefficient of 0: a prescribed shift moves the indenter without a force."""
+    shifted = {"tangential_shift": (1e-7, 0.0), "increments": 2}
+    write_scene(scene(PRESS, shifted, friction=0.0), tmp_path / "scene.toml")
+    end = summary(tmp_path, solver)["steps"][-1]
+    assert (end["status"], end["stick_radius"]) == ("gross sliding", 0)
+    assert (end["tangential_force"], end["dissipated_energy"]) == ([0, 0], 0)
+
+
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_every_solver_refuses_the_same_force_in_the_same_words(tmp_path: Path, solver: str) -> None:
     """Where the scene tells the limit, and where the solution does: an approach is prescribed."""

@@ -133,11 +133,12 @@ class EdgeCorrection:
         model, edge = self._operators.model, corrected.edge
         bound = model.friction.limit(corrected.pressure)
         if not np.any(solved.shear):
+            sticks = bool(np.any(solved.in_stick))  # all cells, or none without friction
             return replace(
                 CorrectedShear.zero(bound.shape),
                 shift=solved.shift,
-                stick=corrected.pressure > 0,
-                stick_cells=corrected.contact_cells,
+                stick=(corrected.pressure > 0) & sticks,
+                stick_cells=corrected.contact_cells if sticks else 0.0,
             )
         limit = _within_cells(bound, model.friction.limit(edge.parts), edge)
         if not np.any(solved.in_stick):
