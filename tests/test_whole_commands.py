@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from contact_scenes import LIMIT, LOAD, PRESS, RIGID_BALL, A, push, scene, steel
+from near_gross_slip import failures
 from whole_commands import SOLVERS, campaign, run_command, write_scene
 
 from contact_scene import Body, CoulombFriction, Layer, LoadStep, Paraboloid, Scene
@@ -147,3 +148,10 @@ def test_commands_of_drawn_scenes_end_as_documented() -> None:
 @pytest.mark.slow
 def test_many_commands_of_drawn_scenes_end_as_documented() -> None:
     assert not campaign(40, 0).failures
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_increments_drawn_near_gross_slip_converge(solver: str) -> None:
+    failed, solved = failures(10, 1, solver)
+    assert not failed
+    assert solved >= 10

@@ -1,0 +1,95 @@
+"""Increments drawn near gross slip, T/µW from .99 to .9999, of alike, unlike and coated bodies.
+
+python tests/near_gross_slip.py [--count INCREMENTS] [--seed SEED]    prints the failures
+"""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+import numpy as np
+
+import slipstick
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    FiniteElementDiscretisation,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    RadialDiscretisation,
+    Scene,
+    SurfaceDiscretisation,
+)
+from contact_scene.solver_errors import SolverError
+
+ELEMENTS = FiniteElementDiscretisation(elements_per_radius=5, harmonics=3)
+COARSE: dict[str, Any] = {
+    "semi-analytical": SurfaceDiscretisation(cells=(16, 16)),
+    "radial": RadialDiscretisation(rings=8),
+    "fem": ELEMENTS,
+    "fem-complementarity": ELEMENTS,
+}
+LOAD, CONTACT_RADIUS = 20.0, 1e-4  # N, and m to an order of magnitude
+
+
+def draw_scene(rng: np.random.Generator) -> Scene:
+    """Draw a scene of one to four pushes of alternating sign, some with a growing normal force."""
+    ratio, thickness = 10 ** rng.uniform(-1.5, 1.5), 10 ** rng.uniform(-1.3, 0.5)
+    base = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+    other = IsotropicMaterial(
+        young_modulus=210e9 * ratio, poisson_ratio=float(rng.choice([0.0, 0.3, 0.49]))
+    )
+    film = Layer(thickness=thickness * CONTACT_RADIUS, material=other)
+    body, indenter = (
+        (Body(material=base), base),
+        (Body(material=base), other),
+        (Body(material=base, layers=(film,)), RIGID),
+        (Body(material=base, layers=(film,)), base),
+    )[rng.integers(4)]
+    friction = float(10 ** rng.uniform(-3, 0.5))
+    steps = [LoadStep(normal_force=LOAD, increments=1)]
+    for number in range(rng.integers(1, 5)):
+        part = (1 - 10 ** rng.uniform(-4, -2)) * (-1) ** number
+        push = (part * friction * LOAD, 0.0)
+        steps.append(LoadStep(tangential_force=push, increments=int(rng.integers(1, 4))))
+        if rng.random() < 0.3:
+            more = LOAD * float(rng.uniform(1, 1.01))
+            steps.append(LoadStep(normal_force=more, increments=1))
+    return Scene(
+        indenter=Paraboloid(radius=0.01, material=indenter),
+        body=body,
+        friction=CoulombFriction(coefficient=friction),
+        loading=tuple(steps),
+    )
+
+
+def failures(count: int, seed: int, solver: str) -> tuple[list[str], int]:
+    """Solve drawn scenes; return the failures in words, and the number of increments.
+
+    count   least number of increments
+    seed    seed of the random numbers
+    solver  name of the solver
+    """
+    rng, found, solved = np.random.default_rng(seed), list[str](), 0
+    while solved < count:
+        scene = draw_scene(rng)
+        solved += sum(step.increments or 1 for step in scene.loading)
+        try:
+            slipstick.solve(scene, solver, COARSE[solver])
+        except SolverError as error:
+            found.append(f"{solver}: {type(error).__name__}: {error}\n{scene!r}")
+    return found, solved
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=1000, help="increments of each solver")
+    parser.add_argument("--seed", type=int, default=0)
+    asked = parser.parse_args()
+    for name in COARSE:
+        failed, number = failures(asked.count, asked.seed, name)
+        print(*failed, f"{name}: {number} increments, {len(failed)} failures", sep="\n")
