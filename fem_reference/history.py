@@ -23,6 +23,7 @@ from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
 )
+from contact_scene.stepping.self_similar_growth import grow_from_nothing, self_similar_growth
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
 from fem_reference.energy import add_energies
@@ -109,7 +110,16 @@ class _IncrementSolver:
                 loads, tangential=TangentialTarget(*along.prescribed(fraction, tangential))
             )
         loads = replace(loads, strain=(ramp.strain(fraction) or UNSTRAINED)[0])
-        return self.method.advance(before, loads, self.tolerance)
+        growth = None
+        if start is None:
+            last = (before.normal_force, before.approach) if before else (0.0, 0.0)
+            growth = self_similar_growth(self.scene, ramp, last, fraction)
+        return grow_from_nothing(
+            growth,
+            before,
+            lambda state: self.method.advance(state, loads, self.tolerance),
+            self.method.dilate,
+        )
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
         """Return the gap between the undeformed surfaces at the rings of an increment [length].

@@ -17,6 +17,12 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
 from contact_scene.stepping.load_stepping import ConvergedIncrement
+from contact_scene.stepping.self_similar_growth import (
+    Mixing,
+    Similarity,
+    grow_from_nothing,
+    self_similar_growth,
+)
 from radial.angular_grid import RingAngles
 from radial.fields import Increment
 from radial.frictional.coupling import Coupling
@@ -49,6 +55,7 @@ from radial.tangential.ring_state import (
 )
 from radial.tangential.tangential_increment import (
     TangentialState,
+    dilated_state,
     residuals_of,
     tangential_state,
 )
@@ -224,7 +231,37 @@ class TangentialSteps(StepsOnRings):
         forces, motions = (
             (*pair, turn, press) for pair, turn, press in zip(tangential, about, down, strict=True)
         )
-        return self._solve_loads(Loads(forces, motions), before)
+        loads = Loads(forces, motions)
+        growth = None
+        if start is None:
+            last = (before.forces[NORMAL], before.motions[NORMAL]) if before else (0.0, 0.0)
+            growth = self_similar_growth(self.scene, ramp, last, fraction)
+        return grow_from_nothing(
+            growth, before, lambda state: self._solve_loads(loads, state), self._dilate
+        )
+
+    def _dilate(
+        self,
+        state: TangentialState,
+        before: TangentialState | None,
+        similarity: Similarity,
+        mixing: Mixing,
+    ) -> TangentialState | None:
+        """Dilate a contact that has grown from nothing to a smaller contact at the same points.
+
+        None is returned in gross slip, where the rigid motion is undefined, and for an axisymmetric
+        contact whose slip annulus is narrower than a ring.
+
+        state       state of the contact
+        before      state at the start of the increment; None without contact
+        similarity  ratio of the contact radii, and powers of it
+        mixing      acceleration of the solves
+        """
+        angular = state.circle is not RingAngles.ONE
+        if state.end.slides or (state.status is ContactStatus.FULL_STICK and not angular):
+            return None
+        points = self.points if angular else self.points.axisymmetric
+        return dilated_state(points, state, before, similarity, mixing)
 
     def _scene_components(self, parts: tuple[float, ...]) -> Pair:
         """Rotate a vector from the axes of the tangential load to the x and y axes of the scene.

@@ -1,0 +1,91 @@
+"""States of self-similar contacts at points of the surface, dilated about the axis."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from contact_scene.array_types import Field, Vector
+from contact_scene.stepping.self_similar_growth import Mixing, Rays, Similarity
+from fem_reference.compliance.point_compliance import PointCompliance
+from fem_reference.contact.point_state import PointState
+
+
+def dilated_state(
+    compliance: PointCompliance,
+    state: PointState,
+    before: PointState | None,
+    similarity: Similarity,
+    mixing: Mixing,
+) -> PointState | None:
+    """Return the state of a self-similar contact at another contact radius, at the same points.
+
+    None is returned if the motion is undefined.
+
+    compliance  points of the surface
+    state       state of the contact, which has grown from nothing
+    before      state at the start of the increment, which has dissipated less; None without contact
+    similarity  ratio of the contact radii, and powers of it
+    mixing      acceleration of the solves
+    """
+    if state.motion is None:
+        return None
+    rays = Rays(compliance.rings.radii, compliance.scalar_on_grid(state.in_stick))
+    length, traction, factor = similarity.displacement, similarity.traction, similarity.factor
+
+    def scalar(values: Vector) -> Vector:
+        return _at_points(
+            compliance, rays.dilated(compliance.scalar_on_grid(values), factor), values
+        )
+
+    def vector(values: Field) -> Field:
+        return _at_points(
+            compliance, rays.dilated(compliance.vector_on_grid(values), factor), values
+        )
+
+    def tractions(values: Field) -> Field:
+        # The pressure falls like a root towards the edge.
+        pressure = np.sqrt(scalar(np.maximum(values[2], 0.0) ** 2))
+        # Interpolation would extend the contact by a ring.
+        inside = scalar((values[2] > 0).astype(np.float64)) >= 0.5
+        return traction * inside * np.concatenate([vector(values[:2]), pressure[None]])
+
+    motion = length * state.motion
+    relative = state.displacement - state.motion * compliance.motion
+    locked = rays.locked(compliance.vector_on_grid(relative), similarity)
+    nothing = np.zeros_like(relative)  # the axis is the point of first contact
+    locked = mixing.next_field(_at_points(compliance, locked, nothing))
+    smaller = tractions(state.tractions)
+    energy = state.dissipated_energy
+    if energy is not None:
+        energy *= similarity.energy
+        energy = max(energy, (before.dissipated_energy if before else None) or 0.0)
+    return replace(
+        state,
+        pressure=smaller[2],
+        shear=smaller[:2],
+        displacement=locked + motion * compliance.motion,
+        multiplier=tractions(state.multiplier),
+        edge_tractions=tractions(state.edge_tractions),
+        gap=length * scalar(state.gap),
+        slip=length * vector(state.slip),
+        normal_force=similarity.force * state.normal_force,
+        approach=length * state.approach,
+        load=similarity.force * state.load,
+        motion=motion,
+        dissipated_energy=energy,
+        moved=length * state.moved,
+    )
+
+
+def _at_points(compliance: PointCompliance, on_grid: Field, axis: Field) -> Field:
+    """Convert a field on rings and angles to the points of the surface (..., points).
+
+    compliance  points of the surface
+    on_grid     field (..., rings, angles)
+    axis        field at the points (..., points). On a grid of several angles, the axis is one
+                point, and the result takes its value
+    """
+    if compliance.grid.highest == 0:
+        return on_grid[..., 0]
+    rest = on_grid[..., 1:, :].reshape(*on_grid.shape[:-2], -1)
+    return np.concatenate([axis[..., :1], rest], axis=-1)
