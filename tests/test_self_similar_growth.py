@@ -52,11 +52,11 @@ BARE = Body(material=ALUMINIUM)
 COATED = Body(material=STEEL, layers=(Layer(thickness=0.0933128e-3, material=FILM),))
 # Shift [m] and stick radius over contact radius from 80, 320 and 640 increments of the radial
 # solver, extrapolated, and the error of the shift by increments of 10 % of the contact radius. From
-# no shear, one increment is off by 19 % and 22 %, five by 4 % and 5 %.
+# no shear, one increment is off by 19 % and 22 %, two by 11 % and 14 %.
 SHIFTS = {"bare": (BARE, 1.3653e-6, 0.951, 0.015), "coated": (COATED, 6.901e-7, 0.995, 0.035)}
 COARSE = FiniteElementDiscretisation(elements_per_radius=20, harmonics=6)
 # Finite elements take most of the time.
-CASES = [(solver, n) for n in (1, 2, 5) for solver in SOLVERS if n == 1 or solver != SOLVERS[-1]]
+CASES = [(solver, n) for n in (1, 2) for solver in SOLVERS if n == 1 or solver != SOLVERS[-1]]
 
 
 @pytest.mark.parametrize("name", SHIFTS)
@@ -67,15 +67,16 @@ def test_few_increments_of_loads_that_grow_together_give_the_shift_of_many(
     body, shift, stick, error = SHIFTS[name]
     mesh = COARSE if solver == "fem-complementarity" else None
     end = slipstick.solve(pushed(body, increments), solver, mesh).steps[-1]
-    assert end.tangential_shift[0] == pytest.approx(shift, rel=error)
+    # The second increment starts from the state of the first.
+    assert end.tangential_shift[0] == pytest.approx(shift, rel=increments * error)
     # The slip annulus is as wide as the contact grows in an increment.
-    assert end.stick_radius / end.contact_radius == pytest.approx(stick, rel=0.075)
+    assert end.stick_radius / end.contact_radius == pytest.approx(stick, rel=increments * 0.075)
 
 
-@pytest.mark.parametrize("increments", [1, 2, 5])
+@pytest.mark.parametrize("increments", [1, 2])
 @pytest.mark.parametrize("solver", ["semi-analytical", "fem-complementarity", "fem"])
 def test_stick_radius_of_a_pressing_is_that_of_spence_in_few_increments(solver, increments):
-    """From no shear, it is 0.22, 0.36 and 0.45 of the contact radius."""
+    """From no shear, it is 0.22 and 0.36 of the contact radius."""
     end = slipstick.solve(pressed(increments), solver).steps[-1]
     assert end.stick_radius / end.contact_radius == pytest.approx(0.4994, abs=0.03)
 
@@ -99,7 +100,7 @@ def test_dissipation_never_falls_while_loads_grow(solver):
 
 
 def test_other_increments_are_solved_once(monkeypatch):
-    """Growth by less than 10 %, later load steps, and bodies without coupling."""
+    """Growth by less than 40 %, later load steps, and bodies without coupling."""
 
     def refuse(self, answer):
         raise AssertionError("a state is dilated")
@@ -111,7 +112,7 @@ def test_other_increments_are_solved_once(monkeypatch):
     for described in (grown, later):
         points = described.load_path()
         growths = [
-            self_similar_growth.self_similar_growth(described, ramp, (0.95 * ramp.normal.end, 0), 1)
+            self_similar_growth.self_similar_growth(described, ramp, (0.3 * ramp.normal.end, 0), 1)
             for ramp in points
         ]
         assert growths == [None] * len(points)

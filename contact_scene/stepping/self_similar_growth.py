@@ -36,11 +36,17 @@ from contact_scene.stepping.load_path import ControlKind, LoadRamp
 S = TypeVar("S")
 
 # Ratio λ of the contact radii at the start and the end of the increment that is solved. Its error
-# is that of increments of 10 % of the contact radius. A larger ratio reads the start closer to the
-# edges than the points resolve.
+# is that of increments of 10 % of the contact radius.
 FACTOR = 0.9
-# Limit of the relative change of the displacements at the start, at which the solves stop. The
-# radius of the stick zone is then within 1 %, the shift within 0.1 % of the limit.
+# Least number of points over the contact radius, so that both contact edges are one point apart.
+LEAST_POINTS = 1 / (1 - FACTOR)
+# Largest ratio of the contact radii at the start and the end of an increment that is solved in this
+# way: the first two of equal increments of the radius. The error of the others is smaller than that
+# of the state, if the bodies have layers.
+LARGE_GROWTH = 0.6
+# Limit of the change of the displacements at the start, at which the solves stop, over the
+# displacements at the end of the load step. The radius of the stick zone is then within 1 %, the
+# shift within 0.1 % of the limit.
 SETTLED = 5e-4
 # Largest number of solves after the first one. Most contacts need 3 to 12.
 MAX_SOLVES = 12
@@ -53,10 +59,12 @@ class Growth(NamedTuple):
 
     exponent  exponent n of the gap r^n of the indenter
     start     contact radius at the start over that at the end, 0 without contact
+    settled   limit of the relative change of the displacements at the start
     """
 
     exponent: float
     start: float
+    settled: float
 
 
 class Similarity(NamedTuple):
@@ -127,11 +135,11 @@ def self_similar_growth(
             return None
     exponent = scene.indenter.gap_exponent
     assert exponent is not None
-    share = last[displaced] / (fraction * normal.end)
-    radius = share ** (1 / (exponent if displaced else exponent + 1))
-    if radius >= FACTOR:
+    power = 1 / (exponent if displaced else exponent + 1)
+    radius = (last[displaced] / (fraction * normal.end)) ** power
+    if radius > LARGE_GROWTH:
         return None
-    return Growth(exponent, radius)
+    return Growth(exponent, radius, SETTLED / fraction ** (power * exponent))
 
 
 def grow_from_nothing(
@@ -149,7 +157,7 @@ def grow_from_nothing(
     before  state at the start of the increment; None without contact
     solve   function that solves the increment from a state at its start
     dilate  function that dilates a state, with a dissipation not below that of `before`; None if
-            the rigid motion is undefined
+            the rigid motion is undefined or fewer than LEAST_POINTS resolve the contact
     """
     if growth is None:
         return solve(before)
@@ -157,12 +165,10 @@ def grow_from_nothing(
     start = None
     if before is not None:
         start = dilate(before, before, Similarity(exponent, FACTOR / growth.start), mixing)
-        if start is None:
-            return solve(before)
-    state = solve(start)
+    state = solve(before if start is None else start)
     for _ in range(MAX_SOLVES):
         smaller = dilate(state, before, Similarity(exponent, FACTOR), mixing)
-        if smaller is None or mixing.change <= SETTLED:
+        if smaller is None or mixing.change <= growth.settled:
             break
         try:
             state = solve(smaller)
@@ -223,6 +229,13 @@ class Rays(NamedTuple):
 
     radii: Vector
     stick: Mask
+
+    def resolve(self, pressure: Field) -> bool:
+        """Return True if at least `LEAST_POINTS` rings are in contact.
+
+        pressure  pressure (rings, rays) [force/length^2]
+        """
+        return bool(np.count_nonzero(np.any(pressure > 0, axis=1)) >= LEAST_POINTS)
 
     def dilated(self, values: Field, factor: float) -> Field:
         """Interpolate a dilated field, without its change of magnitude (…, rings, rays).

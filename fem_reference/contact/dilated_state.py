@@ -19,7 +19,7 @@ def dilated_state(
 ) -> PointState | None:
     """Return the state of a self-similar contact at another contact radius, at the same points.
 
-    None is returned if the motion is undefined.
+    None is returned if the motion is undefined, or if few rings are in contact.
 
     compliance  points of the surface
     state       state of the contact, which has grown from nothing
@@ -30,6 +30,8 @@ def dilated_state(
     if state.motion is None:
         return None
     rays = Rays(compliance.rings.radii, compliance.scalar_on_grid(state.in_stick))
+    if not rays.resolve(compliance.scalar_on_grid(state.pressure)):
+        return None
     length, traction, factor = similarity.displacement, similarity.traction, similarity.factor
 
     def scalar(values: Vector) -> Vector:

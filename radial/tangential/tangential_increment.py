@@ -191,10 +191,11 @@ def dilated_state(
     before: TangentialState | None,
     similarity: Similarity,
     mixing: Mixing,
-) -> TangentialState:
+) -> TangentialState | None:
     """Return the state of a smaller contact, from which the self-similar contact grows to a state.
 
-    The predictor of the next solve extrapolates to the tractions and the motion of the state.
+    None is returned if few rings are in contact. The predictor of the next solve extrapolates to
+    the tractions and the motion of the state.
 
     points      points of the contact (rings × angles)
     state       state of the contact
@@ -209,6 +210,8 @@ def dilated_state(
     def on_rays(values: Array) -> Array:
         return values.reshape(-1, len(points.radii), count)
 
+    if not rays.resolve(on_rays(end.pressure)[0]):
+        return None
     motion = similarity.displacement * end.motion
     relative = (end.moved - end.motion[:NORMAL] @ points.rigid_motions) / areas
     locked = mixing.next_field(rays.locked(on_rays(relative), similarity)).ravel() * areas

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import pi
 
 import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
-from contact_scene.stepping.self_similar_growth import Mixing, Similarity
+from contact_scene.stepping.self_similar_growth import LEAST_POINTS, Mixing, Similarity
 from semi_analytical.coupled.predictor import Dilation
 from semi_analytical.increments.increment import State
 from semi_analytical.increments.normal_target import NormalTarget
@@ -27,7 +28,7 @@ def dilated_state(
 ) -> State | None:
     """Return the state of a self-similar contact at another contact radius.
 
-    None is returned if the tangential shift is undefined.
+    None is returned if the tangential shift is undefined, or if few cells are in contact.
 
     model       contact model
     state       state of the contact, which has grown from nothing
@@ -37,6 +38,8 @@ def dilated_state(
     """
     sheared, pressing, target = state.sheared, state.pressing, state.target
     if sheared is None or sheared.shift is None:
+        return None
+    if np.sqrt(model.domain.images * np.count_nonzero(pressing.pressure) / pi) < LEAST_POINTS:
         return None
     dilation = Dilation(_first_contact(model), similarity.factor, model.domain)
     length, force = similarity.displacement, similarity.force
@@ -99,9 +102,12 @@ def with_free_motion(model: ContactModel, before: State | None, after: State) ->
     sheared, start = after.sheared, after.behind
     if sheared is None or start is None:
         return after
+    last = None if before is None else before.sheared
+    if last is not None and start.displacement is last.displacement:  # not dilated
+        return after
     free = start.displacement - rigid(model, start.shift)
-    if before is not None and before.sheared is not None:
-        free = free - (before.sheared.displacement - rigid(model, before.sheared.motion))
+    if last is not None:
+        free = free - (last.displacement - rigid(model, last.motion))
     return replace(after, sheared=replace(sheared, free=free))
 
 
