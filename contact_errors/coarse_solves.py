@@ -16,15 +16,18 @@ from typing import Any, ClassVar, Self, TypeAlias
 from contact_errors.cost_estimate import Work
 from contact_errors.error_formula import (
     BELIEVED,
-    BELIEVED_BY_THREE,
     ORDERS,
+    PEAK,
     PER_TOLERANCE,
     Comparison,
     Features,
     SolvedRun,
     Values,
+    is_singular,
+    prescribed_scalars,
     values_of,
 )
+from contact_errors.known_pressing import known_pressing
 from contact_scene import Scene
 from contact_scene.quantities.stated_error import (
     CoarseSolveRecord,
@@ -38,7 +41,12 @@ from contact_scene.stepping.increment_error import has_increment_error
 # Coarse solve: description, fraction of the cells along a side, and number of additional cells.
 Share: TypeAlias = tuple[str, float, int]
 # The edges of contact and stick zone lie at other positions within the cells of each.
-SHARES = ("2/5 of the {}", 2 / 5, 0), ("half the {} plus 2", 1 / 2, 2)
+# Other parameters than the cells are compared on the first.
+SHARES = (
+    ("2/5 of the {}", 2 / 5, 0),
+    ("half the {} plus 2", 1 / 2, 2),
+    ("1/3 of the {}", 1 / 3, 0),
+)
 # A load step with fewer than FEW increments is compared with solves of MANY increments, because
 # half of a few increments is outside the range of regular convergence.
 FEW, MANY = 8, (32, 8)
@@ -195,13 +203,6 @@ class DiscretisedSolver(ABC):
         more    number of cells or elements that are added to this fraction
         """
 
-    def shares_of(self, run: Fineness) -> Sequence[Share]:
-        """Return the coarse solves of a run that measure the error of its cells, elements or rings.
-
-        run  grid, mesh or ring factor of the run, its increments and its tolerance
-        """
-        return self.shares
-
     def mesh_coarse_solves(self, base: Any, result: Any) -> Iterable[CoarseSolve]:
         """Return the coarse solves that change a mesh parameter other than the number of elements.
 
@@ -278,6 +279,13 @@ class DiscretisedSolver(ABC):
         """
         return {}
 
+    def references(self) -> Sequence[Sequence[Values]]:
+        """Return scalars of the scene by other methods at the end of each load step, by name.
+
+        By default these are the known scalars of the pressing of uncoupled bodies.
+        """
+        return known_pressing(self.scene)
+
     def with_half_the_points(self) -> Self | None:
         """Return the solver of the scene with every second point of the indenter left out.
 
@@ -347,14 +355,15 @@ def compare_with_coarse_solves(
 ) -> tuple[SolvedRun, tuple[CoarseSolveRecord, ...]]:
     """Run the coarse solves of a result, and collect the comparisons for its error estimate.
 
-    Each discretisation parameter is changed in a separate comparison:
+    Scalars with an independent reference (`known_pressing`) need no coarse solve. For the others,
+    each discretisation parameter is changed in a separate comparison:
 
     - Increments, if a load step has an increment error: three solves on few cells, with the
       increments of the result and with two other numbers (one if both coarsen equally). Load steps
       of fewer than 8 increments are compared with 32 and 8 increments, and with the limit that
       these extrapolate to.
-    - Cells, elements or rings: two solves with coarser discretisations, compared with the result;
-      three for a small run on cells.
+    - Cells, elements or rings: two or three solves with coarser discretisations, compared with the
+      result.
     - Other parameters of a mesh: one solve each, compared on the first coarse mesh.
     - Points of a measured indenter: one solve with half of them along a side, compared on the first
       coarse grid or mesh.
@@ -400,13 +409,18 @@ def compare_with_coarse_solves(
                 made.append(record.model_copy(update={"refused": str(error)}))
         return known[key]
 
-    shares = solver.shares_of(run)
+    references, half = solver.references(), solver.with_half_the_points()
+    shares = () if _all_known(result.scene, values, references) else solver.shares
     spaces = [solver.coarser(result, share, more) for _, share, more in shares]
     required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
     required["increments"] = matters
-    if (points := solver.with_half_the_points()) is not None:
-        required["map"] = [True] * len(values)
     comparisons: list[Comparison] = []
+    if half is not None:
+        required["map"] = [True] * len(values)
+        if references and (fewer := half.references()):
+            twice = (2.0,) * len(values)
+            comparisons.append(Comparison("map", references[0], fewer[0], twice))
+    points = half
 
     effects: list[Effect] = []
     # Of two solves with equal coarsening factors, the one with fewer increments measures the same.
@@ -433,7 +447,7 @@ def compare_with_coarse_solves(
             break
 
     changes: dict[str, Any] | None = None
-    meshes: list[tuple[Sequence[Values], float]] = []
+    meshes: dict[float, Sequence[Values]] = {}
     for (text, *_), space in zip(shares, spaces, strict=True):
         found = solved(
             text.format(solver.cells), replace(run, space=change_settings(space, **(changes or {})))
@@ -441,7 +455,7 @@ def compare_with_coarse_solves(
         if not found:
             continue
         sides = zip(solver.cell_sides(found[0]), solver.cell_sides(result), strict=True)
-        meshes.append((add_effects(found[1], effects), min(b / a for b, a in sides)))
+        meshes[min(b / a for b, a in sides)] = add_effects(found[1], effects)
         for coarse in solver.mesh_coarse_solves(space, result) if changes is None else ():
             required[coarse.part] = [True] * len(values)
             further = {**(changes or {}), coarse.key: coarse.value}
@@ -455,15 +469,15 @@ def compare_with_coarse_solves(
         if points is not None:
             same = replace(run, space=change_settings(space, **(changes or {})))
             if other := solved("every second point of the indenter", same, points):
-                factors = (2.0,) * len(values)
-                comparisons.append(Comparison("map", found[1], other[1], factors))
+                twice = (2.0,) * len(values)
+                # Of known scalars the effect is known, too.
+                base = found[1] if not references else _without(found[1], references[0])
+                comparisons.append(Comparison("map", base, other[1], twice))
                 points = None
         changes = changes or {}
-    different = {ratio for _, ratio in meshes if ratio != 1}
-    believed = BELIEVED if len(different) < 3 else BELIEVED_BY_THREE
-    for coarse_values, ratio in meshes:
+    for ratio, coarse_values in meshes.items():
         factors = (ratio,) * len(values)
-        comparisons.append(Comparison(solver.part, values, coarse_values, factors, believed))
+        comparisons.append(Comparison(solver.part, values, coarse_values, factors))
     return SolvedRun(
         scene=result.scene,
         values=values,
@@ -472,7 +486,42 @@ def compare_with_coarse_solves(
         comparisons=comparisons,
         required=required,
         neglected=solver.neglected_errors(result),
+        part=solver.part,
+        references=references,
     ), tuple(made)
+
+
+def _without(values: Sequence[Values], known: Sequence[Values]) -> Sequence[Values]:
+    """Return scalars at the end of each load step without those that are known."""
+    return [
+        {name: value for name, value in here.items() if name not in there}
+        for here, there in zip(values, known, strict=True)
+    ]
+
+
+def _all_known(
+    scene: Scene, values: Sequence[Values], references: Sequence[Sequence[Values]]
+) -> bool:
+    """Return true if all scalars of a result are prescribed or known by another method.
+
+    The peak pressure below a rim or a tip counts as known, because it has no error.
+
+    scene       solved scene
+    values      scalars of the result at the end of each load step, by name
+    references  scalars by other methods, one sequence for each method
+    """
+    if not references:
+        return False
+    steps = zip(scene.load_path(), values, *references, strict=True)
+    infinite = {PEAK} if is_singular(scene.indenter) else set()
+    return all(
+        not here["contact_area"].any()
+        or all(
+            here.keys() <= known.keys() | prescribed_scalars(ramp, scene.rig) | infinite
+            for known in others
+        )
+        for ramp, here, *others in steps
+    )
 
 
 def solve_coarsest(

@@ -1,25 +1,33 @@
-"""Error of a scalar from coarse solves: one formula, three convergence orders, one table of limits.
+"""Error of a scalar: from a reference, or from coarse solves by two formulas and three orders.
 
-Each discretisation parameter (cells, increments, section, …) is coarsened separately:
+A scalar with an independent reference has the error |Q - Q_known|. Otherwise each discretisation
+parameter (cells, increments, section, …) is coarsened separately, and an error is the sum of its
+parts. Q is the scalar, r the coarsening factor of a parameter and p its theoretical order.
 
-    part of an error = max over the coarse solves of that part  |Q - Q_coarse| / |r^(b p) - 1|
-    error            = sum of the parts
+The edges of contact and stick zone lie at any position within cells, elements and rings, so that
+the coefficient of h^p changes from level to level. Two errors c h^p and c' (r h)^p, with c and c'
+of one spread, differ by √(r^(2p) + 1) times this spread. The part of the cells is therefore
 
-Q is the scalar. The coarsening factor of the parameter is r, and p is its theoretical convergence
-order (Richardson 1911). The edges of contact and stick zone lie at any position within cells, so
-that the coefficient of h^p changes from level to level. Only the fraction b of the order is
-therefore believed: 0.6 with one or two coarse solves of a parameter, which is a safety factor of
-2.3 for p = 2, 1.9 for p = 1 and 1.8 for p = ½ at r = 2. Several coarse solves prevent chance
-agreement of one of them with the run, so that b is 0.7 with three coarse solves. These are the
-only adjustable constants. No constant belongs to a quantity or to a kind of scene.
+    part = 3 √mean over the coarse solves of |Q - Q_coarse|² / (r^(2p) + 1)
 
-Errors do not decrease along a load history: each part of an error is at least as large as at the
-end of each earlier load step.
+With several coarse solves, a chance agreement of one of them with the run has little effect.
+
+All other parameters converge regularly (Richardson 1911):
+
+    part = max over the coarse solves of that part  |Q - Q_coarse| / |r^(b p) - 1|
+
+Only the fraction b = 0.6 of the order is believed, which is a safety factor of 2.3 for p = 2 and
+1.9 for p = 1 at r = 2. The 3 and the 0.6 are the only adjustable constants. No constant belongs to
+a quantity or to a kind of scene.
+
+Errors from coarse solves do not decrease along a load history: each part of an error is at least as
+large as at the end of each earlier load step.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import sqrt
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -48,9 +56,13 @@ Numbers = NDArray[np.float64]
 # Scalars of a state by name: arrays of shape (1,), or (2,) for a vector.
 Values: TypeAlias = Mapping[str, Numbers]
 
-# Fraction of the convergence order that is believed: with one or two, and with three coarse solves
-# of a parameter. docs/believed_fraction.py measures the coverage that follows.
-BELIEVED, BELIEVED_BY_THREE = 0.6, 0.7
+# Parts of errors that the formula of the spread estimates.
+BY_SPREAD = frozenset({"cells", "elements", "quadrature"})
+# Stated error over the spread of errors that coarse solves show. docs/spread_factor.py measures the
+# coverage that follows.
+SPREADS = 3.0
+# Fraction of the convergence order that is believed of the other parts.
+BELIEVED = 0.6
 # Convergence orders in the cell size: of means of smooth fields, of values at the edge of a zone
 # that lies within a cell, and of values near a square-root singularity.
 SMOOTH, EDGE, ROOT = 2.0, 1.0, 0.5
@@ -74,8 +86,7 @@ LIMITS: Mapping[str, float] = MappingProxyType(
 
 CONTACT_EDGE = frozenset({"contact_radius", "contact_area"})
 STICK_EDGE = frozenset({"stick_radius", "stick_area", "stick_centre"})
-# Scalars that are largest values of cells at the contact edge, which divides the cells at any
-# position.
+# Scalars that are largest values at the contact edge.
 AT_EDGES, PEAK = frozenset({"slip_amplitude", "ruiz_f1", "ruiz_f2"}), "peak_pressure"
 OF_SLIP = frozenset(
     {
@@ -101,7 +112,8 @@ class Features:
                   zone may be hidden within a cell
     fitted        true if the contact edge is fitted within the cells
     stick_fitted  true if the edge of the stick zone is fitted within the cells
-    sharp         true for an indenter with a rim or a tip; all scalars then have the order 1
+    sharp         true for a rim, and for a tip below a contact edge that is not fitted; all scalars
+                  then have at most the order 1
     infinite      true if the exact peak pressure is infinite
     cusp          true if the pressure has a cusp, because shear changes the pressure or the gap is
                   a power between 1 and 2 of the distance
@@ -136,15 +148,17 @@ class Features:
 
         name  name of the scalar, such as "peak_pressure"
         """
-        if self.sharp:
-            return EDGE
-        if name in AT_EDGES or (name == PEAK and self.cusp):
+        if name == "ruiz_f2" or (name == PEAK and self.cusp):
             return ROOT
+        # Without slip the edge of the stick zone is that of the contact.
+        stick_fitted = self.fitted if self.annulus is None else self.stick_fitted
         first = (
-            name == LARGEST_TENSION  # at the edge of the contact, or inside
+            self.sharp
+            or name == LARGEST_TENSION  # at the edge of the contact, or inside
+            or name in AT_EDGES
             or (name == PEAK and self.peak_by_edge)
             or (name in CONTACT_EDGE and not self.fitted)
-            or (name in STICK_EDGE and not self.stick_fitted)
+            or (name in STICK_EDGE and not stick_fitted)
         )
         return EDGE if first else SMOOTH
 
@@ -279,23 +293,20 @@ class Comparison:
                   name
     ratios        coarsening factor of the parameter at the end of each load step; 1 if the
                   parameter has no effect up to this step, 0 if `coarse` has no error by it
-    believed      fraction of the convergence order that is believed
     """
 
     part: Part
     base: Sequence[Values]
     coarse: Sequence[Values]
     ratios: Sequence[float]
-    believed: float = BELIEVED
 
     def part_of(self, step: int, name: str, order: float) -> Numbers | None:
         """Estimate the error of a scalar that one discretisation parameter causes, by two solves.
 
-        The estimate is |fine - coarse| / |r^(b p) - 1| with the coarsening factor r, the
-        convergence order p and its believed fraction b < 1. Less than the order is believed because
-        the coefficient of the error varies with the position of the contact edge within the cells.
-        The result is None if the
-        parameter has no effect up to the load step, or if one of the two solves lacks the scalar.
+        The estimate is 3 |fine - coarse| / √(r^(2p) + 1) for cells, elements and rings, and
+        |fine - coarse| / |r^(b p) - 1| for other parameters, with the coarsening factor r, the
+        convergence order p and its believed fraction b. The result is None if the parameter has no
+        effect up to the load step, or if one of the two solves lacks the scalar.
 
         step   load step at whose end the scalar is compared, from 0
         name   name of the scalar
@@ -303,10 +314,12 @@ class Comparison:
                those of `ORDERS`
         """
         here, there = self.base[step].get(name), self.coarse[step].get(name)
-        if self.ratios[step] == 1 or here is None or there is None:
+        ratio = self.ratios[step]
+        if ratio == 1 or here is None or there is None:
             return None
-        power = self.believed * ORDERS.get(self.part, order)
-        return np.abs(here - there) / abs(self.ratios[step] ** power - 1)
+        if self.part in BY_SPREAD:
+            return SPREADS * np.abs(here - there) / sqrt(ratio ** (2 * order) + 1)
+        return np.abs(here - there) / abs(ratio ** (BELIEVED * ORDERS[self.part]) - 1)
 
 
 @dataclass(frozen=True)
@@ -321,6 +334,9 @@ class SolvedRun:
     required     for each part of the error, such as "increments": true for the load steps at which
                  the error of a scalar is unknown without this part
     neglected    relative error of scalars, by name, due to effects that the solver neglects
+    part         name of the part of the error that cells, elements or rings cause
+    references   scalars by other methods at the end of each load step, by name, one sequence for
+                 each method; the error of these scalars is the difference
     """
 
     scene: Scene
@@ -330,6 +346,8 @@ class SolvedRun:
     comparisons: Sequence[Comparison]
     required: Mapping[Part, Sequence[bool]]
     neglected: Mapping[str, float]
+    part: Part = "cells"
+    references: Sequence[Sequence[Values]] = ()
 
     def errors(self) -> Iterator[Mapping[str, StatedError]]:
         """Yield the error estimates of all scalars of the result, by name, for each load step.
@@ -361,6 +379,14 @@ class SolvedRun:
                 function
         """
         features, value = self.features[step], self.values[step][name]
+        known = self._difference_from_references(step, name)
+        if known is not None:
+            by_map = self._parts(step, name).get("map")
+            if "map" in self.required and by_map is None:
+                return UNKNOWN
+            both = {self.part: known} | ({} if by_map is None else {"map": by_map})
+            near = np.all(sum(both.values()) <= LARGEST_SHARE * np.abs(value))
+            return build_stated_error(both, bool(near))
         apart = not np.any(self.values[step]["contact_area"])
         if not np.any(value) and (apart or name in STICK_EDGE):
             return EXACT if apart or features.slides else UNKNOWN
@@ -381,6 +407,18 @@ class SolvedRun:
             return build_stated_error(parts, name not in AT_EDGES)
         nearly = name in OF_SLIP and self._near_gross_slip[step]
         return build_stated_error(parts, bool(small and not nearly and features.resolve(name)))
+
+    def _difference_from_references(self, step: int, name: str) -> Numbers | None:
+        """Return the largest difference of a scalar from other methods; None if they lack it.
+
+        It is also None if the exact value is infinite.
+        """
+        if name == PEAK and self.features[step].infinite:
+            return None
+        known = [reference[step].get(name) for reference in self.references]
+        here = self.values[step][name]
+        sizes = [np.abs(here - there) for there in known if there is not None]
+        return np.max(sizes, axis=0) if sizes and len(sizes) == len(known) else None
 
     @cached_property
     def _largest_so_far(self) -> Sequence[Values]:
@@ -412,11 +450,7 @@ class SolvedRun:
         features = self.features[step]
         if name == PEAK and features.infinite:
             return None
-        parts: dict[Part, Numbers] = {}
-        for comparison in self.comparisons:
-            size = comparison.part_of(step, name, features.convergence_order(name))
-            if size is not None:
-                parts[comparison.part] = np.maximum(parts.get(comparison.part, 0.0), size)
+        parts = self._parts(step, name)
         if any(needs[step] and part not in parts for part, needs in self.required.items()):
             return None
         size = np.maximum(largest, characteristic_size(name, self.values[step]))
@@ -426,6 +460,25 @@ class SolvedRun:
         if share := self.neglected.get(name):
             parts["neglected"] = share * largest
         return parts
+
+    def _parts(self, step: int, name: str) -> dict[Part, Numbers]:
+        """Compute the parts of the error of a scalar that coarse solves measure, by their cause.
+
+        step  load step, from 0
+        name  name of the scalar
+        """
+        order = self.features[step].convergence_order(name)
+        found: dict[Part, list[Numbers]] = {}
+        for comparison in self.comparisons:
+            size = comparison.part_of(step, name, order)
+            if size is not None:
+                found.setdefault(comparison.part, []).append(size)
+        return {
+            part: np.sqrt(np.mean(np.square(sizes), axis=0))
+            if part in BY_SPREAD
+            else np.max(sizes, axis=0)
+            for part, sizes in found.items()
+        }
 
 
 def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
