@@ -158,6 +158,7 @@ ORDERS = {
         "surface",
         "result_warnings",
         "loop",
+        "edge_slip",
         "cycles",
         "key_numbers",
         "files",
