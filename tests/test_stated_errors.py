@@ -317,16 +317,18 @@ def test_increments_have_no_error_in_three_proved_cases_alone(name: str) -> None
 
 
 def test_increments_of_coarse_solves() -> None:
-    counts = (1, 2, 5, 8, 40)
+    counts = (1, 2, 5, 20, 40)
     matters = (False, True, True, True, True)
     few, fewer = coarse_increment_counts(counts, matters)
-    assert few == (1, 32, 32, 4, 20)
-    assert fewer == (1, 8, 8, 4, 10)
+    assert few == (1, 32, 32, 32, 20)
+    assert fewer == (1, 8, 8, 8, 10)
+    # Without a load step of few increments, half and a quarter.
+    assert coarse_increment_counts((1, 16, 40), (False, True, True)) == [(1, 8, 20), (1, 8, 10)]
     # The stick radius of a pressing with friction by 20 increments jumps by 10 % with the cells of
     # solves by 5 increments, and by less than 1 % with those of 10.
     assert coarse_increment_counts((20,), (True,)) == [(10,), (8,)]
     # A step that inherits a state takes the ratio nearest to 1 so far.
-    assert ratios(counts, few, matters) == (1.0, 1 / 16, 5 / 32, 2.0, 2.0)
+    assert ratios(counts, few, matters) == (1.0, 1 / 16, 5 / 32, 20 / 32, 20 / 32)
     of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
     assert add_effects([{"approach": np.array([1.0])}], [(of_many, of_few)]) == [{"approach": 2.0}]
 
