@@ -33,11 +33,11 @@ from contact_errors.error_formula import (
     BELIEVED,
     ORDERS,
     PEAK,
-    UNKNOWN,
     SolvedRun,
     Values,
     characteristic_size,
     largest_so_far,
+    unknown_error,
 )
 from contact_errors.stress_errors import largest_stresses
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
@@ -259,7 +259,10 @@ class Levels:
             wanted = (f"{LARGEST_TENSION}@body",)
             for value, error in largest_stresses(result, stated, wanted, self.stress_at).values():
                 values[at] = {**values[at], LARGEST_TENSION: np.array([abs(value)])}
-                errors[at] = {**errors[at], LARGEST_TENSION: error or UNKNOWN}
+                errors[at] = {
+                    **errors[at],
+                    LARGEST_TENSION: error or unknown_error("no error was estimated"),
+                }
         return RefinementLevel(
             fineness=self.solver.fineness_of(result),
             result=result,

@@ -78,10 +78,27 @@ PER_TOLERANCE = 10.0
 # Largest ratio of error to scalar at which the error estimate counts as converged.
 LARGEST_SHARE = 0.5
 
+# Reasons why an error is not converged.
+TOO_LARGE = f"the error exceeds {LARGEST_SHARE:g} of the number"
+NEAR_LIMIT = "the tangential force has been within 1 % of the friction limit"
+HIDDEN = "a stick or slip zone smaller than a cell is possible"
+
 # Smallest resolved size of each feature in cells. Elements and rings count as two cells, because
 # their shape functions are linear.
 LIMITS: Mapping[str, float] = MappingProxyType(
     {"contact": 4.0, "wave": 4.0, "layer": 1.0, "stick": 3.0, "cusp": 1.0, "annulus": 0.5}
+)
+
+# Beginnings of the reasons for unresolved features.
+NAMES: Mapping[str, str] = MappingProxyType(
+    {
+        "contact": "the semi-axis of the contact is",
+        "wave": "the wavelength of the surface is",
+        "layer": "the thickness of a layer is",
+        "stick": "the semi-axis of the stick zone is",
+        "cusp": "the semi-axis of the stick zone is",
+        "annulus": "the width of the slip zone is",
+    }
 )
 
 CONTACT_EDGE = frozenset({"contact_radius", "contact_area"})
@@ -162,12 +179,12 @@ class Features:
         )
         return EDGE if first else SMOOTH
 
-    def resolve(self, name: str) -> bool:
-        """Return true if the cells resolve all features of the contact on which a scalar depends.
+    def unresolved(self, name: str) -> str | None:
+        """Return the reason if a feature of the contact on which a scalar depends is unresolved.
 
         Features are the contact, layers, waves of a rough surface, the stick zone and the slip
         annulus. Each must be at least as large as its limit in cells. Otherwise the error estimate
-        of the scalar is unreliable.
+        of the scalar is unreliable. The result is None if all features are resolved.
 
         name  name of the scalar, such as "stick_radius"
         """
@@ -179,7 +196,11 @@ class Features:
             "cusp": self.stick if name == PEAK and self.cusp and not self.slides else None,
             "annulus": self.annulus if name in OF_SLIP else None,
         }
-        return all(size is None or size >= LIMITS[feature] for feature, size in sizes.items())
+        for feature, size in sizes.items():
+            if size is not None and size < LIMITS[feature]:
+                least = f"{LIMITS[feature]:g} cells (half elements, half rings)"
+                return f"{NAMES[feature]} {size:.2g}, below {least}"
+        return None
 
 
 PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical)
@@ -383,30 +404,31 @@ class SolvedRun:
         if known is not None:
             by_map = self._parts(step, name).get("map")
             if "map" in self.required and by_map is None:
-                return UNKNOWN
+                return unknown_error("no solve with half of the points has a result")
             both = {self.part: known} | ({} if by_map is None else {"map": by_map})
             near = np.all(sum(both.values()) <= LARGEST_SHARE * np.abs(value))
-            return build_stated_error(both, bool(near))
+            return build_stated_error(both, None if near else TOO_LARGE)
         apart = not np.any(self.values[step]["contact_area"])
         if not np.any(value) and (apart or name in STICK_EDGE):
-            return EXACT if apart or features.slides else UNKNOWN
+            return EXACT if apart or features.slides else unknown_error(HIDDEN)
         largest = self._largest_so_far[step][name]
         parts = self._error_parts(step, name, largest)
-        if parts is None:
-            return UNKNOWN
+        if isinstance(parts, str):
+            return unknown_error(parts)
         floor = parts["tolerance"]
         if not np.any(value) and not np.any(sum(parts.values()) - floor):
             # Zero at every fineness: its cause is absent, or too small for a cell.
-            return UNKNOWN if name in AT_EDGES else EXACT
+            return unknown_error(HIDDEN) if name in AT_EDGES else EXACT
         last = before.get(name, {})
         parts = {part: np.maximum(size, last.get(part, 0.0)) for part, size in parts.items()}
         before[name] = parts
         small = np.all(sum(parts.values()) <= LARGEST_SHARE * largest + parts["tolerance"])
         if np.all(largest <= floor) and np.all(sum(parts.values()) <= 2 * floor):
             # Zero within the tolerance at every fineness so far: no cell has to resolve its cause.
-            return build_stated_error(parts, name not in AT_EDGES)
+            return build_stated_error(parts, HIDDEN if name in AT_EDGES else None)
         nearly = name in OF_SLIP and self._near_gross_slip[step]
-        return build_stated_error(parts, bool(small and not nearly and features.resolve(name)))
+        reason = features.unresolved(name) or (NEAR_LIMIT if nearly else None)
+        return build_stated_error(parts, reason or (None if small else TOO_LARGE))
 
     def _difference_from_references(self, step: int, name: str) -> Numbers | None:
         """Return the largest difference of a scalar from other methods; None if they lack it.
@@ -437,11 +459,12 @@ class SolvedRun:
         """
         return near_gross_slip(self.scene)
 
-    def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
+    def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | str:
         """Compute the parts of the error of a scalar at the end of a load step, by their cause.
 
         Causes are the discretisation parameters (cells, increments), the tolerance and neglected
-        effects. The result is None if a required part is unknown or the exact value is infinite.
+        effects. The result is the reason if a required part is unknown or the exact value is
+        infinite.
 
         step     load step, from 0
         name     name of the scalar
@@ -449,10 +472,11 @@ class SolvedRun:
         """
         features = self.features[step]
         if name == PEAK and features.infinite:
-            return None
+            return "the exact value is infinite"
         parts = self._parts(step, name)
-        if any(needs[step] and part not in parts for part, needs in self.required.items()):
-            return None
+        for part, needs in self.required.items():
+            if needs[step] and part not in parts:
+                return f"no coarse solve for the part by {part} has a result"
         size = np.maximum(largest, characteristic_size(name, self.values[step]))
         parts["tolerance"] = PER_TOLERANCE * self.tolerance[step] * size
         if left := features.left.get(name):
@@ -497,19 +521,23 @@ def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
     return tuple(found[1:])
 
 
-def build_stated_error(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
+def build_stated_error(parts: Mapping[Part, Numbers], reason: str | None) -> StatedError:
     """Build the error estimate of a scalar as the sum of its parts, with its status.
 
-    parts      size of the error by cause, such as cells and increments, in the unit of the scalar
-    converged  false for an unreliable error, which is an order of magnitude at best
+    parts   size of the error by cause, such as cells and increments, in the unit of the scalar
+    reason  reason why the error is unreliable, an order of magnitude at best; None if it is
+            reliable
     """
-    status = ErrorStatus.ESTIMATED if converged else ErrorStatus.NOT_CONVERGED
+    status = ErrorStatus.NOT_CONVERGED if reason else ErrorStatus.ESTIMATED
     total = np.sum(list(parts.values()), axis=0)
     amounts = {part: _error_amount(size, len(total)) for part, size in parts.items()}
-    return StatedError(error=_error_amount(total, len(total)), parts=amounts, status=status)
+    error = _error_amount(total, len(total))
+    return StatedError(error=error, parts=amounts, status=status, reason=reason)
 
 
-UNKNOWN = StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED)
+def unknown_error(reason: str) -> StatedError:
+    """Return the error estimate of a scalar without any, with the reason."""
+    return StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED, reason=reason)
 
 
 def _error_amount(size: Numbers, count: int) -> Amount:

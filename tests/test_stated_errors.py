@@ -41,6 +41,7 @@ from contact_errors.error_formula import (
     characteristic_size,
     largest_so_far,
     prescribed_scalars,
+    unknown_error,
     values_of,
 )
 from contact_errors.known_pressing import known_pressing
@@ -48,6 +49,7 @@ from contact_errors.on_cells import CellSolver
 from contact_errors.on_elements import ElementSolver
 from contact_errors.on_radii import RingSolver
 from contact_errors.stress_errors import largest_stresses, on_wide_cells, stress_errors
+from contact_results.number_text import doubt_texts
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.stress_maxima import extremes
@@ -143,13 +145,19 @@ def test_a_worked_example() -> None:
     few = errors_of_one(2.0, comparisons, Features(contact=3.9))
     far = [Comparison("cells", two, [{"approach": np.array([4.0])}], [2.0])]
     assert few.status is ErrorStatus.NOT_CONVERGED
-    assert errors_of_one(2.0, far, Features(10)).status is ErrorStatus.NOT_CONVERGED
-    assert errors_of_one(2.0, [], Features(10)).error is None
+    assert "contact is 3.9, below 4 cells" in (few.reason or "")
+    large = errors_of_one(2.0, far, Features(10))
+    assert large.status is ErrorStatus.NOT_CONVERGED
+    assert "exceeds 0.5 of the number" in (large.reason or "")
+    unknown = errors_of_one(2.0, [], Features(10))
+    assert unknown.error is None
+    assert "coarse solve" in (unknown.reason or "")
+    assert found.reason is None
     for name, few in {
         "stick_radius": Features(10, stick=2.9), "dissipated_energy": Features(10, annulus=0.4),
         "approach": Features(10, layer=0.9), "peak_pressure": Features(10, wave=3.9),
     }.items():  # fmt: skip
-        assert not few.resolve(name), name
+        assert few.unresolved(name), name
 
 
 @pytest.mark.parametrize(
@@ -233,7 +241,7 @@ def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratios
     ],
 )
 def test_a_number_needs_cells_for_what_it_depends_on(name, features, resolved) -> None:
-    assert Features(contact=10.0, **features).resolve(name) is resolved
+    assert (Features(contact=10.0, **features).unresolved(name) is None) is resolved
 
 
 def test_constants_are_those_that_are_explained() -> None:
@@ -994,8 +1002,22 @@ def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:
     assert second == first > 0.1
 
 
+def test_question_marks_have_their_reasons_below_the_table() -> None:
+    """One line for each reason, with the load steps of its numbers."""
+    doubtful = unknown_error("too few cells")
+    sure = build_stated_error({"cells": np.array([1.0])}, None)
+    errors = [
+        {"approach": doubtful, "peak_pressure": sure},
+        {"approach": doubtful, "peak_pressure": doubtful, "contact_area": doubtful},
+    ]
+    assert doubt_texts(errors, ("approach", "peak_pressure")) == [
+        "? approach (step 1, 2): too few cells",
+        "? peak pressure (step 2): too few cells",
+    ]
+
+
 def test_components_of_a_vector_share_one_size() -> None:
     steps = [{"tangential_shift": np.array(shift)} for shift in ((3.0, 1e-12), (2.0, -1.0))]
     sizes = [found["tangential_shift"] for found in largest_so_far(steps)]
     np.testing.assert_array_equal(sizes, [[3.0, 3.0]] * 2)  # also where it has become smaller
-    assert build_stated_error({"cells": np.array([1.0, 2.0])}, True).error == (1.0, 2.0)
+    assert build_stated_error({"cells": np.array([1.0, 2.0])}, None).error == (1.0, 2.0)
