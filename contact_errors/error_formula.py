@@ -49,7 +49,6 @@ from contact_scene.quantities.stated_error import (
 )
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.rig import Rig, prescribed_motions
-from contact_scene.stepping.increment_error import near_gross_slip
 from contact_scene.stepping.load_path import ControlKind
 
 Numbers = NDArray[np.float64]
@@ -75,19 +74,21 @@ ORDERS: Mapping[str, float] = MappingProxyType(
 )
 # Ratio of the relative error of a scalar to the relative residual that causes this error.
 PER_TOLERANCE = 10.0
-# Largest ratio of error to scalar at which the error estimate counts as converged.
-LARGEST_SHARE = 0.5
+# Largest ratio of error to scalar at which the error estimate counts as converged: a larger error
+# leaves even the order of magnitude open.
+LARGEST_SHARE = 1.0
 
 # Reasons why an error is not converged.
-TOO_LARGE = f"the error exceeds {LARGEST_SHARE:g} of the number"
-NEAR_LIMIT = "the tangential force has been within 1 % of the friction limit"
+TOO_LARGE = "the error exceeds the number"
 HIDDEN = "a stick or slip zone smaller than a cell is possible"
 
 # Smallest resolved size of each feature in cells. Elements and rings count as two cells, because
 # their shape functions are linear.
 LIMITS: Mapping[str, float] = MappingProxyType(
-    {"contact": 4.0, "wave": 4.0, "layer": 1.0, "stick": 3.0, "cusp": 1.0, "annulus": 0.5}
+    {"contact": 4.0, "wave": 4.0, "layer": 1.0, "stick": 1.0, "cusp": 1.0}
 )
+# Smallest stick zone in cells whose fitted edge converges with the order 2.
+FITTED_STICK = 3.0
 
 # Beginnings of the reasons for unresolved features.
 NAMES: Mapping[str, str] = MappingProxyType(
@@ -97,7 +98,6 @@ NAMES: Mapping[str, str] = MappingProxyType(
         "layer": "the thickness of a layer is",
         "stick": "the semi-axis of the stick zone is",
         "cusp": "the semi-axis of the stick zone is",
-        "annulus": "the width of the slip zone is",
     }
 )
 
@@ -168,7 +168,8 @@ class Features:
         if name == "ruiz_f2" or (name == PEAK and self.cusp):
             return ROOT
         # Without slip the edge of the stick zone is that of the contact.
-        stick_fitted = self.fitted if self.annulus is None else self.stick_fitted
+        small = self.stick is not None and self.stick < FITTED_STICK
+        stick_fitted = self.fitted if self.annulus is None else self.stick_fitted and not small
         first = (
             self.sharp
             or name == LARGEST_TENSION  # at the edge of the contact, or inside
@@ -182,24 +183,30 @@ class Features:
     def unresolved(self, name: str) -> str | None:
         """Return the reason if a feature of the contact on which a scalar depends is unresolved.
 
-        Features are the contact, layers, waves of a rough surface, the stick zone and the slip
-        annulus. Each must be at least as large as its limit in cells. Otherwise the error estimate
-        of the scalar is unreliable. The result is None if all features are resolved.
+        Features are the contact, layers, waves of a rough surface and the stick zone. Each must be
+        at least as large as its limit in cells. Scalars that depend on slip also require that no
+        stick zone is hidden within a cell. Otherwise the error estimate is unreliable. The result
+        is None if all features are resolved.
 
         name  name of the scalar, such as "stick_radius"
         """
+        # Below the friction limit a stick zone exists, even if it contains no cell.
+        hidden = self.annulus == 0 or (self.stick == 0 and not self.slides)
+        if hidden and name in OF_SLIP:
+            return HIDDEN
         sizes = {
             "contact": self.contact,
             "layer": self.layer,
             "wave": self.wave,
             "stick": self.stick if name in STICK_EDGE else None,
             "cusp": self.stick if name == PEAK and self.cusp and not self.slides else None,
-            "annulus": self.annulus if name in OF_SLIP else None,
         }
         for feature, size in sizes.items():
             if size is not None and size < LIMITS[feature]:
-                least = f"{LIMITS[feature]:g} cells (half elements, half rings)"
-                return f"{NAMES[feature]} {size:.2g}, below {least}"
+                limit = (
+                    f"the limit {LIMITS[feature]:g} (half elements and half rings count as cells)"
+                )
+                return f"{NAMES[feature]} {size:.2g} cells, below {limit}"
         return None
 
 
@@ -390,9 +397,7 @@ class SolvedRun:
         """Compute the stated error of one scalar at the end of a load step, with its status.
 
         Without a required part, the error is unknown. Otherwise the status is "not converged" in
-        three cases: the error is large compared with the scalar, the cells do not resolve the
-        contact, or the scalar depends on slip and the tangential force is close to the friction
-        limit.
+        two cases: the error is larger than the scalar, or the cells do not resolve the contact.
 
         step    load step, from 0
         name    name of the scalar
@@ -426,9 +431,8 @@ class SolvedRun:
         if np.all(largest <= floor) and np.all(sum(parts.values()) <= 2 * floor):
             # Zero within the tolerance at every fineness so far: no cell has to resolve its cause.
             return build_stated_error(parts, HIDDEN if name in AT_EDGES else None)
-        nearly = name in OF_SLIP and self._near_gross_slip[step]
-        reason = features.unresolved(name) or (NEAR_LIMIT if nearly else None)
-        return build_stated_error(parts, reason or (None if small else TOO_LARGE))
+        reason = features.unresolved(name) or (None if small else TOO_LARGE)
+        return build_stated_error(parts, reason)
 
     def _difference_from_references(self, step: int, name: str) -> Numbers | None:
         """Return the largest difference of a scalar from other methods; None if they lack it.
@@ -449,15 +453,6 @@ class SolvedRun:
         Error estimates are compared with this value, because a scalar may pass through zero.
         """
         return largest_so_far(self.values)
-
-    @cached_property
-    def _near_gross_slip(self) -> Sequence[bool]:
-        """Flag of each load step: true once the tangential force has been near the friction limit.
-
-        The force may have been near the limit in this or in an earlier load step. Errors of shift,
-        slip and dissipated energy are unreliable from then on.
-        """
-        return near_gross_slip(self.scene)
 
     def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | str:
         """Compute the parts of the error of a scalar at the end of a load step, by their cause.
