@@ -8,6 +8,7 @@ the full range for δ, both parameters are twice as large.
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
@@ -118,7 +119,25 @@ class FrettingCycle(WithFields):
         return np.maximum(self.surface_tension, 0.0) * self.ruiz_f1
 
 
+# Cycles of the results that are in use, by the identity of the result: errors, files and sweeps
+# need the cycles of one result, whose computation takes up to a tenth of the solve.
+_KEPT: dict[int, tuple[weakref.ref[Any], tuple[FrettingCycle, ...]]] = {}
+
+
 def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
+    """Return energies and fields of all closed load cycles of a result, ordered by their ends.
+
+    They are computed once for a result and kept as long as the result.
+    """
+    key = id(result)
+    if key in _KEPT and _KEPT[key][0]() is result:
+        return _KEPT[key][1]
+    found = _compute_cycles(result)
+    _KEPT[key] = weakref.ref(result, lambda _: _KEPT.pop(key, None)), found
+    return found
+
+
+def _compute_cycles(result: Result) -> tuple[FrettingCycle, ...]:
     """Compute energies and fields of all closed load cycles of a result, ordered by their ends.
 
     Cycles that contain an increment without dissipated energy are omitted: cycles without shear,
@@ -164,10 +183,12 @@ def _fretting_cycle(
     amplitude = _slip_amplitude(lambda: _vectors_along_path(surface, path, "slip"))
     # The edge of the contact is corrected at the ends of load steps alone.
     ends = [increment for increment in path if increment.index == increment.increments_in_step]
-    widest = surface.scalar(max(ends, key=lambda end: end.contact_area), "pressure")
-    assert widest is not None
+    widest = max(ends, key=lambda end: end.contact_area)
+    pressure, report = surface.scalar(widest, "pressure"), getattr(widest, "edge_report", None)
+    assert pressure is not None
+    corrected = report is not None and report.cause is None
     shear = reduce(np.maximum, shears)
-    edge = CycleEdge(surface, widest, amplitude, shear, tension)
+    edge = CycleEdge(surface, corrected, pressure, amplitude, shear, tension)
     return FrettingCycle(
         cycle=cycle,
         input_work=_change_over_cycle(start.input_work, end.input_work),

@@ -31,6 +31,8 @@ from contact_scene.array_types import Field, Mask
 # Reach of the fits around a cell, in cells: two more cells, and three for the square of the
 # pressure, whose curvature is fitted, too.
 NEAR, FAR = 2.3, 3.2
+# Smallest contact in cells, 10 per radius: in smaller ones the fits reach far across the slip zone.
+LEAST_CONTACT = 300
 # Smallest numbers of cells of the fits: two above the numbers of coefficients.
 LEAST_NEAR, LEAST_FAR = 6, 8
 POWER = 2 / 3
@@ -44,6 +46,9 @@ CANDIDATES = 16
 class CycleEdge:
     """Fields of a load cycle on cells, (nx, ny), for fits towards the edge of the contact.
 
+    surface    cells or rings
+    corrected  true if the edge of the contact cuts cells; pressure and slip near an edge along
+               cells have errors that a fit would enlarge
     pressure   pressure at an end of a load step in the cycle [force/length^2]
     amplitude  slip amplitude [length]
     shear      largest shear [force/length^2]
@@ -51,6 +56,7 @@ class CycleEdge:
     """
 
     surface: Surface
+    corrected: bool
     pressure: Field
     amplitude: Field
     shear: Field
@@ -85,7 +91,8 @@ class CycleEdge:
 
     def _best_inner_cells(self, values: Field, count: int) -> list[tuple[int, int]]:
         """Return the slipping cells inside the edge with the largest values, largest first."""
-        if not isinstance(self.surface, Cells):
+        small = np.count_nonzero(self.pressure) < LEAST_CONTACT
+        if small or not self.corrected or not isinstance(self.surface, Cells):
             return []
         inner = _with_all_neighbours(self.pressure > 0) & (self.amplitude > 0)
         order = np.argsort(np.where(inner, values, -np.inf), axis=None)[::-1][:count]

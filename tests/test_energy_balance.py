@@ -1,5 +1,6 @@
 """Tests of the energy balance: input work is stored or dissipated in every increment."""
 
+from dataclasses import replace
 from itertools import combinations
 from math import cos, pi, sin, sqrt
 from time import process_time
@@ -269,6 +270,15 @@ def loop(cells, *loading, window=1.1):
     return solve(described, grid(cells, window), TOLERANCE)
 
 
+def test_cycles_are_computed_once_for_a_result_and_released_with_it():
+    result = loop(16, PRESS, push(0.5), push(-0.5), push(0.5))
+    assert fretting_cycles(result) is fretting_cycles(result)
+    assert fretting_cycles(replace(result)) is not fretting_cycles(result)
+    kept = len(cycles._KEPT)
+    del result
+    assert len(cycles._KEPT) < kept
+
+
 def test_slip_amplitude_is_half_the_largest_distance_of_two_slips():
     result = loop(16, PRESS, push(0.8, 0.1), push(-0.8, increments=4), push(0.8, 0.1, increments=4))
     (found,) = fretting_cycles(result)
@@ -304,7 +314,7 @@ def test_the_largest_slip_below_a_rim_is_that_of_the_cells():
     r = np.hypot(x[:, None], x)
     pressure = np.where(r < 1, 1 / np.sqrt(np.maximum(1 - r**2, 0.01)), 0.0)
     slip = np.where(r < 1, r**2, 0.0)
-    edge = CycleEdge(Cells(x, x, 1.0), pressure, slip, pressure, None)
+    edge = CycleEdge(Cells(x, x, 1.0), True, pressure, slip, pressure, None)
     assert edge.largest_amplitude() == np.max(slip)
 
 

@@ -112,6 +112,20 @@ def test_each_number_is_counted_once(
     assert coverage([one]) == Coverage(APPROACH, *shares, undecided, 0)
 
 
+def test_numbers_with_a_reference_are_counted_apart() -> None:
+    """Of the 200 numbers, the errors of 100 have a part by the tolerance."""
+    truth = Truth(1, APPROACH, Reference(2.0, ReferenceKind.CLOSED_FORM, "test", 1e-9))
+    parts: list[Mapping[Any, float]] = [{"cells": 1e-3}, {"cells": 1e-3, "tolerance": 1e-4}]
+    rows = [
+        coverage_row(truth, 2 + wrong, StatedError(error=1e-3, parts=one, status="estimated"))
+        for one, wrong in zip(parts, (1e-3, 2e-3), strict=True)
+    ] * 100
+    statements = conclude(SETTINGS, records(rows)).statements
+    (apart,) = (one for one in statements if one.claim.startswith("numbers by coarse solves"))
+    assert apart.about.counters["numbers"] == 100
+    assert apart.about.measures["covered"] == 0
+
+
 MARKED = row(1e-3, 2e-3, ErrorStatus.NOT_CONVERGED)
 
 
