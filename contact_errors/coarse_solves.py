@@ -233,7 +233,7 @@ class DiscretisedSolver(ABC):
         """Return the side lengths of a cell, an element or a ring of a result.
 
         There is one length for each direction of refinement. The ratio of the lengths of two solves
-        is the coarsening factor r in the error formula |fine - coarse| / |r^(0.6 p) - 1|.
+        is the coarsening factor r in the error formula.
         """
 
     @abstractmethod
