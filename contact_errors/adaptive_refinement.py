@@ -30,6 +30,7 @@ from contact_errors.coarse_solves import (
 )
 from contact_errors.cost_estimate import Work, estimated_run_seconds
 from contact_errors.error_formula import (
+    EDGE,
     ORDERS,
     PEAK,
     SolvedRun,
@@ -179,7 +180,9 @@ class RefinementLevel:
         """
         factors: dict[Part, float] = {}
         for name, share in shares.items():
-            of_cells = min(step.convergence_order(name) for step in self.run.features)
+            # ½ is the least order of a cusp, whose error falls faster on most levels.
+            least = min(step.convergence_order(name) for step in self.run.features)
+            of_cells = max(EDGE, least)
             for error in self.errors(name):
                 parts = {p: float(np.max(s)) / self.largest(name) for p, s in error.parts.items()}
                 allowed = share / SPARE / max(1, sum(size > 0 for size in parts.values()))
