@@ -418,10 +418,10 @@ def compare_with_coarse_solves(
     required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
     required["increments"] = matters
     comparisons: list[Comparison] = []
+    twice = (2.0,) * len(values)
     if half is not None:
         required["map"] = [True] * len(values)
         if references and (fewer := half.references()):
-            twice = (2.0,) * len(values)
             comparisons.append(Comparison("map", references[0], fewer[0], twice))
     points = half
 
@@ -472,10 +472,7 @@ def compare_with_coarse_solves(
         if points is not None:
             same = replace(run, space=change_settings(space, **(changes or {})))
             if other := solved("every second point of the indenter", same, points):
-                twice = (2.0,) * len(values)
-                # Of known scalars the effect is known, too.
-                base = found[1] if not references else _without(found[1], references[0])
-                comparisons.append(Comparison("map", base, other[1], twice))
+                comparisons.append(Comparison("map", found[1], other[1], twice))
                 points = None
         changes = changes or {}
     for ratio, coarse_values in meshes.items():
@@ -494,14 +491,6 @@ def compare_with_coarse_solves(
     ), tuple(made)
 
 
-def _without(values: Sequence[Values], known: Sequence[Values]) -> Sequence[Values]:
-    """Return scalars at the end of each load step without those that are known."""
-    return [
-        {name: value for name, value in here.items() if name not in there}
-        for here, there in zip(values, known, strict=True)
-    ]
-
-
 def _all_known(
     scene: Scene, values: Sequence[Values], references: Sequence[Sequence[Values]]
 ) -> bool:
@@ -513,17 +502,11 @@ def _all_known(
     values      scalars of the result at the end of each load step, by name
     references  scalars by other methods, one sequence for each method
     """
-    if not references:
-        return False
-    steps = zip(scene.load_path(), values, *references, strict=True)
     infinite = {PEAK} if is_singular(scene.indenter) else set()
-    return all(
-        not here["contact_area"].any()
-        or all(
-            here.keys() <= known.keys() | prescribed_scalars(ramp, scene.rig) | infinite
-            for known in others
-        )
-        for ramp, here, *others in steps
+    return bool(references) and all(
+        here.keys() <= known.keys() | prescribed_scalars(ramp, scene.rig) | infinite
+        for ramp, here, known in zip(scene.load_path(), values, references[0], strict=True)
+        if here["contact_area"].any()
     )
 
 

@@ -82,24 +82,16 @@ LARGEST_SHARE = 1.0
 TOO_LARGE = "the error exceeds the number"
 HIDDEN = "a stick or slip zone smaller than a cell is possible"
 
+# Features that cells have to resolve.
+CONTACT, WAVE = "semi-axis of the contact", "wavelength of the surface"
+LAYER, STICK = "thickness of a layer", "semi-axis of the stick zone"
 # Smallest resolved size of each feature in cells. Elements and rings count as two cells, because
 # their shape functions are linear.
 LIMITS: Mapping[str, float] = MappingProxyType(
-    {"contact": 4.0, "wave": 4.0, "layer": 1.0, "stick": 1.0, "cusp": 1.0}
+    {CONTACT: 4.0, WAVE: 4.0, LAYER: 1.0, STICK: 1.0}  # STICK: of its radius, and of a cusp
 )
 # Smallest stick zone in cells whose fitted edge converges with the order 2.
 FITTED_STICK = 3.0
-
-# Beginnings of the reasons for unresolved features.
-NAMES: Mapping[str, str] = MappingProxyType(
-    {
-        "contact": "the semi-axis of the contact is",
-        "wave": "the wavelength of the surface is",
-        "layer": "the thickness of a layer is",
-        "stick": "the semi-axis of the stick zone is",
-        "cusp": "the semi-axis of the stick zone is",
-    }
-)
 
 CONTACT_EDGE = frozenset({"contact_radius", "contact_area"})
 STICK_EDGE = frozenset({"stick_radius", "stick_area", "stick_centre"})
@@ -194,19 +186,17 @@ class Features:
         hidden = self.annulus == 0 or (self.stick == 0 and not self.slides)
         if hidden and name in OF_SLIP:
             return HIDDEN
+        of_stick = name in STICK_EDGE or (name == PEAK and self.cusp and not self.slides)
         sizes = {
-            "contact": self.contact,
-            "layer": self.layer,
-            "wave": self.wave,
-            "stick": self.stick if name in STICK_EDGE else None,
-            "cusp": self.stick if name == PEAK and self.cusp and not self.slides else None,
+            CONTACT: self.contact,
+            LAYER: self.layer,
+            WAVE: self.wave,
+            STICK: self.stick if of_stick else None,
         }
         for feature, size in sizes.items():
             if size is not None and size < LIMITS[feature]:
-                limit = (
-                    f"the limit {LIMITS[feature]:g} (half elements and half rings count as cells)"
-                )
-                return f"{NAMES[feature]} {size:.2g} cells, below {limit}"
+                limit = f"{LIMITS[feature]:g} (half elements and half rings count as cells)"
+                return f"the {feature} is {size:.2g} cells, below the limit {limit}"
         return None
 
 
@@ -441,10 +431,9 @@ class SolvedRun:
         """
         if name == PEAK and self.features[step].infinite:
             return None
-        known = [reference[step].get(name) for reference in self.references]
         here = self.values[step][name]
-        sizes = [np.abs(here - there) for there in known if there is not None]
-        return np.max(sizes, axis=0) if sizes and len(sizes) == len(known) else None
+        sizes = [np.abs(here - of[step][name]) for of in self.references if name in of[step]]
+        return np.max(sizes, axis=0) if sizes else None
 
     @cached_property
     def _largest_so_far(self) -> Sequence[Values]:
