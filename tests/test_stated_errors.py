@@ -658,7 +658,7 @@ KNOWN: dict[str, Callable[[], Known]] = {
     **{f"ellipse 1:{ratio:g}": lambda ratio=ratio: ellipse(ratio) for ratio in (5.0, 10.0)},
 }
 EXPENSIVE: dict[str, Callable[[], Known]] = {
-    **{f"ellipse 1:{ratio:g}": lambda ratio=ratio: ellipse(ratio) for ratio in (30.0, 1e6)},
+    **{f"ellipse 1:{ratio:g}": lambda ratio=ratio: ellipse(ratio) for ratio in (30.0, 1e3, 1e6)},
     # By four times the increments.
     "loop of the paper": lambda: Known(
         read_scene_file(SCENES / "fretting_loop.toml").scene,
@@ -692,15 +692,15 @@ EXPENSIVE: dict[str, Callable[[], Known]] = {
 }  # fmt: skip
 
 # Three coarse solves agree with the run by chance, as for 1 of 80 numbers of the study
-# error-coverage: 48², 26², 20² and 16² cells.
-MISSED = {("cone pushed", "dissipated_energy"): 1.45}
+# error-coverage: 48², 26², 20² and 16² cells. On films of two elements the peak pressure converges
+# with a lower order than 1.
+MISSED = {
+    ("cone pushed", "dissipated_energy"): 1.45,
+    ("elements coarser than a stiff film", PEAK): 1.15,
+}
 
 # The elements are 0.24 % off and the profile through 24 points 0.21 %, with opposite signs.
 WIDE = {("profile of a flat that ends in a parabola, 24 points, fem-complementarity", PEAK): 2.0}
-
-# On 48² to 384² cells the errors of the area are -3e-4, -3e-4, -2e-5, -5e-5, -8e-5, -4e-5, -4e-5:
-# differences of levels do not measure an error without a convergence order.
-SLENDER = "the fitted edge of a very slender contact does not converge with the cells"
 
 
 @pytest.mark.parametrize(
@@ -708,9 +708,8 @@ SLENDER = "the fitted edge of a very slender contact does not converge with the 
     [
         *KNOWN.values(),
         *(pytest.param(known, marks=SLOW) for known in EXPENSIVE.values()),
-        pytest.param(lambda: ellipse(1e3), marks=[SLOW, pytest.mark.xfail(reason=SLENDER)]),
     ],
-    ids=[*KNOWN, *EXPENSIVE, "ellipse 1:1000"],
+    ids=[*KNOWN, *EXPENSIVE],
 )
 def test_errors_cover_what_is_wrong(
     known: Callable[[], Known], request: pytest.FixtureRequest
