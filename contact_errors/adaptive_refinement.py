@@ -6,8 +6,8 @@ memory is reached. The result of the first level determines the scalars that the
 A request that cannot be met is refused after the first level.
 
 Each part of an error may use an equal share of the requested error. A parameter of the
-discretisation is refined by the factor (part of the error / allowed part)^(1/(0.6 p)), where p is
-its convergence order. The factor of the cells and of the increments is at most 4 per level, that of
+discretisation is refined by the factor (part of the error / allowed part)^(1/p), where p is its
+convergence order. The factor of the cells and of the increments is at most 4 per level, that of
 other parameters at most 16. If an error estimate has not converged, the cells are refined by at
 least 2.
 """
@@ -30,14 +30,14 @@ from contact_errors.coarse_solves import (
 )
 from contact_errors.cost_estimate import Work, estimated_run_seconds
 from contact_errors.error_formula import (
-    BELIEVED,
+    EDGE,
     ORDERS,
     PEAK,
-    UNKNOWN,
     SolvedRun,
     Values,
     characteristic_size,
     largest_so_far,
+    unknown_error,
 )
 from contact_errors.stress_errors import largest_stresses
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
@@ -169,25 +169,25 @@ class RefinementLevel:
                         return f"{cause} leave an error of {size:.2g} in {name} on any grid"
         return None
 
-    def needed_factors(self, shares: Mapping[str, float], believed: float = BELIEVED) -> Refinement:
+    def needed_factors(self, shares: Mapping[str, float]) -> Refinement:
         """Compute the refinement factors of the discretisation that a requested accuracy needs.
 
         There is one factor for each discretisation parameter, such as cells, increments and
         tolerance. A factor follows from the part of the error that the parameter causes, and from
         the convergence order of this part. Parameters that need no refinement are absent.
 
-        shares    requested relative error by name of the scalar
-        believed  factor of the theoretical convergence orders: 0.6 for a safe estimate, 1 for the
-                  most likely refinement factors
+        shares  requested relative error by name of the scalar
         """
         factors: dict[Part, float] = {}
         for name, share in shares.items():
-            of_cells = min(step.convergence_order(name) for step in self.run.features)
+            # ½ is the least order of a cusp, whose error falls faster on most levels.
+            least = min(step.convergence_order(name) for step in self.run.features)
+            of_cells = max(EDGE, least)
             for error in self.errors(name):
                 parts = {p: float(np.max(s)) / self.largest(name) for p, s in error.parts.items()}
                 allowed = share / SPARE / max(1, sum(size > 0 for size in parts.values()))
                 wanted: dict[Part, float] = {
-                    part: (size / allowed) ** (1 / (believed * ORDERS.get(part, of_cells)))
+                    part: (size / allowed) ** (1 / ORDERS.get(part, of_cells))
                     for part, size in parts.items()
                     if part not in UNREFINED and size > allowed
                 }
@@ -259,7 +259,10 @@ class Levels:
             wanted = (f"{LARGEST_TENSION}@body",)
             for value, error in largest_stresses(result, stated, wanted, self.stress_at).values():
                 values[at] = {**values[at], LARGEST_TENSION: np.array([abs(value)])}
-                errors[at] = {**errors[at], LARGEST_TENSION: error or UNKNOWN}
+                errors[at] = {
+                    **errors[at],
+                    LARGEST_TENSION: error or unknown_error("no error was estimated"),
+                }
         return RefinementLevel(
             fineness=self.solver.fineness_of(result),
             result=result,
@@ -306,7 +309,7 @@ class Levels:
         """
         if first.meets(shares):
             return first.fineness
-        needed = first.needed_factors(shares, believed=1.0)
+        needed = first.needed_factors(shares)
         return self.solver.refine_fineness(
             first.fineness, limit_factors(needed, first.part, FURTHEST)
         )

@@ -1,25 +1,33 @@
-"""Error of a scalar from coarse solves: one formula, three convergence orders, one table of limits.
+"""Error of a scalar: from a reference, or from coarse solves by two formulas and three orders.
 
-Each discretisation parameter (cells, increments, section, …) is coarsened separately:
+A scalar with an independent reference has the error |Q - Q_known|. Otherwise each discretisation
+parameter (cells, increments, section, …) is coarsened separately, and an error is the sum of its
+parts. Q is the scalar, r the coarsening factor of a parameter and p its theoretical order.
 
-    part of an error = max over the coarse solves of that part  |Q - Q_coarse| / |r^(b p) - 1|
-    error            = sum of the parts
+The edges of contact and stick zone lie at any position within cells, elements and rings, so that
+the coefficient of h^p changes from level to level. Two errors c h^p and c' (r h)^p, with c and c'
+of one spread, differ by √(r^(2p) + 1) times this spread. The part of the cells is therefore
 
-Q is the scalar. The coarsening factor of the parameter is r, and p is its theoretical convergence
-order (Richardson 1911). The edges of contact and stick zone lie at any position within cells, so
-that the coefficient of h^p changes from level to level. Only the fraction b of the order is
-therefore believed: 0.6 with one or two coarse solves of a parameter, which is a safety factor of
-2.3 for p = 2, 1.9 for p = 1 and 1.8 for p = ½ at r = 2. Several coarse solves prevent chance
-agreement of one of them with the run, so that b is 0.7 with three coarse solves. These are the
-only adjustable constants. No constant belongs to a quantity or to a kind of scene.
+    part = 3 √mean over the coarse solves of |Q - Q_coarse|² / (r^(2p) + 1)
 
-Errors do not decrease along a load history: each part of an error is at least as large as at the
-end of each earlier load step.
+With several coarse solves, a chance agreement of one of them with the run has little effect.
+
+All other parameters converge regularly (Richardson 1911):
+
+    part = max over the coarse solves of that part  |Q - Q_coarse| / |r^(b p) - 1|
+
+Only the fraction b = 0.6 of the order is believed, which is a safety factor of 2.3 for p = 2 and
+1.9 for p = 1 at r = 2. The 3 and the 0.6 are the only adjustable constants. No constant belongs to
+a quantity or to a kind of scene.
+
+Errors from coarse solves do not decrease along a load history: each part of an error is at least as
+large as at the end of each earlier load step.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from math import sqrt
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -41,16 +49,19 @@ from contact_scene.quantities.stated_error import (
 )
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.rig import Rig, prescribed_motions
-from contact_scene.stepping.increment_error import near_gross_slip
 from contact_scene.stepping.load_path import ControlKind
 
 Numbers = NDArray[np.float64]
 # Scalars of a state by name: arrays of shape (1,), or (2,) for a vector.
 Values: TypeAlias = Mapping[str, Numbers]
 
-# Fraction of the convergence order that is believed: with one or two, and with three coarse solves
-# of a parameter. docs/believed_fraction.py measures the coverage that follows.
-BELIEVED, BELIEVED_BY_THREE = 0.6, 0.7
+# Parts of errors that the formula of the spread estimates.
+BY_SPREAD = frozenset({"cells", "elements", "quadrature"})
+# Stated error over the spread of errors that coarse solves show. docs/spread_factor.py measures the
+# coverage that follows.
+SPREADS = 3.0
+# Fraction of the convergence order that is believed of the other parts.
+BELIEVED = 0.6
 # Convergence orders in the cell size: of means of smooth fields, of values at the edge of a zone
 # that lies within a cell, and of values near a square-root singularity.
 SMOOTH, EDGE, ROOT = 2.0, 1.0, 0.5
@@ -63,19 +74,28 @@ ORDERS: Mapping[str, float] = MappingProxyType(
 )
 # Ratio of the relative error of a scalar to the relative residual that causes this error.
 PER_TOLERANCE = 10.0
-# Largest ratio of error to scalar at which the error estimate counts as converged.
-LARGEST_SHARE = 0.5
+# Largest ratio of error to scalar at which the error estimate counts as converged: a larger error
+# leaves even the order of magnitude open.
+LARGEST_SHARE = 1.0
 
+# Reasons why an error is not converged.
+TOO_LARGE = "the error exceeds the number"
+HIDDEN = "a stick or slip zone smaller than a cell is possible"
+
+# Features that cells have to resolve.
+CONTACT, WAVE = "semi-axis of the contact", "wavelength of the surface"
+LAYER, STICK = "thickness of a layer", "semi-axis of the stick zone"
 # Smallest resolved size of each feature in cells. Elements and rings count as two cells, because
 # their shape functions are linear.
 LIMITS: Mapping[str, float] = MappingProxyType(
-    {"contact": 4.0, "wave": 4.0, "layer": 1.0, "stick": 3.0, "cusp": 1.0, "annulus": 0.5}
+    {CONTACT: 4.0, WAVE: 4.0, LAYER: 1.0, STICK: 1.0}  # STICK: of its radius, and of a cusp
 )
+# Smallest stick zone in cells whose fitted edge converges with the order 2.
+FITTED_STICK = 3.0
 
 CONTACT_EDGE = frozenset({"contact_radius", "contact_area"})
 STICK_EDGE = frozenset({"stick_radius", "stick_area", "stick_centre"})
-# Scalars that are largest values of cells at the contact edge, which divides the cells at any
-# position.
+# Scalars that are largest values at the contact edge.
 AT_EDGES, PEAK = frozenset({"slip_amplitude", "ruiz_f1", "ruiz_f2"}), "peak_pressure"
 OF_SLIP = frozenset(
     {
@@ -101,7 +121,8 @@ class Features:
                   zone may be hidden within a cell
     fitted        true if the contact edge is fitted within the cells
     stick_fitted  true if the edge of the stick zone is fitted within the cells
-    sharp         true for an indenter with a rim or a tip; all scalars then have the order 1
+    sharp         true for a rim, and for a tip below a contact edge that is not fitted; all scalars
+                  then have at most the order 1
     infinite      true if the exact peak pressure is infinite
     cusp          true if the pressure has a cusp, because shear changes the pressure or the gap is
                   a power between 1 and 2 of the distance
@@ -136,36 +157,47 @@ class Features:
 
         name  name of the scalar, such as "peak_pressure"
         """
-        if self.sharp:
-            return EDGE
-        if name in AT_EDGES or (name == PEAK and self.cusp):
+        if name == "ruiz_f2" or (name == PEAK and self.cusp):
             return ROOT
+        # Without slip the edge of the stick zone is that of the contact.
+        small = self.stick is not None and self.stick < FITTED_STICK
+        stick_fitted = self.fitted if self.annulus is None else self.stick_fitted and not small
         first = (
-            name == LARGEST_TENSION  # at the edge of the contact, or inside
+            self.sharp
+            or name == LARGEST_TENSION  # at the edge of the contact, or inside
+            or name in AT_EDGES
             or (name == PEAK and self.peak_by_edge)
             or (name in CONTACT_EDGE and not self.fitted)
-            or (name in STICK_EDGE and not self.stick_fitted)
+            or (name in STICK_EDGE and not stick_fitted)
         )
         return EDGE if first else SMOOTH
 
-    def resolve(self, name: str) -> bool:
-        """Return true if the cells resolve all features of the contact on which a scalar depends.
+    def unresolved(self, name: str) -> str | None:
+        """Return the reason if a feature of the contact on which a scalar depends is unresolved.
 
-        Features are the contact, layers, waves of a rough surface, the stick zone and the slip
-        annulus. Each must be at least as large as its limit in cells. Otherwise the error estimate
-        of the scalar is unreliable.
+        Features are the contact, layers, waves of a rough surface and the stick zone. Each must be
+        at least as large as its limit in cells. Scalars that depend on slip also require that no
+        stick zone is hidden within a cell. Otherwise the error estimate is unreliable. The result
+        is None if all features are resolved.
 
         name  name of the scalar, such as "stick_radius"
         """
+        # Below the friction limit a stick zone exists, even if it contains no cell.
+        hidden = self.annulus == 0 or (self.stick == 0 and not self.slides)
+        if hidden and name in OF_SLIP:
+            return HIDDEN
+        of_stick = name in STICK_EDGE or (name == PEAK and self.cusp and not self.slides)
         sizes = {
-            "contact": self.contact,
-            "layer": self.layer,
-            "wave": self.wave,
-            "stick": self.stick if name in STICK_EDGE else None,
-            "cusp": self.stick if name == PEAK and self.cusp and not self.slides else None,
-            "annulus": self.annulus if name in OF_SLIP else None,
+            CONTACT: self.contact,
+            LAYER: self.layer,
+            WAVE: self.wave,
+            STICK: self.stick if of_stick else None,
         }
-        return all(size is None or size >= LIMITS[feature] for feature, size in sizes.items())
+        for feature, size in sizes.items():
+            if size is not None and size < LIMITS[feature]:
+                limit = f"{LIMITS[feature]:g} (half elements and half rings count as cells)"
+                return f"the {feature} is {size:.2g} cells, below the limit {limit}"
+        return None
 
 
 PHYSICAL = tuple(name for name, mark in reported(State).items() if mark.physical)
@@ -279,23 +311,20 @@ class Comparison:
                   name
     ratios        coarsening factor of the parameter at the end of each load step; 1 if the
                   parameter has no effect up to this step, 0 if `coarse` has no error by it
-    believed      fraction of the convergence order that is believed
     """
 
     part: Part
     base: Sequence[Values]
     coarse: Sequence[Values]
     ratios: Sequence[float]
-    believed: float = BELIEVED
 
     def part_of(self, step: int, name: str, order: float) -> Numbers | None:
         """Estimate the error of a scalar that one discretisation parameter causes, by two solves.
 
-        The estimate is |fine - coarse| / |r^(b p) - 1| with the coarsening factor r, the
-        convergence order p and its believed fraction b < 1. Less than the order is believed because
-        the coefficient of the error varies with the position of the contact edge within the cells.
-        The result is None if the
-        parameter has no effect up to the load step, or if one of the two solves lacks the scalar.
+        The estimate is 3 |fine - coarse| / √(r^(2p) + 1) for cells, elements and rings, and
+        |fine - coarse| / |r^(b p) - 1| for other parameters, with the coarsening factor r, the
+        convergence order p and its believed fraction b. The result is None if the parameter has no
+        effect up to the load step, or if one of the two solves lacks the scalar.
 
         step   load step at whose end the scalar is compared, from 0
         name   name of the scalar
@@ -303,10 +332,12 @@ class Comparison:
                those of `ORDERS`
         """
         here, there = self.base[step].get(name), self.coarse[step].get(name)
-        if self.ratios[step] == 1 or here is None or there is None:
+        ratio = self.ratios[step]
+        if ratio == 1 or here is None or there is None:
             return None
-        power = self.believed * ORDERS.get(self.part, order)
-        return np.abs(here - there) / abs(self.ratios[step] ** power - 1)
+        if self.part in BY_SPREAD:
+            return SPREADS * np.abs(here - there) / sqrt(ratio ** (2 * order) + 1)
+        return np.abs(here - there) / abs(ratio ** (BELIEVED * ORDERS[self.part]) - 1)
 
 
 @dataclass(frozen=True)
@@ -321,6 +352,9 @@ class SolvedRun:
     required     for each part of the error, such as "increments": true for the load steps at which
                  the error of a scalar is unknown without this part
     neglected    relative error of scalars, by name, due to effects that the solver neglects
+    part         name of the part of the error that cells, elements or rings cause
+    references   scalars by other methods at the end of each load step, by name, one sequence for
+                 each method; the error of these scalars is the difference
     """
 
     scene: Scene
@@ -330,6 +364,8 @@ class SolvedRun:
     comparisons: Sequence[Comparison]
     required: Mapping[Part, Sequence[bool]]
     neglected: Mapping[str, float]
+    part: Part = "cells"
+    references: Sequence[Sequence[Values]] = ()
 
     def errors(self) -> Iterator[Mapping[str, StatedError]]:
         """Yield the error estimates of all scalars of the result, by name, for each load step.
@@ -351,9 +387,7 @@ class SolvedRun:
         """Compute the stated error of one scalar at the end of a load step, with its status.
 
         Without a required part, the error is unknown. Otherwise the status is "not converged" in
-        three cases: the error is large compared with the scalar, the cells do not resolve the
-        contact, or the scalar depends on slip and the tangential force is close to the friction
-        limit.
+        two cases: the error is larger than the scalar, or the cells do not resolve the contact.
 
         step    load step, from 0
         name    name of the scalar
@@ -361,26 +395,45 @@ class SolvedRun:
                 function
         """
         features, value = self.features[step], self.values[step][name]
+        known = self._difference_from_references(step, name)
+        if known is not None:
+            by_map = self._parts(step, name).get("map")
+            if "map" in self.required and by_map is None:
+                return unknown_error("no solve with half of the points has a result")
+            both = {self.part: known} | ({} if by_map is None else {"map": by_map})
+            near = np.all(sum(both.values()) <= LARGEST_SHARE * np.abs(value))
+            return build_stated_error(both, None if near else TOO_LARGE)
         apart = not np.any(self.values[step]["contact_area"])
         if not np.any(value) and (apart or name in STICK_EDGE):
-            return EXACT if apart or features.slides else UNKNOWN
+            return EXACT if apart or features.slides else unknown_error(HIDDEN)
         largest = self._largest_so_far[step][name]
         parts = self._error_parts(step, name, largest)
-        if parts is None:
-            return UNKNOWN
+        if isinstance(parts, str):
+            return unknown_error(parts)
         floor = parts["tolerance"]
         if not np.any(value) and not np.any(sum(parts.values()) - floor):
             # Zero at every fineness: its cause is absent, or too small for a cell.
-            return UNKNOWN if name in AT_EDGES else EXACT
+            return unknown_error(HIDDEN) if name in AT_EDGES else EXACT
         last = before.get(name, {})
         parts = {part: np.maximum(size, last.get(part, 0.0)) for part, size in parts.items()}
         before[name] = parts
         small = np.all(sum(parts.values()) <= LARGEST_SHARE * largest + parts["tolerance"])
         if np.all(largest <= floor) and np.all(sum(parts.values()) <= 2 * floor):
             # Zero within the tolerance at every fineness so far: no cell has to resolve its cause.
-            return build_stated_error(parts, name not in AT_EDGES)
-        nearly = name in OF_SLIP and self._near_gross_slip[step]
-        return build_stated_error(parts, bool(small and not nearly and features.resolve(name)))
+            return build_stated_error(parts, HIDDEN if name in AT_EDGES else None)
+        reason = features.unresolved(name) or (None if small else TOO_LARGE)
+        return build_stated_error(parts, reason)
+
+    def _difference_from_references(self, step: int, name: str) -> Numbers | None:
+        """Return the largest difference of a scalar from other methods; None if they lack it.
+
+        It is also None if the exact value is infinite.
+        """
+        if name == PEAK and self.features[step].infinite:
+            return None
+        here = self.values[step][name]
+        sizes = [np.abs(here - of[step][name]) for of in self.references if name in of[step]]
+        return np.max(sizes, axis=0) if sizes else None
 
     @cached_property
     def _largest_so_far(self) -> Sequence[Values]:
@@ -390,20 +443,12 @@ class SolvedRun:
         """
         return largest_so_far(self.values)
 
-    @cached_property
-    def _near_gross_slip(self) -> Sequence[bool]:
-        """Flag of each load step: true once the tangential force has been near the friction limit.
-
-        The force may have been near the limit in this or in an earlier load step. Errors of shift,
-        slip and dissipated energy are unreliable from then on.
-        """
-        return near_gross_slip(self.scene)
-
-    def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | None:
+    def _error_parts(self, step: int, name: str, largest: Numbers) -> dict[Part, Numbers] | str:
         """Compute the parts of the error of a scalar at the end of a load step, by their cause.
 
         Causes are the discretisation parameters (cells, increments), the tolerance and neglected
-        effects. The result is None if a required part is unknown or the exact value is infinite.
+        effects. The result is the reason if a required part is unknown or the exact value is
+        infinite.
 
         step     load step, from 0
         name     name of the scalar
@@ -411,14 +456,11 @@ class SolvedRun:
         """
         features = self.features[step]
         if name == PEAK and features.infinite:
-            return None
-        parts: dict[Part, Numbers] = {}
-        for comparison in self.comparisons:
-            size = comparison.part_of(step, name, features.convergence_order(name))
-            if size is not None:
-                parts[comparison.part] = np.maximum(parts.get(comparison.part, 0.0), size)
-        if any(needs[step] and part not in parts for part, needs in self.required.items()):
-            return None
+            return "the exact value is infinite"
+        parts = self._parts(step, name)
+        for part, needs in self.required.items():
+            if needs[step] and part not in parts:
+                return f"no coarse solve for the part by {part} has a result"
         size = np.maximum(largest, characteristic_size(name, self.values[step]))
         parts["tolerance"] = PER_TOLERANCE * self.tolerance[step] * size
         if left := features.left.get(name):
@@ -426,6 +468,25 @@ class SolvedRun:
         if share := self.neglected.get(name):
             parts["neglected"] = share * largest
         return parts
+
+    def _parts(self, step: int, name: str) -> dict[Part, Numbers]:
+        """Compute the parts of the error of a scalar that coarse solves measure, by their cause.
+
+        step  load step, from 0
+        name  name of the scalar
+        """
+        order = self.features[step].convergence_order(name)
+        found: dict[Part, list[Numbers]] = {}
+        for comparison in self.comparisons:
+            size = comparison.part_of(step, name, order)
+            if size is not None:
+                found.setdefault(comparison.part, []).append(size)
+        return {
+            part: np.sqrt(np.mean(np.square(sizes), axis=0))
+            if part in BY_SPREAD
+            else np.max(sizes, axis=0)
+            for part, sizes in found.items()
+        }
 
 
 def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
@@ -444,19 +505,23 @@ def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:
     return tuple(found[1:])
 
 
-def build_stated_error(parts: Mapping[Part, Numbers], converged: bool) -> StatedError:
+def build_stated_error(parts: Mapping[Part, Numbers], reason: str | None) -> StatedError:
     """Build the error estimate of a scalar as the sum of its parts, with its status.
 
-    parts      size of the error by cause, such as cells and increments, in the unit of the scalar
-    converged  false for an unreliable error, which is an order of magnitude at best
+    parts   size of the error by cause, such as cells and increments, in the unit of the scalar
+    reason  reason why the error is unreliable, an order of magnitude at best; None if it is
+            reliable
     """
-    status = ErrorStatus.ESTIMATED if converged else ErrorStatus.NOT_CONVERGED
+    status = ErrorStatus.NOT_CONVERGED if reason else ErrorStatus.ESTIMATED
     total = np.sum(list(parts.values()), axis=0)
     amounts = {part: _error_amount(size, len(total)) for part, size in parts.items()}
-    return StatedError(error=_error_amount(total, len(total)), parts=amounts, status=status)
+    error = _error_amount(total, len(total))
+    return StatedError(error=error, parts=amounts, status=status, reason=reason)
 
 
-UNKNOWN = StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED)
+def unknown_error(reason: str) -> StatedError:
+    """Return the error estimate of a scalar without any, with the reason."""
+    return StatedError(error=None, parts={}, status=ErrorStatus.NOT_CONVERGED, reason=reason)
 
 
 def _error_amount(size: Numbers, count: int) -> Amount:

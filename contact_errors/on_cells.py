@@ -3,7 +3,7 @@
 The variable parameters are the grid of cells, the increments and the tolerance.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import ceil
 from typing import Any, ClassVar, Self
@@ -12,11 +12,9 @@ import numpy as np
 
 import semi_analytical
 from contact_errors.coarse_solves import (
-    SHARES,
     DiscretisedSolver,
     Fineness,
     Refinement,
-    Share,
 )
 from contact_errors.cost_estimate import CELL_OVERHEAD, Work
 from contact_errors.error_formula import PEAK, Features, has_cusp, is_singular
@@ -36,9 +34,6 @@ from semi_analytical.plan import Coupling
 from semi_analytical.resolution import resolution, resolution_at
 from semi_analytical.solve import solve_within
 
-# Third coarse solve of a small run, and the largest number of unknowns times increments of a small
-# run. Such a run takes one or two seconds; start and figures take as long.
-THIRD, SMALL = ("2/3 of the {}", 2 / 3, 0), 1e6
 # Cells over the contact radius in the solves for the increment error. The effect of increments on
 # 24² and on 64² cells differs by at most 7 %.
 PER_RADIUS = 11
@@ -129,10 +124,6 @@ class CellSolver(DiscretisedSolver):
         nx, ny = (2 * ceil(share * n / 2) + more for n in result.grid.cells)
         return SurfaceGrid((nx, ny), result.grid.window)
 
-    def shares_of(self, run: Fineness) -> Sequence[Share]:
-        work = self.work(run)
-        return (*SHARES, THIRD) if work.unknowns * work.repetitions <= SMALL else SHARES
-
     def few(self, coarse: Fineness, result: Result) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.
 
@@ -168,15 +159,16 @@ class CellSolver(DiscretisedSolver):
         sliding = end.status is ContactStatus.GROSS_SLIDING
         hides = sliding and _may_hide_stick(end)
         ridge = report is not None and report.ridge
+        fitted = report is not None and (not thin or bool(law))
         return Features(
             contact=cells.contact,
             layer=cells.layer,
             wave=cells.wave,
             stick=cells.stick,
             annulus=0.0 if hides else cells.annulus,
-            fitted=report is not None and (not thin or bool(law)),
+            fitted=fitted,
             stick_fitted=report is not None and report.stick is not None and not coupled,
-            sharp=is_singular(indenter),
+            sharp=indenter.rim is not None or (is_singular(indenter) and not fitted),
             infinite=is_singular(indenter),
             cusp=coupled or has_cusp(indenter),
             peak_by_edge=ridge or _distance_of_peak_to_edge(end) < cells.contact / 2,
@@ -249,7 +241,9 @@ def _may_hide_stick(end: Increment) -> bool:
     if end.slip_increment is None:
         return False
     slip = np.hypot(*np.asarray(end.slip_increment)) * end.in_contact
-    i, j = np.unravel_index(np.argmin(np.where(end.in_contact, slip, np.inf)), slip.shape)
+    # The edge correction may add cells to the contact in which no slip was solved.
+    slips = slip > 0
+    i, j = np.unravel_index(np.argmin(np.where(slips, slip, np.inf)), slip.shape)
     around = slip[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]
     return bool(2 * slip[i, j] <= np.max(around))
 

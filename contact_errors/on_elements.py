@@ -97,8 +97,8 @@ class ElementSolver(DiscretisedSolver):
     def coarser(self, result: Result, share: float, more: int) -> FiniteElementDiscretisation:
         """Return mesh settings with fewer elements over the contact radius, for an error estimate.
 
-        The error depends on the position of the contact edge within an element, so the two coarse
-        solves of an error estimate differ in this position. In the second one the elements are
+        The error depends on the position of the contact edge within an element, so the coarse
+        solves of an error estimate differ in this position. In one of them the elements are
         sized such that the edge lies in the middle of an element.
 
         result  result whose errors are estimated

@@ -19,7 +19,8 @@ from contact_errors.coarse_solves import (
     slip_zone,
 )
 from contact_errors.cost_estimate import RING_OVERHEAD, Work
-from contact_errors.error_formula import Features, is_singular
+from contact_errors.error_formula import Features, Values, is_singular
+from contact_errors.known_pressing import known_pressing
 from contact_scene import RadialDiscretisation
 from contact_scene.quantities.stated_error import (
     Part,
@@ -99,6 +100,13 @@ class RingSolver(DiscretisedSolver):
         more    without effect
         """
         return result.plan.fineness * (share if self.depends_on_rings else 2.0)
+
+    def references(self) -> Sequence[Sequence[Values]]:
+        """Return the known scalars of the pressing, if the result is that of points on rings.
+
+        Otherwise the reference would be the method of the result itself.
+        """
+        return known_pressing(self.scene) if self.plan.circle else ()
 
     def cell_sides(self, result: Result) -> tuple[float, ...]:
         return (1 / result.plan.fineness,)

@@ -32,8 +32,9 @@ from contact_errors.error_formula import (
     LARGEST_SHARE,
     ROOT,
     SMOOTH,
-    UNKNOWN,
+    TOO_LARGE,
     build_stated_error,
+    unknown_error,
 )
 from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
@@ -61,6 +62,9 @@ Key = tuple[str, str]
 AT_SURFACE = "body", "layer 1", SURFACE
 # Depth in cells up to which the contact edge determines the error of a stress.
 NEAR = 2.0
+# Reasons why the error of a stress is not converged.
+AT_WINDOW_EDGE = "the largest stress lies at the edge of the window"
+UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted within the cells"
 COARSE = 2.0  # coarsening factor of the tractions
 # Relative round-off of double precision, with cancellation in sums of a few hundred waves.
 PRECISION = 1e-13
@@ -187,9 +191,8 @@ def stress_errors(
         parts: dict[Part, Field] = {part: np.array([largest])}
         parts |= _parts_of_tractions(state, extreme.value)
         small = largest <= LARGEST_SHARE * abs(extreme.value)
-        errors.append(
-            build_stated_error(parts, small and not unresolved and not extreme.at_window_edge)
-        )
+        reason = AT_WINDOW_EDGE if extreme.at_window_edge else UNRESOLVED if unresolved else None
+        errors.append(build_stated_error(parts, reason or (None if small else TOO_LARGE)))
     return tuple(errors)
 
 
@@ -350,11 +353,11 @@ def _stress_errors_on_disc(
     try:
         again = stress_at_radii(state, x, y, levels, indenter=indenter, fineness=fineness).measures
     except UnsupportedScene:  # the finer fit has no edge: the errors are unknown
-        return (UNKNOWN,) * len(found)
+        return (unknown_error("the finer fit has no edge"),) * len(found)
     errors = []
     for k, e in enumerate(found):
         size = abs(again[e.measure][k] - e.value) / abs(COARSE ** (-BELIEVED * SMOOTH) - 1)
         parts: dict[Part, Field] = {"quadrature": np.array([size + PRECISION * abs(e.value)])}
         parts |= _parts_of_tractions(state, e.value)
-        errors.append(build_stated_error(parts, not e.at_window_edge))
+        errors.append(build_stated_error(parts, AT_WINDOW_EDGE if e.at_window_edge else None))
     return tuple(errors)

@@ -102,5 +102,5 @@ def _solves_of_run(solver: DiscretisedSolver, run: Fineness) -> list[tuple[Finen
         counts = [run.increments, *dict.fromkeys(others)]
         solves += [(replace(few, increments=count), 1.0) for count in counts]
         run = replace(run, increments=min(counts, key=sum))
-    shares = [share for _, share, _ in solver.shares_of(run)]
+    shares = [share for _, share, _ in solver.shares]
     return solves + [(run, share) for share in shares]

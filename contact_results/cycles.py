@@ -8,6 +8,7 @@ the full range for δ, both parameters are twice as large.
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
@@ -16,6 +17,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar, cast
 
 import numpy as np
 
+from contact_results.edge_slip import CycleEdge
 from contact_results.loop import loop_numbers
 from contact_results.surface import Cells, Surface, surface_of
 from contact_scene.array_types import Field
@@ -50,6 +52,8 @@ class FrettingCycle(WithFields):
     cycle            numbers of the load steps at whose ends the cycle begins and closes
     input_work       None if a displacement of the indenter is undefined
     dissipation      None if the solver does not compute this field
+    largest_slip     largest slip amplitude in the contact, at its edge [length]
+    largest_f2       largest F2 in the contact [force^2/length^3]; None if σ_T is None
     loop             numbers of the fretting loop from `loop_numbers`, by name
     surface_tension  σ_T of Ruiz [force/length^2]: largest normal stress of the surface along the
                      change of the tangential force, over the ends of the load steps in the cycle;
@@ -67,6 +71,8 @@ class FrettingCycle(WithFields):
     ]
     slip_amplitude: Annotated[Field, Reported("m", "Half the range of slip in the cycle.", F)]
     largest_shear: Annotated[Field, Reported("Pa", "Largest shear in the cycle.", F)]
+    largest_slip: float
+    largest_f2: float | None
     surface_tension: Annotated[
         Field | None,
         Reported("Pa", "Largest stress of the surface along the change of tangential force.", F),
@@ -78,15 +84,15 @@ class FrettingCycle(WithFields):
         """Scalars of the load cycle for the summary of a run.
 
         The names are those of `contact_scene.quantities.summary.ClosedCycle`. A field is
-        represented by its largest value on the surface.
+        represented by its largest value in the contact. On cells, slip amplitude and F2 are fitted
+        near the edge.
         """
-        f2 = self.ruiz_f2
         return {
             "cycle_start": self.cycle.start,
             "energy_per_cycle": self.energy_per_cycle,
-            "slip_amplitude": float(np.max(self.slip_amplitude)),
+            "slip_amplitude": self.largest_slip,
             "ruiz_f1": float(np.max(self.ruiz_f1)),
-            "ruiz_f2": None if f2 is None else float(np.max(f2)),
+            "ruiz_f2": self.largest_f2,
             **self.loop,
         }
 
@@ -113,7 +119,25 @@ class FrettingCycle(WithFields):
         return np.maximum(self.surface_tension, 0.0) * self.ruiz_f1
 
 
+# Cycles of the results that are in use, by the identity of the result: errors, files and sweeps
+# need the cycles of one result, whose computation takes up to a tenth of the solve.
+_KEPT: dict[int, tuple[weakref.ref[Any], tuple[FrettingCycle, ...]]] = {}
+
+
 def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
+    """Return energies and fields of all closed load cycles of a result, ordered by their ends.
+
+    They are computed once for a result and kept as long as the result.
+    """
+    key = id(result)
+    if key in _KEPT and _KEPT[key][0]() is result:
+        return _KEPT[key][1]
+    found = _compute_cycles(result)
+    _KEPT[key] = weakref.ref(result, lambda _: _KEPT.pop(key, None)), found
+    return found
+
+
+def _compute_cycles(result: Result) -> tuple[FrettingCycle, ...]:
     """Compute energies and fields of all closed load cycles of a result, ordered by their ends.
 
     Cycles that contain an increment without dissipated energy are omitted: cycles without shear,
@@ -156,6 +180,15 @@ def _fretting_cycle(
     shears = (reduce(np.hypot, shear) for shear in _vectors_along_path(surface, path, "shear"))
     dissipated = _change_over_cycle(start.dissipated_energy, end.dissipated_energy)
     assert dissipated is not None
+    amplitude = _slip_amplitude(lambda: _vectors_along_path(surface, path, "slip"))
+    # The edge of the contact is corrected at the ends of load steps alone.
+    ends = [increment for increment in path if increment.index == increment.increments_in_step]
+    widest = max(ends, key=lambda end: end.contact_area)
+    pressure, report = surface.scalar(widest, "pressure"), getattr(widest, "edge_report", None)
+    assert pressure is not None
+    corrected = report is not None and report.cause is None
+    shear = reduce(np.maximum, shears)
+    edge = CycleEdge(surface, corrected, pressure, amplitude, shear, tension)
     return FrettingCycle(
         cycle=cycle,
         input_work=_change_over_cycle(start.input_work, end.input_work),
@@ -163,8 +196,10 @@ def _fretting_cycle(
         dissipation=_change_over_cycle(
             getattr(start, "dissipation", None), getattr(end, "dissipation", None)
         ),
-        slip_amplitude=_slip_amplitude(lambda: _vectors_along_path(surface, path, "slip")),
-        largest_shear=reduce(np.maximum, shears),
+        slip_amplitude=amplitude,
+        largest_slip=edge.largest_amplitude(),
+        largest_f2=edge.largest_f2(),
+        largest_shear=shear,
         surface_tension=tension,
     )
 

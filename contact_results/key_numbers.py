@@ -180,6 +180,8 @@ SYMBOLS = {
     **{"slip_amplitude": "slip\namplitude", "ruiz_f1": "F1", "ruiz_f2": "F2"},
     "stick_centre": "centre of\nstick",
 }
+# Numbers in tables: those of load steps, and those of load cycles.
+SHOWN = (*(name for name, mark in SCALARS.items() if mark.key), *SYMBOLS)
 PRODUCTS = {"Pa m": EngineeringUnit(1e3, "MPa mm"), "Pa^2 m": EngineeringUnit(1e9, "MPa² mm")}
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping, Sequence
 from math import floor, log10
 from typing import NamedTuple
 
@@ -13,6 +14,7 @@ from contact_scene.quantities.stated_error import (
 DIGITS = 5
 ERROR_DIGITS = 2
 MAX_DECIMALS = 12
+MAX_STEPS = 4  # listed with a reason
 
 
 class Uncertainty(NamedTuple):
@@ -68,6 +70,31 @@ def number_text(value: float | None, error: Uncertainty | None, unit: float) -> 
         return f"{number:.{MAX_DECIMALS}f} ± {size:.0e}{doubt}"
     decimals = max(0, decimals)
     return f"{number:.{decimals}f} ± {size:.{decimals}f}{doubt}"
+
+
+def doubt_texts(errors: Sequence[Mapping[str, StatedError]], names: Collection[str]) -> list[str]:
+    """Return one line for each reason why stated errors have not converged.
+
+    A line lists the numbers and the load steps. The reason of a number is that of its last load
+    step with a question mark.
+
+    errors  stated errors of every load step, by name
+    names   names of the shown numbers
+    """
+    steps: dict[str, list[int]] = {}
+    reasons: dict[str, str] = {}
+    for number, of_step in enumerate(errors, start=1):
+        for name in names:
+            error = of_step.get(name)
+            if error is not None and error.reason:
+                steps.setdefault(name, []).append(number)
+                reasons[name] = error.reason
+    groups: dict[tuple[str, str], list[str]] = {}
+    for name, reason in reasons.items():
+        shown = ", ".join(map(str, steps[name][-MAX_STEPS:]))
+        more = "…, " if len(steps[name]) > MAX_STEPS else ""
+        groups.setdefault((f"{more}{shown}", reason), []).append(name.replace("_", " "))
+    return [f"? {', '.join(of)} (step {shown}): {reason}" for (shown, reason), of in groups.items()]
 
 
 def unit_group(name: str) -> str:

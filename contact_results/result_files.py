@@ -18,7 +18,8 @@ from contact_results.directory.file_names import (
 from contact_results.files.field_file import add_cycle_fields, write_fields
 from contact_results.files.summary_file import summary_of, write_summary
 from contact_results.files.tables import write_tables
-from contact_results.key_numbers import cycle_columns
+from contact_results.key_numbers import SHOWN, cycle_columns
+from contact_results.number_text import doubt_texts
 from contact_results.omitted_parts import OmittedParts
 from contact_results.result_warnings import warnings_of
 from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
@@ -119,7 +120,9 @@ def write_computed(
         omitted.write(
             "the page",
             [directory / PAGE],
-            lambda: write_page(result, directory, of_last, shown, told),
+            lambda: write_page(
+                result, directory, of_last, shown, told, doubt_texts(stated or (), SHOWN)
+            ),
         )
     warnings += omitted.warnings
     # The summary is last: it has the digest of the fields and the list of omitted parts.

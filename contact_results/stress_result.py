@@ -11,7 +11,7 @@ from contact_results.files.csv_file import STEP, Column, write_meanings, write_t
 from contact_results.stress.files import INVARIANTS, PLACE, VOLUME, write_files
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import COMPONENTS, StressField, StressIncrement
-from contact_results.stress.stress_maxima import Extreme, maxima_columns
+from contact_results.stress.stress_maxima import Extreme, maxima_columns, stress_doubts
 from contact_scene import Body
 from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
@@ -64,7 +64,9 @@ def write_stress(
             title = f"{state.title or 'Stress'}: {which}, step {state.step}"
             body = state.indenter if which == "indenter" else state.body
             names = write_stress_figures(field, body, staging, title)
-            write_stress_page(maxima_columns(found, errors), title, names, staging)
+            write_stress_page(
+                maxima_columns(found, errors), title, names, staging, stress_doubts(found, errors)
+            )
 
 
 def write_history(

@@ -71,31 +71,62 @@ def test_the_interval_is_that_of_clopper_and_pearson() -> None:
 
 
 @pytest.mark.parametrize(
-    ("one", "covered", "tight", "apart", "undecided"),
+    ("one", "covered", "tight", "wide", "apart", "false_marks", "undecided"),
     [
-        (row(1e-3, 1.1e-3), (1, 1), (1, 1), (0, 0), 0),
-        (row(1e-3, 1.1e-2), (1, 1), (0, 1), (0, 0), 0),
-        (row(-1e-3, 0.9e-3), (0, 1), (1, 1), (0, 0), 0),
-        (row(1e-3, 1e-3 - 1e-10), (1, 1), (1, 1), (0, 0), 0),
-        (row(1e-3, 1e-3, uncertain=2e-4), (0, 0), (0, 0), (0, 0), 1),
-        (row(1e-3, 1e-4, uncertain=2e-4), (0, 1), (1, 1), (0, 0), 0),
-        (row(1e-3, 2e-3, ErrorStatus.NOT_CONVERGED), (0, 0), (0, 0), (1, 1), 0),
-        (row(1e-3, 0.0, ErrorStatus.EXACT), (0, 1), (1, 1), (0, 0), 0),
+        (row(1e-3, 1.1e-3), (1, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
+        (row(1e-3, 1.1e-2), (1, 1), (0, 1), (0, 1), (0, 0), (0, 1), 0),
+        (row(1e-3, 3.1e-2), (1, 1), (0, 1), (1, 1), (0, 0), (0, 1), 0),
+        (row(-1e-3, 0.9e-3), (0, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
+        (row(1e-3, 1e-3 - 1e-10), (1, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
+        (row(1e-3, 1e-3, uncertain=2e-4), (0, 0), (0, 0), (0, 0), (0, 0), (0, 0), 1),
+        (row(1e-3, 1e-4, uncertain=2e-4), (0, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
+        (row(1e-3, 2e-3, ErrorStatus.NOT_CONVERGED), (0, 0), (0, 0), (0, 0), (1, 1), (1, 1), 0),
+        (row(1e-3, 2e-2, ErrorStatus.NOT_CONVERGED), (0, 0), (0, 0), (0, 0), (1, 1), (0, 1), 0),
+        (row(1e-3, 0.0, ErrorStatus.EXACT), (0, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
+        (
+            row(0.0, 0.0, ErrorStatus.EXACT, uncertain=0.0),
+            (1, 1),
+            (1, 1),
+            (0, 1),
+            (0, 0),
+            (0, 1),
+            0,
+        ),
     ],
     ids=[
-        *("covered", "ten times too large", "missed", "covered up to the reference", "undecided"),
-        *("missed in any case", "not converged", "wrongly exact"),
+        *("covered", "ten times too large", "thirty times too large", "missed"),
+        *("covered up to the reference", "undecided", "missed in any case"),
+        *("falsely marked", "rightly marked", "wrongly exact", "exact"),
     ],
 )
 def test_each_number_is_counted_once(
     one: Row,
     covered: tuple[int, int],
     tight: tuple[int, int],
+    wide: tuple[int, int],
     apart: tuple[int, int],
+    false_marks: tuple[int, int],
     undecided: int,
 ) -> None:
-    counts = Share(*covered), Share(*tight), Share(*apart), undecided, 0
-    assert coverage([one]) == Coverage(APPROACH, *counts)
+    shares = (Share(*counts) for counts in (covered, tight, wide, apart, false_marks))
+    assert coverage([one]) == Coverage(APPROACH, *shares, undecided, 0)
+
+
+def test_numbers_with_a_reference_are_counted_apart() -> None:
+    """Of the 200 numbers, the errors of 100 have a part by the tolerance."""
+    truth = Truth(1, APPROACH, Reference(2.0, ReferenceKind.CLOSED_FORM, "test", 1e-9))
+    parts: list[Mapping[Any, float]] = [{"cells": 1e-3}, {"cells": 1e-3, "tolerance": 1e-4}]
+    rows = [
+        coverage_row(truth, 2 + wrong, StatedError(error=1e-3, parts=one, status="estimated"))
+        for one, wrong in zip(parts, (1e-3, 2e-3), strict=True)
+    ] * 100
+    statements = conclude(SETTINGS, records(rows)).statements
+    (apart,) = (one for one in statements if one.claim.startswith("numbers by coarse solves"))
+    assert apart.about.counters["numbers"] == 100
+    assert apart.about.measures["covered"] == 0
+
+
+MARKED = row(1e-3, 2e-3, ErrorStatus.NOT_CONVERGED)
 
 
 def records(rows: Sequence[Row], ratios: Sequence[float] = ()) -> Mapping[str, CaseRecord]:
@@ -110,22 +141,25 @@ def records(rows: Sequence[Row], ratios: Sequence[float] = ()) -> Mapping[str, C
 
 
 @pytest.mark.parametrize(
-    ("rows", "outcome", "of_group"),
+    ("rows", "covered", "width"),
     [
         ([row(1e-3, 2e-3)] * ENOUGH, Status.PASS, Status.PASS),
         ([row(1e-3, 2e-3)] * (ENOUGH - 1), Status.INCONCLUSIVE, Status.INCONCLUSIVE),
-        ([row(1e-3, 2e-3)] * 94 + [row(1e-3, 5e-4)] * 6, Status.FAIL, Status.FAIL),
-        ([row(1e-3, 2e-3)] * 59 + [row(1e-3, 2e-2)] * 41, Status.FAIL, Status.PASS),
+        ([row(1e-3, 2e-3)] * 94 + [row(1e-3, 5e-4)] * 6, Status.FAIL, Status.PASS),
+        ([row(1e-3, 2e-3)] * 74 + [row(1e-3, 2e-2)] * 26, Status.PASS, Status.FAIL),
+        ([row(1e-3, 2e-3)] * 91 + [row(1e-3, 4e-2)] * 9, Status.PASS, Status.FAIL),
+        ([row(1e-3, 2e-3)] * ENOUGH + [MARKED] * 3, Status.PASS, Status.FAIL),
     ],
-    ids=["good", "too few", "too small", "too large"],
+    ids=["good", "too few", "too small", "too large", "far too large", "falsely marked"],
 )
 def test_all_numbers_kinds_and_families_are_judged(
-    rows: list[Row], outcome: Status, of_group: Status
+    rows: list[Row], covered: Status, width: Status
 ) -> None:
     found = conclude(SETTINGS, records(rows)).statements
-    for claim, expected in zip(
-        ("all numbers", "approach", "family balls"), (outcome, of_group, of_group), strict=True
-    ):
+    expected_of = {"all numbers: tight": width} | dict.fromkeys(
+        ("all numbers: covered", "approach", "family balls"), covered
+    )
+    for claim, expected in expected_of.items():
         (statement,) = (s for s in found if s.claim.startswith(claim))
         assert statement.outcome is expected
 

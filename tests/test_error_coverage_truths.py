@@ -28,7 +28,7 @@ from verification.problems.drawn.families import (
 
 SEED = 2  # of draws that neither tried the rules nor judge them
 # Cheap families of all rules but that of finer cells.
-CHEAP = "shapes", "tilted", "pushed-shapes", "twisted", "elements-pushed"
+CHEAP = "shapes", "tilted", "pushed-shapes", "twisted", "gross-slip", "oblique", "elements-pushed"
 COARSE, FINE = 16, 48  # cells along a side
 FEW, MANY = 6, 18  # elements per contact radius
 # Smooth errors fall by nine while cells become a third as large, square roots by 1.7. Each depends

@@ -159,6 +159,7 @@ ORDERS = {
         "surface",
         "result_warnings",
         "loop",
+        "edge_slip",
         "cycles",
         "key_numbers",
         "files",
@@ -168,7 +169,7 @@ ORDERS = {
         "stress_result",
     ),
     "contact_errors": (
-        *("error_formula", "cost_estimate", "coarse_solves", "trial_solve"),
+        *("error_formula", "known_pressing", "cost_estimate", "coarse_solves", "trial_solve"),
         *("on_cells", "on_elements", "on_radii", "stress_errors", "adaptive_refinement"),
     ),
     "verification.challenge": (

@@ -134,7 +134,7 @@ def test_a_stated_error_covers_no_more_than_itself_and_that_of_the_reference() -
 
 def test_a_stated_error_is_that_of_the_judged_step_and_component() -> None:
     steps = tuple(
-        {"shift": build_stated_error({"cells": np.array(sizes)}, True)}
+        {"shift": build_stated_error({"cells": np.array(sizes)}, None)}
         for sizes in ((1.0, 2.0), (3.0, 4.0))
     )
     places = [(0, 0), (1, 0), (0, 1), (1, 1), (0, -1)]

@@ -33,8 +33,7 @@ from contact_errors import coarse_solves
 from contact_errors import stress_errors as stress_errors_module
 from contact_errors.coarse_solves import Fineness, add_effects, coarse_increment_counts, ratios
 from contact_errors.error_formula import (
-    BELIEVED,
-    BELIEVED_BY_THREE,
+    PEAK,
     Comparison,
     Features,
     SolvedRun,
@@ -42,12 +41,15 @@ from contact_errors.error_formula import (
     characteristic_size,
     largest_so_far,
     prescribed_scalars,
+    unknown_error,
     values_of,
 )
+from contact_errors.known_pressing import known_pressing
 from contact_errors.on_cells import CellSolver
 from contact_errors.on_elements import ElementSolver
 from contact_errors.on_radii import RingSolver
 from contact_errors.stress_errors import largest_stresses, on_wide_cells, stress_errors
+from contact_results.number_text import doubt_texts
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.on_cells import stress_on_cells
 from contact_results.stress.stress_maxima import extremes
@@ -120,13 +122,15 @@ def errors_of_one(order: float, comparisons: list[Comparison], features: Feature
     """Error of an approach of 2 with the natural sizes of a contact."""
     names = ("normal_force", "contact_radius", "contact_area", "peak_pressure")
     values = {name: np.ones(1) for name in names} | {"approach": np.array([2.0])}
-    run = SolvedRun(scene(PRESS), [values], [1e-8], [features], comparisons, {"cells": [True]}, {})
+    needed = {comparison.part: [True] for comparison in comparisons} or {"cells": [True]}
+    run = SolvedRun(scene(PRESS), [values], [1e-8], [features], comparisons, needed, {})
     return next(run.errors())["approach"]
 
 
 def test_a_worked_example() -> None:
-    """2 on the run, 2.06 and 1.98 on half and 8/15 of the cells: 0.06/(2^1.2 - 1) = 0.04625 and
-    0.02/(1.875^1.2 - 1) = 0.01774; increments 0.01/(2^0.6 - 1) = 0.01939; tolerance 10·2e-8."""
+    """2 on the run, 2.06 and 1.98 on half and 8/15 of the cells: 3 times the root mean square of
+    0.06/(2^4 + 1)^½ = 0.01455 and 0.02/(1.875^4 + 1)^½ = 0.00547; increments 0.01/(2^0.6 - 1) =
+    0.01939; tolerance 10·2e-8."""
     two, coarse, other, recut = ([{"approach": np.array([x])}] for x in (2.0, 2.06, 1.98, 2.01))
     comparisons = [
         Comparison("cells", two, coarse, [2.0]),
@@ -136,18 +140,24 @@ def test_a_worked_example() -> None:
     found = errors_of_one(2.0, comparisons, Features(contact=10))
     assert found.status is ErrorStatus.ESTIMATED
     assert found.parts == pytest.approx(
-        {"cells": 0.04625, "increments": 0.01939, "tolerance": 2e-7}, rel=2e-4
+        {"cells": 0.03298, "increments": 0.01939, "tolerance": 2e-7}, rel=2e-4
     )
     few = errors_of_one(2.0, comparisons, Features(contact=3.9))
-    far = [Comparison("cells", two, [{"approach": np.array([4.0])}], [2.0])]
+    far = [Comparison("cells", two, [{"approach": np.array([5.0])}], [2.0])]
     assert few.status is ErrorStatus.NOT_CONVERGED
-    assert errors_of_one(2.0, far, Features(10)).status is ErrorStatus.NOT_CONVERGED
-    assert errors_of_one(2.0, [], Features(10)).error is None
+    assert "contact is 3.9 cells, below the limit 4" in (few.reason or "")
+    large = errors_of_one(2.0, far, Features(10))
+    assert large.status is ErrorStatus.NOT_CONVERGED
+    assert "exceeds the number" in (large.reason or "")
+    unknown = errors_of_one(2.0, [], Features(10))
+    assert unknown.error is None
+    assert "coarse solve" in (unknown.reason or "")
+    assert found.reason is None
     for name, few in {
-        "stick_radius": Features(10, stick=2.9), "dissipated_energy": Features(10, annulus=0.4),
+        "stick_radius": Features(10, stick=0.9), "dissipated_energy": Features(10, annulus=0.0),
         "approach": Features(10, layer=0.9), "peak_pressure": Features(10, wave=3.9),
     }.items():  # fmt: skip
-        assert not few.resolve(name), name
+        assert few.unresolved(name), name
 
 
 @pytest.mark.parametrize(
@@ -199,15 +209,21 @@ def test_parts_without_a_coarse_solve_are_those_of_their_step_and_body() -> None
     assert found == {"overlap": (1e-2, 10.0), "harmonics": (8, 1.5), "box": (10.0, 4.0)}
 
 
-@pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
-@pytest.mark.parametrize("ratio", [0.5, 1.5, 2.0])
-def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratio) -> None:
-    """By the safety factor of 0.6 of the order."""
-    exact, fine, coarse = 2.0, 2.0 + 0.1**order, 2.0 + (0.1 * ratio) ** order
-    values = [[{"approach": np.array([x])}] for x in (fine, coarse)]
-    part = Comparison("cells", *values, [ratio]).part_of(0, "approach", order)
-    assert part is not None
-    assert abs(fine - exact) < part[0] < 2.8 * abs(fine - exact)
+@pytest.mark.parametrize("order", [1.0, 2.0])
+@pytest.mark.parametrize("ratios", [(1.9, 2.5, 3.0), (1.5, 2.0), (0.5,)])
+@pytest.mark.parametrize("part", ["cells", "section"])
+def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratios, part) -> None:
+    """Three spreads cover a systematic error as well; the order of other parts is 2."""
+    order = order if part == "cells" else 2.0
+    exact, fine = 2.0, 2.0 + 0.1**order
+    coarse = [2.0 + (0.1 * ratio) ** order for ratio in ratios]
+    of_fine, *others = ([{"approach": np.array([x])}] for x in (fine, *coarse))
+    comparisons = [
+        Comparison(part, of_fine, other, [ratio])
+        for other, ratio in zip(others, ratios, strict=True)
+    ]
+    found = errors_of_one(order, comparisons, Features(10, sharp=order == 1))
+    assert abs(fine - exact) < size(found) < 3.0 * abs(fine - exact)
 
 
 @pytest.mark.parametrize(
@@ -216,16 +232,18 @@ def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratio)
         ("approach", {"stick": 0.0, "annulus": 0.0, "layer": 1.0, "wave": 4.0}, True),
         ("approach", {"layer": 0.9}, False),
         ("approach", {"wave": 3.9}, False),
-        ("stick_radius", {"stick": 2.9}, False),
-        ("tangential_shift", {"stick": 0.0, "annulus": 0.5}, True),
-        ("tangential_shift", {"stick": 9.0, "annulus": 0.4}, False),
+        ("stick_radius", {"stick": 0.9}, False),
+        ("tangential_shift", {"stick": 9.0, "annulus": 0.1}, True),
+        ("tangential_shift", {"stick": 0.0, "annulus": 9.0}, False),
+        ("tangential_shift", {"stick": 0.0, "annulus": 9.0, "slides": True}, True),
+        ("tangential_shift", {"stick": 0.0, "annulus": 0.0}, False),
         ("peak_pressure", {"stick": 0.0}, True),
         ("peak_pressure", {"stick": 0.0, "cusp": True}, False),
         ("peak_pressure", {"stick": 0.0, "cusp": True, "slides": True}, True),
     ],
 )
 def test_a_number_needs_cells_for_what_it_depends_on(name, features, resolved) -> None:
-    assert Features(contact=10.0, **features).resolve(name) is resolved
+    assert (Features(contact=10.0, **features).unresolved(name) is None) is resolved
 
 
 def test_constants_are_those_that_are_explained() -> None:
@@ -251,14 +269,14 @@ def numbers_in(node: ast.AST) -> set[float]:
 
 CONSTANTS = {
     # of the formula
-    *("BELIEVED", "BELIEVED_BY_THREE", "SMOOTH", "EDGE", "ROOT"),
+    *("SPREADS", "BELIEVED", "SMOOTH", "EDGE", "ROOT"),
     *("PER_TOLERANCE", "LARGEST_SHARE"),
-    *("ORDERS", "LIMITS", "ROUND_OFF", "PRECISION", "HIGHEST"),
+    *("ORDERS", "LIMITS", "FITTED_STICK", "ROUND_OFF", "PRECISION", "HIGHEST"),
     # of the coarse solves
-    *("SHARES", "THIRD", "SMALL", "FEW", "MANY", "PER_RADIUS"),
+    *("SHARES", "FEW", "MANY", "PER_RADIUS"),
     *("NEGLIGIBLE", "ROOM", "MAX_ENLARGEMENTS"),
     *("FEWEST_ELEMENTS", "SMALLEST_BOX", "FEWEST_HARMONICS", "LARGEST_OVERLAP", "LINEAR"),
-    *("NEAR", "COARSE"),
+    *("NEAR", "COARSE", "FINENESS"),
     # of the refinement
     *("SPARE", "DOUBT", "FURTHEST", "MAX_AT_ONCE", "LEAST_AT_ONCE", "UNCONVERGED", "MAX_ROUNDS"),
     *("FIRST_CELLS", "FIRST_PATH_ACCURACY", "MAX_CELLS", "LEAST_TOLERANCE"),
@@ -309,16 +327,18 @@ def test_increments_have_no_error_in_three_proved_cases_alone(name: str) -> None
 
 
 def test_increments_of_coarse_solves() -> None:
-    counts = (1, 2, 5, 8, 40)
+    counts = (1, 2, 5, 20, 40)
     matters = (False, True, True, True, True)
     few, fewer = coarse_increment_counts(counts, matters)
-    assert few == (1, 32, 32, 4, 20)
-    assert fewer == (1, 8, 8, 4, 10)
+    assert few == (1, 32, 32, 32, 20)
+    assert fewer == (1, 8, 8, 8, 10)
+    # Without a load step of few increments, half and a quarter.
+    assert coarse_increment_counts((1, 16, 40), (False, True, True)) == [(1, 8, 20), (1, 8, 10)]
     # The stick radius of a pressing with friction by 20 increments jumps by 10 % with the cells of
     # solves by 5 increments, and by less than 1 % with those of 10.
     assert coarse_increment_counts((20,), (True,)) == [(10,), (8,)]
     # A step that inherits a state takes the ratio nearest to 1 so far.
-    assert ratios(counts, few, matters) == (1.0, 1 / 16, 5 / 32, 2.0, 2.0)
+    assert ratios(counts, few, matters) == (1.0, 1 / 16, 5 / 32, 20 / 32, 20 / 32)
     of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
     assert add_effects([{"approach": np.array([1.0])}], [(of_many, of_few)]) == [{"approach": 2.0}]
 
@@ -330,6 +350,62 @@ def test_a_push_near_gross_slip_is_marked() -> None:
     )
     assert near == (False, True, True)  # what has slipped remains
     assert not any((*far, *loose))
+
+
+# ---- references of the pressing ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("radii", [(0.01, 0.002), (0.002, 0.01), (0.01, 1.0)])
+@pytest.mark.parametrize("by", ["force", "approach"])
+def test_a_pressed_ellipsoid_is_that_of_hertz(radii, by) -> None:
+    pair = steel(0.3)
+    exact = EllipticalContact.under_load(LOAD, radii, contact_modulus((YOUNG, 0.3), (YOUNG, 0.3)))
+    step = PRESS if by == "force" else {"approach": exact.approach}
+    posed = scene(step, push(0.5), indenter=Ellipsoid(radii=radii, material=pair), body=pair)
+    ((pressed, pushed),) = known_pressing(posed)
+    a, b = exact.semi_axes
+    expected = {"approach": exact.approach, "normal_force": LOAD, "contact_area": np.pi * a * b,
+                "contact_radius": np.sqrt(a * b), "peak_pressure": exact.peak_pressure,
+                "elastic_energy": 0.4 * LOAD * exact.approach}  # fmt: skip
+    for name, value in expected.items():
+        assert pressed[name] == pytest.approx(value, rel=1e-11), name
+    assert "elastic_energy" not in pushed  # the shear stores energy, too
+
+
+def test_a_tilt_shifts_a_paraboloid() -> None:
+    """By x = R φ, which takes Rφ²/2 off the approach; the moment of the force is W x."""
+    tilt = np.array([1e-3, -2e-3])
+    by_tilt, by_moment = ({"tilt": tuple(tilt)}, {"moment": tuple(LOAD * RADIUS * tilt)})
+    for more in (by_tilt, by_moment):
+        for found in known_pressing(scene({**PRESS, **more})):
+            assert found[0]["tilt"] == pytest.approx(tilt)
+            assert found[0]["moment"] == pytest.approx(LOAD * RADIUS * tilt)
+            lower = RADIUS * np.sum(tilt**2) / 2
+            assert found[0]["approach"] == pytest.approx(hertz().approach - lower)
+            assert "elastic_energy" not in found[0]
+
+
+def test_scenes_without_reference() -> None:
+    pair = {"indenter": paraboloid(RIGID), "body": steel()}
+    for posed in (
+        scene(PRESS, **pair),  # coupled by friction
+        scene({**PRESS, "tilt": (1e-3, 0.0)}, indenter=Cone(slope_angle=0.02, material=steel())),
+        scene({"approach": 1e-6}).model_copy(update={"rig": Rig(normal_stiffness=1e8)}),
+        mapped("paraboloid", 16).scene,
+    ):
+        assert not known_pressing(posed)
+    assert known_pressing(scene(PRESS, friction=None, **pair))
+
+
+def test_all_pressed_numbers_of_known_scenes_need_no_coarse_solve() -> None:
+    """Their error is the difference from the reference, on cells and elements."""
+    for solver in ("semi-analytical", "fem-complementarity"):
+        result = package.solve(scene(PRESS, friction=None), solver)
+        stated = stated_errors(result)
+        assert not stated.coarse_solves
+        for name, value in {"approach": hertz().approach, "contact_radius": A}.items():
+            wrong = abs(float(values_of(result)[0][name][0]) - value)
+            assert size(stated.steps[0][name]) == pytest.approx(wrong, rel=1e-2), (solver, name)
 
 
 # ---- scenes with a known answer ----------------------------------------------------------------
@@ -475,7 +551,7 @@ def stiff_film(stiffer: float, thickness: float, count: int) -> Known:
     film = Layer(thickness=thickness * A, material=steel(young_modulus=stiffer * YOUNG))
     body = Body(material=steel(), layers=(film,))
     contact = pressed_coating(surface_of(body), 0.018, A)
-    peak = float(np.max(contact.pressure(np.linspace(0, A, 2001))))
+    peak = float(np.max(contact.pressure(np.linspace(0, A, 20001))))
     exact = {"contact_radius": A, "approach": contact.approach, "peak_pressure": peak}
     return Known(indented(0.018, contact.load, film, steel()), exact, cells(count))
 
@@ -515,7 +591,11 @@ def unresolved_rings() -> Known:
     """A contact of a few rings, laid out for one that is twenty times as wide: Hertz's."""
     loads = (LoadStep(normal_force=0.01), LoadStep(normal_force=100.0))
     posed = alike(70e9, 0.3, 0.01, 0.3, *loads, LoadStep(tangential_shift=(1e-7, 0.0)))
-    return Known(posed, {}, None, "radial", 0, ("approach", "peak_pressure"))
+    light = EllipticalContact.under_load(
+        0.01, (0.01, 0.01), contact_modulus((70e9, 0.3), (70e9, 0.3))
+    )
+    exact = {"approach": light.approach, "peak_pressure": light.peak_pressure}
+    return Known(posed, exact, None, "radial", 0)
 
 
 KNOWN: dict[str, Callable[[], Known]] = {
@@ -578,7 +658,7 @@ KNOWN: dict[str, Callable[[], Known]] = {
     **{f"ellipse 1:{ratio:g}": lambda ratio=ratio: ellipse(ratio) for ratio in (5.0, 10.0)},
 }
 EXPENSIVE: dict[str, Callable[[], Known]] = {
-    **{f"ellipse 1:{ratio:g}": lambda ratio=ratio: ellipse(ratio) for ratio in (30.0, 1e6)},
+    **{f"ellipse 1:{ratio:g}": lambda ratio=ratio: ellipse(ratio) for ratio in (30.0, 1e3, 1e6)},
     # By four times the increments.
     "loop of the paper": lambda: Known(
         read_scene_file(SCENES / "fretting_loop.toml").scene,
@@ -612,12 +692,15 @@ EXPENSIVE: dict[str, Callable[[], Known]] = {
 }  # fmt: skip
 
 # Three coarse solves agree with the run by chance, as for 1 of 80 numbers of the study
-# error-coverage: on 16², 12², 10² and 8² cells the approach is off by 1.7, 2.3, 1.7, 4.2e-10 m.
-MISSED = {("hertz, 16 cells", "approach"): 1.1}
+# error-coverage: 48², 26², 20² and 16² cells. On films of two elements the peak pressure converges
+# with a lower order than 1.
+MISSED = {
+    ("cone pushed", "dissipated_energy"): 1.45,
+    ("elements coarser than a stiff film", PEAK): 1.15,
+}
 
-# On 48² to 384² cells the errors of the area are -3e-4, -3e-4, -2e-5, -5e-5, -8e-5, -4e-5, -4e-5:
-# differences of levels do not measure an error without a convergence order.
-SLENDER = "the fitted edge of a very slender contact does not converge with the cells"
+# The elements are 0.24 % off and the profile through 24 points 0.21 %, with opposite signs.
+WIDE = {("profile of a flat that ends in a parabola, 24 points, fem-complementarity", PEAK): 2.0}
 
 
 @pytest.mark.parametrize(
@@ -625,9 +708,8 @@ SLENDER = "the fitted edge of a very slender contact does not converge with the 
     [
         *KNOWN.values(),
         *(pytest.param(known, marks=SLOW) for known in EXPENSIVE.values()),
-        pytest.param(lambda: ellipse(1e3), marks=[SLOW, pytest.mark.xfail(reason=SLENDER)]),
     ],
-    ids=[*KNOWN, *EXPENSIVE, "ellipse 1:1000"],
+    ids=[*KNOWN, *EXPENSIVE],
 )
 def test_errors_cover_what_is_wrong(
     known: Callable[[], Known], request: pytest.FixtureRequest
@@ -645,9 +727,9 @@ def test_errors_cover_what_is_wrong(
         error = stated[name]
         if error.status is ErrorStatus.NOT_CONVERGED:
             continue
-        times = MISSED.get((request.node.callspec.id, name), 1.0)
-        assert wrong <= times * size(error) + uncertain * abs(value), name
-        assert size(error) <= 100 * wrong + 0.02 * abs(value), name
+        key = request.node.callspec.id, name
+        assert wrong <= MISSED.get(key, 1.0) * size(error) + uncertain * abs(value), name
+        assert size(error) <= WIDE.get(key, 1.0) * (100 * wrong + 0.02 * abs(value)), name
 
 
 @SLOW
@@ -751,7 +833,8 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """And no number with an error where none has a result."""
-    result, refused = solve(scene(PRESS), grid(16), 1e-8), {8}
+    posed = rubbed(push(0.6), body=Body(material=LOOSE))
+    result, refused = solve(posed, grid(16), 1e-8), {8}
     solved = CellSolver.solve
 
     def refusing(self: CellSolver, fineness: Fineness, *more: Any) -> Any:
@@ -761,10 +844,12 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
 
     monkeypatch.setattr(CellSolver, "solve", refusing)
     stated = stated_errors(result)
-    assert "did not converge" in (stated.coarse_solves[0].refused or "")
-    assert stated.steps[0]["approach"].error is not None
-    refused |= {10, 12}
-    assert stated_errors(result).steps[0]["approach"].error is None
+    assert any("did not converge" in (solve.refused or "") for solve in stated.coarse_solves)
+    assert stated.steps[1]["tangential_shift"].error is not None
+    refused |= {6, 10}
+    last = stated_errors(result).steps[1]
+    assert last["tangential_shift"].error is None
+    assert last["approach"].error is not None  # known without a coarse solve
 
 
 def test_points_are_left_out_of_a_map_alone_and_once(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -790,12 +875,12 @@ def test_points_are_left_out_of_a_map_alone_and_once(monkeypatch: pytest.MonkeyP
     assert stated_errors(result).steps[0]["approach"].error is None
 
 
-@pytest.mark.parametrize(("count", "believed"), [(14, BELIEVED), (16, BELIEVED_BY_THREE)])
-def test_equal_coarse_solves_count_once(count: int, believed: float) -> None:
-    """Half of 14² cells plus two, and two thirds, rounded up, are 10² cells each."""
-    result = package.solve(scene(PRESS), "semi-analytical", cells(count))
+@pytest.mark.parametrize(("count", "solves"), [(14, 2), (16, 3)])
+def test_equal_coarse_solves_count_once(count: int, solves: int) -> None:
+    """A third and 2/5 of 14² cells, rounded up to even numbers, are 6² cells each."""
+    result = package.solve(mapped("paraboloid", 16).scene, "semi-analytical", cells(count))
     run, _ = coarse_solves.compare_with_coarse_solves(CellSolver.of(result), result)
-    assert {comparison.believed for comparison in run.comparisons} == {believed}
+    assert len([one for one in run.comparisons if one.part == "cells"]) == solves
 
 
 def test_coarse_solves_are_cheap_and_their_tolerance_has_no_effect(
@@ -918,8 +1003,22 @@ def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:
     assert second == first > 0.1
 
 
+def test_question_marks_have_their_reasons_below_the_table() -> None:
+    """One line for each reason, with the load steps of its numbers."""
+    doubtful = unknown_error("too few cells")
+    sure = build_stated_error({"cells": np.array([1.0])}, None)
+    errors = [
+        {"approach": doubtful, "peak_pressure": sure},
+        {"approach": doubtful, "peak_pressure": doubtful, "contact_area": doubtful},
+    ]
+    assert doubt_texts(errors, ("approach", "peak_pressure")) == [
+        "? approach (step 1, 2): too few cells",
+        "? peak pressure (step 2): too few cells",
+    ]
+
+
 def test_components_of_a_vector_share_one_size() -> None:
     steps = [{"tangential_shift": np.array(shift)} for shift in ((3.0, 1e-12), (2.0, -1.0))]
     sizes = [found["tangential_shift"] for found in largest_so_far(steps)]
     np.testing.assert_array_equal(sizes, [[3.0, 3.0]] * 2)  # also where it has become smaller
-    assert build_stated_error({"cells": np.array([1.0, 2.0])}, True).error == (1.0, 2.0)
+    assert build_stated_error({"cells": np.array([1.0, 2.0])}, None).error == (1.0, 2.0)

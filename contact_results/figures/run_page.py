@@ -65,6 +65,7 @@ def write_page(
     errors: Mapping[str, StatedError] | None = None,
     cycles: Mapping[str, Sequence[str]] | None = None,
     warnings: Sequence[str] = (),
+    doubts: Sequence[str] = (),
 ) -> None:
     """Write the HTML page of a run, with the figures that are in its directory.
 
@@ -74,6 +75,7 @@ def write_page(
     errors     stated errors of the last load step; None if they were not computed
     cycles     columns of `cycle_columns`; None or empty without load cycles
     warnings   warnings about the result
+    doubts     texts of `doubt_texts`: reasons of the question marks
     """
     parts = [
         f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
@@ -81,6 +83,7 @@ def write_page(
         *(_row_html(name, text) for name, text in key_numbers(result.steps, errors)),
         "</table>" + ("" if errors is not None else "<p>Errors were left out.</p>"),
         *(_cycle_section(cycles) if cycles else ()),
+        *_doubts_html(doubts),
         f'<p class="soft">{READ_ON}</p>',
         *(f"<p><strong>Warning:</strong> {escape(text)}.</p>" for text in warnings),
         *_figures_html(directory / name for name in file_names.FIGURES),
@@ -94,7 +97,11 @@ def write_page(
 
 
 def write_stress_page(
-    columns: Mapping[str, Sequence[str]], title: str, figures: Sequence[str], directory: Path
+    columns: Mapping[str, Sequence[str]],
+    title: str,
+    figures: Sequence[str],
+    directory: Path,
+    doubts: Sequence[str] = (),
 ) -> None:
     """Write the HTML page of a stress, with the figures that are in its directory.
 
@@ -102,9 +109,11 @@ def write_stress_page(
     title      title of the page
     figures    file names of the figures
     directory  output directory
+    doubts     texts of `stress_doubts`: reasons of the question marks
     """
     parts = [
-        *("<h2>Largest stresses</h2>", *_table_html(columns), f'<p class="soft">{OF_STRESS}</p>'),
+        *("<h2>Largest stresses</h2>", *_table_html(columns), *_doubts_html(doubts)),
+        f'<p class="soft">{OF_STRESS}</p>',
         *_figures_html(directory / name for name in figures),
     ]
     _write_html(directory / file_names.STRESS_PAGE, title, parts)
@@ -161,6 +170,11 @@ def _table_html(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
     for texts in zip(*columns.values(), strict=True):
         yield "</tr><tr>" + "".join(f"<td>{_text_html(text)}</td>" for text in texts)
     yield "</tr></table></div>"
+
+
+def _doubts_html(doubts: Sequence[str]) -> Iterator[str]:
+    """Yield the HTML of the reasons of question marks, one paragraph each."""
+    yield from (f'<p class="soft">{escape(text)}.</p>' for text in doubts)
 
 
 def _row_html(name: str, text: str) -> str:

@@ -126,6 +126,21 @@ def _region_masks(points: StressPoints, body: Body) -> Iterator[tuple[str, NDArr
         yield f"interface {number} {side}", points.is_on_side(depth, material)
 
 
+def stress_doubts(
+    found: Sequence[Extreme], errors: Sequence[StatedError] | None
+) -> tuple[str, ...]:
+    """Return one line for each reason why errors of the largest stresses have not converged.
+
+    found   largest stresses
+    errors  stated errors of `found`; None if they were not computed
+    """
+    groups: dict[str, list[str]] = {}
+    for extreme, error in zip(found, errors or (), strict=bool(errors)):
+        if error.reason:
+            groups.setdefault(error.reason, []).append(f"{extreme.measure} of {extreme.region}")
+    return tuple(f"? {', '.join(of)}: {reason}" for reason, of in groups.items())
+
+
 def maxima_columns(
     found: Sequence[Extreme], errors: Sequence[StatedError] | None
 ) -> dict[str, list[str]]:

@@ -54,6 +54,9 @@ class StatedError(Description):
     """Status of the error: "estimated"; "not converged" for an unreliable number; "exact" for a
     number that the load prescribes."""
 
+    reason: str | None = None
+    """Reason why the error is "not converged"; null for other numbers."""
+
 
 EXACT = StatedError.model_construct(error=0.0, parts={}, status=ErrorStatus.EXACT)
 

@@ -83,7 +83,11 @@ class ClosedCycle:
     ] = None
     slip_amplitude: Annotated[
         float | None,
-        Reported("m", "Half the range of slip in the cycle, at the point where it is largest."),
+        Reported(
+            "m",
+            "Half the range of slip in the cycle, at the point where it is largest (on cells: at "
+            "the edge of the contact within its cell).",
+        ),
     ] = None
     ruiz_f1: Annotated[
         float | None,

@@ -122,7 +122,8 @@ def error_lines(stated: StatedErrors, seconds: float | None) -> Iterator[tuple[s
     """
     made = "; ".join(dict.fromkeys(solve.differs for solve in stated.coarse_solves))
     taken = "" if seconds is None else f", in {seconds:.2f} s"
-    yield "errors", f"by coarse solves ({made}){taken}"
+    way = f"by coarse solves ({made})" if made else "by an independent method"
+    yield "errors", f"{way}{taken}"
     for solve in stated.coarse_solves:
         if solve.refused:
             yield "", f"coarse solve with {solve.differs} failed: {solve.refused}"

@@ -308,7 +308,7 @@ def _cycle_rows() -> tuple[Row, ...]:
     )
     amplitude = Observable(
         "slip_amplitude", "half the range of slip in the cycle, maximum over the contact", "m",
-        lambda result, *_: float(np.max(loop_cycle(result).slip_amplitude)),
+        lambda result, *_: loop_cycle(result).largest_slip,
         lambda exact: float(exact.cycled.slip_amplitude(HERTZ.contact_radius)),
     )  # fmt: skip
     amplitude_error = error_norm(

@@ -332,9 +332,9 @@ def largest_f2(result: Result) -> float:
 
     The parameter is shear times slip amplitude times tensile stress of the surface.
     """
-    f2 = loop_cycle(result).ruiz_f2
-    assert f2 is not None
-    return float(np.max(f2))
+    largest = loop_cycle(result).largest_f2
+    assert largest is not None
+    return largest
 
 
 LUBKIN = "Lubkin 1951"

@@ -20,10 +20,8 @@ from contact_errors.adaptive_refinement import Levels, refine
 from contact_errors.coarse_solves import DiscretisedSolver, compare_with_coarse_solves
 from contact_errors.error_formula import (
     BELIEVED,
-    LIMITS,
     PEAK,
     PER_TOLERANCE,
-    Features,
     SolvedRun,
     Values,
     characteristic_size,
@@ -76,11 +74,6 @@ from verification.running.study import (
 CELLS = "semi-analytical"
 METHODS = {"fem": Method.PENALTY, "fem-complementarity": Method.COMPLEMENTARITY}
 KEYS = {name: mark for name, mark in SCALARS.items() if mark.key} | OF_CYCLES
-SMALL = {
-    "contact": "the contact", "wave": "the mean wavelength of the height map",
-    "layer": "the thinnest layer", "stick": "the stick zone",
-    "annulus": "the slip zone around the stick zone",
-}  # fmt: skip
 ORDER, LARGEST, NATURAL, FLOOR = "order", "largest", "natural", "floor"
 UNREFINED = "unrefined"
 INCREMENTS = "increments"
@@ -246,7 +239,7 @@ class SceneLevel:
                         FLOOR: PER_TOLERANCE * result.tolerance + features.left.get(stem, 0.0),
                         UNREFINED: _unrefined_part(errors.get(stem), name, self.refined),
                     },
-                    words={"small": unresolved_features(features, stem)},
+                    words={"small": features.unresolved(stem) or ""},
                 )
                 for name, stem, _ in ends
             ),
@@ -311,25 +304,6 @@ def _key_scalars(values: Values) -> Iterator[tuple[str, str, float]]:
             names = (f"{stem}_x", f"{stem}_y") if numbers.size > 1 else (stem,)
             for name, value in zip(names, numbers.tolist(), strict=True):
                 yield name, stem, value
-
-
-def unresolved_features(features: Features, name: str) -> str:
-    """Describe the features of a contact that a result depends on and that the mesh does not
-    resolve.
-
-    Features are contact, layer, stick zone and others. The text is empty if all are resolved.
-
-    features  sizes of the features, in cells or half elements
-    name      name of the result
-    """
-    if features.resolve(name):
-        return ""
-    sizes = [(text, getattr(features, feature), LIMITS[feature]) for feature, text in SMALL.items()]
-    return ", ".join(
-        f"{text} spans {size:.2g} cells or half elements, fewer than {least:g}"
-        for text, size, least in sizes
-        if size is not None and size < least
-    )
 
 
 @cache

@@ -173,7 +173,8 @@ def _print_outcome(
     seconds  elapsed time of each phase of the run [s]
     cycles   columns of the table of load cycles; empty without cycles
     """
-    from contact_results.key_numbers import outcome_columns
+    from contact_results.key_numbers import SHOWN, outcome_columns
+    from contact_results.number_text import doubt_texts
     from slipstick.cli.progress import accuracy_lines, error_lines, solve_lines
     from slipstick.cli.terminal import print_pairs, print_table
 
@@ -184,3 +185,5 @@ def _print_outcome(
     columns = outcome_columns(result.steps, stated.steps if stated else None)
     for table in (columns, *([cycles] if cycles else ())):
         print_table(table, zip(*table.values(), strict=True), numbers=True)
+    for text in doubt_texts(stated.steps, SHOWN) if stated else ():
+        typer.echo(f"  {text}")

@@ -24,7 +24,7 @@ from contact_results.stress.loaded_bodies import (
 )
 from contact_results.stress.points import StressField, StressIncrement
 from contact_results.stress.radial_body import is_sheared, refuse_infinite, refuse_turned
-from contact_results.stress.stress_maxima import extremes, maxima_columns
+from contact_results.stress.stress_maxima import extremes, maxima_columns, stress_doubts
 from contact_results.stress_result import write_history, write_stress
 from contact_scene import Body, Scene, SceneFile, read_scene_file
 from contact_scene.quantities.field_metadata import CONVENTION, OF_THE_INDENTER
@@ -236,6 +236,8 @@ def stress(
         print_pairs(accuracy_lines(reached))
     columns = maxima_columns(found, errors)
     print_table(columns, list(zip(*columns.values(), strict=True)), numbers=True)
+    for text in stress_doubts(found, errors):
+        typer.echo(f"  {text}")
     edge: Any = field.how.get("edge")
     if edge is not None and not edge["fitted"]:
         typer.echo(f"  no correction of the stress near the contact edge: {edge['because']}")

@@ -19,6 +19,7 @@ from contact_scene import (
     RIGID,
     Body,
     Cone,
+    CoulombFriction,
     Ellipsoid,
     FiniteElementDiscretisation,
     FlatPunch,
@@ -30,6 +31,7 @@ from contact_scene import (
     Sphere,
     SurfaceDiscretisation,
 )
+from contact_scene.friction import FrictionMap
 from contact_scene.geometry import ShapedBody
 from verification.problems.problem import Reference, ReferenceKind
 
@@ -147,6 +149,12 @@ ELEMENTS_PER_RADIUS = (8, 32)
 STRAINS = (3e-3, 3e-2)  # bounds of contact radius over radius of curvature
 # Height map: number of points per side; side length over the contact radius.
 MAP_POINTS, MAP_WIDTH = 24, 4.0
+# Increments of a load step of histories with few increments.
+FEW_INCREMENTS = (2.0, 24.0)
+# Map of friction: number of points per side; side length over the contact radius, enough for
+# enlarged windows.
+MAP_POINTS_OF_FRICTION = 96
+MAP_EXTENT = 16.0
 
 
 def logarithmic(rng: Rng, low: float, high: float) -> float:
@@ -428,6 +436,37 @@ def pushes(rng: Rng) -> tuple[float, ...]:
 def near_gross_slip(rng: Rng) -> tuple[float, ...]:
     """Draw one random tangential force between 0.99 and 0.9999 of the friction limit."""
     return (1 - logarithmic(rng, 1e-4, 1e-2),)
+
+
+def loops_beyond_onset(rng: Rng) -> tuple[float, ...]:
+    """Draw a random loop of tangential shifts, over the shift at the onset of gross slip.
+
+    The shift is 1.1 to 5 times that at the onset, so that the reversals reach gross slip, too.
+
+    rng  random generator
+    """
+    most = logarithmic(rng, 1.1, 5.0)
+    return most, -most, most
+
+
+def friction_map(rng: Rng, a: float, mu: float) -> CoulombFriction:
+    """Draw a random map of coefficients of friction between mu and 1.5 mu.
+
+    The coefficient is a wave along each axis, of 2 to 6 contact radii.
+
+    rng  random generator
+    a    contact radius [length]
+    mu   smallest coefficient of friction
+    """
+    side = MAP_EXTENT * a / MAP_POINTS_OF_FRICTION
+    x = (np.arange(MAP_POINTS_OF_FRICTION) - (MAP_POINTS_OF_FRICTION - 1) / 2) * side
+    waves = [
+        np.sin(2 * np.pi * x / (a * float(rng.uniform(2.0, 6.0))) + float(rng.uniform(0.0, 6.3)))
+        for _ in range(2)
+    ]
+    values = mu * (1.25 + 0.125 * (waves[0][:, None] + waves[1]))
+    mapped = FrictionMap(map=values, spacing=side)  # type: ignore[arg-type]
+    return CoulombFriction(coefficient=mapped)
 
 
 def closes(forces: Sequence[float]) -> bool:

@@ -1,6 +1,6 @@
-"""Measure the fraction of stated errors that cover, for several believed fractions of the orders.
+"""Measure the fraction of stated errors that cover, for several factors of the spread.
 
-Usage: python docs/believed_fraction.py SEED FAMILY...
+Usage: python docs/spread_factor.py SEED FAMILY...
 
 The families are those of `slipstick maintain study error-coverage`. Stresses are left out, because
 their errors have another number of coarse solves. The rows give the covered fraction and the
@@ -10,17 +10,19 @@ fraction of errors below ten times the true error, with two and with three coars
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
+from unittest.mock import patch
 
 import semi_analytical
 from contact_errors.coarse_solves import compare_with_coarse_solves
 from contact_errors.error_formula import SolvedRun
 from contact_errors.on_cells import CellSolver
-from verification.problems.drawn.drawing import STRESSES
-from verification.problems.drawn.families import FAMILIES, KnownScene, drawn
+from contact_scene import SurfaceDiscretisation
+from verification.problems.drawn.drawing import STRESSES, KnownScene
+from verification.problems.drawn.families import FAMILIES, drawn
 from verification.running.study import Row
 from verification.studies.error_coverage import Coverage, coverage_row
 
-FRACTIONS = 0.6, 2 / 3, 0.7, 0.75, 0.8
+FACTORS = 2.0, 2.4, 2.8, 3.0, 3.5
 
 
 def solved_scenes(seed: int, families: list[str]) -> Iterator[tuple[KnownScene, SolvedRun]]:
@@ -28,16 +30,17 @@ def solved_scenes(seed: int, families: list[str]) -> Iterator[tuple[KnownScene, 
     for family in families:
         for number in range(FAMILIES[family].count):
             known = drawn(family, seed, number)
-            result = semi_analytical.solve_discretised(known.scene, known.fineness.asked)
+            asked = known.fineness.asked
+            assert isinstance(asked, SurfaceDiscretisation)
+            result = semi_analytical.solve_discretised(known.scene, asked)
             yield known, compare_with_coarse_solves(CellSolver.of(result), result)[0]
 
 
-def error_rows(known: KnownScene, run: SolvedRun, solves: int, believed: float) -> Iterator[Row]:
-    """Yield true and stated error of each known number, by the first coarse solves of the cells."""
-    of_cells = [one for one in run.comparisons if one.part == "cells"][:solves]
+def error_rows(known: KnownScene, run: SolvedRun, solves: int) -> Iterator[Row]:
+    """Yield true and stated error of each known number, by the last coarse solves of the cells."""
+    of_cells = [one for one in run.comparisons if one.part == "cells"][-solves:]
     others = [one for one in run.comparisons if one.part != "cells"]
-    changed = [replace(one, believed=believed) for one in of_cells]
-    errors = list(replace(run, comparisons=[*others, *changed]).errors())
+    errors = list(replace(run, comparisons=[*others, *of_cells]).errors())
     for truth in known.truths:
         value = None if truth.quantity in STRESSES else truth.read(run.values)
         if value is not None:
@@ -47,9 +50,8 @@ def error_rows(known: KnownScene, run: SolvedRun, solves: int, believed: float) 
 if __name__ == "__main__":
     scenes = [*solved_scenes(int(sys.argv[1]), sys.argv[2:])]
     for solves in (2, 3):
-        for believed in FRACTIONS:
-            rows = [
-                row for known, run in scenes for row in error_rows(known, run, solves, believed)
-            ]
+        for factor in FACTORS:
+            with patch("contact_errors.error_formula.SPREADS", factor):
+                rows = [row for known, run in scenes for row in error_rows(known, run, solves)]
             found = Coverage.of("all", rows)
-            print(solves, f"{believed:.2f}", found.covered.text, found.tight.text, found.covered.of)
+            print(solves, f"{factor:.1f}", found.covered.text, found.tight.text, found.covered.of)
