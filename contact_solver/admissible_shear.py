@@ -12,7 +12,7 @@ import numpy as np
 from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.friction_limit import reaches_limit
 from contact_solver.multipliers import find_multiplier
-from contact_solver.rigid_motion import RigidMotions
+from contact_solver.rigid_motion import MotionShapes, RigidMotions
 
 # Rounding error of a sum of shears, relative to the sum of their magnitudes.
 ROUND_OFF = 1e-14
@@ -151,7 +151,7 @@ def _project(
     guess      initial guess of the multipliers (k,); None for an estimate without friction
     """
     loaded = np.flatnonzero(bound > 0)  # points that can carry shear
-    units, of_loaded, limit = free.at(loaded), y.take(loaded, axis=1), bound.take(loaded)
+    units, of_loaded, limit = free.shapes.at(loaded), y.take(loaded, axis=1), bound.take(loaded)
     if guess is None:
         guess = (forces - units.forces(of_loaded)) / np.diag(units.products(np.ones(len(limit))))
     shifted, multiplier = find_multiplier(
@@ -200,7 +200,7 @@ class _ProjectedShear:
         multiplier: Vector,
         y: Field,
         bound: Vector,
-        units: RigidMotions,
+        units: MotionShapes,
         given: Vector,
         stiffness: Vector,
     ) -> None:

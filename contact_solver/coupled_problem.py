@@ -16,12 +16,18 @@ from contact_solver.zones import Zones
 
 
 class Preconditioner(Protocol):
-    """Interface of an approximate inverse of the derivative of a coupled problem."""
+    """Interface of an inverse of the derivative of a coupled problem.
 
-    def in_zones(self, zones: Zones) -> Callable[[Vector], Vector]:
+    exact  True if `in_zones` is the inverse up to round-off; False for a preconditioner
+    """
+
+    @property
+    def exact(self) -> bool: ...
+
+    def in_zones(self, zones: Zones) -> Map:
         """Return the approximate inverse in zones of contact, stick and slip.
 
-        It is a map from rows of the linear system to free unknowns, see `Zones`.
+        It is a map from rows of the linear system to free unknowns, see `Zones`, both (k, size).
 
         zones  zones of an iterate
         """

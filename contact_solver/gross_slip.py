@@ -12,7 +12,7 @@ import numpy as np
 from contact_scene.array_types import Matrix, Vector, VectorField
 from contact_scene.friction_limit import reaches_limit
 from contact_solver.admissible_shear import magnitude
-from contact_solver.rigid_motion import RigidMotions
+from contact_solver.rigid_motion import MotionShapes, RigidMotions
 
 MAX_STEPS = 100
 # Smoothing of |speed| at the pole, relative to the largest speed.
@@ -71,10 +71,10 @@ def limit_load(held: RigidMotions, bound: Vector) -> tuple[float, Vector]:
     """
     forces = held.prescribed_forces
     start = forces / np.sum(forces**2)
-    if held.are_uniform:  # shifts alone: all points slip along the force
-        return float(np.sum(bound) * magnitude(held.displacement(start))[0]), start
+    if len(held) == 1 or not len(held.shapes.varying):  # all points slip along the force
+        return float(np.sum(bound * magnitude(held.displacement(start)))), start
     loaded = np.flatnonzero(bound > 0)
-    units, limit = held.at(loaded), bound.take(loaded)
+    units, limit = held.shapes.at(loaded), bound.take(loaded)
     across = np.linalg.svd(forces[None, :])[2][1:]
 
     def power_at(x: Vector) -> Power:
@@ -93,7 +93,7 @@ def limit_load(held: RigidMotions, bound: Vector) -> tuple[float, Vector]:
     return power, start + x @ across
 
 
-def _friction_power(velocity: Vector, limit: Vector, units: RigidMotions) -> Power:
+def _friction_power(velocity: Vector, limit: Vector, units: MotionShapes) -> Power:
     """Compute the power of friction in gross slip, with its gradient and Hessian.
 
     The power is the sum over the points of friction limit times sliding speed. The limit load

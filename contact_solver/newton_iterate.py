@@ -24,6 +24,8 @@ from contact_solver.zones import Zones
 
 # Zones have settled if at most this part of the root of the number of contact points changes zone.
 SETTLED = 0.1
+# Merit below which an iterate with an exact inverse is made admissible, for its residuals.
+NEAR = 1e-6
 STEP_FACTORS = 0.5 ** np.arange(5)
 
 
@@ -57,7 +59,7 @@ class NewtonIterate:
         self._problem = problem
         self.point, _ = evaluate_point(problem, start, motion)
         self.natural = natural_map(problem, self.point)
-        self.iterations, self.settled = 0, False
+        self.iterations, self.settled, self.is_admissible = 0, False, False
         self._zones: Zones | None = None
         self._increment: LinearisedContact | None = None
 
@@ -65,10 +67,16 @@ class NewtonIterate:
         """Linearise the contact and friction conditions at the iterate, for the next Newton step.
 
         The zones of contact, stick and slip follow from the natural map. The tractions are changed
-        so that they are admissible in these zones, and the natural map is evaluated again.
+        so that they are admissible in these zones, and the natural map is evaluated again. The
+        solution of an exact linear system does not depend on the tractions: far from the solution
+        they stay.
         """
         problem, motion = self._problem, self.natural.motion
         zones = zones_of(self.natural, problem)
+        if problem.inverse.exact and self.natural.merit > NEAR:
+            self._increment, self.is_admissible = LinearisedContact(problem, zones), False
+            return
+        self.is_admissible = True
         images = problem.images
         contact, changed = np.sum(zones.contact), zones.changes(self._zones)
         self.settled = bool(images * changed <= SETTLED * np.sqrt(images * contact))
@@ -90,9 +98,12 @@ class NewtonIterate:
         """
         assert self._increment is not None
         merit = self.natural.merit
-        residual = self._increment.residual(self.point, self.natural)
-        del self.natural  # release its memory before the solve
-        step = self._increment.solve(residual, depth)
+        if self._problem.inverse.exact:
+            step = self._increment.solve_exactly(self.point, self.natural.motion)
+        else:
+            residual = self._increment.residual(self.point, self.natural)
+            del self.natural  # release its memory before the solve
+            step = self._increment.solve(residual, depth)
         self.iterations += step.iterations
         self.point, self.natural = _line_search(self._problem, self.point, step, merit)
 

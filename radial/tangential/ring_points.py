@@ -14,6 +14,7 @@ from scipy.interpolate import CubicSpline
 
 from contact_scene.array_types import Array
 from radial.angular_grid import RingAngles
+from radial.tangential.ring_operator import RingOperator
 from radial.tangential.stick_border import stick_area
 
 FINER = 16  # subdivisions of an element, to find the border of the stick zone
@@ -128,13 +129,38 @@ class ContactPoints:
         return found
 
     @cached_property
+    def operator(self) -> RingOperator:
+        """Compliance of all points: displacement times area by traction [length^5/force]."""
+        return RingOperator(self._harmonic_transform, self._harmonic_energies)
+
+    @cached_property
     def compliance(self) -> Array:
         """Compliance matrix of all points: displacement times area by unit traction.
 
         The displacements and tractions have the components r, θ, z. The shape is
         (3 n count, 3 n count) for n rings with `count` angles each, the unit is [length^5/force].
         """
-        return self._over_harmonics(self._harmonic_transform, self._harmonic_energies)
+        return self.operator.matrix
+
+    @cached_property
+    def mean_area(self) -> float:
+        """Mean area of the points [length²]."""
+        return float(np.mean(self.areas))
+
+    @cached_property
+    def roots(self) -> Array:
+        """Roots s of the areas of the points over their mean (n count,)."""
+        return np.sqrt(self.areas / self.mean_area)
+
+    @cached_property
+    def equal_compliance(self) -> RingOperator:
+        """Compliance for points of equal area [length^3/force]: map from s t to s u.
+
+        Here t are the tractions, u the displacements and s the roots of the areas.
+        """
+        units = 1 / np.sqrt(self.weights * (2 * np.pi / self.count))
+        scaled = self._harmonic_energies * units * units[:, None]
+        return RingOperator(self._harmonic_transform, scaled)
 
     @cached_property
     def diagonal_compliance(self) -> Array:
@@ -142,40 +168,27 @@ class ContactPoints:
 
         The values are the diagonal of the compliance matrix (3 n count,) [length^5/force], with the
         components r, θ, z as the slow index. The entries r and θ of a point are replaced by their
-        mean, which does not depend on the direction of the shear. The contact and friction laws use
-        the values as the compliance of a point.
+        mean, which does not depend on the direction of the shear. The stick zone of an axisymmetric
+        contact uses the values as the compliance of a point.
         """
-        outward, around, down = np.diagonal(self.compliance).reshape(3, -1)
+        outward, around, down = self.operator.diagonal.reshape(3, -1)
         tangential = (outward + around) / 2
         return np.concatenate([tangential, tangential, down])
 
-    def restrict_to_rings(self, field: Array, rings: int) -> Array:
-        """Restrict a vector field from all points to the points on the innermost rings.
-
-        Used because rings outside the contact carry no traction. The shape is (3 rings count,).
-
-        field  components r, θ, z at all points (3 n count,)
-        rings  number of innermost rings
-        """
-        return np.ascontiguousarray(field.reshape(3, -1)[:, : rings * self.count]).ravel()
-
     @cached_property
-    def inverse_compliance(self) -> Callable[[int], Array]:
-        """Function that computes the inverse compliance matrix of the innermost rings.
+    def stiffness(self) -> Callable[[int], RingOperator]:
+        """Function that computes the inverse of `equal_compliance` on the innermost rings.
 
-        The argument of the function is the number of rings. The inverse (3 rings count, 3 rings
-        count) maps displacements times areas to tractions, if the other rings carry no traction.
-        The inverse is scaled on both sides by the square root of the compliance of each point [1].
-        The inverses are cached.
+        The argument of the function is the number of rings. The other rings carry no traction. The
+        inverses are cached.
         """
-        count = max(INVERSES, ROOM // self.compliance.nbytes)
-        return lru_cache(maxsize=count)(self._compute_inverse)
+        size = 8 * (3 * len(self.areas)) ** 2
+        return lru_cache(maxsize=max(INVERSES, ROOM // size))(self._compute_inverse)
 
-    def _compute_inverse(self, rings: int) -> Array:
-        """Compute the inverse of the compliance matrix of the points on the innermost rings.
+    def _compute_inverse(self, rings: int) -> RingOperator:
+        """Compute the inverse of the compliance of the points on the innermost rings.
 
-        The inverse is computed for each angular harmonic, because harmonics are not coupled. The
-        inverse is scaled on both sides by the square root of the compliance of each point [1].
+        The inverse is computed for each angular harmonic, because harmonics are not coupled.
 
         rings  number of innermost rings
         """
@@ -183,20 +196,15 @@ class ContactPoints:
         norms = np.sum(self._harmonic_transform**2, axis=2)
         has = norms > ROUND_OFF * np.max(norms)
         back[has] = self._harmonic_transform[has] / norms[has, None]
-        energies = self._harmonic_energies[..., :rings, :rings]
+        energies = self.equal_compliance.matrices[..., :rings, :rings]
         inverses = np.zeros_like(energies)
         for parts, energy, inverse in zip(has.T, energies, inverses, strict=True):
             present, n = np.flatnonzero(parts), int(np.sum(parts)) * rings
             known = energy[np.ix_(present, present)].swapaxes(1, 2).reshape(n, n)
-            units = 1 / np.sqrt(np.diag(known))
-            found = units * np.linalg.inv(units[:, None] * known * units) * units[:, None]
+            found = np.linalg.inv(known)
             found = found.reshape(len(present), rings, len(present), rings).swapaxes(1, 2)
             inverse[np.ix_(present, present)] = found
-        found = self._over_harmonics(back, inverses)
-        units = np.sqrt(self.restrict_to_rings(self.diagonal_compliance, rings))
-        found *= units
-        found *= units[:, None]
-        return found
+        return RingOperator(back, inverses)
 
     @cached_property
     def _harmonic_transform(self) -> Array:
@@ -220,24 +228,6 @@ class ContactPoints:
         norms[[0, -1]] = 2 * np.pi
         families = self._harmonic_transform.shape[1] // len(norms)
         return np.concatenate([norms[:, None, None, None, None] * self.energies] * families)
-
-    @staticmethod
-    def _over_harmonics(rigid_motions: Array, harmonic_matrices: Array) -> Array:
-        """Assemble a matrix between all points from matrices between nodes of all harmonics.
-
-        Used for the compliance matrix and for its inverse. The shape is (3 n count, 3 n count).
-
-        rigid_motions      transform of the components r, θ, z from values at the angles of a ring
-                           to amplitudes of harmonics (3, harmonics, count)
-        harmonic_matrices  matrices between the n nodes, for each harmonic (harmonics, 3, 3, n, n)
-        """
-        (_, count, angles), nodes = rigid_motions.shape, harmonic_matrices.shape[-1]
-        whole = np.empty((3, nodes, angles, 3, nodes, angles))
-        for a, b in np.ndindex(3, 3):
-            both = (rigid_motions[a, :, :, None] * rigid_motions[b, :, None]).reshape(count, -1)
-            block = harmonic_matrices[:, a, b].reshape(count, -1).T @ both
-            whole[a, :, :, b] = block.reshape(nodes, nodes, angles, angles).swapaxes(1, 2)
-        return whole.reshape(3 * nodes * angles, -1)
 
     @cached_property
     def axisymmetric(self) -> ContactPoints:

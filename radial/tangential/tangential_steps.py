@@ -16,6 +16,7 @@ from contact_scene.body_pair import coupling
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import NotConverged, UnsupportedScene
+from contact_solver.newton_increment import MAX_STEPS
 from contact_scene.stepping.load_stepping import ConvergedIncrement
 from radial.angular_grid import RingAngles
 from radial.fields import Increment
@@ -35,10 +36,7 @@ from radial.output_points import (
 from radial.plan import ELSEWHERE, Plan
 from radial.response.bodies import Bodies
 from radial.tangential.free_motion import growth_without_slip
-from radial.tangential.ring_friction import (
-    MAX_STEPS,
-    solve_increment,
-)
+from radial.tangential.ring_friction import solve_increment
 from radial.tangential.ring_layout import create_points
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
@@ -372,9 +370,7 @@ class TangentialSteps(StepsOnRings):
         p = self._interpolate_scalar(points, end.pressure)
         q_r, q_t = self._interpolate_vector(points, end.shear)
         s_r, s_t = self._interpolate_vector(points, state.slip)
-        depth = end.approach * points.areas
-        u_z = (points.compliance @ end.tractions)[2 * len(points.areas) :]
-        gap = np.where(end.pressure > 0, 0.0, (u_z + points.gap_areas - depth) / points.areas)
+        gap = np.where(end.pressure > 0, 0.0, end.gap)
         force = self._scene_components(state.forces)
         down, along = compliances(self.scene.rig)
         in_springs = down * state.forces[NORMAL] ** 2 + along * float(np.dot(force, force))
