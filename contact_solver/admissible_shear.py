@@ -94,8 +94,9 @@ def project_trial(
     motion   initial guess of the rigid motions (k,)
     """
     is_free, found = motions.is_free, motions.values.copy()
-    found[is_free] = 0.0
-    y = y + gamma * motions.displacement(found)
+    if not np.all(is_free):
+        found[is_free] = 0.0
+        y = y + gamma * motions.displacement(found)
     forces, stiffness = _forces_in_equilibrium(motions.free, gamma)
     q, multiplier = _project(motions.free, y, bound, forces, stiffness, gamma * motion[is_free])
     found[is_free] = multiplier / gamma

@@ -137,7 +137,7 @@ def natural_map(problem: CoupledProblem, point: NewtonPoint) -> Natural:
     bound = problem.friction_limit(np.maximum(point.tractions[2], 0.0))
     if problem.exhausts_friction(bound) or not np.all(np.isfinite(point.tractions)):
         raise NotConverged("the coupled increment", 0, np.inf, 0.0)
-    natural = Natural.evaluate(point, problem)
+    natural = Natural.evaluate(point, problem, bound)
     if not np.any(natural.contact):
         raise NotConverged("the coupled increment", 0, np.inf, 0.0)
     return natural

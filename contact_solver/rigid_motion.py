@@ -55,7 +55,7 @@ class RigidMotions:
         varying = [one.shape for one in self.each if one.shape.shape[1] > 1]
         return MotionShapes(
             np.array(uniform).reshape(len(uniform), self.components),
-            np.array(varying) if varying else np.empty((0, self.components, 0)),
+            np.array(varying) if varying else np.empty((0, self.components, 1)),
         )
 
     @cached_property
@@ -152,34 +152,40 @@ class MotionShapes:
         motion  components of the motion (k,)
         """
         count = len(self.uniform)
-        uniform = (motion[:count] @ self.uniform)[:, None]
-        if not len(self.varying):
-            return np.asarray(uniform)
+        if count == len(self):
+            return np.asarray((motion @ self.uniform)[:, None])
         varying = np.einsum("k,kcn->cn", motion[count:], self.varying)
-        return np.asarray(uniform + varying if count else varying)
+        if count:
+            varying += (motion[:count] @ self.uniform)[:, None]
+        return np.asarray(varying)
 
     def forces(self, tractions: Field) -> Vector:
         """Compute the forces (k,) of tractions (c, n), conjugate to the motions."""
-        uniform = self.uniform @ np.sum(tractions, axis=1)
         if not len(self.varying):
-            return np.asarray(uniform)
-        return np.concatenate([uniform, np.sum(self.varying * tractions, axis=(1, 2))])
+            return np.asarray(self.uniform @ np.sum(tractions, axis=1))
+        varying = np.sum(self.varying * tractions, axis=(1, 2))
+        if not len(self.uniform):
+            return np.asarray(varying)
+        return np.concatenate([self.uniform @ np.sum(tractions, axis=1), varying])
 
     def along(self, vectors: Field) -> Field:
         """Compute the scalar products (k, n) of the unit motions with a vector (c, n) per point."""
-        uniform = self.uniform @ vectors
         if not len(self.varying):
-            return np.asarray(uniform)
-        return np.concatenate([uniform, np.sum(self.varying * vectors, axis=1)])
+            return np.asarray(self.uniform @ vectors)
+        return np.concatenate([self.uniform @ vectors, np.sum(self.varying * vectors, axis=1)])
 
     def products(self, weight: Vector) -> Matrix:
         """Compute the scalar products (k, k) of the unit motions, with a weight of each point.
 
         weight  weights (n,)
         """
-        count = len(self.uniform)
+        count, weighted = len(self.uniform), self.varying * weight
+        varying = np.einsum("kcn,lcn->kl", weighted, self.varying)
+        if not count:
+            return np.asarray(varying)
         found = np.empty((len(self), len(self)))
         found[:count, :count] = np.sum(weight) * (self.uniform @ self.uniform.T)
-        for number, shape in enumerate(self.varying, start=count):
-            found[number] = found[:, number] = self.forces(weight * shape)
+        found[:count, count:] = self.uniform @ np.sum(weighted, axis=2).T
+        found[count:, :count] = found[:count, count:].T
+        found[count:, count:] = varying
         return found

@@ -295,12 +295,20 @@ class ContactPoints:
         if first < 0:
             return float(r[last] ** 2)
         near = slice(first, last + 1)
-        squares = np.polynomial.Polynomial.fit(
-            r[near] ** 2, ray[near] ** 2, 2, w=np.sqrt(self.weights[near])
-        )
-        zeros = squares.roots()
-        beyond = zeros.real[(zeros.imag == 0) & (zeros.real > r[last - 1] ** 2)]
-        return float(np.min(beyond) if len(beyond) else r[last] ** 2)
+        square = r[last] ** 2
+        places = r[near] ** 2 / square - 1
+        roots = np.sqrt(self.weights[near])
+        powers = roots[:, None] * np.vander(places, 3, increasing=True)
+        level, slope, curvature = np.linalg.lstsq(powers, roots * ray[near] ** 2)[0]
+        discriminant = slope**2 - 4 * curvature * level
+        if not discriminant >= 0:
+            return float(square)
+        # The two zeros in a form without cancellation.
+        half = -(slope + np.copysign(np.sqrt(discriminant), slope)) / 2
+        with np.errstate(divide="ignore", invalid="ignore"):
+            zeros = square * (1 + np.array([level / half, half / curvature]))
+        beyond = zeros[zeros > r[last - 1] ** 2]
+        return float(np.min(beyond) if len(beyond) else square)
 
     def stick_area(self, share: Array, shear: Array, bound: Array) -> float:
         """Compute the area of the stick zone, with its border between the points [length²].
@@ -338,16 +346,22 @@ class ContactPoints:
         field  values at the points (n count,)
         sense  1 for a field that is even about θ = 0, -1 for an odd field; used for half a circle
         """
-        values, angles = field.reshape(-1, self.count), self.angles
-        if self.circle is RingAngles.HALF:
-            values = np.hstack([values, sense * values[:, ::-1]])
-            angles = np.concatenate([angles, 2 * np.pi - angles[::-1]])
-        values, angles = (
-            np.hstack([values, values[:, :1]]),
-            np.append(angles, angles[0] + 2 * np.pi),
-        )
-        spline = CubicSpline(angles, values, axis=1, bc_type="periodic")
-        return np.asarray(spline(self.output_angles))
+        return np.asarray(field.reshape(-1, self.count) @ self._interpolants[sense])
+
+    @cached_property
+    def _interpolants(self) -> dict[float, Array]:
+        """Values of the splines of unit values at the output angles, by parity (count, angles)."""
+        found = {}
+        for sense in (1.0, -1.0):
+            values, angles = np.eye(self.count), self.angles
+            if self.circle is RingAngles.HALF:
+                values = np.hstack([values, sense * values[:, ::-1]])
+                angles = np.concatenate([angles, 2 * np.pi - angles[::-1]])
+            values = np.hstack([values, values[:, :1]])
+            angles = np.append(angles, angles[0] + 2 * np.pi)
+            spline = CubicSpline(angles, values, axis=1, bc_type="periodic")
+            found[sense] = np.asarray(spline(self.output_angles))
+        return found
 
     @property
     def output_angles(self) -> Array:
