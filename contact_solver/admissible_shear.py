@@ -151,6 +151,8 @@ def _project(
     stiffness  stiffness of springs, over γ (k,)
     guess      initial guess of the multipliers (k,); None for an estimate without friction
     """
+    if not len(free):
+        return project_on_discs(y, bound), np.zeros(0)
     loaded = np.flatnonzero(bound > 0)  # points that can carry shear
     units, of_loaded, limit = free.shapes.at(loaded), y.take(loaded, axis=1), bound.take(loaded)
     if guess is None:

@@ -55,8 +55,7 @@ class StiffnessInverse:
 
         # The stiffness is symmetric: rows, which are contiguous, are taken instead of columns.
         by_unknown = stiffness.matrix.take(unknown, axis=0)
-        down = stiffness.matrix.take(2 * m + slip, axis=0).take(unknown, axis=1)
-        own = by_unknown.take(unknown, axis=1)
+        own, down = by_unknown.take(unknown, axis=1), by_unknown.take(2 * m + slip, axis=1).T
         system = laws(own[:slips], own[slips : 2 * slips], down, own[2 * slips :])
         number = np.arange(slips)
         system[slips + number, number] += zones.tangent[0]
