@@ -26,7 +26,7 @@ class DenseInverse:
     """
 
     matrix: Matrix
-    exact: bool = True
+    exact = True
 
     def on_contact(self, contact: Mask) -> Map:
         """Return the inverse of the map from pressure to normal displacement on a contact set.

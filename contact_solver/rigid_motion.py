@@ -8,7 +8,7 @@ tangentially. Shapes should be of the order 1, so that forces and moments are co
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np

@@ -31,7 +31,7 @@ class StiffnessInverse:
     compliance: RingOperator
     stiffness: Callable[[int], RingOperator]
     count: int
-    exact: bool = True
+    exact = True
 
     def in_zones(self, zones: Zones) -> Map:
         """Return the inverse of the coupled problem in zones of contact, stick and slip.
