@@ -207,8 +207,8 @@ class LinearisedContact:
     def _force_rows(self) -> Matrix:
         """Changes of the prescribed forces by changes of the free unknowns (k, unknowns)."""
         zones, rows = self._zones, self._free_units.copy()
-        pressed = zones.size - len(zones.contact_points)
-        pressed += np.searchsorted(zones.contact_points, zones.slip)
+        before = zones.size - len(zones.contact_points)
+        pressed = before + np.searchsorted(zones.contact_points, zones.slip)
         along = self._shifts.shapes.at(zones.slip).along(zones.friction_slope)
         rows[: len(self._shifts), pressed] += along
         return rows

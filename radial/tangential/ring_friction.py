@@ -6,8 +6,6 @@ The laws of contact and friction apply to means over the hat function of every n
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
 from contact_scene import CoulombFriction
@@ -140,7 +138,8 @@ def _end_state(
     slip = np.zeros(2 * size) if slides else problem.slip_increment(u, motion)
     gap = (u[2 * size :] + points.gap_areas) / points.areas - motion[NORMAL]
     limit = problem.friction.limit(p)
-    length = np.hypot(*(t[: 2 * size] - slip / points.diagonal_compliance[: 2 * size]).reshape(2, -1))
+    q, passed = t[: 2 * size].reshape(2, -1), slip.reshape(2, -1)
+    length = np.hypot(*(q - passed / points.tangential_compliance))
     share = np.where(p > 0, length / np.where(limit > 0, limit, 1.0), np.inf)
     at_limit = (p > 0) & (length > limit - TIE * np.max(limit))
     share[at_limit] = np.maximum(share[at_limit], 1 + TIE)

@@ -29,8 +29,9 @@ class RingOperator:
         """
         (_, harmonics, count), nodes = self.transform.shape, self.matrices.shape[-1]
         values = vectors.reshape(-1, 3, nodes, count).swapaxes(2, 3)
-        amplitudes = (self.transform @ values).transpose(2, 1, 3, 0).reshape(harmonics, 3 * nodes, -1)
-        found = (self._flat @ amplitudes).reshape(harmonics, 3, nodes, -1).transpose(3, 1, 2, 0)
+        amplitudes = (self.transform @ values).transpose(2, 1, 3, 0)
+        found = self._flat @ amplitudes.reshape(harmonics, 3 * nodes, -1)
+        found = found.reshape(harmonics, 3, nodes, -1).transpose(3, 1, 2, 0)
         return np.asarray(found @ self.transform).reshape(vectors.shape)
 
     @cached_property

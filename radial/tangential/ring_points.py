@@ -163,17 +163,15 @@ class ContactPoints:
         return RingOperator(self._harmonic_transform, scaled)
 
     @cached_property
-    def diagonal_compliance(self) -> Array:
-        """Displacement of each point, times its area, by a unit traction at the point.
+    def tangential_compliance(self) -> Array:
+        """Tangential displacement of each point, times its area, by its own unit shear.
 
-        The values are the diagonal of the compliance matrix (3 n count,) [length^5/force], with the
-        components r, θ, z as the slow index. The entries r and θ of a point are replaced by their
-        mean, which does not depend on the direction of the shear. The stick zone of an axisymmetric
-        contact uses the values as the compliance of a point.
+        The values (n count,) [length^5/force] are the means over radial and circumferential shear.
+        They do not depend on the direction of the shear. The stick zone of an axisymmetric contact
+        uses them as the compliance of a point.
         """
-        outward, around, down = self.operator.diagonal.reshape(3, -1)
-        tangential = (outward + around) / 2
-        return np.concatenate([tangential, tangential, down])
+        outward, around, _ = self.operator.diagonal.reshape(3, -1)
+        return np.asarray((outward + around) / 2)
 
     @cached_property
     def stiffness(self) -> Callable[[int], RingOperator]:

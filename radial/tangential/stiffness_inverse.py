@@ -64,9 +64,7 @@ class StiffnessInverse:
 
         def inverse(rows: Array) -> Array:
             """Compute the free unknowns of several residuals (k, size)."""
-            x, y, along, z = np.split(
-                rows, np.cumsum([len(stick), len(stick), slips]), axis=1
-            )
+            x, y, along, z = np.split(rows, np.cumsum([len(stick), len(stick), slips]), axis=1)
             u = np.zeros((len(rows), 3, m))
             u[:, 0, stick], u[:, 1, stick], u[:, 2, contact] = x, y, z
             known = stiffness(u).reshape(len(rows), -1)
