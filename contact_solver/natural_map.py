@@ -85,20 +85,20 @@ class Natural:
     shear_error: float
 
     @classmethod
-    def evaluate(cls, point: NewtonPoint, problem: CoupledProblem, bound: Vector) -> "Natural":
+    def evaluate(cls, point: NewtonPoint, problem: CoupledProblem) -> "Natural":
         """Evaluate the contact and friction conditions at an iterate, written as a natural map.
 
         The tangential load must be below the friction limit.
 
         point    tractions, displacements and rigid motion of the iterate
         problem  operators, loads and friction law of the increment
-        bound    friction limit b of max(0, p) (n,)
         """
         gamma = problem.gamma
         q, p = point.tractions[:2], point.tractions[2]
         gap = problem.gap + point.displacements[2] - point.closure
         argument = p - gamma * gap
         contact = argument > 0
+        bound = problem.friction_limit(np.maximum(p, 0.0))
         apart = problem.target - point.displacements[:2]
         shear = natural_shear(problem.shifting, q, apart, bound, gamma, point.motion)
         length = magnitude(shear.z)

@@ -58,6 +58,7 @@ class NewtonIterate:
         start[2] = problem.pressing.admissible(np.where(problem.pressing.allowed, start[2], 0.0))
         self._problem = problem
         self.point, _ = evaluate_point(problem, start, motion)
+        _refuse_gross_slip(problem, start[2])
         self.natural = natural_map(problem, self.point)
         self.iterations, self.settled, self.is_admissible = 0, False, False
         self._zones: Zones | None = None
@@ -132,15 +133,20 @@ def natural_map(problem: CoupledProblem, point: NewtonPoint) -> Natural:
 
     problem  operators, loads and friction law of the increment
     point    tractions, displacements and rigid motion of the iterate
-    raises   NotConverged at the friction limit, for non-finite tractions or without contact
+    raises   NotConverged for non-finite tractions or without contact
     """
-    bound = problem.friction_limit(np.maximum(point.tractions[2], 0.0))
-    if problem.exhausts_friction(bound) or not np.all(np.isfinite(point.tractions)):
+    if not np.all(np.isfinite(point.tractions)):
         raise NotConverged("the coupled increment", 0, np.inf, 0.0)
-    natural = Natural.evaluate(point, problem, bound)
+    natural = Natural.evaluate(point, problem)
     if not np.any(natural.contact):
         raise NotConverged("the coupled increment", 0, np.inf, 0.0)
     return natural
+
+
+def _refuse_gross_slip(problem: CoupledProblem, p: Vector) -> None:
+    """Raise NotConverged if the prescribed forces reach the friction limit of a pressure p (n,)."""
+    if problem.exhausts_friction(problem.friction_limit(np.maximum(p, 0.0))):
+        raise NotConverged("the coupled increment", 0, np.inf, 0.0)
 
 
 def _line_search(
@@ -165,6 +171,7 @@ def _line_search(
             base.motion,
         )
         try:
+            _refuse_gross_slip(problem, point.tractions[2])
             natural = natural_map(problem, point)
         except NotConverged:
             continue

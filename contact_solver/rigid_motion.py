@@ -152,12 +152,10 @@ class MotionShapes:
         motion  components of the motion (k,)
         """
         count = len(self.uniform)
-        if count == len(self):
-            return np.asarray((motion @ self.uniform)[:, None])
-        varying = np.einsum("k,kcn->cn", motion[count:], self.varying)
-        if count:
-            varying += (motion[:count] @ self.uniform)[:, None]
-        return np.asarray(varying)
+        moved = (motion[:count] @ self.uniform)[:, None]
+        for size, shape in zip(motion[count:], self.varying, strict=True):
+            moved = moved + size * shape
+        return np.asarray(moved)
 
     def forces(self, tractions: Field) -> Vector:
         """Compute the forces (k,) of tractions (c, n), conjugate to the motions."""
@@ -179,13 +177,12 @@ class MotionShapes:
 
         weight  weights (n,)
         """
-        count, weighted = len(self.uniform), self.varying * weight
+        uniform = np.sum(weight) * (self.uniform @ self.uniform.T)
+        if not len(self.varying):
+            return np.asarray(uniform)
+        weighted = self.varying * weight
         varying = np.einsum("kcn,lcn->kl", weighted, self.varying)
-        if not count:
+        if not len(self.uniform):
             return np.asarray(varying)
-        found = np.empty((len(self), len(self)))
-        found[:count, :count] = np.sum(weight) * (self.uniform @ self.uniform.T)
-        found[:count, count:] = self.uniform @ np.sum(weighted, axis=2).T
-        found[count:, :count] = found[:count, count:].T
-        found[count:, count:] = varying
-        return found
+        mixed = self.uniform @ np.sum(weighted, axis=2).T
+        return np.block([[uniform, mixed], [mixed.T, varying]])
