@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
 
+import numpy as np
+
 from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_solver.conjugate_gradients import Map
 from contact_solver.gross_slip import exhausts_friction
@@ -99,6 +101,13 @@ class CoupledProblem:
     def pressing(self) -> PressureProblem:
         """Problem of the pressure without shear."""
         return PressureProblem(self.normal, self.inverse_on, self.gap, self.closing)
+
+    def loaded(self, p: Vector) -> Vector:
+        """Return a pressure (n,) near a given one that carries the prescribed normal loads.
+
+        p  pressure (n,), of which values outside the indenter are ignored
+        """
+        return self.pressing.admissible(np.where(self.pressing.allowed, p, 0.0))
 
     def pressing_at(self, q: VectorField) -> PressureProblem:
         """Return the problem of the pressure at a given shear.

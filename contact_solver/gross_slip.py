@@ -63,9 +63,7 @@ def full_slip(motions: RigidMotions, bound: Vector, motion: Vector) -> tuple[Vec
     return bound / max(1.0, times) * speed / _blunt_size(speed, bound), motion
 
 
-def limit_load(
-    held: RigidMotions, bound: Vector, enough: float = np.inf
-) -> tuple[float, Vector]:
+def limit_load(held: RigidMotions, bound: Vector, enough: float = np.inf) -> tuple[float, Vector]:
     """Compute the ratio of the limit load to the prescribed load, and the motion of gross slip.
 
     At the limit load all points slip. All forces are increased by one common factor. Newton's

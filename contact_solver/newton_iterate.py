@@ -55,7 +55,7 @@ class NewtonIterate:
         start    initial tractions (q_x, q_y, p), shape (3, n)
         motion   initial guess of the rigid tangential motion
         """
-        start[2] = problem.pressing.admissible(np.where(problem.pressing.allowed, start[2], 0.0))
+        start[2] = problem.loaded(start[2])
         self._problem = problem
         self.point, _ = evaluate_point(problem, start, motion)
         _refuse_gross_slip(problem, start[2])

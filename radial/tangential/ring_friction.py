@@ -12,7 +12,6 @@ from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from contact_scene.friction_limit import reaches_limit, refuse_above_limit
 from contact_scene.solver_errors import ContactAtZoneEdge, NotConverged, motion_undefined
-from contact_solver.alternating_iteration import solve_coupled
 from contact_solver.coupled_problem import CoupledSolution
 from contact_solver.globalisation import solve_together
 from contact_solver.gross_slip import limit_load
@@ -66,9 +65,9 @@ def solve_increment(
         raise motion_undefined()
     guesses = [] if smooth is None else [smooth]
     guesses += [problem.guess_closed_gap()] if before is None else problem.initial_guesses(before)
-    methods = [*((solve_by_newton, x) for x in guesses[:-1]), (solve_together, guesses[-1])]
     if at_limit:
-        methods = [(solve_coupled, guesses[-1])]
+        guesses = guesses[-1:]
+    methods = [*((solve_by_newton, x) for x in guesses[:-1]), (solve_together, guesses[-1])]
     steps = 0
     for method, x in methods:
         try:
