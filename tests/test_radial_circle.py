@@ -173,7 +173,7 @@ def test_friction_carries_less_of_a_push_beside_torsion() -> None:
         """Ratio of the limit load to prescribed forces and torque; None at a prescribed motion."""
         motions = tuple(None if force is not None else 0.0 for force in forces)
         problem = RingProblem.of(ring, LAW, Loads((*forces, 1.0), (*motions, None)), None)
-        return limit_load(problem.coupled.shifting.held, ring.roots * limit)[0]
+        return limit_load(problem.coupled.shifting.held, ring.scale.roots * limit)[0]
 
     assert [
         times(0.6 * force, 0.0, 0.0),

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from contact_scene.array_types import Array
+from contact_solver.unequal_areas import UnequalAreas
 from radial.angular_grid import RingAngles
 from radial.tangential.ring_operator import RingOperator
 from radial.tangential.stick_border import stick_area
@@ -143,14 +144,9 @@ class ContactPoints:
         return self.operator.matrix
 
     @cached_property
-    def mean_area(self) -> float:
-        """Mean area of the points [length²]."""
-        return float(np.mean(self.areas))
-
-    @cached_property
-    def roots(self) -> Array:
-        """Roots s of the areas of the points over their mean (n count,)."""
-        return np.sqrt(self.areas / self.mean_area)
+    def scale(self) -> UnequalAreas:
+        """Conversion to points of equal area."""
+        return UnequalAreas(self.areas)
 
     @cached_property
     def equal_compliance(self) -> RingOperator:

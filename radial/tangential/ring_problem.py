@@ -1,8 +1,6 @@
 """Contact problem of one increment at points on rings, solved by `contact_solver`.
 
-Points represent different areas w. The solver knows points of equal area: it receives tractions,
-displacements, gap and friction limit multiplied by the root s of the area over the mean area. Then
-the compliance is symmetric, and sums over points are integrals over the surface.
+Points represent different areas, see `contact_solver.unequal_areas`.
 """
 
 from __future__ import annotations
@@ -16,7 +14,7 @@ from contact_scene import CoulombFriction
 from contact_scene.array_types import Array
 from contact_solver.coupled_problem import CoupledProblem, CoupledSolution
 from contact_solver.dense_inverse import DenseInverse
-from contact_solver.rigid_motion import RigidMotion, RigidMotions
+from contact_solver.rigid_motion import RigidMotion
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
     ALONG,
@@ -85,52 +83,31 @@ class RingProblem:
         """Numbers of the tangential motions that symmetry does not exclude."""
         return [k for k, one in enumerate(self.points.rigid_motions) if np.any(one)]
 
-    def _rigid(self, number: int, shape: Array) -> RigidMotion:
-        """Return a rigid motion with its prescribed load or value, scaled to the last ring.
-
-        number  index of the motion
-        shape   displacement of the points by the unit motion, times s (c, N)
-        """
-        unit, force = self._units[number], self.loads.forces[number]
-        if force is not None:
-            return RigidMotion(shape / unit, force / (unit * self.points.mean_area))
-        motion = self.loads.motions[number]
-        assert motion is not None
-        return RigidMotion(shape / unit, value=motion * unit)
-
     @cached_property
     def coupled(self) -> CoupledProblem:
         """The problem of pressure and shear for points of equal area."""
-        points, friction = self.points, self.friction
-        s, n, compliance = points.roots, len(points.areas), points.equal_compliance
-        by_area = s / points.areas
-        shapes = points.rigid_motions.reshape(3, 2, n) * by_area
-        start = self.moved.reshape(2, n) * by_area
-        start = start - np.tensordot(self.motion[:NORMAL], shapes, axes=1)
-        nothing = np.zeros(n)
+        points, loads, n = self.points, self.loads, len(self.points.areas)
+        compliance = points.equal_compliance
+        shapes = points.rigid_motions.reshape(3, 2, n) / points.areas
+        target = self.moved.reshape(2, n) / points.areas
+        target = target - np.tensordot(self.motion[:NORMAL], shapes, axes=1)
 
-        def by_pressure(p: Array) -> Array:
-            return compliance(np.stack([nothing, nothing, p]))
+        def rigid(number: int, shape: Array) -> RigidMotion:
+            return points.scale.rigid_motion(
+                shape, self._units[number], loads.forces[number], loads.motions[number]
+            )
 
-        def by_shear(q: Array) -> Array:
-            return compliance(np.concatenate([q, nothing[None]]))
-
-        return CoupledProblem(
-            normal=lambda p: by_pressure(p)[2],
-            tangential=lambda q: by_shear(q)[:2],
-            normal_by_shear=lambda q: by_shear(q)[2],
-            shear_by_pressure=lambda p: by_pressure(p)[:2],
-            inverse_on=lambda contact: DenseInverse(compliance.matrix).on_contact(contact),
-            inverse_in=lambda zones: DenseInverse(compliance.matrix).in_stick_and_slip(zones),
-            together=compliance,
+        return points.scale.problem(
+            product=compliance,
             inverse=StiffnessInverse(compliance, points.stiffness, points.count),
-            gap=points.gap_areas * by_area,
-            friction_limit=lambda p: s * friction.limit(p / s),
-            friction_slope=lambda p: friction.slope(p / s),
-            target=start,
-            closing=RigidMotions(1, (self._rigid(NORMAL, s[None]),)),
-            shifting=RigidMotions(2, tuple(self._rigid(k, shapes[k]) for k in self._moving)),
-            self_compliance=float(np.median(compliance.diagonal[: 2 * n])),
+            dense=lambda: DenseInverse(compliance.matrix),
+            own=compliance.diagonal[: 2 * n],
+            gap=points.gap_areas / points.areas,
+            friction_limit=self.friction.limit,
+            friction_slope=self.friction.slope,
+            target=target,
+            closing=rigid(NORMAL, np.ones((1, n))),
+            shifting=tuple(rigid(k, shapes[k]) for k in self._moving),
         )
 
     def start(self, x: Array) -> tuple[Array, Array, Array]:
@@ -138,7 +115,7 @@ class RingProblem:
 
         x  tractions q_r, q_θ, p and rigid motion (3 N + 4,)
         """
-        t = self.points.roots * np.reshape(x[:-4], (3, -1))
+        t = self.points.scale.roots * np.reshape(x[:-4], (3, -1))
         return t[2], t[:2], (x[-4:] * self._units)[self._moving]
 
     def reached(self, found: CoupledSolution) -> Array:
@@ -149,7 +126,7 @@ class RingProblem:
         motion = np.array([value or 0.0 for value in self.loads.motions])
         motion[self._moving] = found.motion / self._units[self._moving]
         motion[NORMAL] = found.closing[0]
-        t = np.concatenate([found.shear, found.pressure[None]]) / self.points.roots
+        t = np.concatenate([found.shear, found.pressure[None]]) / self.points.scale.roots
         return np.append(t, motion)
 
     def slip_increment(self, u: Array, motion: Array) -> Array:
