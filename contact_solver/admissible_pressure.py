@@ -77,5 +77,5 @@ class _ShiftedPressure:
 
         The shortest step is taken where they are not unique.
         """
-        metric = self._held.products(self._slack)
+        metric = self._held.shapes.products(self._slack)
         return np.asarray(-np.linalg.pinv(metric, rcond=1e-14, hermitian=True) @ self.defect)

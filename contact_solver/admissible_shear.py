@@ -12,7 +12,7 @@ import numpy as np
 from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.friction_limit import reaches_limit
 from contact_solver.multipliers import find_multiplier
-from contact_solver.rigid_motion import RigidMotions
+from contact_solver.rigid_motion import MotionShapes, RigidMotions
 
 # Rounding error of a sum of shears, relative to the sum of their magnitudes.
 ROUND_OFF = 1e-14
@@ -94,8 +94,9 @@ def project_trial(
     motion   initial guess of the rigid motions (k,)
     """
     is_free, found = motions.is_free, motions.values.copy()
-    found[is_free] = 0.0
-    y = y + gamma * motions.displacement(found)
+    if not np.all(is_free):
+        found[is_free] = 0.0
+        y = y + gamma * motions.displacement(found)
     forces, stiffness = _forces_in_equilibrium(motions.free, gamma)
     q, multiplier = _project(motions.free, y, bound, forces, stiffness, gamma * motion[is_free])
     found[is_free] = multiplier / gamma
@@ -150,8 +151,10 @@ def _project(
     stiffness  stiffness of springs, over γ (k,)
     guess      initial guess of the multipliers (k,); None for an estimate without friction
     """
+    if not len(free):
+        return project_on_discs(y, bound), np.zeros(0)
     loaded = np.flatnonzero(bound > 0)  # points that can carry shear
-    units, of_loaded, limit = free.at(loaded), y.take(loaded, axis=1), bound.take(loaded)
+    units, of_loaded, limit = free.shapes.at(loaded), y.take(loaded, axis=1), bound.take(loaded)
     if guess is None:
         guess = (forces - units.forces(of_loaded)) / np.diag(units.products(np.ones(len(limit))))
     shifted, multiplier = find_multiplier(
@@ -200,7 +203,7 @@ class _ProjectedShear:
         multiplier: Vector,
         y: Field,
         bound: Vector,
-        units: RigidMotions,
+        units: MotionShapes,
         given: Vector,
         stiffness: Vector,
     ) -> None:

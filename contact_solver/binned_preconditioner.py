@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from contact_scene.array_types import Vector
+from contact_scene.array_types import Matrix, Vector
 from contact_solver.conjugate_gradients import Map
 from contact_solver.slip_compliance_bins import shares
 from contact_solver.zones import Zones
@@ -32,11 +32,14 @@ class BinnedPreconditioner:
         self._zones, self._inverse = zones, inverse
         self._shares = shares(zones.slip_compliance / self_compliance)
 
-    def __call__(self, rows: Vector) -> Vector:
-        """Convert a residual of Newton's method to changes of the free tractions, approximately.
+    def __call__(self, residuals: Matrix) -> Matrix:
+        """Convert residuals of Newton's method to changes of the free tractions, approximately.
 
-        rows  residual, one row per free unknown
+        residuals  residuals (k, size), one row per free unknown
         """
+        return np.array([self._change(rows) for rows in residuals]).reshape(residuals.shape)
+
+    def _change(self, rows: Vector) -> Vector:
         zones, slip = self._zones, self._zones.slip
         first, *others = self._shares
         weighted = rows.copy()

@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
 
+import numpy as np
+
 from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_solver.conjugate_gradients import Map
 from contact_solver.gross_slip import exhausts_friction
@@ -16,12 +18,18 @@ from contact_solver.zones import Zones
 
 
 class Preconditioner(Protocol):
-    """Interface of an approximate inverse of the derivative of a coupled problem."""
+    """Interface of an inverse of the derivative of a coupled problem.
 
-    def in_zones(self, zones: Zones) -> Callable[[Vector], Vector]:
+    exact  True if `in_zones` is the inverse up to round-off; False for a preconditioner
+    """
+
+    @property
+    def exact(self) -> bool: ...
+
+    def in_zones(self, zones: Zones) -> Map:
         """Return the approximate inverse in zones of contact, stick and slip.
 
-        It is a map from rows of the linear system to free unknowns, see `Zones`.
+        It is a map from rows of the linear system to free unknowns, see `Zones`, both (k, size).
 
         zones  zones of an iterate
         """
@@ -93,6 +101,13 @@ class CoupledProblem:
     def pressing(self) -> PressureProblem:
         """Problem of the pressure without shear."""
         return PressureProblem(self.normal, self.inverse_on, self.gap, self.closing)
+
+    def loaded(self, p: Vector) -> Vector:
+        """Return a pressure (n,) near a given one that carries the prescribed normal loads.
+
+        p  pressure (n,), of which values outside the indenter are ignored
+        """
+        return self.pressing.admissible(np.where(self.pressing.allowed, p, 0.0))
 
     def pressing_at(self, q: VectorField) -> PressureProblem:
         """Return the problem of the pressure at a given shear.

@@ -5,13 +5,12 @@ A Krylov solver with this preconditioner needs one or two iterations.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve, lu_factor, lu_solve
 
-from contact_scene.array_types import Field, Indices, Mask, Matrix, Vector
+from contact_scene.array_types import Field, Indices, Mask, Matrix
 from contact_scene.solver_errors import NotConverged
 from contact_solver.conjugate_gradients import Map
 from contact_solver.shear_zones import ShearZones
@@ -27,6 +26,7 @@ class DenseInverse:
     """
 
     matrix: Matrix
+    exact = True
 
     def on_contact(self, contact: Mask) -> Map:
         """Return the inverse of the map from pressure to normal displacement on a contact set.
@@ -63,7 +63,7 @@ class DenseInverse:
 
         return inverse
 
-    def in_zones(self, zones: Zones) -> Callable[[Vector], Vector]:
+    def in_zones(self, zones: Zones) -> Map:
         """Return the inverse of the coupled problem in zones of contact, stick and slip.
 
         zones   zones of an iterate
@@ -82,7 +82,7 @@ class DenseInverse:
         factors = lu_factor(derivative, check_finite=False)
         if not np.all(np.diagonal(factors[0])):
             raise NotConverged("the linear system of a contact step", 0, np.inf, 0.0)
-        return lambda v: np.asarray(lu_solve(factors, v, check_finite=False))
+        return lambda rows: np.asarray(lu_solve(factors, rows.T, check_finite=False).T)
 
     def with_compliance(self, compliance: float) -> DenseInverse:
         """Return the inverse for surfaces with an additional compliance of each point.

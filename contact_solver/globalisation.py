@@ -12,10 +12,7 @@ import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.solver_errors import NotConverged
-from contact_solver.alternating_iteration import (
-    one_iteration,
-    solve_coupled,
-)
+from contact_solver.alternating_iteration import alternate, solve_gross_slip
 from contact_solver.coupled_problem import (
     CoupledProblem,
     CoupledSolution,
@@ -25,10 +22,9 @@ from contact_solver.proximal_point import solve_on_springs
 
 Method = Callable[[CoupledProblem, Field, VectorField, Vector, float], CoupledSolution]
 
-# Residual at which the alternating iteration hands over to Newton's method, and its iteration
-# limit. Beyond it (strong friction, films much stiffer than their base) the proximal-point method
-# is faster or is the only one that converges.
-NEAR, FEW_ITERATIONS = 1e-3, 250
+# Number of turns of the alternating iteration before Newton's method is tried again. Beyond them
+# (strong friction, films much stiffer than their base) the proximal-point method is faster.
+TURNS = 3
 # Merit above which Newton's method does not start from zero shear: strong friction would suppress
 # the displacement by the pressure. Below it one alternating iteration costs more than it saves.
 FAR = 1.0
@@ -40,21 +36,21 @@ def solve_together(
     """Solve a coupled increment by the first of several methods that converges.
 
     Newton's method converges fast from nearly correct zones of contact, stick and slip, and may
-    stall otherwise. On failure the next method starts from the same initial guess. Only the
-    alternating iteration can return gross slip at the friction limit.
+    stall otherwise. On failure the next method starts from the same initial guess.
 
     problem                  operators, loads and friction law of the increment
     pressure, shear, motion  initial guesses: p (n,), q (2, n) and rigid tangential motion
     tolerance                limit of the dimensionless residuals
     raises                   NotConverged
     """
-    methods: tuple[Method, ...] = (solve_by_newton, _alternating_then_newton, solve_on_springs)
-    if _gross_slip(problem, pressure):
-        methods = (_alternating_then_newton,)
+    turned = partial(_turns_then_newton, turns=TURNS)
+    methods: tuple[Method, ...] = (solve_by_newton, turned, solve_on_springs)
+    if problem.exhausts_friction(problem.friction_limit(problem.loaded(pressure))):
+        methods = (solve_gross_slip, turned)
     elif not np.any(shear):
         near = partial(solve_by_newton, furthest=FAR)
-        methods = (near, _one_iteration_then_newton, *methods[1:])
-    return _first_converged((*methods, solve_coupled), problem, pressure, shear, motion, tolerance)
+        methods = (near, partial(_turns_then_newton, turns=1), *methods[1:])
+    return _first_converged(methods, problem, pressure, shear, motion, tolerance)
 
 
 def _first_converged(
@@ -93,45 +89,24 @@ def _first_converged(
     raise NotConverged("the coupled increment", iterations, residual, tolerance)
 
 
-def _gross_slip(problem: CoupledProblem, pressure: Field) -> bool:
-    """Return True if the tangential load reaches the friction limit Σµp (gross slip).
-
-    Only the alternating iteration can solve this case.
-
-    problem   loads and friction law of the increment
-    pressure  p (n,) [force/length^2]
-    """
-    return problem.exhausts_friction(problem.friction_limit(pressure))
-
-
-def _one_iteration_then_newton(
-    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
+def _turns_then_newton(
+    problem: CoupledProblem,
+    pressure: Field,
+    shear: VectorField,
+    motion: Vector,
+    tolerance: float,
+    *,
+    turns: int,
 ) -> CoupledSolution:
-    """Solve a coupled increment by Newton's method from the result of one alternating iteration.
+    """Solve a coupled increment by Newton's method from the result of a few alternating turns.
 
-    The alternating iteration starts at the given pressure with zero shear. It solves the
-    tangential, then the normal problem.
+    If the loads are at the friction limit then, gross slip is solved instead.
+
+    turns  number of turns
     """
-    pressure, shear, motion, spent = one_iteration(problem, pressure, motion, tolerance)
+    pressure, shear, motion, spent = alternate(problem, pressure, shear, motion, tolerance, turns)
+    slides = problem.exhausts_friction(problem.friction_limit(pressure))
+    method: Method = solve_gross_slip if slides else solve_by_newton
     return _first_converged(
-        (solve_by_newton,), problem, pressure, shear, motion, tolerance, spent=(spent, 1)
+        (method,), problem, pressure, shear, motion, tolerance, spent=(spent, turns)
     )
-
-
-def _alternating_then_newton(
-    problem: CoupledProblem, pressure: Field, shear: VectorField, motion: Vector, tolerance: float
-) -> CoupledSolution:
-    """Solve a coupled increment by Newton's method from the result of a few alternating iterations.
-
-    An alternating iteration solves the tangential, then the normal problem. If Newton's method
-    fails, a few more alternating iterations follow. At gross slip the alternating iteration
-    continues without this limit.
-    """
-    few = partial(solve_coupled, most_iterations=FEW_ITERATIONS)
-    near = few(problem, pressure, shear, motion, max(NEAR, tolerance))
-    methods = (solve_coupled,) if _gross_slip(problem, near.pressure) else (solve_by_newton, few)
-    start, spent = (
-        (near.pressure, near.shear, near.motion),
-        (near.iterations, near.outer_iterations),
-    )
-    return _first_converged(methods, problem, *start, tolerance, spent=spent)

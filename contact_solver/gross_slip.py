@@ -12,13 +12,17 @@ import numpy as np
 from contact_scene.array_types import Matrix, Vector, VectorField
 from contact_scene.friction_limit import reaches_limit
 from contact_solver.admissible_shear import magnitude
-from contact_solver.rigid_motion import RigidMotions
+from contact_solver.rigid_motion import MotionShapes, RigidMotions
 
 MAX_STEPS = 100
 # Smoothing of |speed| at the pole, relative to the largest speed.
 BLUNT = 1e-8
 # Relative decrease of the power of friction at which the iteration stops.
 FLAT = 1e-15
+
+# Decrease of the power of friction by all further steps, over that predicted for the next one.
+# Predictions exceed decreases where the power is a cone.
+FURTHEST = 10.0
 
 Power = tuple[float, Vector, Matrix]
 
@@ -36,7 +40,7 @@ def exhausts_friction(motions: RigidMotions, bound: Vector) -> bool:
         return True
     held = motions.held
     loaded = bool(np.any(held.prescribed_forces))
-    return loaded and reaches_limit(1.0, limit_load(held, bound)[0])
+    return loaded and reaches_limit(1.0, limit_load(held, bound, enough=1.0)[0])
 
 
 def full_slip(motions: RigidMotions, bound: Vector, motion: Vector) -> tuple[VectorField, Vector]:
@@ -59,22 +63,23 @@ def full_slip(motions: RigidMotions, bound: Vector, motion: Vector) -> tuple[Vec
     return bound / max(1.0, times) * speed / _blunt_size(speed, bound), motion
 
 
-def limit_load(held: RigidMotions, bound: Vector) -> tuple[float, Vector]:
+def limit_load(held: RigidMotions, bound: Vector, enough: float = np.inf) -> tuple[float, Vector]:
     """Compute the ratio of the limit load to the prescribed load, and the motion of gross slip.
 
     At the limit load all points slip. All forces are increased by one common factor. Newton's
     method minimises the power of friction over all rigid motions on which the load does unit work.
     The minimum is the ratio (upper-bound theorem of limit analysis).
 
-    held   motions with prescribed forces, not all zero
-    bound  friction limit µp (n,)
+    held    motions with prescribed forces, not all zero
+    bound   friction limit µp (n,)
+    enough  ratio that the result only has to exceed: the iteration stops where it is certain to
     """
     forces = held.prescribed_forces
     start = forces / np.sum(forces**2)
-    if held.are_uniform:  # shifts alone: all points slip along the force
-        return float(np.sum(bound) * magnitude(held.displacement(start))[0]), start
+    if len(held) == 1 or not len(held.shapes.varying):  # all points slip along the force
+        return float(np.sum(bound * magnitude(held.displacement(start)))), start
     loaded = np.flatnonzero(bound > 0)
-    units, limit = held.at(loaded), bound.take(loaded)
+    units, limit = held.shapes.at(loaded), bound.take(loaded)
     across = np.linalg.svd(forces[None, :])[2][1:]
 
     def power_at(x: Vector) -> Power:
@@ -87,13 +92,13 @@ def limit_load(held: RigidMotions, bound: Vector) -> tuple[float, Vector]:
         inverse = np.linalg.pinv(across @ curvature @ across.T, rcond=1e-14, hermitian=True)
         step = -inverse @ gradient
         fall = -float(gradient @ step)
-        if fall <= FLAT * power:
+        if fall <= FLAT * power or power - FURTHEST * fall > enough:
             break
         x, (power, slope, curvature) = _descend(power_at, x, step, power, fall)
     return power, start + x @ across
 
 
-def _friction_power(velocity: Vector, limit: Vector, units: RigidMotions) -> Power:
+def _friction_power(velocity: Vector, limit: Vector, units: MotionShapes) -> Power:
     """Compute the power of friction in gross slip, with its gradient and Hessian.
 
     The power is the sum over the points of friction limit times sliding speed. The limit load

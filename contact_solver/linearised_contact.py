@@ -3,7 +3,6 @@
 The system is solved by GMRES.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,6 +11,7 @@ import numpy as np
 from contact_scene.array_types import Field, Matrix, Vector
 from contact_scene.solver_errors import NotConverged
 from contact_solver.admissible_shear import admissible_shear
+from contact_solver.conjugate_gradients import Map
 from contact_solver.coupled_problem import CoupledProblem
 from contact_solver.krylov import least_residual
 from contact_solver.natural_map import (
@@ -66,18 +66,14 @@ class LinearisedContact:
         """
         self._problem, self._zones = problem, zones
         self._shifts, self._closures = problem.shifting.held, problem.closing.held
+        units = self._free_units
         if carriers is None:
-            units = self._free_units()
-            for number, unit in enumerate(units):
-                units[number] = self._precondition(unit)
-            carriers = units
-        self._carriers, count = carriers, len(carriers)
-        responses = np.array([self._force_changes(carrier) for carrier in carriers])
-        self._inverse = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
+            carriers = units if problem.inverse.exact else self._precondition(units)
+        self._carriers = carriers
 
     @cached_property
-    def _precondition(self) -> Callable[[Vector], Vector]:
-        """Approximate inverse in the zones, on first use: the last iterate needs none."""
+    def _precondition(self) -> Map:
+        """Inverse in the zones, on first use: a converged iterate may need none."""
         return self._problem.inverse.in_zones(self._zones)
 
     def carriers_in(self, zones: Zones) -> Matrix:
@@ -91,6 +87,7 @@ class LinearisedContact:
         transferred = (zones.free(self._zones.field(carrier)) for carrier in self._carriers)
         return np.array([*transferred]).reshape(-1, zones.size)
 
+    @cached_property
     def _free_units(self) -> Matrix:
         """Restrict the unit rigid motions of the indenter to the free unknowns (k, unknowns).
 
@@ -151,15 +148,21 @@ class LinearisedContact:
         depth     reduction of the residual at which GMRES stops
         """
         zones, problem = self._zones, self._problem
+        responses = np.einsum("ki,ji->kj", self._force_rows, self._carriers)
+        weights = np.linalg.pinv(responses, rcond=UNDETERMINED)
 
         def apply_operator(rows: Vector) -> tuple[Vector, Vector, Vector]:
-            free = self._preconditioned_change(rows)
+            """Precondition, correct to constant prescribed forces, and apply the operator."""
+            free = self._precondition(rows[None])[0]
+            changes = weights @ np.einsum("ki,i->k", self._force_rows, free)
+            for change, carrier in zip(changes, self._carriers, strict=True):
+                free -= change * carrier
             u = problem.together(zones.tractions(free))
             return free, zones.free(u) + zones.slip_terms(free), zones.restrict_to_fixed(u)
 
         extra = 3 * zones.contact.size - zones.size
         found = least_residual(
-            apply_operator, residual, self._free_units(), extra, depth, MAX_ITERATIONS
+            apply_operator, residual, self._free_units, extra, depth, MAX_ITERATIONS
         )
         free = found.solution
         return Step(
@@ -169,27 +172,43 @@ class LinearisedContact:
             found.iterations,
         )
 
-    def _preconditioned_change(self, rows: Vector) -> Vector:
-        """Convert a residual to a change of the tractions by the preconditioner.
+    def solve_exactly(self, point: NewtonPoint, motion: Vector) -> Step:
+        """Compute the Newton step with the exact inverse of the compliance in the zones.
 
-        The change is corrected so that the prescribed forces stay constant. The result are changes
-        of the free unknowns.
+        The step starts at any tractions. The rigid motions are the multipliers of the forces.
 
-        rows  residual, one row per free unknown
+        point   tractions and displacements of the iterate
+        motion  rigid tangential motion of the iterate
         """
-        free = self._precondition(rows)
-        for weight, carrier in zip(
-            self._inverse @ self._force_changes(free), self._carriers, strict=True
-        ):
-            free -= weight * carrier
-        return free
+        problem, zones = self._problem, self._zones
+        p = np.maximum(point.tractions[2], 0.0)
+        t = zones.admissible_tractions(
+            np.concatenate([point.tractions[:2], p[None]]), problem.friction_limit(p)
+        )
+        u = problem.together(t)
+        slipped = problem.target - u[:2] + problem.shifting.displacement(motion)
+        overlap = point.closure - problem.gap - u[2]
+        rows = zones.free(np.concatenate([slipped, overlap[None]]))
+        rows -= zones.slip_terms(zones.free(t))
+        free = self._precondition(np.concatenate([rows[None], self._free_units]))
+        forces = np.einsum("ki,ji->kj", self._force_rows, free)
+        forces[:, 0] += [*self._shifts.forces(t[:2]), *self._closures.forces(t[2:])]
+        forces[:, 0] -= [*self._shifts.prescribed_forces, *self._closures.prescribed_forces]
+        further = np.linalg.pinv(forces[:, 1:], rcond=UNDETERMINED) @ forces[:, 0]
+        change = zones.tractions(free[0] - further @ free[1:])
+        return Step(
+            t + change - point.tractions,
+            u + problem.together(change) - point.displacements,
+            -self._closures.displacement(further[len(self._shifts) :])[0],
+            1,
+        )
 
-    def _force_changes(self, free: Vector) -> Vector:
-        """Compute the change of the prescribed forces and moments by a change of the tractions.
-
-        The changes are divided by the area of a point (k,).
-
-        free  change of the free unknowns
-        """
-        t = self._zones.tractions(free)
-        return np.array([*self._shifts.forces(t[:2]), *self._closures.forces(t[2:])])
+    @cached_property
+    def _force_rows(self) -> Matrix:
+        """Changes of the prescribed forces by changes of the free unknowns (k, unknowns)."""
+        zones, rows = self._zones, self._free_units.copy()
+        before = zones.size - len(zones.contact_points)
+        pressed = before + np.searchsorted(zones.contact_points, zones.slip)
+        along = self._shifts.shapes.at(zones.slip).along(zones.friction_slope)
+        rows[: len(self._shifts), pressed] += along
+        return rows

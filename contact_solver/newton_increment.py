@@ -12,7 +12,7 @@ from contact_solver.newton_iterate import NewtonIterate
 from contact_solver.residuals import complementarity, penetration, slip_direction
 
 MAX_STEPS = 40
-# Successive steps that may reduce the residual by less than 10 %.
+# Successive steps that may reduce residual and merit by less than 10 %.
 MAX_IDLE = 3
 # Largest reduction factor of a linear solve; used while the zones change.
 ROUGH_REDUCTION = 0.05
@@ -39,7 +39,7 @@ def solve_by_newton(
                              limit, or the first merit exceeds `furthest`
     """
     at = NewtonIterate(problem, np.concatenate([shear, pressure[None]]), motion)
-    best, idle = np.inf, 0
+    best, least, idle = np.inf, np.inf, 0
     for number in range(1, MAX_STEPS + 1):
         at.linearise()
         residual = _largest_residual(problem, at)
@@ -51,8 +51,9 @@ def solve_by_newton(
             )
         if number == 1 and at.natural.merit > furthest:
             break
-        idle = 0 if residual < 0.9 * best else idle + 1
-        best = min(best, residual)
+        merit = at.natural.merit
+        idle = 0 if residual < 0.9 * best or merit < 0.9 * least else idle + 1
+        best, least = min(best, residual), min(least, merit)
         if idle >= MAX_IDLE:
             break
         depth = min(ROUGH_REDUCTION, at.natural.merit) if at.settled else ROUGH_REDUCTION
@@ -71,6 +72,8 @@ def _largest_residual(problem: CoupledProblem, at: NewtonIterate) -> float:
     at       iterate
     """
     point, natural = at.point, at.natural
+    if not at.is_admissible:
+        return natural.merit
     q, p = point.tractions[:2], point.tractions[2]
     overlap = problem.pressing.overlap(at.closing)
     # In full stick the surface may not move; the displacement by the shear of a point is then the

@@ -24,6 +24,8 @@ from contact_solver.zones import Zones
 
 # Zones have settled if at most this part of the root of the number of contact points changes zone.
 SETTLED = 0.1
+# Merit below which an iterate with an exact inverse is made admissible, for its residuals.
+NEAR = 1e-6
 STEP_FACTORS = 0.5 ** np.arange(5)
 
 
@@ -53,11 +55,12 @@ class NewtonIterate:
         start    initial tractions (q_x, q_y, p), shape (3, n)
         motion   initial guess of the rigid tangential motion
         """
-        start[2] = problem.pressing.admissible(np.where(problem.pressing.allowed, start[2], 0.0))
+        start[2] = problem.loaded(start[2])
         self._problem = problem
         self.point, _ = evaluate_point(problem, start, motion)
+        _refuse_gross_slip(problem, start[2])
         self.natural = natural_map(problem, self.point)
-        self.iterations, self.settled = 0, False
+        self.iterations, self.settled, self.is_admissible = 0, False, False
         self._zones: Zones | None = None
         self._increment: LinearisedContact | None = None
 
@@ -65,10 +68,16 @@ class NewtonIterate:
         """Linearise the contact and friction conditions at the iterate, for the next Newton step.
 
         The zones of contact, stick and slip follow from the natural map. The tractions are changed
-        so that they are admissible in these zones, and the natural map is evaluated again.
+        so that they are admissible in these zones, and the natural map is evaluated again. The
+        solution of an exact linear system does not depend on the tractions: far from the solution
+        they stay.
         """
         problem, motion = self._problem, self.natural.motion
         zones = zones_of(self.natural, problem)
+        if problem.inverse.exact and self.natural.merit > NEAR:
+            self._increment, self.is_admissible = LinearisedContact(problem, zones), False
+            return
+        self.is_admissible = True
         images = problem.images
         contact, changed = np.sum(zones.contact), zones.changes(self._zones)
         self.settled = bool(images * changed <= SETTLED * np.sqrt(images * contact))
@@ -90,9 +99,12 @@ class NewtonIterate:
         """
         assert self._increment is not None
         merit = self.natural.merit
-        residual = self._increment.residual(self.point, self.natural)
-        del self.natural  # release its memory before the solve
-        step = self._increment.solve(residual, depth)
+        if self._problem.inverse.exact:
+            step = self._increment.solve_exactly(self.point, self.natural.motion)
+        else:
+            residual = self._increment.residual(self.point, self.natural)
+            del self.natural  # release its memory before the solve
+            step = self._increment.solve(residual, depth)
         self.iterations += step.iterations
         self.point, self.natural = _line_search(self._problem, self.point, step, merit)
 
@@ -121,15 +133,20 @@ def natural_map(problem: CoupledProblem, point: NewtonPoint) -> Natural:
 
     problem  operators, loads and friction law of the increment
     point    tractions, displacements and rigid motion of the iterate
-    raises   NotConverged at the friction limit, for non-finite tractions or without contact
+    raises   NotConverged for non-finite tractions or without contact
     """
-    bound = problem.friction_limit(np.maximum(point.tractions[2], 0.0))
-    if problem.exhausts_friction(bound) or not np.all(np.isfinite(point.tractions)):
+    if not np.all(np.isfinite(point.tractions)):
         raise NotConverged("the coupled increment", 0, np.inf, 0.0)
     natural = Natural.evaluate(point, problem)
     if not np.any(natural.contact):
         raise NotConverged("the coupled increment", 0, np.inf, 0.0)
     return natural
+
+
+def _refuse_gross_slip(problem: CoupledProblem, p: Vector) -> None:
+    """Raise NotConverged if the prescribed forces reach the friction limit of a pressure p (n,)."""
+    if problem.exhausts_friction(problem.friction_limit(np.maximum(p, 0.0))):
+        raise NotConverged("the coupled increment", 0, np.inf, 0.0)
 
 
 def _line_search(
@@ -154,6 +171,7 @@ def _line_search(
             base.motion,
         )
         try:
+            _refuse_gross_slip(problem, point.tractions[2])
             natural = natural_map(problem, point)
         except NotConverged:
             continue

@@ -89,7 +89,7 @@ class PressureProblem:
         found, free = self.motions.values.copy(), self.motions.held
         if len(free):
             right = free.forces((p * (s - self.closure(found)))[None])
-            found[self.motions.is_held] = _least_squares(free.products(p)) @ right
+            found[self.motions.is_held] = _least_squares(free.shapes.products(p)) @ right
         return found
 
     def closure(self, motion: Vector) -> Vector:
@@ -151,8 +151,8 @@ class PressureProblem:
         free, inside = self.motions.held, contact.astype(np.float64)
         if not len(free):
             return lambda field: field * inside
-        units = free.along(inside[None])
-        inverse = _least_squares(free.products(inside))
+        units = free.shapes.along(inside[None])
+        inverse = _least_squares(free.shapes.products(inside))
 
         def projected(field: Field) -> Field:
             left = field * inside

@@ -49,18 +49,14 @@ class RigidMotions:
         return len(self.each)
 
     @cached_property
-    def _uniform(self) -> Matrix:
-        rows = [one.shape[:, 0] for one in self.each if one.shape.shape[1] == 1]
-        return np.array(rows).reshape(len(rows), self.components)
-
-    @cached_property
-    def _varying(self) -> list[Field]:
-        return [one.shape for one in self.each if one.shape.shape[1] > 1]
-
-    @property
-    def are_uniform(self) -> bool:
-        """True if every motion displaces all points equally, as approach and shifts do."""
-        return not self._varying
+    def shapes(self) -> MotionShapes:
+        """Shapes of the motions."""
+        uniform = [one.shape[:, 0] for one in self.each if one.shape.shape[1] == 1]
+        varying = [one.shape for one in self.each if one.shape.shape[1] > 1]
+        return MotionShapes(
+            np.array(uniform).reshape(len(uniform), self.components),
+            np.array(varying) if varying else np.empty((0, self.components, 1)),
+        )
 
     @cached_property
     def values(self) -> Vector:
@@ -104,19 +100,6 @@ class RigidMotions:
         each = tuple(one for one, is_chosen in zip(self.each, chosen, strict=True) if is_chosen)
         return RigidMotions(self.components, each)
 
-    def at(self, points: Indices) -> RigidMotions:
-        """Return the same motions of a selection of points.
-
-        points  indices of the points
-        """
-        if not self._varying:
-            return self
-        each = (
-            one if one.shape.shape[1] == 1 else replace(one, shape=one.shape.take(points, axis=1))
-            for one in self.each
-        )
-        return RigidMotions(self.components, tuple(each))
-
     def less(self, tractions: Field) -> RigidMotions:
         """Return the motions with their prescribed forces reduced by those of given tractions.
 
@@ -133,34 +116,73 @@ class RigidMotions:
 
         motion  components of the motion (k,)
         """
-        count = len(self._uniform)
-        moved = (motion[:count] @ self._uniform)[:, None]
-        for size, shape in zip(motion[count:], self._varying, strict=True):
+        return self.shapes.displacement(motion)
+
+    def forces(self, tractions: Field) -> Vector:
+        """Compute the forces (k,) of tractions (c, n), conjugate to the motions."""
+        return self.shapes.forces(tractions)
+
+
+@dataclass(frozen=True, eq=False)
+class MotionShapes:
+    """Displacements of the points by unit motions of the indenter, the uniform ones first.
+
+    uniform  displacement of all points by uniform motions (k, c)
+    varying  displacement of each point by the other motions (k, c, n)
+    """
+
+    uniform: Matrix
+    varying: Field
+
+    def __len__(self) -> int:
+        return len(self.uniform) + len(self.varying)
+
+    def at(self, points: Indices) -> MotionShapes:
+        """Return the same motions of a selection of points.
+
+        points  indices of the points
+        """
+        if not len(self.varying):
+            return self
+        return MotionShapes(self.uniform, self.varying.take(points, axis=2))
+
+    def displacement(self, motion: Vector) -> Field:
+        """Compute the displacement of the points by a motion: (c, n), or (c, 1) if it is uniform.
+
+        motion  components of the motion (k,)
+        """
+        count = len(self.uniform)
+        moved = (motion[:count] @ self.uniform)[:, None]
+        for size, shape in zip(motion[count:], self.varying, strict=True):
             moved = moved + size * shape
         return np.asarray(moved)
 
     def forces(self, tractions: Field) -> Vector:
         """Compute the forces (k,) of tractions (c, n), conjugate to the motions."""
-        uniform = self._uniform @ np.sum(tractions, axis=1)
-        if not self._varying:
-            return np.asarray(uniform)
-        return np.array([*uniform, *(np.sum(shape * tractions) for shape in self._varying)])
+        if not len(self.varying):
+            return np.asarray(self.uniform @ np.sum(tractions, axis=1))
+        varying = np.sum(self.varying * tractions, axis=(1, 2))
+        if not len(self.uniform):
+            return np.asarray(varying)
+        return np.concatenate([self.uniform @ np.sum(tractions, axis=1), varying])
 
     def along(self, vectors: Field) -> Field:
         """Compute the scalar products (k, n) of the unit motions with a vector (c, n) per point."""
-        uniform = self._uniform @ vectors
-        if not self._varying:
-            return np.asarray(uniform)
-        return np.stack([*uniform, *(np.sum(shape * vectors, axis=0) for shape in self._varying)])
+        if not len(self.varying):
+            return np.asarray(self.uniform @ vectors)
+        return np.concatenate([self.uniform @ vectors, np.sum(self.varying * vectors, axis=1)])
 
     def products(self, weight: Vector) -> Matrix:
         """Compute the scalar products (k, k) of the unit motions, with a weight of each point.
 
         weight  weights (n,)
         """
-        count = len(self._uniform)
-        found = np.empty((len(self), len(self)))
-        found[:count, :count] = np.sum(weight) * (self._uniform @ self._uniform.T)
-        for number, shape in enumerate(self._varying, start=count):
-            found[number] = found[:, number] = self.forces(weight * shape)
-        return found
+        uniform = np.sum(weight) * (self.uniform @ self.uniform.T)
+        if not len(self.varying):
+            return np.asarray(uniform)
+        weighted = self.varying * weight
+        varying = np.einsum("kcn,lcn->kl", weighted, self.varying)
+        if not len(self.uniform):
+            return np.asarray(varying)
+        mixed = self.uniform @ np.sum(weighted, axis=2).T
+        return np.block([[uniform, mixed], [mixed.T, varying]])

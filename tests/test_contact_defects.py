@@ -20,7 +20,7 @@ from contact_scene.quantities.residuals import Residuals, ShearResiduals
 from contact_scene.solver_errors import NotConverged
 from contact_solver import admissible_pressure, admissible_shear, pressure, residuals, shear
 from contact_solver.pressure import PressureProblem
-from contact_solver.rigid_motion import RigidMotions
+from contact_solver.rigid_motion import MotionShapes
 from contact_solver.shear_zones import ShearZones
 from semi_analytical import solve
 from semi_analytical.coupled import coupled_increment
@@ -80,9 +80,9 @@ def _slip_of_wrong_sign(whole: Any, motions: Any, q: Any, apart: Any, *rest: Any
     return whole(motions, q, -apart, *rest)
 
 
-@replaces(RigidMotions, "forces")
+@replaces(MotionShapes, "forces")
 def _moments_long(whole: Any, self: Any, tractions: Any) -> Any:
-    varies = np.array([one.shape.shape[1] > 1 for one in self.each], dtype=bool)
+    varies = np.arange(len(self)) >= len(self.uniform)
     return whole(self, tractions) * np.where(varies, 1.001, 1.0)
 
 

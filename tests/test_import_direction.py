@@ -61,6 +61,7 @@ ORDERS = {
         "binned_preconditioner",
         "dense_inverse",
         "coupled_problem",
+        "unequal_areas",
         "alternating_iteration",
         "natural_map",
         "krylov",

@@ -1,8 +1,6 @@
 """Contact problem of one increment at the points of the surface, solved by `contact_solver`.
 
-Points represent different areas w. The solver knows points of equal area: it receives tractions,
-displacements, gap and friction limit multiplied by the root s of the area over the mean area. Then
-the compliance is symmetric, and sums over points are integrals over the surface.
+Points represent different areas, see `contact_solver.unequal_areas`.
 """
 
 from dataclasses import dataclass
@@ -18,8 +16,8 @@ from contact_solver.dense_inverse import DenseInverse
 from contact_solver.globalisation import solve_together
 from contact_solver.gross_slip import full_slip
 from contact_solver.pressure import solve_pressure
-from contact_solver.rigid_motion import RigidMotion, RigidMotions
 from contact_solver.shear import solve_shear
+from contact_solver.unequal_areas import UnequalAreas
 from fem_reference.compliance.point_compliance import PointCompliance
 from fem_reference.loads import NormalTarget, TangentialTarget
 
@@ -73,13 +71,9 @@ class PointProblem:
         return float(np.sum(self.compliance.areas * lever * self.bound(pressure)))
 
     @cached_property
-    def roots(self) -> Vector:
-        """Roots s of the areas of the points over their mean (points,)."""
-        return np.sqrt(self.compliance.areas / self._mean_area)
-
-    @cached_property
-    def _mean_area(self) -> float:
-        return float(np.mean(self.compliance.areas))
+    def scale(self) -> UnequalAreas:
+        """Conversion to points of equal area."""
+        return UnequalAreas(self.compliance.areas)
 
     @cached_property
     def reach(self) -> float:
@@ -87,54 +81,31 @@ class PointProblem:
         return float(np.max(np.hypot(*self.compliance.motion))) or 1.0
 
     @cached_property
-    def _closing(self) -> RigidMotions:
-        """Approach of the indenter, with prescribed force or value."""
-        force, approach = self.normal.force, self.normal.approach
-        shape = self.roots[None]
-        if force is not None:
-            return RigidMotions(1, (RigidMotion(shape, force / self._mean_area),))
-        assert approach is not None
-        return RigidMotions(1, (RigidMotion(shape, value=approach),))
-
-    @cached_property
-    def _shifting(self) -> RigidMotions:
-        """Shift or twist of the indenter times `reach`; none where symmetry excludes a motion."""
-        if not np.any(self.compliance.motion):
-            return RigidMotions(2)
-        shape, load = self.roots * self.compliance.motion / self.reach, self.tangential.load
-        if load is not None:
-            force = load / (self._mean_area * self.reach)
-            return RigidMotions(2, (RigidMotion(shape, force),))
-        assert self.tangential.motion is not None
-        return RigidMotions(2, (RigidMotion(shape, value=self.tangential.motion * self.reach),))
-
-    @cached_property
     def coupled(self) -> CoupledProblem:
         """The problem of pressure and shear for points of equal area."""
-        s, n = self.roots, len(self.roots)
-        all_roots = np.tile(s, 3)
-        matrix = self.compliance.matrix / all_roots
-        matrix /= self._mean_area * all_roots[:, None]
-        tangential, normal = matrix[: 2 * n], matrix[2 * n :]
+        compliance, scale, n = self.compliance, self.scale, len(self.gap)
+        carries_shear, friction = compliance.carries_shear, self.friction
+        units = 1 / np.sqrt(np.tile(compliance.areas, 3))
+        matrix = compliance.matrix * units
+        matrix *= units[:, None]
         inverse = DenseInverse(matrix)
-        own = float(np.median(np.diagonal(matrix)[: 2 * n]))
-        carries_shear, friction = self.compliance.carries_shear, self.friction
-        return CoupledProblem(
-            normal=lambda p: normal[:, 2 * n :] @ p,
-            tangential=lambda q: (tangential[:, : 2 * n] @ q.ravel()).reshape(2, n),
-            normal_by_shear=lambda q: normal[:, : 2 * n] @ q.ravel(),
-            shear_by_pressure=lambda p: (tangential[:, 2 * n :] @ p).reshape(2, n),
-            inverse_on=inverse.on_contact,
-            inverse_in=inverse.in_stick_and_slip,
-            together=lambda t: (matrix @ t.ravel()).reshape(3, n),
+        normal, tangential = self.normal, self.tangential
+        # Symmetry may exclude all tangential motions.
+        shifting = [compliance.motion] if np.any(compliance.motion) else []
+        return scale.problem(
+            product=lambda t: (matrix @ t.ravel()).reshape(t.shape),
             inverse=inverse,
-            gap=s * self.gap,
-            friction_limit=lambda p: s * self.bound(p / s),
-            friction_slope=lambda p: np.where(carries_shear, friction.slope(p / s), 0.0),
-            target=s * self.target,
-            closing=self._closing,
-            shifting=self._shifting,
-            self_compliance=own,
+            dense=lambda: inverse,
+            own=np.diagonal(matrix)[: 2 * n],
+            gap=self.gap,
+            friction_limit=self.bound,
+            friction_slope=lambda p: np.where(carries_shear, friction.slope(p), 0.0),
+            target=self.target,
+            closing=scale.rigid_motion(np.ones((1, n)), 1.0, normal.force, normal.approach),
+            shifting=tuple(
+                scale.rigid_motion(shape, self.reach, tangential.load, tangential.motion)
+                for shape in shifting
+            ),
         )
 
 
@@ -173,7 +144,7 @@ def solve_points(
     tolerance               limit of the dimensionless residuals
     raises                  NotConverged
     """
-    coupled, s, aim = problem.coupled, problem.roots, min(tolerance, ACCURATE)
+    coupled, s, aim = problem.coupled, problem.scale.roots, min(tolerance, ACCURATE)
     motion = np.full(len(coupled.shifting), shift * problem.reach)
     p, q = s * _loaded(problem, pressure), s * shear
     if problem.compliance.couples:

@@ -67,10 +67,10 @@ def growth_without_slip(
     both = np.tile(areas, 2)
     unit = points.rigid_motions[:TORSION][free] / both
     shears = [np.concatenate([one * np.tile(grown, 2), nothing]) for one in unit]
-    along = np.array([(points.compliance @ one)[: 2 * size] for one in shears]) / both
+    along = np.array([points.operator(one)[: 2 * size] for one in shears]) / both
     down, spring = springs
     along -= spring * more * unit
-    normal = (points.compliance @ np.concatenate([nothing, nothing, grown]))[2 * size :] / areas
+    normal = points.operator(np.concatenate([nothing, nothing, grown]))[2 * size :] / areas
     approach = trial.motion[NORMAL] - (0.0 if last is None else last.motion[NORMAL])
     parts = (len(unit), 2, size)
     k, shift = GrowingContact(

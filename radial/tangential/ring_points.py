@@ -13,7 +13,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from contact_scene.array_types import Array
+from contact_solver.unequal_areas import UnequalAreas
 from radial.angular_grid import RingAngles
+from radial.tangential.ring_operator import RingOperator
 from radial.tangential.stick_border import stick_area
 
 FINER = 16  # subdivisions of an element, to find the border of the stick zone
@@ -128,54 +130,59 @@ class ContactPoints:
         return found
 
     @cached_property
+    def operator(self) -> RingOperator:
+        """Compliance of all points: displacement times area by traction [length^5/force]."""
+        return RingOperator(self._harmonic_transform, self._harmonic_energies)
+
+    @cached_property
     def compliance(self) -> Array:
         """Compliance matrix of all points: displacement times area by unit traction.
 
         The displacements and tractions have the components r, θ, z. The shape is
         (3 n count, 3 n count) for n rings with `count` angles each, the unit is [length^5/force].
         """
-        return self._over_harmonics(self._harmonic_transform, self._harmonic_energies)
+        return self.operator.matrix
 
     @cached_property
-    def diagonal_compliance(self) -> Array:
-        """Displacement of each point, times its area, by a unit traction at the point.
-
-        The values are the diagonal of the compliance matrix (3 n count,) [length^5/force], with the
-        components r, θ, z as the slow index. The entries r and θ of a point are replaced by their
-        mean, which does not depend on the direction of the shear. The contact and friction laws use
-        the values as the compliance of a point.
-        """
-        outward, around, down = np.diagonal(self.compliance).reshape(3, -1)
-        tangential = (outward + around) / 2
-        return np.concatenate([tangential, tangential, down])
-
-    def restrict_to_rings(self, field: Array, rings: int) -> Array:
-        """Restrict a vector field from all points to the points on the innermost rings.
-
-        Used because rings outside the contact carry no traction. The shape is (3 rings count,).
-
-        field  components r, θ, z at all points (3 n count,)
-        rings  number of innermost rings
-        """
-        return np.ascontiguousarray(field.reshape(3, -1)[:, : rings * self.count]).ravel()
+    def scale(self) -> UnequalAreas:
+        """Conversion to points of equal area."""
+        return UnequalAreas(self.areas)
 
     @cached_property
-    def inverse_compliance(self) -> Callable[[int], Array]:
-        """Function that computes the inverse compliance matrix of the innermost rings.
+    def equal_compliance(self) -> RingOperator:
+        """Compliance for points of equal area [length^3/force]: map from s t to s u.
 
-        The argument of the function is the number of rings. The inverse (3 rings count, 3 rings
-        count) maps displacements times areas to tractions, if the other rings carry no traction.
-        The inverse is scaled on both sides by the square root of the compliance of each point [1].
-        The inverses are cached.
+        Here t are the tractions, u the displacements and s the roots of the areas.
         """
-        count = max(INVERSES, ROOM // self.compliance.nbytes)
-        return lru_cache(maxsize=count)(self._compute_inverse)
+        units = 1 / np.sqrt(self.weights * (2 * np.pi / self.count))
+        scaled = self._harmonic_energies * units * units[:, None]
+        return RingOperator(self._harmonic_transform, scaled)
 
-    def _compute_inverse(self, rings: int) -> Array:
-        """Compute the inverse of the compliance matrix of the points on the innermost rings.
+    @cached_property
+    def tangential_compliance(self) -> Array:
+        """Tangential displacement of each point, times its area, by its own unit shear.
 
-        The inverse is computed for each angular harmonic, because harmonics are not coupled. The
-        inverse is scaled on both sides by the square root of the compliance of each point [1].
+        The values (n count,) [length^5/force] are the means over radial and circumferential shear.
+        They do not depend on the direction of the shear. The stick zone of an axisymmetric contact
+        uses them as the compliance of a point.
+        """
+        outward, around, _ = self.operator.diagonal.reshape(3, -1)
+        return np.asarray((outward + around) / 2)
+
+    @cached_property
+    def stiffness(self) -> Callable[[int], RingOperator]:
+        """Function that computes the inverse of `equal_compliance` on the innermost rings.
+
+        The argument of the function is the number of rings. The other rings carry no traction. The
+        inverses are cached.
+        """
+        size = 8 * (3 * len(self.areas)) ** 2
+        return lru_cache(maxsize=max(INVERSES, ROOM // size))(self._compute_inverse)
+
+    def _compute_inverse(self, rings: int) -> RingOperator:
+        """Compute the inverse of the compliance of the points on the innermost rings.
+
+        The inverse is computed for each angular harmonic, because harmonics are not coupled.
 
         rings  number of innermost rings
         """
@@ -183,20 +190,15 @@ class ContactPoints:
         norms = np.sum(self._harmonic_transform**2, axis=2)
         has = norms > ROUND_OFF * np.max(norms)
         back[has] = self._harmonic_transform[has] / norms[has, None]
-        energies = self._harmonic_energies[..., :rings, :rings]
+        energies = self.equal_compliance.matrices[..., :rings, :rings]
         inverses = np.zeros_like(energies)
         for parts, energy, inverse in zip(has.T, energies, inverses, strict=True):
             present, n = np.flatnonzero(parts), int(np.sum(parts)) * rings
             known = energy[np.ix_(present, present)].swapaxes(1, 2).reshape(n, n)
-            units = 1 / np.sqrt(np.diag(known))
-            found = units * np.linalg.inv(units[:, None] * known * units) * units[:, None]
+            found = np.linalg.inv(known)
             found = found.reshape(len(present), rings, len(present), rings).swapaxes(1, 2)
             inverse[np.ix_(present, present)] = found
-        found = self._over_harmonics(back, inverses)
-        units = np.sqrt(self.restrict_to_rings(self.diagonal_compliance, rings))
-        found *= units
-        found *= units[:, None]
-        return found
+        return RingOperator(back, inverses)
 
     @cached_property
     def _harmonic_transform(self) -> Array:
@@ -220,24 +222,6 @@ class ContactPoints:
         norms[[0, -1]] = 2 * np.pi
         families = self._harmonic_transform.shape[1] // len(norms)
         return np.concatenate([norms[:, None, None, None, None] * self.energies] * families)
-
-    @staticmethod
-    def _over_harmonics(rigid_motions: Array, harmonic_matrices: Array) -> Array:
-        """Assemble a matrix between all points from matrices between nodes of all harmonics.
-
-        Used for the compliance matrix and for its inverse. The shape is (3 n count, 3 n count).
-
-        rigid_motions      transform of the components r, θ, z from values at the angles of a ring
-                           to amplitudes of harmonics (3, harmonics, count)
-        harmonic_matrices  matrices between the n nodes, for each harmonic (harmonics, 3, 3, n, n)
-        """
-        (_, count, angles), nodes = rigid_motions.shape, harmonic_matrices.shape[-1]
-        whole = np.empty((3, nodes, angles, 3, nodes, angles))
-        for a, b in np.ndindex(3, 3):
-            both = (rigid_motions[a, :, :, None] * rigid_motions[b, :, None]).reshape(count, -1)
-            block = harmonic_matrices[:, a, b].reshape(count, -1).T @ both
-            whole[a, :, :, b] = block.reshape(nodes, nodes, angles, angles).swapaxes(1, 2)
-        return whole.reshape(3 * nodes * angles, -1)
 
     @cached_property
     def axisymmetric(self) -> ContactPoints:
@@ -305,12 +289,20 @@ class ContactPoints:
         if first < 0:
             return float(r[last] ** 2)
         near = slice(first, last + 1)
-        squares = np.polynomial.Polynomial.fit(
-            r[near] ** 2, ray[near] ** 2, 2, w=np.sqrt(self.weights[near])
-        )
-        zeros = squares.roots()
-        beyond = zeros.real[(zeros.imag == 0) & (zeros.real > r[last - 1] ** 2)]
-        return float(np.min(beyond) if len(beyond) else r[last] ** 2)
+        square = r[last] ** 2
+        places = r[near] ** 2 / square - 1
+        roots = np.sqrt(self.weights[near])
+        powers = roots[:, None] * np.vander(places, 3, increasing=True)
+        level, slope, curvature = np.linalg.lstsq(powers, roots * ray[near] ** 2)[0]
+        discriminant = slope**2 - 4 * curvature * level
+        if not discriminant >= 0:
+            return float(square)
+        # The two zeros in a form without cancellation.
+        half = -(slope + np.copysign(np.sqrt(discriminant), slope)) / 2
+        with np.errstate(divide="ignore", invalid="ignore"):
+            zeros = square * (1 + np.array([level / half, half / curvature]))
+        beyond = zeros[zeros > r[last - 1] ** 2]
+        return float(np.min(beyond) if len(beyond) else square)
 
     def stick_area(self, share: Array, shear: Array, bound: Array) -> float:
         """Compute the area of the stick zone, with its border between the points [length²].
@@ -348,16 +340,22 @@ class ContactPoints:
         field  values at the points (n count,)
         sense  1 for a field that is even about θ = 0, -1 for an odd field; used for half a circle
         """
-        values, angles = field.reshape(-1, self.count), self.angles
-        if self.circle is RingAngles.HALF:
-            values = np.hstack([values, sense * values[:, ::-1]])
-            angles = np.concatenate([angles, 2 * np.pi - angles[::-1]])
-        values, angles = (
-            np.hstack([values, values[:, :1]]),
-            np.append(angles, angles[0] + 2 * np.pi),
-        )
-        spline = CubicSpline(angles, values, axis=1, bc_type="periodic")
-        return np.asarray(spline(self.output_angles))
+        return np.asarray(field.reshape(-1, self.count) @ self._interpolants[sense])
+
+    @cached_property
+    def _interpolants(self) -> dict[float, Array]:
+        """Values of the splines of unit values at the output angles, by parity (count, angles)."""
+        found = {}
+        for sense in (1.0, -1.0):
+            values, angles = np.eye(self.count), self.angles
+            if self.circle is RingAngles.HALF:
+                values = np.hstack([values, sense * values[:, ::-1]])
+                angles = np.concatenate([angles, 2 * np.pi - angles[::-1]])
+            values = np.hstack([values, values[:, :1]])
+            angles = np.append(angles, angles[0] + 2 * np.pi)
+            spline = CubicSpline(angles, values, axis=1, bc_type="periodic")
+            found[sense] = np.asarray(spline(self.output_angles))
+        return found
 
     @property
     def output_angles(self) -> Array:

@@ -69,8 +69,7 @@ class PointState:
                     point (N,) [1]; at most 1 at sticking points, infinite outside the contact
     energy          elastic energy ½ ∫ (p u_z + q·u) dA of the bodies and the rig's springs
                     [force length]
-    residual        residual of the contact and friction laws over the largest pressure, friction
-                    limit and load [1]
+    gap             gap of the points; negative where the bodies overlap (N,) [length]
     steps           number of Newton steps of the solve
     slides          true at the friction limit under force control: shifts and slip are undefined
     """
@@ -82,7 +81,7 @@ class PointState:
     changed: Array
     share: Array
     energy: float
-    residual: float
+    gap: Array
     steps: int
     slides: bool = False
 
@@ -129,6 +128,7 @@ class PointState:
             moved=repeat_components(self.moved, 2) / points.count,
             slip_increment=repeat_components(self.slip_increment, 2) / points.count,
             share=repeat_components(self.share, 1),
+            gap=repeat_components(self.gap, 1),
         )
 
 

@@ -17,6 +17,7 @@ from contact_scene.friction import sliding_friction
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.stepping.self_similar_growth import Mixing, Rays, Similarity
+from contact_solver.residuals import complementarity, penetration
 from radial.angular_grid import RingAngles
 from radial.frictional.contact_growth import (
     contact_fraction,
@@ -280,8 +281,8 @@ def residuals_of(
     ]
     torque = prescribed[TORSION]
     return Residuals(
-        complementarity=end.residual,
-        penetration=end.residual,
+        complementarity=complementarity(points.areas * end.pressure, end.gap, end.approach),
+        penetration=penetration(end.gap, end.approach),
         normal_equilibrium=None if force is None else abs(W / force - 1),
         friction_cone=max(0.0, float(np.max(np.hypot(*end.shear) - limit)) / np.max(limit)),
         slip_direction=None if end.slides else (most + against) / most if most > 0 else 0.0,

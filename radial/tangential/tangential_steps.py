@@ -6,7 +6,7 @@ The points lie at several angles on each ring. Every increment is solved by `sol
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from contact_scene.array_types import Array
 from contact_scene.body_pair import coupling
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
-from contact_scene.solver_errors import NotConverged, UnsupportedScene
+from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.load_stepping import ConvergedIncrement
 from contact_scene.stepping.self_similar_growth import (
     Mixing,
@@ -41,10 +41,7 @@ from radial.output_points import (
 from radial.plan import ELSEWHERE, Plan
 from radial.response.bodies import Bodies
 from radial.tangential.free_motion import growth_without_slip
-from radial.tangential.ring_friction import (
-    MAX_STEPS,
-    solve_increment,
-)
+from radial.tangential.ring_friction import solve_increment
 from radial.tangential.ring_layout import create_points
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
@@ -82,7 +79,6 @@ class TangentialSteps(StepsOnRings):
     twists     true if torque and twist are output
     tolerance  upper bound of every residual [1]
     points     points (rings × angles) for the largest contact of the load history
-    taken      number of Newton steps of every solve up to now
     """
 
     friction: CoulombFriction
@@ -90,16 +86,6 @@ class TangentialSteps(StepsOnRings):
     twists: bool
     tolerance: float
     points: ContactPoints
-    taken: list[int] = field(default_factory=list)
-
-    @property
-    def most_spent(self) -> float:
-        """Number of Newton steps above which a failed increment is not bisected again.
-
-        Load stepping compares this number with the Newton steps of all attempts to solve the
-        increment.
-        """
-        return 4.0 * MAX_STEPS
 
     @classmethod
     def of(
@@ -194,13 +180,6 @@ class TangentialSteps(StepsOnRings):
         """
         reached = (start.forces[NORMAL], start.motions[NORMAL]) if start else (0.0, 0.0)
         return ramp.normal.prescribed(fraction, reached)
-
-    def spent(self) -> float:
-        """Return the number of Newton steps of all solves of the load history up to now.
-
-        Load stepping limits the bisection of increments that do not converge by this number.
-        """
-        return float(sum(self.taken))
 
     def advance(
         self,
@@ -326,7 +305,7 @@ class TangentialSteps(StepsOnRings):
         guess: Array | None,
         free: Array | None = None,
     ) -> PointState:
-        """Solve contact and friction at points under prescribed loads, and record the Newton steps.
+        """Solve contact and friction at points under prescribed loads.
 
         points  points of the contact (rings × angles)
         loads   prescribed loads and rigid motions of the indenter
@@ -335,13 +314,7 @@ class TangentialSteps(StepsOnRings):
         free    free motion of points until their contact, times areas (2 N,); None without
         """
         held, tolerance = _fix_excluded_motions(points, loads), EXACT * self.tolerance
-        try:
-            end = solve_increment(points, self.friction, held, last, tolerance, guess, free)
-        except NotConverged as error:
-            self.taken.append(error.iterations)
-            raise
-        self.taken.append(end.steps)
-        return end
+        return solve_increment(points, self.friction, held, last, tolerance, guess, free)
 
     def _solve_frictionless(self, loads: Loads) -> NormalContact:
         """Solve the frictionless contact under the prescribed normal load of an increment.
@@ -409,9 +382,7 @@ class TangentialSteps(StepsOnRings):
         p = self._interpolate_scalar(points, end.pressure)
         q_r, q_t = self._interpolate_vector(points, end.shear)
         s_r, s_t = self._interpolate_vector(points, state.slip)
-        depth = end.approach * points.areas
-        u_z = (points.compliance @ end.tractions)[2 * len(points.areas) :]
-        gap = np.where(end.pressure > 0, 0.0, (u_z + points.gap_areas - depth) / points.areas)
+        gap = np.where(end.pressure > 0, 0.0, end.gap)
         force = self._scene_components(state.forces)
         down, along = compliances(self.scene.rig)
         in_springs = down * state.forces[NORMAL] ** 2 + along * float(np.dot(force, force))

@@ -71,6 +71,7 @@ class InverseOnCells:
     inverse: ApproximateInverse
     self_compliance: float
     shape: tuple[int, ...]
+    exact = False
 
     def in_zones(self, zones: Zones) -> BinnedPreconditioner:
         """Return the approximate inverse in zones of contact, stick and slip.
