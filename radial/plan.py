@@ -233,8 +233,7 @@ def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) 
     """Raise UnsupportedScene if the solver does not support the friction of a scene.
 
     A coefficient of friction that varies over the surface is not supported. Friction below an
-    indenter with a rim is supported only for torsion in closed form. Tangential load and torsion at
-    points (rings × angles) require a coefficient above zero.
+    indenter with a rim is supported only for torsion in closed form.
 
     scene       contact problem with friction
     frictional  true if friction acts under a normal load alone
@@ -250,11 +249,6 @@ def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) 
         raise UnsupportedScene(
             "the scene has friction below an indenter with a rim, where tractions are infinite, "
             f"and this solver requires a smooth edge. Remove [friction], or {ELSEWHERE}"
-        )
-    if circle and scene.friction.largest == 0:
-        raise UnsupportedScene(
-            "a step has a tangential load or a torsion, and the coefficient of friction is zero. "
-            "Use a positive coefficient, or remove the load"
         )
 
 

@@ -99,7 +99,7 @@ def test_every_solver_slides_at_the_friction_limit(tmp_path: Path, name: str, so
         assert exported.code == 0, exported.text
 
 
-@pytest.mark.parametrize("solver", ["semi-analytical", "fem", "fem-complementarity"])
+@pytest.mark.parametrize("solver", SOLVERS)
 def test_nothing_sticks_without_friction(tmp_path: Path, solver: str) -> None:
     """A coefficient of 0: a prescribed shift moves the indenter without a force."""
     shifted = {"tangential_shift": (1e-7, 0.0), "increments": 2}

@@ -284,12 +284,19 @@ def residuals_of(
         complementarity=complementarity(points.areas * end.pressure, end.gap, end.approach),
         penetration=penetration(end.gap, end.approach),
         normal_equilibrium=None if force is None else abs(W / force - 1),
-        friction_cone=max(0.0, float(np.max(np.hypot(*end.shear) - limit)) / np.max(limit)),
+        friction_cone=_share(
+            max(0.0, float(np.max(np.hypot(*end.shear) - limit))), float(np.max(limit))
+        ),
         slip_direction=None if end.slides else (most + against) / most if most > 0 else 0.0,
-        tangential_equilibrium=float(np.linalg.norm(drag) / (points.areas @ limit))
+        tangential_equilibrium=_share(float(np.linalg.norm(drag)), float(points.areas @ limit))
         if drag
         else None,
         torque_equilibrium=None
         if torque is None
-        else abs(float(state.carried[TORSION]) - torque) / float(points.levers @ limit),
+        else _share(abs(float(state.carried[TORSION]) - torque), float(points.levers @ limit)),
     )
+
+
+def _share(missing: float, limit: float) -> float:
+    """Return a missing or excess load as a share of the friction limit; 0 if nothing is missing."""
+    return missing / limit if missing else 0.0
