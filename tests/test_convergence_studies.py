@@ -163,7 +163,7 @@ SCENES = {
     ),
     "pre-asymptotic film": Scene(
         text(BALL, RIGID, STEEL, more=coating(10, 0.02 * A)), None, 1e-5, 32,
-        reason="the thinnest layer spans",
+        reason="the thickness of a layer is",
     ),
     "thin film": Scene(
         text(BALL, RIGID, STEEL, more=coating(10, 0.25 * A)), coated_row(10, 0.25), 1e-5
