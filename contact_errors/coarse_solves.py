@@ -17,13 +17,11 @@ from contact_errors.cost_estimate import Work
 from contact_errors.error_formula import (
     BELIEVED,
     ORDERS,
-    PEAK,
     PER_TOLERANCE,
     Comparison,
     Features,
     SolvedRun,
     Values,
-    is_singular,
     prescribed_scalars,
     values_of,
 )
@@ -354,7 +352,7 @@ class DiscretisedSolver(ABC):
 
 
 def compare_with_coarse_solves(
-    solver: DiscretisedSolver, result: Any
+    solver: DiscretisedSolver, result: Any, *, by_references: bool = True
 ) -> tuple[SolvedRun, tuple[CoarseSolveRecord, ...]]:
     """Run the coarse solves of a result, and collect the comparisons for its error estimate.
 
@@ -376,8 +374,9 @@ def compare_with_coarse_solves(
 
     Returns the scalars of the result with all comparisons, and the records of the coarse solves.
 
-    solver  solver of the scene with variable discretisation
-    result  result whose errors are estimated
+    solver         solver of the scene with variable discretisation
+    result         result whose errors are estimated
+    by_references  false to run the coarse solves for scalars with an independent reference, too
     """
     values, matters, features = (
         values_of(result),
@@ -412,7 +411,8 @@ def compare_with_coarse_solves(
                 made.append(record.model_copy(update={"refused": str(error)}))
         return known[key]
 
-    references, half = solver.references(), solver.with_half_the_points()
+    references = solver.references() if by_references else ()
+    half = solver.with_half_the_points()
     shares = () if _all_known(result.scene, values, references) else solver.shares
     spaces = [solver.coarser(result, share, more) for _, share, more in shares]
     required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
@@ -496,15 +496,12 @@ def _all_known(
 ) -> bool:
     """Return true if all scalars of a result are prescribed or known by another method.
 
-    The peak pressure below a rim or a tip counts as known, because it has no error.
-
     scene       solved scene
     values      scalars of the result at the end of each load step, by name
     references  scalars by other methods, one sequence for each method
     """
-    infinite = {PEAK} if is_singular(scene.indenter) else set()
     return bool(references) and all(
-        here.keys() <= known.keys() | prescribed_scalars(ramp, scene.rig) | infinite
+        here.keys() <= known.keys() | prescribed_scalars(ramp, scene.rig)
         for ramp, here, known in zip(scene.load_path(), values, references[0], strict=True)
         if here["contact_area"].any()
     )

@@ -143,7 +143,7 @@ def _tilted(
         found = {
             name: np.array([value])
             for name, value in values.items()
-            if np.isfinite(value) and not (moved and name in ENERGIES)
+            if not (moved and name in ENERGIES)
         }
         if found and any(ramp.tilting.end):
             found |= _motion_by_tilt(scene, ramp, found)

@@ -9,6 +9,7 @@ import numpy as np
 
 from contact_scene import LoadRamp
 from contact_scene.array_types import Field
+from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements
 from contact_scene.stepping.checkpoint import (
     Checkpoint,
@@ -313,8 +314,10 @@ def _reported_increment(
         tangential_shift=sheared.shift,
         torque=sheared.torque,
         twist=sheared.twist,
-        # Independent fits of both areas may differ by their errors in full stick.
-        stick_area=min(stuck * cell, pressed.contact_area),
+        # Independent fits of both areas may differ by their errors.
+        stick_area=pressed.contact_area
+        if sheared.status is ContactStatus.FULL_STICK and fits
+        else min(stuck * cell, pressed.contact_area),
         dissipated_energy=sheared.dissipated_energy,
         dissipation_uncertainty=state.energy.uncertain,
     )
@@ -324,12 +327,16 @@ def _reported_increment(
 def _contact_cells(model: ContactModel, state: State) -> float:
     """Compute the contact area of a state in cells of the window, with subcell accuracy.
 
+    A contact of all cells inside the rim of an indenter has the area of the rim.
+
     model  contact model
     state  converged state, with the edge-corrected state if there is one
     """
     if state.corrected is not None:
         return state.corrected.contact_cells
-    p, domain = state.pressing.pressure, model.domain
+    p, domain, rim = state.pressing.pressure, model.domain, model.scene.indenter.rim
+    if rim is not None and np.array_equal(p > 0, np.isfinite(model.gap)):
+        return float(np.pi * rim**2 / model.window.cell_area)
     return domain.images * covered_cells(p, p > 0, domain)
 
 

@@ -155,7 +155,7 @@ SCENES = {
     "steel on aluminium, cells": Scene(ALUMINIUM, ON_ALUMINIUM, 3e-6, 96, levels=4),
     "edge-singular flat punch": Scene(
         text('shape = "flat_punch"\nradius = "0.4 mm"', RIGID, STEEL),
-        {"approach": PUNCH.approach, "contact_radius": 0.4e-3}, 0.1,
+        {"approach": PUNCH.approach}, 0.1,  # the radius is that of the rim on every level
     ),
     "cusp of a cone": Scene(
         text('shape = "cone"\nslope_angle = 0.02', RIGID, STEEL),
@@ -163,7 +163,7 @@ SCENES = {
     ),
     "pre-asymptotic film": Scene(
         text(BALL, RIGID, STEEL, more=coating(10, 0.02 * A)), None, 1e-5, 32,
-        reason="the thinnest layer spans",
+        reason="the thickness of a layer is",
     ),
     "thin film": Scene(
         text(BALL, RIGID, STEEL, more=coating(10, 0.25 * A)), coated_row(10, 0.25), 1e-5

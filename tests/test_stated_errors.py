@@ -829,6 +829,16 @@ def test_nobody_states_the_error_of_what_is_infinite(indenter: Any) -> None:
     assert errors["approach"].error is not None
 
 
+def test_a_contact_up_to_a_rim_has_its_area() -> None:
+    """And, where all of it sticks, the stick zone, too: coupled bodies have no reference."""
+    posed = scene(PRESS, indenter=FlatPunch(radius=A, material=RIGID), friction=5.0)
+    result = package.solve(posed, "semi-analytical", cells(24, window=(3 * A, 3 * A)))
+    stated, (end,) = stated_errors(result).steps[0], result.steps
+    for name in ("contact_radius", "stick_radius"):
+        assert getattr(end, name) == pytest.approx(A, rel=1e-12)
+        assert size(stated[name]) < 1e-6 * A
+
+
 def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -249,8 +249,9 @@ class SceneLevel:
 def _last_errors(solver: DiscretisedSolver, result: Any, refined: str) -> Mapping[str, StatedError]:
     """Estimate the errors of all scalars at the end of the last load step, by name.
 
-    The errors are those that `slipstick run` states. If the refined parameter is the only one, the
-    coarse solves are omitted, and only the tolerance and neglected effects have parts.
+    The errors are those of coarse solves, because references do not separate the parts. If the
+    refined parameter is the only one, the coarse solves are omitted, and only the tolerance and
+    neglected effects have parts.
 
     solver   solver of the result, with variable discretisation
     result   result of the finest level
@@ -260,7 +261,7 @@ def _last_errors(solver: DiscretisedSolver, result: Any, refined: str) -> Mappin
         True for _ in solver.mesh_coarse_solves(solver.space_of(result), result)
     )
     if others or refined != solver.part:
-        run, _ = compare_with_coarse_solves(solver, result)
+        run, _ = compare_with_coarse_solves(solver, result, by_references=False)
     else:
         run = SolvedRun(
             scene=result.scene,
