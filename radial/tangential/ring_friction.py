@@ -25,9 +25,11 @@ from radial.tangential.ring_state import (
     PointState,
 )
 
-# Tolerance of the solver. With exact inverses the last Newton step has an error far below that of
-# the increment; round-off is 1e-13.
+# Largest tolerance of the solver. With exact inverses the last Newton step has an error far below
+# that of the increment.
 ACCURATE = 1e-11
+# Least tolerance of the solver: residuals by round-off are about 1e-13.
+ROUND_OFF = 1e-12
 # A point whose shear is below its friction limit by less than this multiple of the largest limit
 # counts as slipping: it begins to slip, or slipped before. The tolerance of the solver is 100 times
 # smaller.
@@ -67,11 +69,12 @@ def solve_increment(
     guesses += [problem.guess_closed_gap()] if before is None else problem.initial_guesses(before)
     if at_limit:
         guesses = guesses[-1:]
+    aim = min(max(tolerance, ROUND_OFF), ACCURATE)
     methods = [*((solve_by_newton, x) for x in guesses[:-1]), (solve_together, guesses[-1])]
     steps = 0
     for method, x in methods:
         try:
-            found = method(problem.coupled, *problem.start(x), min(tolerance, ACCURATE))
+            found = method(problem.coupled, *problem.start(x), aim)
         except NotConverged as error:
             steps, stalled = steps + max(error.iterations, 1), error
         else:
