@@ -90,6 +90,8 @@ def dissipation_uncertainty(
     density = (changed * slipped).T
     if increment.angles is None:
         around = 2 * pi * density
+    elif increment.covers_circle:
+        around = 2 * pi * np.mean(density, axis=0)
     else:
         around = np.asarray(2 * np.trapezoid(density, increment.angles, axis=0))
     return known + float(np.trapezoid(around * increment.radii, increment.radii))
