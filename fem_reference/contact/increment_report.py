@@ -1,7 +1,7 @@
 """Conversion of a contact state at the points of the surface to an increment of the result."""
 
 from dataclasses import replace
-from math import pi, sqrt
+from math import hypot, pi, sqrt
 from typing import Any, TypeVar
 
 import numpy as np
@@ -104,6 +104,8 @@ def _add_shear(
             for parts in (state.loads, state.motions)
         )
         fields |= {"tangential_force": force, "tangential_shift": shift}
+    if path in (Path.TWISTING_WITH_FRICTION, Path.WHOLE_CIRCLE):
+        fields["elastic_energy"] = _elastic_energy(contact, state)
     return replace(
         pressed,
         status=state.status,
@@ -112,6 +114,21 @@ def _add_shear(
         dissipated_energy=state.dissipated_energy,
         **fields,
     )
+
+
+def _elastic_energy(contact: PointContact, state: PointState) -> float:
+    """Compute the elastic energy ½ ∫ (p u_z + q·u) dA of both bodies [force length].
+
+    The springs of a penalty and of a test rig are excluded.
+
+    contact  contact problem, with the undeformed gap and the areas of the points
+    state    contact state with tractions, gap and tangential displacement
+    """
+    normal = state.gap - contact.gap + state.approach
+    work = state.pressure * normal + np.sum(state.shear * state.displacement, axis=0)
+    down, along = contact.rig
+    in_rig = down * state.normal_force**2 + along * hypot(*state.loads[:TWIST]) ** 2
+    return 0.5 * float(np.sum(contact.compliance.areas * work) - in_rig)
 
 
 def _result_field(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
