@@ -133,7 +133,7 @@ def plan(scene: Scene) -> Plan:
         _increment_counts(scene, path, matters),
         matters,
         grows,
-        _list_effects(scene, path, (friction, loaded, twisted, couples), why),
+        _list_effects(scene, path, (friction, loaded, twists, couples), why),
         twists,
     )
 
