@@ -30,8 +30,8 @@ from contact_scene.quantities.stated_error import (
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SurfacesOverlap
 from fem_reference import Increment, Method, Path, Plan, Result
-from fem_reference.expected_radius import sections_of
-from fem_reference.memory import largest_bytes
+from fem_reference.expected_radius import count_points, sections_of
+from fem_reference.memory import largest_bytes, matrix_bytes
 from fem_reference.plan import ANGULAR
 
 # Solution paths in which friction changes the pressure, so that the pressure has a cusp on the
@@ -214,5 +214,7 @@ class ElementSolver(DiscretisedSolver):
         several = self.plan.path not in (Path.PRESSING, Path.PRESSING_WITH_FRICTION)
         count = min(MAX_ELEMENTS, fineness.space.elements_per_radius)
         mesh = change_settings(fineness.space, elements_per_radius=count)
-        elements = max(each.quads.shape[1] for each in sections_of(self.scene, mesh))
-        return largest_bytes(elements, several)
+        sections = sections_of(self.scene, mesh)
+        elements = max(each.quads.shape[1] for each in sections)
+        points = count_points(sections, self.plan.path, mesh.harmonics)
+        return max(largest_bytes(elements, several), int(matrix_bytes(points)))

@@ -30,8 +30,8 @@ from fem_reference.compliance.angular_grid import (
     AngularGrid,
     axisymmetric_grid,
     end_grid,
-    whole_grid,
     mid_grid,
+    whole_grid,
 )
 from fem_reference.compliance.point_compliance import PointCompliance
 from fem_reference.compliance.ring_compliance import ring_compliance
@@ -137,9 +137,14 @@ NU_ZERO = half_space(0.0)
 
 
 GRIDS = (
-    axisymmetric_grid(), end_grid(2), end_grid(7), mid_grid(2), mid_grid(7), whole_grid(2),
+    axisymmetric_grid(),
+    end_grid(2),
+    end_grid(7),
+    mid_grid(2),
+    mid_grid(7),
+    whole_grid(2),
     whole_grid(7),
-)  # fmt: skip
+)
 MU = 0.1
 COATED = Coating(2.0, 0.3, 1.0, 0.3, 1.0)
 
@@ -279,9 +284,7 @@ FIRST = {
         NormalTarget(force=hertz_force(0.3)),
         along(load=part * mu * hertz_force(0.3)),
     ),
-    "by motion": lambda mu, part: Loads(
-        NormalTarget(approach=1.0), along(motion=part * mu)
-    ),
+    "by motion": lambda mu, part: Loads(NormalTarget(approach=1.0), along(motion=part * mu)),
 }
 
 

@@ -347,18 +347,20 @@ def on_coating(*loading: dict) -> Scene:
         pytest.param(on_coating(PRESS, push(0.5)), Path.HARMONICS, id="coated and pushed"),
         pytest.param(scene(PRESS, TWIST), Path.TWISTING, id="twisted"),
         pytest.param(
-            scene(PRESS, TWIST, indenter=RIGID_BALL), Path.TWISTING_WITH_FRICTION,
+            scene(PRESS, TWIST, indenter=RIGID_BALL),
+            Path.TWISTING_WITH_FRICTION,
             id="coupled and twisted",
         ),
         pytest.param(scene(PRESS, push(0.3), TWIST), Path.WHOLE_CIRCLE, id="pushed and twisted"),
         pytest.param(scene(PRESS, push(0.3), push(0, 0.3)), Path.WHOLE_CIRCLE, id="turning"),
         pytest.param(scene(PRESS, push(0.3), push(-0.3)), Path.SHEARING, id="reversing"),
         pytest.param(
-            scene(PRESS, push(0.2, 0.1), push(0.4, 0.2), indenter=RIGID_BALL), Path.HARMONICS,
+            scene(PRESS, push(0.2, 0.1), push(0.4, 0.2), indenter=RIGID_BALL),
+            Path.HARMONICS,
             id="coupled and on one line",
         ),
     ],
-)  # fmt: skip
+)
 def test_path_follows_the_scene(asked: Scene, path: Path) -> None:
     assert plan(asked).path is path
 

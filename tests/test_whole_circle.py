@@ -187,11 +187,9 @@ def test_a_turned_force_at_the_limit_leaves_the_shift_undefined(bodies):
     assert last.tangential_shift is None
     assert last.dissipated_energy is None
     assert last.stick_radius == 0.0
-    q_x, q_y = (
-        last.shear_radial * w - last.shear_circumferential * v
-        for w, v in ((np.cos(last.angles), np.sin(last.angles)),
-                     (np.sin(last.angles), -np.cos(last.angles)))
-    )  # fmt: skip
+    cos_, sin_ = np.cos(last.angles), np.sin(last.angles)
+    q_x = last.shear_radial * cos_ - last.shear_circumferential * sin_
+    q_y = last.shear_radial * sin_ + last.shear_circumferential * cos_
     np.testing.assert_allclose(q_x, 0.6 * MU * last.pressure, atol=1e-9 * last.peak_pressure)
     np.testing.assert_allclose(q_y, 0.8 * MU * last.pressure, atol=1e-9 * last.peak_pressure)
 

@@ -6,7 +6,7 @@ from contact_scene.array_types import Field
 from contact_scene.stepping.growing_contact import GrowingContact
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
-from fem_reference.loads import TWIST, Loads
+from fem_reference.loads import ALONG, TWIST, Loads
 from fem_reference.plan import Path
 
 
@@ -32,15 +32,13 @@ def free_motion(
     grown, more = pressure - before.pressure, float(w @ (pressure - before.pressure))
     begins = (before.pressure == 0) & (contact.gap > 0)
     assert before.motions is not None
-    changes = {}
-    for shift in set(compliance.acting) - {TWIST}:
-        load, motion = loads.tangential.loads[shift], loads.tangential.motions[shift]
-        by_force = load is not None
-        change = (load or 0.0) - before.loads[shift]
-        if motion is not None:
-            change = motion - before.motions[shift]
-        if change:
-            changes[shift] = change
+    target, by_force = loads.tangential, loads.tangential.loads[ALONG] is not None
+    ends, starts = target.motions, before.motions
+    if by_force:
+        ends, starts = target.loads, before.loads
+    shifts = [shift for shift in compliance.acting if shift != TWIST]
+    changes = {shift: (ends[shift] or 0.0) - starts[shift] for shift in shifts}
+    changes = {shift: change for shift, change in changes.items() if change}
     pushed = contact.rings.path in (Path.SHEARING, Path.WHOLE_CIRCLE) and not compliance.couples
     if not (pushed and changes and more > 0 and np.any(begins & (pressure > 0))):
         return None

@@ -14,7 +14,7 @@ from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.reading.engineering_units import quantity
 from contact_scene.stepping.checkpoint import CheckpointStore
 from fem_reference import Method, Path, Plan, Result
-from fem_reference.expected_radius import meshed_radius, sections_of
+from fem_reference.expected_radius import count_points, meshed_radius, sections_of
 from fem_reference.memory import largest_bytes, run_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.plan import ANGULAR
@@ -73,7 +73,8 @@ class OnElements(Solver):
         yield "factorisations", f"{motions * len(sections)}, {text}"
         yield self.time(scene, fineness, fineness, plan)
         largest = largest_bytes(max(each.quads.shape[1] for each in sections), motions > 1)
-        needed = run_bytes(largest, _count_points(sections, plan, fineness))
+        points = count_points(sections, plan.path, fineness.harmonics)
+        needed = run_bytes(largest, points)
         yield "memory", f"about {needed / 2**20:.0f} MiB"
 
     def layout(self, result: Result) -> Pairs:
@@ -112,19 +113,3 @@ def _count_harmonics(plan: Plan, fineness: FiniteElementDiscretisation) -> int:
     if plan.path in ANGULAR:
         return fineness.harmonics + 1 + (plan.path is Path.WHOLE_CIRCLE)
     return 1 if plan.path in (Path.PRESSING, Path.PRESSING_WITH_FRICTION) else 2
-
-
-def _count_points(
-    sections: Iterable[SectionMesh], plan: Plan, fineness: FiniteElementDiscretisation
-) -> int:
-    """Return the number of contact points whose tractions are solved with one dense matrix.
-
-    sections  meshed sections, of which each has the same surface nodes
-    plan      solution path of the solve
-    fineness  settings with the number of harmonics
-    """
-    rings = next(len(section.radii[::2]) for section in sections)
-    if plan.path not in ANGULAR:
-        return rings
-    half = fineness.harmonics + 1
-    return rings * (2 * fineness.harmonics if plan.path is Path.WHOLE_CIRCLE else half)

@@ -604,14 +604,17 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
         ),
     )
     motion = error_norm(
-        "motion", "largest difference of shift and twist", _motion_apart,
+        "motion",
+        "largest difference of shift and twist",
+        _motion_apart,
         "the largest of the history",
-    )  # fmt: skip
+    )
     of_elements = Within(
-        motion, scaled_tolerance(9e-4, 1.5),
+        motion,
+        scaled_tolerance(9e-4, 1.5),
         "set by hand: at 64 elements per radius twice the difference from cells, on other meshes "
         "scaled by the order 3/2 of the cusps at both edges",
-    )  # fmt: skip
+    )
     of_coated = (
         Within(
             motion,
