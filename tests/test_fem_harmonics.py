@@ -168,6 +168,16 @@ def test_point_values_and_amplitudes_say_the_same(grid):
     np.testing.assert_allclose(grid.evaluate_at_points(grid.amplitudes(values)), values, atol=1e-13)
 
 
+@pytest.mark.parametrize("grid", GRIDS[1:], ids=grid_name)
+def test_harmonics_between_points_pass_through_the_point_values(grid):
+    values = np.random.default_rng(1).normal(size=(3, 5, grid.points))
+    if not grid.whole:
+        values[1, :, ~np.any(grid.sines, axis=0)] = 0.0
+    modes = grid.modes(grid.angles)
+    found = np.einsum("fcrn,fcnk->crk", grid.amplitudes(values), modes)
+    np.testing.assert_allclose(found, values, atol=1e-13)
+
+
 @pytest.mark.parametrize("springs", [0.0, 0.3])
 @pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
 def test_displacement_by_harmonics_is_that_of_the_matrix(grid, springs):
