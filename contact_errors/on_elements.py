@@ -23,18 +23,20 @@ from contact_errors.coarse_solves import (
 from contact_errors.cost_estimate import ELEMENT_OVERHEAD, SET_UP_INCREMENTS, Work
 from contact_errors.error_formula import Features, has_cusp, is_singular
 from contact_scene import FiniteElementDiscretisation
+from contact_scene.body_pair import coupling
 from contact_scene.quantities.stated_error import (
     Part,
 )
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SurfacesOverlap
 from fem_reference import Increment, Method, Path, Plan, Result
-from fem_reference.expected_radius import sections_of
-from fem_reference.memory import largest_bytes
+from fem_reference.expected_radius import count_points, sections_of
+from fem_reference.memory import largest_bytes, matrix_bytes
+from fem_reference.plan import ANGULAR
 
 # Solution paths in which friction changes the pressure, so that the pressure has a cusp on the
-# axis.
-CUSPED = (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
+# axis. On the whole circle it does so for coupled bodies.
+CUSPED = (Path.PRESSING_WITH_FRICTION, Path.TWISTING_WITH_FRICTION, Path.HARMONICS)
 FEWEST_ELEMENTS, SMALLEST_BOX, FEWEST_HARMONICS, LARGEST_OVERLAP = 4, 5.0, 2, 1.0
 FIRST_ELEMENTS, MAX_ELEMENTS, MAX_HARMONICS = 8, 512, 64
 LEAST_OVERLAP, LARGEST_BOX = 1e-8, 1e6
@@ -129,7 +131,7 @@ class ElementSolver(DiscretisedSolver):
             overlap = min(LARGEST_OVERLAP, 10 * base.overlap)
             ratio = overlap / base.overlap
             yield CoarseSolve("penalty", "ten times the overlap", "overlap", overlap, ratio)
-        if result.plan.path is Path.HARMONICS:
+        if result.plan.path in ANGULAR:
             few = max(FEWEST_HARMONICS, 2 * base.harmonics // 3)
             ratio = base.harmonics / few
             yield CoarseSolve("harmonics", "two thirds of the harmonics", "harmonics", few, ratio)
@@ -153,6 +155,8 @@ class ElementSolver(DiscretisedSolver):
         end     state at the end of the load step
         """
         indenter, (side,) = self.scene.indenter, self.cell_sides(result)
+        path = result.plan.path
+        cusped = path in CUSPED or (path is Path.WHOLE_CIRCLE and coupling(self.scene)[0])
         thinnest = min(self.scene.body.thinnest, indenter.thinnest)
         per_length = LINEAR / side
         stick, annulus = slip_zone(end, per_length)
@@ -163,7 +167,7 @@ class ElementSolver(DiscretisedSolver):
             annulus=annulus,
             sharp=is_singular(indenter),
             infinite=is_singular(indenter),
-            cusp=result.plan.path in CUSPED or has_cusp(indenter),
+            cusp=cusped or has_cusp(indenter),
             peak_by_edge=True,
             slides=end.status is ContactStatus.GROSS_SLIDING,
         )
@@ -202,13 +206,15 @@ class ElementSolver(DiscretisedSolver):
         return change_settings(finer, box=min(LARGEST_BOX, box * by["section"]))
 
     def work(self, fineness: Fineness) -> Work:
-        harmonics = fineness.space.harmonics if self.plan.path is Path.HARMONICS else 1
+        harmonics = fineness.space.harmonics if self.plan.path in ANGULAR else 1
         repetitions = harmonics * (SET_UP_INCREMENTS + sum(fineness.increments))
         return Work(fineness.space.elements_per_radius**2, repetitions, ELEMENT_OVERHEAD)
 
     def memory(self, fineness: Fineness) -> int:
-        several = self.plan.path in (Path.TWISTING, Path.SHEARING, Path.HARMONICS)
+        several = self.plan.path not in (Path.PRESSING, Path.PRESSING_WITH_FRICTION)
         count = min(MAX_ELEMENTS, fineness.space.elements_per_radius)
         mesh = change_settings(fineness.space, elements_per_radius=count)
-        elements = max(each.quads.shape[1] for each in sections_of(self.scene, mesh))
-        return largest_bytes(elements, several)
+        sections = sections_of(self.scene, mesh)
+        elements = max(each.quads.shape[1] for each in sections)
+        points = count_points(sections, self.plan.path, mesh.harmonics)
+        return max(largest_bytes(elements, several), int(matrix_bytes(points)))

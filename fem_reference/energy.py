@@ -32,11 +32,14 @@ def add_energies(
     scene      contact problem with the shape of the indenter
     plan       tractions of the solve, and the load steps that are path-dependent
     before     previous increment of the history; None for the first increment
-    increment  increment of the result without energies
+    increment  increment of the result without work; its elastic energy is computed here from
+               contact and slip if it has none
     on_strain  work of the shear on the imposed strain of the lower body in this increment [force
                length]
     """
-    work, stored = input_work(before, increment), elastic_energy(scene, plan, increment)
+    work, stored = input_work(before, increment), increment.elastic_energy
+    if stored is None:
+        stored = elastic_energy(scene, plan, increment)
     work = None if work is None else work - on_strain
     known = None if stored is None else stored + (increment.dissipated_energy or 0.0)
     open_ = None if work is None or known is None else work - known
@@ -90,6 +93,8 @@ def dissipation_uncertainty(
     density = (changed * slipped).T
     if increment.angles is None:
         around = 2 * pi * density
+    elif increment.covers_circle:
+        around = 2 * pi * np.mean(density, axis=0)
     else:
         around = np.asarray(2 * np.trapezoid(density, increment.angles, axis=0))
     return known + float(np.trapezoid(around * increment.radii, increment.radii))

@@ -4,6 +4,7 @@ The estimate affects the mesh only. A contact that exceeds the fine elements is 
 scene is solved again on a larger mesh.
 """
 
+from collections.abc import Sequence
 from math import sqrt
 
 from contact_scene import (
@@ -22,7 +23,7 @@ from fem_reference.history import solved_increments
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.mesh.section_outline import sufficient_box
 from fem_reference.model import ContactModel, outermost_modulus
-from fem_reference.plan import plan
+from fem_reference.plan import ANGULAR, Path, plan
 from fem_reference.scales import Scales
 
 # Elements per radius of the coarse mesh for bodies with layers that are not thick.
@@ -49,6 +50,21 @@ def sections_of(scene: Scene, discretisation: FiniteElementDiscretisation) -> li
     radius = meshed_radius(scene, discretisation.contact_radius)
     sections = ContactModel.of(scene, discretisation, radius).sections
     return list({id(section): section for section in sections if section is not None}.values())
+
+
+def count_points(sections: Sequence[SectionMesh], path: Path, harmonics: int) -> int:
+    """Count the contact points whose tractions are solved with one dense matrix.
+
+    Used to estimate the memory of a solve.
+
+    sections   meshes of the deformable bodies, which have the same surface nodes
+    path       tractions that the solve computes
+    harmonics  highest angular harmonic of the discretisation
+    """
+    rings = len(sections[0].radii[::2])
+    if path not in ANGULAR:
+        return rings
+    return rings * (2 * harmonics if path is Path.WHOLE_CIRCLE else harmonics + 1)
 
 
 def meshed_radius(scene: Scene, prescribed: float | None) -> float:

@@ -28,8 +28,23 @@ from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
 from fem_reference.energy import add_energies
 from fem_reference.fields import Increment
-from fem_reference.loads import STILL, Loads, NormalTarget, TangentialTarget
-from fem_reference.plan import Path
+from fem_reference.loads import (
+    ACROSS,
+    ALONG,
+    STILL,
+    TWIST,
+    Loads,
+    NormalTarget,
+    TangentialTarget,
+)
+from fem_reference.plan import TWISTED, Path
+
+# Shifts of the indenter that are possible on the paths with a tangential load.
+PUSHED = {
+    Path.SHEARING: (ALONG,),
+    Path.HARMONICS: (ALONG,),
+    Path.WHOLE_CIRCLE: (ALONG, ACROSS),
+}
 
 
 def solved_increments(method: ContactMethod, tolerance: float) -> Iterator[Increment]:
@@ -102,14 +117,11 @@ class _IncrementSolver:
         fraction  part of the ramp at the end of the increment, from 0 to 1
         """
         normal = (start.normal_force, start.approach) if start else (0.0, 0.0)
-        tangential = (start.load, start.motion) if start else (0.0, 0.0)
-        loads = Loads(NormalTarget(*ramp.normal.prescribed(fraction, normal)), STILL)
-        along = self._tangential_control(ramp)
-        if along is not None:
-            loads = replace(
-                loads, tangential=TangentialTarget(*along.prescribed(fraction, tangential))
-            )
-        loads = replace(loads, strain=(ramp.strain(fraction) or UNSTRAINED)[0])
+        loads = Loads(
+            NormalTarget(*ramp.normal.prescribed(fraction, normal)),
+            self._tangential_target(ramp, start, fraction),
+            (ramp.strain(fraction) or UNSTRAINED)[0],
+        )
         growth = None
         if start is None:
             last = (before.normal_force, before.approach) if before else (0.0, 0.0)
@@ -147,23 +159,43 @@ class _IncrementSolver:
         resisted = self.method.work_on_strain(reached.before, reached.state)
         return add_energies(self.scene, self.method.plan, last, increment, resisted)
 
-    def _tangential_control(self, ramp: LoadRamp) -> ScalarControl | None:
-        """Return the prescribed tangential load or motion of a load step as a scalar quantity.
+    def _tangential_target(
+        self, ramp: LoadRamp, start: PointState | None, fraction: float
+    ) -> TangentialTarget:
+        """Return the tangential loads or motions that a load ramp prescribes at a given fraction.
 
-        In torsion the result is the torque or the twist. Under a tangential load it is the
-        component of force or shift along the direction of the load. Return None without torsion and
-        without a tangential load.
+        Motions that the path of the solve excludes stay zero.
+
+        ramp      linear change of the loads in the load step
+        start     contact state at the start of the ramp; None at the start of the history
+        fraction  part of the ramp, from 0 to 1
+        """
+        loads, motions = list(STILL.loads), list(STILL.motions)
+        for motion, control in self._controls(ramp).items():
+            reached: tuple[float, float | None] = (0.0, 0.0)
+            if start is not None:
+                reached = start.loads[motion], start.motions and start.motions[motion]
+            loads[motion], motions[motion] = control.prescribed(fraction, reached)
+        return TangentialTarget(tuple(loads), tuple(motions))
+
+    def _controls(self, ramp: LoadRamp) -> dict[int, ScalarControl]:
+        """Return the prescribed load or value of each tangential motion of the path.
+
+        Tangential force and shift are resolved along and across the direction of the load.
 
         ramp  linear change of the loads in the load step
         """
-        path, control = self.method.plan.path, ramp.tangential
-        if path is Path.TWISTING:
-            return ramp.twisting
-        if path not in (Path.SHEARING, Path.HARMONICS):
-            return None
-        x, y = self.method.plan.direction
-        return ScalarControl(
-            control.kind,
-            None if control.start is None else control.start[0] * x + control.start[1] * y,
-            control.end[0] * x + control.end[1] * y,
-        )
+        plan, tangential, controls = self.method.plan, ramp.tangential, {}
+        x, y = plan.direction
+        axes = {ALONG: (x, y), ACROSS: (-y, x)}
+        for shift in PUSHED.get(plan.path, ()):
+            a, b = axes[shift]
+            start = tangential.start
+            controls[shift] = ScalarControl(
+                tangential.kind,
+                None if start is None else start[0] * a + start[1] * b,
+                tangential.end[0] * a + tangential.end[1] * b,
+            )
+        if plan.path in TWISTED:
+            controls[TWIST] = ramp.twisting
+        return controls

@@ -1,6 +1,13 @@
-"""Prescribed loads and motions of the indenter at the end of a load increment."""
+"""Prescribed loads and motions of the indenter at the end of a load increment.
+
+The tangential motions are the shift along the first tangential load of the history, the shift
+across this direction, and the twist.
+"""
 
 from dataclasses import dataclass
+
+ALONG, ACROSS, TWIST = range(3)
+Triple = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -17,19 +24,26 @@ class NormalTarget:
 
 @dataclass(frozen=True)
 class TangentialTarget:
-    """Prescribed tangential load at the end of an increment: either a load or a motion.
+    """Prescribed tangential loads at the end of an increment: of each motion a load or its value.
 
-    load    tangential force along the plan's direction [force], or torque [force length]; None if
-            the motion is prescribed
-    motion  tangential shift along this direction [length], or twist [radian]; None if the load is
-            prescribed
+    Values of motions that the points of a contact exclude by symmetry are ignored.
+
+    loads    tangential forces along and across the load [force], torque [force length]; None where
+             the motion is prescribed
+    motions  shifts along and across the load [length], twist [radian]; None where the load is
+             prescribed
     """
 
-    load: float | None = None
-    motion: float | None = None
+    loads: tuple[float | None, ...] = (None, None, None)
+    motions: tuple[float | None, ...] = (0.0, 0.0, 0.0)
+
+    @property
+    def pushes(self) -> bool:
+        """True if a tangential force or shift is prescribed that is not zero."""
+        return any(value for pair in (self.loads, self.motions) for value in pair[:TWIST])
 
 
-STILL = TangentialTarget(motion=0.0)
+STILL = TangentialTarget()
 
 
 @dataclass(frozen=True)
@@ -37,7 +51,7 @@ class Loads:
     """Prescribed loads and motions of the indenter at the end of an increment.
 
     normal      normal force or approach
-    tangential  tangential load or motion; zero motion by default
+    tangential  tangential loads or motions; zero motions by default
     strain      equibiaxial surface strain imposed on the lower body since first contact [1]
     """
 

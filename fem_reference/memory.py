@@ -8,6 +8,9 @@ from contact_scene.solver_errors import ResourceRefused
 # Entries of both factors, divided by components × unknowns × log2(unknowns): without, and with
 # unknown pressures.
 FILL, FILL_WITH_PRESSURE = 5.0, 11.0
+# Copies of the compliance matrix of all contact points: two in its units, its rows, and their
+# factors in zones.
+COPIES_OF_MATRIX = 5
 BYTES_PER_ENTRY = 24  # values and indices, and a copy during the condensation on the contact zone
 COPIES_OF_ELEMENTS = 8
 # Memory of a whole run: libraries [byte], figures [byte], and the measured ratio of the memory in
@@ -35,13 +38,22 @@ def required_bytes(elements: int, unknowns: int, components: int, with_pressure:
     return float(BYTES_PER_ENTRY * entries + COPIES_OF_ELEMENTS * matrices)
 
 
-def run_bytes(factoring: float) -> float:
+def matrix_bytes(points: int) -> float:
+    """Estimate the memory to solve a contact with the compliance matrix of all its points [byte].
+
+    points  number of points of the surface, with three traction components each
+    """
+    return COPIES_OF_MATRIX * 8.0 * (3.0 * points) ** 2
+
+
+def run_bytes(factoring: float, points: int = 0) -> float:
     """Estimate the peak memory of a whole run, including libraries and figures [byte].
 
     factoring  upper bound of the memory to factorise the stiffness of the largest mesh, from
                `required_bytes` [byte]
+    points     number of contact points with coupled tractions
     """
-    return LIBRARIES + max(DRAWING, PART_IN_USE * factoring)
+    return LIBRARIES + max(DRAWING, PART_IN_USE * factoring, matrix_bytes(points))
 
 
 def largest_bytes(elements: int, several_motions: bool) -> int:

@@ -10,12 +10,15 @@ from contact_scene.body_pair import (
     refuse_contrast,
 )
 from contact_scene.bulk_strain import requires_bulk_strain
-from contact_scene.checks.expected_contact import refuse_equator, refuse_ring
+from contact_scene.checks.axisymmetric import (
+    refuse_coefficient_map,
+    refuse_shape,
+    refuse_tilt,
+)
+from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
-from contact_scene.reading.scene_text import shape_text
-from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.growing_contact import grows_without_slip
 from contact_scene.stepping.load_path import along_one_line, first_direction
 
@@ -35,25 +38,40 @@ class Path(Enum):
     PRESSING_WITH_FRICTION
                pressure and radial shear, both axisymmetric, for coupled bodies
     TWISTING   pressure, then circumferential shear by torsion
+    TWISTING_WITH_FRICTION
+               pressure, radial and circumferential shear, all axisymmetric, for torsion of coupled
+               bodies
     SHEARING   pressure, then shear along the tangential load, without coupling
     HARMONICS  pressure and shear of coupled bodies under a tangential load, on several angular
                harmonics
+    WHOLE_CIRCLE
+               pressure and shear under tangential loads on several lines, or together with torsion,
+               on two families of angular harmonics
     """
 
     PRESSING = "pressure alone"
     PRESSING_WITH_FRICTION = "pressure and radial shear, coupled"
     TWISTING = "pressure, then circumferential shear"
+    TWISTING_WITH_FRICTION = "pressure and axisymmetric shear, coupled"
     SHEARING = "pressure, then shear along the load"
     HARMONICS = "pressure and shear, coupled, on many harmonics"
+    WHOLE_CIRCLE = "pressure and shear on the whole circle"
 
 
 UNCOUPLED = (Path.PRESSING, Path.SHEARING, Path.TWISTING)
+# Paths on which the indenter can twist.
+TWISTED = (Path.TWISTING, Path.TWISTING_WITH_FRICTION, Path.WHOLE_CIRCLE)
+# Paths with several angles on each ring.
+ANGULAR = (Path.HARMONICS, Path.WHOLE_CIRCLE)
 # Reasons why slip perpendicular to a tangential load is computed or omitted. Poisson's ratio causes
 # such slip (Munisamy, Hills and Nowell 1994).
-CROSS_SLIP = dict.fromkeys(Path, "nothing pushes sideways") | {
-    Path.SHEARING: "neglected, as by Cattaneo and Mindlin: shear and slip are along the load",
-    Path.HARMONICS: "Coulomb's law is obeyed as a vector law at every point",
-}
+CROSS_SLIP = (
+    dict.fromkeys(Path, "nothing pushes sideways")
+    | {
+        Path.SHEARING: "neglected, as by Cattaneo and Mindlin: shear and slip are along the load",
+    }
+    | dict.fromkeys(ANGULAR, "Coulomb's law is obeyed as a vector law at every point")
+)
 
 
 @dataclass(frozen=True)
@@ -68,6 +86,7 @@ class Plan:
                   shear, so that particles may move tangentially before their contact
     effects       all physical effects, such as friction, with the reasons for or against them, for
                   output
+    twists        True if torque and twist are output
     """
 
     path: Path
@@ -76,18 +95,18 @@ class Plan:
     path_matters: tuple[bool, ...]
     grows: tuple[bool, ...]
     effects: tuple[Effect, ...]
+    twists: bool = False
 
 
 def plan(scene: Scene) -> Plan:
     """Determine the tractions that a scene requires, and the increments of each load step.
 
     Effects that do not occur in the scene, such as friction or torsion, are omitted from the solve.
-    Raise UnsupportedScene if the scene is not axisymmetric, or combines loads that this solver does
-    not support.
+    Raise UnsupportedScene if the scene is not axisymmetric, or has a tilt.
     """
     scene = normal_form(scene)
     refuse_equator(scene)
-    _refuse_shapes(scene)
+    refuse_shape(scene)
     refuse_contrast(
         scene, MAX_CONTRAST, f", and finite elements carry a ratio up to {MAX_CONTRAST:.0e}"
     )
@@ -98,22 +117,30 @@ def plan(scene: Scene) -> Plan:
     couples, why = coupling(scene)
     rough = scene.friction is not None and scene.friction.largest > 0
     couples = couples and rough
-    _refuse_loads(scene, loaded, twisted, couples)
+    refuse_coefficient_map(scene)
+    refuse_tilt(scene, pushed=loaded, coupled=couples)
     strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
     strained = requires_bulk_strain(strains, friction and (loaded or twisted))
-    path = _choose_path(friction, loaded, twisted, couples or (rough and strained))
-    matters, grows = _path_matters(scene, path)
+    curved = friction and loaded and not along_one_line(ramps)
+    # The indenter also twists if its twist is free and the tangential load turns.
+    free = any(ramp.twisting.kind is ControlKind.FORCE for ramp in ramps)
+    twists = friction and (twisted or (curved and free))
+    path = _choose_path(friction, loaded, twisted, couples or (rough and strained), curved=curved)
+    matters, grows = _path_matters(scene, path, couples)
     return Plan(
         path,
         first_direction(ramps),
-        _increment_counts(scene, matters),
+        _increment_counts(scene, path, matters),
         matters,
         grows,
-        _list_effects(scene, path, (friction, loaded, twisted, couples), why),
+        _list_effects(scene, path, (friction, loaded, twists, couples), why),
+        twists,
     )
 
 
-def _choose_path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> Path:
+def _choose_path(
+    friction: bool, loaded: bool, twisted: bool, couples: bool, *, curved: bool
+) -> Path:
     """Determine the tractions that the solve computes, from the loads and friction of the scene.
 
     Examples are pressure alone, and pressure with shear along a tangential load.
@@ -122,59 +149,69 @@ def _choose_path(friction: bool, loaded: bool, twisted: bool, couples: bool) -> 
     loaded    True if a load step has a tangential force or shift
     twisted   True if a load step has a torque or twist
     couples   True if normal loading or an imposed strain causes shear
+    curved    True if the tangential loads are not on one line
     """
     if not friction:
         return Path.PRESSING
+    if loaded and (twisted or curved):
+        return Path.WHOLE_CIRCLE
     if twisted:
-        return Path.TWISTING
+        return Path.TWISTING_WITH_FRICTION if couples else Path.TWISTING
     if loaded:
         return Path.HARMONICS if couples else Path.SHEARING
     return Path.PRESSING_WITH_FRICTION if couples else Path.PRESSING
 
 
-def _path_matters(scene: Scene, path: Path) -> tuple[tuple[bool, ...], tuple[bool, ...]]:
+def _path_matters(
+    scene: Scene, path: Path, couples: bool
+) -> tuple[tuple[bool, ...], tuple[bool, ...]]:
     """Determine for each load step whether its final state depends on the number of increments.
 
     Friction makes a load step path-dependent if there is shear while the normal load or the imposed
-    strain changes, unless nothing slips. For coupled pressure and shear a change of the tangential
-    load is sufficient. The results are `Plan.path_matters` and `Plan.grows`.
+    strain changes, unless nothing slips. For coupled pressure and shear, and on the whole circle, a
+    change of the tangential load or of the twist is sufficient. The results are `Plan.path_matters`
+    and `Plan.grows`.
 
-    scene  contact problem with its load history
-    path   tractions that the solve computes
+    scene    contact problem with its load history
+    path     tractions that the solve computes
+    couples  True if normal loading causes shear
     """
     matters, grows = [], []
-    sheared = path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS)
+    sheared = couples or path is Path.PRESSING_WITH_FRICTION
+    uncoupled = path in UNCOUPLED or (path is Path.WHOLE_CIRCLE and not couples)
     for ramp in scene.load_path():
         sheared = sheared or any(ramp.tangential.end) or ramp.twisting.end != 0
         sheared = sheared or ramp.strains
         pressing = ramp.normal.start != ramp.normal.end or ramp.strains
-        shearing = path is Path.HARMONICS and ramp.tangential.start != ramp.tangential.end
+        shearing = path in ANGULAR and ramp.tangential.start != ramp.tangential.end
+        shearing = shearing or (path is not Path.TWISTING and _twists(path, ramp))
         sheared = sheared and path is not Path.PRESSING
         grows.append(sheared and pressing)
         moves = sheared and (pressing or shearing)
-        sticks = path in UNCOUPLED and grows_without_slip(scene, ramp)
+        sticks = uncoupled and grows_without_slip(scene, ramp)
         matters.append(moves and not sticks)
     return tuple(matters), tuple(grows)
 
 
-def _increment_counts(scene: Scene, matters: tuple[bool, ...]) -> tuple[int, ...]:
+def _increment_counts(scene: Scene, path: Path, matters: tuple[bool, ...]) -> tuple[int, ...]:
     """Determine the number of increments of each load step of a scene.
 
     The number is the one that the scene requests, if there is one. Otherwise it is the larger of
     two numbers: one for the path dependence of friction, and one for closed load cycles.
 
     scene    contact problem with its load history
+    path     tractions that the solve computes
     matters  for each load step, True if its final state depends on the number of increments
     """
     ramps = scene.load_path()
     loops = loop_increments(ramps) if scene.friction else (1,) * len(ramps)
     return tuple(
-        ramp.increments or max(of_loop, _path_increments(scene, ramp) if path_matters else 1)
+        ramp.increments or max(of_loop, _path_increments(scene, path, ramp) if path_matters else 1)
         for ramp, path_matters, of_loop in zip(ramps, matters, loops, strict=True)
     )
 
 
-def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
+def _path_increments(scene: Scene, path: Path, ramp: LoadRamp) -> int:
     """Determine the number of increments of a path-dependent load step.
 
     The final state of such a step depends on the number. The error of the shear by finite
@@ -182,12 +219,13 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
     part LARGEST_SHARE of the friction limit.
 
     scene  contact problem with its friction
+    path   tractions that the solve computes
     ramp   linear change of the loads in the load step
     """
     friction = scene.friction
     by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
     pressing = ramp.normal.start != ramp.normal.end or ramp.strains
-    if pressing or not by_force:
+    if pressing or _twists(path, ramp) or not by_force:
         return PATH_INCREMENTS
     limit = friction.largest_tangential_force(ramp.normal.end) if friction is not None else None
     if limit is None:
@@ -195,6 +233,11 @@ def _path_increments(scene: Scene, ramp: LoadRamp) -> int:
     start, end = ramp.tangential.start or (0.0, 0.0), ramp.tangential.end
     change = hypot(end[0] - start[0], end[1] - start[1])
     return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF)) if limit > 0 else 1
+
+
+def _twists(path: Path, ramp: LoadRamp) -> bool:
+    """Return True if the torque or the twist changes in a load step."""
+    return path in TWISTED and ramp.twisting.start != ramp.twisting.end
 
 
 def _list_effects(
@@ -228,66 +271,6 @@ def _list_effects(
         ),
         effect.strained(scene),
         effect.coupled(scene, couples, why_coupled),
-        Effect("slip across the load", path is Path.HARMONICS, CROSS_SLIP[path]),
+        Effect("slip across the load", path in ANGULAR, CROSS_SLIP[path]),
         effect.load_history(path is not Path.PRESSING and len(scene.loading) > 1),
     )
-
-
-def _refuse_shapes(scene: Scene) -> None:
-    """Raise UnsupportedScene if the indenter or the coefficient of friction is not axisymmetric.
-
-    The axisymmetric finite elements require bodies of revolution and one coefficient of friction.
-    """
-    indenter, friction = scene.indenter, scene.friction
-    if not indenter.is_of_revolution:
-        raise UnsupportedScene(
-            f"the indenter is not axisymmetric ({shape_text(indenter)}), and this solver requires "
-            "bodies of revolution; solve it with the semi-analytical solver"
-        )
-    refuse_ring(scene)
-    if friction is not None and friction.coefficient_map is not None:
-        raise UnsupportedScene(
-            "the coefficient of friction is a map, and this solver requires one number. Give one "
-            "number"
-        )
-
-
-def _refuse_loads(scene: Scene, loaded: bool, twisted: bool, coupled: bool) -> None:
-    """Raise UnsupportedScene for combinations of loads that this solver does not support.
-
-    The solver supports no tilts, no tangential loads along more than one line, and no torsion
-    combined with a tangential load or with coupled bodies. Bodies are coupled if pressure displaces
-    their surfaces tangentially relative to each other.
-
-    scene    contact problem with its load history
-    loaded   True if a load step has a tangential force or shift
-    twisted  True if a load step has a torque or twist
-    coupled  True if normal loading causes shear
-    """
-    if any(any(ramp.tilting.end) for ramp in scene.load_path()):
-        raise UnsupportedScene(
-            "a step has a moment or a tilt, and this solver does not tilt the indenter. Remove it, "
-            "or solve it with the semi-analytical solver"
-        )
-    free = any(ramp.tilting.kind is ControlKind.FORCE for ramp in scene.load_path())
-    if free and loaded and coupled:
-        raise UnsupportedScene(
-            "the indenter may tilt freely under a tangential load, and this solver does not tilt "
-            "it. Prescribe the tilt"
-        )
-    if twisted and loaded:
-        raise UnsupportedScene(
-            "the scene has a tangential load and a torsion, and this solver supports one of them. "
-            "Remove the other, or solve it with --solver radial"
-        )
-    if twisted and coupled:
-        raise UnsupportedScene(
-            "the indenter is twisted while normal loading causes radial shear, and this solver "
-            "does not combine the two. Use equal bodies, remove the torsion, or solve it with "
-            "--solver radial"
-        )
-    if not along_one_line(scene.load_path()):
-        raise UnsupportedScene(
-            "the tangential load changes its direction, and this solver requires one direction. "
-            "Use one line, or solve it with --solver radial"
-        )

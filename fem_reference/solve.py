@@ -12,7 +12,7 @@ from contact_scene.stepping.checkpoint import (
     ResumePoint,
     store_checkpoints,
 )
-from fem_reference.compliance.angular_grid import end_grid
+from fem_reference.compliance.angular_grid import end_grid, whole_grid
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
@@ -20,7 +20,7 @@ from fem_reference.expected_radius import meshed_radius
 from fem_reference.fields import Increment, Method, Result
 from fem_reference.history import resumable_solve
 from fem_reference.model import ContactModel
-from fem_reference.plan import Plan, plan
+from fem_reference.plan import Path, Plan, plan
 
 Progress = Callable[[Increment], None]
 
@@ -129,7 +129,8 @@ def _create_method(
         penalty = Penalty(
             discretisation.penalty, discretisation.augmentations, discretisation.overlap
         )
-    return ContactMethod(model, chosen_plan, penalty, end_grid(discretisation.harmonics))
+    grid = whole_grid if chosen_plan.path is Path.WHOLE_CIRCLE else end_grid
+    return ContactMethod(model, chosen_plan, penalty, grid(discretisation.harmonics))
 
 
 def _count_factorisations(

@@ -14,6 +14,7 @@ import numpy as np
 
 from contact_scene import Scene
 from contact_scene.array_types import Array
+from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.rig import compliances
 from contact_scene.solver_errors import UnsupportedScene
 from radial.fields import Increment
@@ -22,7 +23,6 @@ from radial.normal.pressing import (
     NormalContact,
     Target,
 )
-from radial.plan import ELSEWHERE
 
 # OUTSIDE: ratio of the numbers of rings inside and outside the largest contact. REACH: outermost
 # radius over that of the largest contact.

@@ -15,11 +15,16 @@ from contact_scene.body_pair import (
     refuse_contrast,
 )
 from contact_scene.bulk_strain import requires_bulk_strain
-from contact_scene.checks.expected_contact import refuse_equator, refuse_ring
+from contact_scene.checks.axisymmetric import (
+    ELSEWHERE,
+    refuse_coefficient_map,
+    refuse_shape,
+    refuse_tilt,
+)
+from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
-from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.growing_contact import grows_without_slip
 from contact_scene.stepping.load_path import along_one_line, first_direction
@@ -39,7 +44,6 @@ ROUND_OFF = 1e-9
 # RINGS, ANGLES: rings, and angles of a half circle, of a contact at points. ROUND_RINGS: rings of
 # an axisymmetric contact at points (torsion).
 RINGS, ANGLES, ROUND_RINGS = 24, 9, 64
-ELSEWHERE = "solve it with the semi-analytical solver"
 
 
 @dataclass(frozen=True)
@@ -112,17 +116,17 @@ def plan(scene: Scene) -> Plan:
     """
     scene = normal_form(scene)
     refuse_equator(scene)
-    _refuse_shape(scene)
+    refuse_shape(scene)
     refuse_contrast(
         scene, MAX_CONTRAST, f", and this solver carries a ratio up to {MAX_CONTRAST:.0e}"
     )
     couples, why = coupling(scene)
-    _refuse_loads(scene)
     friction, ramps = scene.friction is not None, scene.load_path()
     pushed = friction and any(any(ramp.tangential.end) for ramp in ramps)
+    rough = scene.friction is not None and scene.friction.largest > 0
+    refuse_tilt(scene, pushed=pushed, coupled=rough and couples)
     strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
     strained = requires_bulk_strain(strains, pushed or any(ramp.twisting.end for ramp in ramps))
-    rough = scene.friction is not None and scene.friction.largest > 0
     frictional = rough and (couples or strained)
     curved = pushed and not along_one_line(ramps)
     # The indenter also twists if its twist is free and the tangential load turns.
@@ -215,20 +219,6 @@ def _path_increments(
     return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF))
 
 
-def _refuse_shape(scene: Scene) -> None:
-    """Raise UnsupportedScene if the indenter is no body of revolution that is lowest on the axis.
-
-    scene  contact problem, which contains the shape of the indenter
-    """
-    indenter = scene.indenter
-    if not indenter.is_of_revolution:
-        raise UnsupportedScene(
-            f"the indenter is not axisymmetric ({shape_text(indenter)}), and this solver requires "
-            f"bodies of revolution; {ELSEWHERE}"
-        )
-    refuse_ring(scene)
-
-
 def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) -> None:
     """Raise UnsupportedScene if the solver does not support the friction of a scene.
 
@@ -240,26 +230,9 @@ def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) 
     circle      angles of a solve at points; None without such a solve
     """
     assert scene.friction is not None
-    if scene.friction.coefficient_map is not None:
-        raise UnsupportedScene(
-            "the coefficient of friction is a map, and this solver requires one number. Give one "
-            f"number, or {ELSEWHERE}"
-        )
+    refuse_coefficient_map(scene)
     if scene.indenter.rim is not None and (frictional or circle):
         raise UnsupportedScene(
             "the scene has friction below an indenter with a rim, where tractions are infinite, "
             f"and this solver requires a smooth edge. Remove [friction], or {ELSEWHERE}"
-        )
-
-
-def _refuse_loads(scene: Scene) -> None:
-    """Raise UnsupportedScene if a load step prescribes a moment or a tilt of the indenter.
-
-    scene  contact problem with its load history
-    """
-    ramps = scene.load_path()
-    if any(any(ramp.tilting.end) or ramp.tilting.kind is ControlKind.FORCE for ramp in ramps):
-        raise UnsupportedScene(
-            "a step has a moment or a tilt, and this solver does not tilt the indenter. Remove it, "
-            f"or {ELSEWHERE}"
         )

@@ -49,7 +49,7 @@ def rings(per_unit: int, reach: float, highest: int, *bodies: Coating) -> RingCo
         gap=0.0 * radii,
         harmonics=harmonics,
         path=Path.HARMONICS,
-        motion=np.zeros((2, len(radii))),
+        motions=np.zeros((3, 2, len(radii))),
         stretch=basis.arms / basis.weights,
         reach=float(radii[-1]),
         edge=HatEdge(),
@@ -67,10 +67,7 @@ def _harmonic(n, hats, ss, tt, zz, C):
     size = 3 * len(above)
     a, b, c = (f.reshape(size, -1) for f in (a, b, c))
     A = (a * ss) @ a.T + (b * tt) @ b.T + (c * zz) @ c.T + (a * C) @ c.T + (c * C) @ a.T
-    A = A.reshape(3, len(above), 3, len(above))
-    if n == 0:
-        A[1], A[:, :, 1] = 0.0, 0.0
-    return A
+    return A.reshape(3, len(above), 3, len(above))
 
 
 def _wavenumbers(radii):

@@ -346,6 +346,19 @@ def on_coating(*loading: dict) -> Scene:
         pytest.param(scene(PRESS, push(0.5), indenter=RIGID_BALL), Path.HARMONICS, id="coupled"),
         pytest.param(on_coating(PRESS, push(0.5)), Path.HARMONICS, id="coated and pushed"),
         pytest.param(scene(PRESS, TWIST), Path.TWISTING, id="twisted"),
+        pytest.param(
+            scene(PRESS, TWIST, indenter=RIGID_BALL),
+            Path.TWISTING_WITH_FRICTION,
+            id="coupled and twisted",
+        ),
+        pytest.param(scene(PRESS, push(0.3), TWIST), Path.WHOLE_CIRCLE, id="pushed and twisted"),
+        pytest.param(scene(PRESS, push(0.3), push(0, 0.3)), Path.WHOLE_CIRCLE, id="turning"),
+        pytest.param(scene(PRESS, push(0.3), push(-0.3)), Path.SHEARING, id="reversing"),
+        pytest.param(
+            scene(PRESS, push(0.2, 0.1), push(0.4, 0.2), indenter=RIGID_BALL),
+            Path.HARMONICS,
+            id="coupled and on one line",
+        ),
     ],
 )
 def test_path_follows_the_scene(asked: Scene, path: Path) -> None:
@@ -401,11 +414,8 @@ def test_a_coupled_push_takes_a_twentieth_of_the_limit_at_once() -> None:
         ),
         pytest.param(scene(PRESS, {"tilt": (1e-3, 0.0)}), "tilt", id="tilt"),
         pytest.param(scene(PRESS, {"moment": (0.0, 1e-3)}), "moment", id="moment"),
-        pytest.param(scene(PRESS, push(0.3), TWIST), "torsion", id="pushed and twisted"),
-        pytest.param(scene(PRESS, TWIST, indenter=RIGID_BALL), "radial shear", id="coupled twist"),
-        pytest.param(scene(PRESS, push(0.3), push(0, 0.3)), "one direction", id="turning"),
         pytest.param(
-            scene(PRESS, {"moment": (0.0, 0.0)}, push(0.3), indenter=RIGID_BALL), "tilt freely",
+            scene(PRESS, {"moment": (0.0, 0.0)}, push(0.3), indenter=RIGID_BALL), "tilt",
             id="free to tilt",
         ),
         pytest.param(

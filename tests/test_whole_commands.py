@@ -23,7 +23,7 @@ AT_THE_LIMIT = {
     "just below": (scene(PRESS, push(1 - 0.5 * AT_LIMIT)), SOLVERS),
     "falling load": (scene(PRESS, push(0.5), LESS), SOLVERS),
     "reversed": (scene(PRESS, push(0.4), push(-1.0)), SOLVERS),
-    "turned": (scene(PRESS, push(0.4), push(0.0, 1.0, increments=1)), SOLVERS[:2]),
+    "turned": (scene(PRESS, push(0.4), push(0.0, 1.0, increments=1)), SOLVERS),
     "at once": (scene({**PRESS, **push(1.0), "increments": 2}), SOLVERS),
     "coated": (
         scene({**PRESS, "increments": 2}, push(1.0, increments=1)).model_copy(

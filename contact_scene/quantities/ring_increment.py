@@ -72,6 +72,12 @@ class RingIncrement(ReportedIncrement):
         super().__post_init__()
 
     @property
+    def covers_circle(self) -> bool:
+        """True if the angles cover the whole circle; False for a half circle or without angles."""
+        # The last angle of a half circle is π, that of a whole circle at least 3π/2.
+        return self.angles is not None and bool(self.angles[-1] > 1.25 * pi)
+
+    @property
     def in_contact(self) -> Mask:
         """Mask of the rings in contact, circles around the axis with a positive pressure."""
         return np.asarray(self.pressure > 0)

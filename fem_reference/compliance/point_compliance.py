@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from contact_scene.array_types import Field, Matrix, Vector
 from fem_reference.compliance.angular_grid import AngularGrid
 from fem_reference.compliance.ring_compliance import RingCompliance
+from fem_reference.loads import ALONG, TWIST
 
 Scalar = TypeVar("Scalar", np.float64, np.bool_)
 
@@ -56,16 +57,31 @@ class PointCompliance:
         return self.rings.areas[self.ring_of_point] * np.concatenate([[np.sum(weights)], around])
 
     @cached_property
-    def motion(self) -> Field:
-        """Tangential displacement of points per unit shift or twist of the indenter (2, points).
+    def motions(self) -> Field:
+        """Tangential displacement of the points per unit motion of the indenter (3, 2, points).
 
-        The displacement is dimensionless for a unit shift, and a length for a twist of 1 radian.
-        The displacement is zero if the symmetry of the solve excludes a tangential motion.
+        The motions are the shifts along and across the load, and the twist. The displacement is
+        dimensionless for a unit shift, and a length for a twist of 1 radian. It is zero for a
+        motion that the symmetry of the solve excludes.
         """
         if self.grid.highest == 0:
-            return self.rings.motion
-        around = np.tile(self._e_x_around, len(self.rings.radii) - 1)
-        return np.concatenate([[[1.0], [0.0]], around], axis=1)
+            return self.rings.motions
+        around = np.tile(self._shifts_around, len(self.rings.radii) - 1)
+        on_axis = np.eye(2)[:, :, None] * np.any(around, axis=(1, 2))[:, None, None]
+        twist = self.rings.motions[TWIST][:, self.ring_of_point]
+        twist[:, 0] = 0.0
+        return np.concatenate([np.concatenate([on_axis, around], axis=2), twist[None]])
+
+    @cached_property
+    def acting(self) -> tuple[int, ...]:
+        """Indices of the tangential motions that the symmetry of the solve does not exclude."""
+        return tuple(np.flatnonzero(np.any(self.motions, axis=(1, 2))).tolist())
+
+    @cached_property
+    def reaches(self) -> Vector:
+        """Largest displacement of a point by each unit motion (3,); 1 for an excluded motion."""
+        largest = np.max(np.hypot(self.motions[:, 0], self.motions[:, 1]), axis=1)
+        return np.where(largest > 0, largest, 1.0)
 
     @cached_property
     def stretch(self) -> Field:
@@ -78,13 +94,20 @@ class PointCompliance:
         return np.stack([outward, np.zeros_like(outward)])
 
     @cached_property
-    def along(self) -> Field:
-        """Factors that integrate the shear q over the surface to the tangential load (2, points).
+    def resultants(self) -> Field:
+        """Factors that integrate the shear q over the surface to tangential loads (3, 2, points).
 
-        The load is Σ along · q over all points: a force [factors in length^2] or a torque [factors
-        in length^3].
+        The loads are Σ factor · q over all points: the forces along and across the load [factors in
+        length^2] and the torque [factors in length^3].
         """
-        return np.asarray(self.areas * self.motion)
+        return np.asarray(self.areas * self.motions)
+
+    def tangential_loads(self, shear: Field) -> Vector:
+        """Compute the forces along and across the load, and the torque, of a shear (3,).
+
+        shear  shear at the points (2, points) [force/length^2]
+        """
+        return np.array([np.sum(factors * shear) for factors in self.resultants])
 
     @cached_property
     def carries_shear(self) -> NDArray[np.bool_]:
@@ -93,7 +116,7 @@ class PointCompliance:
         The point on the axis carries shear only under a tangential load.
         """
         on_axis = self.rings.radii[self.ring_of_point] == 0.0
-        return np.asarray(~on_axis | (self.motion[0] != 0.0))
+        return np.asarray(~on_axis | (self.motions[ALONG, 0] != 0.0))
 
     @cached_property
     def couples(self) -> bool:
@@ -114,15 +137,16 @@ class PointCompliance:
 
             K_ab = Σ_n c_n A^n_ab ⊗ D_aᵀ D_b
 
-        with the ring compliances A^n and the matrices D from point values to amplitudes.
+        with the ring compliances A^n and the matrices D from point values to amplitudes, summed
+        over the families of harmonics.
         """
         rings, angles = self.shape
         harmonics = np.stack(self.rings.harmonics[: self.grid.highest + 1], axis=-1)
         harmonics = harmonics * self.grid.norms
         blocks = np.empty((3, rings, angles, 3, rings, angles))
-        for a, analysis in enumerate(self.grid.transforms):
-            for b, synthesis in enumerate(self.grid.transforms):
-                around = np.einsum("nj,nl->njl", analysis, synthesis)
+        for a, analysis in enumerate(zip(*self.grid.families, strict=True)):
+            for b, synthesis in enumerate(zip(*self.grid.families, strict=True)):
+                around = np.einsum("fnj,fnl->njl", analysis, synthesis)
                 block = np.tensordot(harmonics[a, :, b], around, axes=1)
                 blocks[a, :, :, b] = block.transpose(0, 2, 1, 3)
         by_rings = self._summed_on_axis(blocks).transpose(2, 3, 4, 0, 1)
@@ -145,13 +169,10 @@ class PointCompliance:
         """
         tractions = np.stack([*shear, pressure])
         amplitudes = self.grid.amplitudes(self._spread_over_rings(tractions))
-        weak = np.stack(
-            [
-                np.einsum("aibk,bk->ai", A, amplitudes[:, :, n])
-                for n, A in enumerate(self.rings.harmonics[: self.grid.highest + 1])
-            ],
-            axis=-1,
-        )
+        weak = np.zeros_like(amplitudes)
+        for n, A in enumerate(self.rings.harmonics[: self.grid.highest + 1]):
+            for family, loads in enumerate(amplitudes):
+                weak[family, ..., n] = np.einsum("aibk,bk->ai", A, loads[..., n])
         w_u = self._summed_on_axis(self.grid.evaluate_at_points(weak) * self.grid.weights)
         u = w_u / self.areas + self.springs * tractions
         return u[:2] * self.carries_shear, u[2]
@@ -179,15 +200,17 @@ class PointCompliance:
         return self._spread_over_rings(np.stack([*values, np.zeros_like(values[0])]))[:2]
 
     @cached_property
-    def _e_x_around(self) -> Field:
-        """Components r and θ of the unit vector along x at all angles of the grid (2, angles).
+    def _shifts_around(self) -> Field:
+        """Components r and θ of unit vectors along x and y at all angles (2, 2, angles).
 
-        x is the direction of the tangential load. Used for the displacement of the points by a
-        shift of the indenter, and for the traction on the axis. The component θ is zero on a grid
-        that cannot represent it.
+        x is the direction of the tangential load. Used for the displacement of the points by shifts
+        of the indenter, and for the traction on the axis. The component θ is zero on a grid that
+        cannot represent it, and the vector along y on the half circle.
         """
         cos, sin = np.cos(self.grid.angles), np.sin(self.grid.angles)
-        return np.stack([cos, np.where(np.any(self.grid.sines, axis=0), -sin, 0.0)])
+        sin = np.where(np.any(self.grid.sines, axis=0), sin, 0.0)
+        across = np.stack([sin, cos]) * float(self.grid.whole)
+        return np.stack([np.stack([cos, -sin]), across])
 
     @cached_property
     def _axis_vectors(self) -> Field:
@@ -195,14 +218,14 @@ class PointCompliance:
 
         The point on the axis has one traction, which appears at all angles of the ring of radius 0.
         The shape is (3, 3, angles): component first, then direction. The traction along y is zero
-        by mirror symmetry. On a grid of one angle the axis is treated as a ring, and the matrix is
-        the identity.
+        on the half circle by mirror symmetry. On a grid of one angle the axis is treated as a ring,
+        and the matrix is the identity.
         """
         if self.grid.highest == 0:
             return np.eye(3)[:, :, None]
         unit = np.zeros((3, 3, self.grid.points))
         unit[2, 2] = 1.0
-        unit[0, :2] = self._e_x_around
+        unit[:2, :2] = self._shifts_around
         return unit
 
     def _spread_over_rings(self, values: Field) -> Field:

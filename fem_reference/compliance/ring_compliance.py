@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contact_scene.array_types import Matrix, Vector
+from contact_scene.array_types import Field, Matrix, Vector
+from contact_scene.body_pair import coupling
 from fem_reference.compliance.gauss_points import (
     POINTS_PER_EDGE,
     GaussPoints,
@@ -20,8 +21,9 @@ from fem_reference.compliance.ring_edge import (
 from fem_reference.elasticity.hat_functions import TractionBasis
 from fem_reference.elasticity.motion import PRESSING, TORSION
 from fem_reference.elasticity.motion import motion as motion_of
+from fem_reference.loads import ALONG, TWIST
 from fem_reference.model import ContactModel
-from fem_reference.plan import Path
+from fem_reference.plan import TWISTED, UNCOUPLED, Path
 
 R, THETA, Z = range(3)
 
@@ -42,8 +44,9 @@ class RingCompliance:
                [length^5/force], symmetric. On Path.SHEARING component r is the direction of the
                load
     path       tractions of the solve
-    motion     displacement of the rings per unit shift or twist of the indenter (2, rings), for
-               tractions that do not depend on θ; zero if symmetry excludes the motion
+    motions    displacement of the rings per unit shift along the load, shift across the load, and
+               twist of the indenter (3, 2, rings), for tractions that do not depend on θ; zero for
+               a motion that symmetry or the path excludes
     stretch    radius of the rings, the mean weighted with φ (rings,) [length]
     reach      outer end of the last element [length]
     edge       rule that determines the radius of the contact edge between rings
@@ -54,7 +57,7 @@ class RingCompliance:
     gap: Vector
     harmonics: tuple[Matrix, ...]
     path: Path
-    motion: Matrix
+    motions: Field
     stretch: Vector
     reach: float
     edge: Edge
@@ -87,25 +90,28 @@ def ring_compliance(
     nodes = model.radii
     basis: TractionBasis = gauss_points(nodes, model.rim) if at_gauss_points else model.hats
     rings = len(basis.radii)
-    motion, stretch = np.zeros((2, rings)), basis.arms / basis.weights
+    motions, stretch = np.zeros((3, 2, rings)), basis.arms / basis.weights
     harmonics = [np.zeros((3, rings, 3, rings)) for _ in range(highest + 1)]
-    if path in (Path.PRESSING_WITH_FRICTION, Path.HARMONICS):
-        for n, A in enumerate(harmonics):
-            condensed = model.compliance(motion_of(n))
-            for i, a in enumerate(condensed.motion.components):
-                for j, b in enumerate(condensed.motion.components):
-                    A[a, :, b] = basis.compliance(condensed.matrix[i, :, j])
-    else:
+    if path in UNCOUPLED:
         # Without coupling only the normal compliance is required, and that of the one component of
         # shear, if there is one.
         (A,) = harmonics
         A[Z, :, Z] = basis.compliance(model.compliance(PRESSING).matrix[1, :, 1])
-        if path is Path.TWISTING:
-            A[THETA, :, THETA] = basis.compliance(model.compliance(TORSION).matrix[0, :, 0])
-            motion[THETA] = stretch
-        elif path is Path.SHEARING:
-            A[R, :, R] = basis.compliance(model.along_load())
-            motion[R] = 1.0
+    else:
+        uncoupled = path is Path.WHOLE_CIRCLE and not coupling(model.scene)[0]
+        for n, A in enumerate(harmonics):
+            condensed = model.compliance(motion_of(n))
+            for i, a in enumerate(condensed.motion.components):
+                for j, b in enumerate(condensed.motion.components):
+                    if not (uncoupled and (a == Z) != (b == Z)):
+                        A[a, :, b] = basis.compliance(condensed.matrix[i, :, j])
+    if path in TWISTED:
+        torsion = model.compliance(TORSION).matrix[0, :, 0]
+        harmonics[0][THETA, :, THETA] = basis.compliance(torsion)
+        motions[TWIST, THETA] = stretch
+    elif path is Path.SHEARING:
+        harmonics[0][R, :, R] = basis.compliance(model.along_load())
+        motions[ALONG, R] = 1.0
     edge: Edge
     if isinstance(basis, GaussPoints):
         edge, reach = (
@@ -117,5 +123,5 @@ def ring_compliance(
         reach = float(basis.radii[-1])
     gap = basis.integrate(model.gap) / basis.weights
     return RingCompliance(
-        basis.radii, basis.weights, gap, tuple(harmonics), path, motion, stretch, reach, edge
+        basis.radii, basis.weights, gap, tuple(harmonics), path, motions, stretch, reach, edge
     )

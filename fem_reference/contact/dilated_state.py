@@ -27,7 +27,7 @@ def dilated_state(
     similarity  ratio of the contact radii, and powers of it
     mixing      acceleration of the solves
     """
-    if state.motion is None:
+    if state.motions is None:
         return None
     rays = Rays(compliance.rings.radii, compliance.scalar_on_grid(state.in_stick))
     if not rays.resolve(compliance.scalar_on_grid(state.pressure)):
@@ -51,12 +51,15 @@ def dilated_state(
         inside = scalar((values[2] > 0).astype(np.float64)) >= 0.5
         return traction * inside * np.concatenate([vector(values[:2]), pressure[None]])
 
-    motion = length * state.motion
-    relative = state.displacement - state.motion * compliance.motion
+    along, across, twist = (length * motion for motion in state.motions)
+    moved = np.tensordot(state.motions, compliance.motions, axes=1)
+    relative = state.displacement - moved
     locked = rays.locked(compliance.vector_on_grid(relative), similarity)
     nothing = np.zeros_like(relative)  # the axis is the point of first contact
     locked = mixing.next_field(_at_points(compliance, locked, nothing))
     smaller = tractions(state.tractions)
+    force, aside, torque = state.loads
+    lever = similarity.force * factor
     energy = state.dissipated_energy
     if energy is not None:
         energy *= similarity.energy
@@ -65,15 +68,15 @@ def dilated_state(
         state,
         pressure=smaller[2],
         shear=smaller[:2],
-        displacement=locked + motion * compliance.motion,
+        displacement=locked + length * moved,
         multiplier=tractions(state.multiplier),
         edge_tractions=tractions(state.edge_tractions),
         gap=length * scalar(state.gap),
         slip=length * vector(state.slip),
         normal_force=similarity.force * state.normal_force,
         approach=length * state.approach,
-        load=similarity.force * state.load,
-        motion=motion,
+        loads=(similarity.force * force, similarity.force * aside, lever * torque),
+        motions=(along, across, twist),
         dissipated_energy=energy,
         moved=length * state.moved,
     )

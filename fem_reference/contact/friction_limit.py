@@ -11,22 +11,19 @@ from contact_scene.quantities.summary import ContactStatus
 SLIDING = 1e-6
 
 
-def contact_status(
-    loaded: Mask, stuck: Mask, carried: float | None, capacity: float
-) -> ContactStatus:
+def contact_status(loaded: Mask, stuck: Mask, limit_ratio: float) -> ContactStatus:
     """Determine the contact status: full stick, partial slip, gross sliding, or no stick area left.
 
-    Gross sliding requires that the tangential load reaches the friction limit.
+    Gross sliding requires that the tangential loads reach the friction limit.
 
-    loaded    True for points in contact that can carry shear (points,)
-    stuck     True for points in contact that can carry shear and stick (points,)
-    carried   tangential force or torque of the shear, of either sign; None if no tangential motion
-              of the indenter is possible
-    capacity  largest load that friction can carry
+    loaded       True for points in contact that can carry shear (points,)
+    stuck        True for points in contact that can carry shear and stick (points,)
+    limit_ratio  factor on the tangential loads of the shear at which all points slip; infinite if
+                 no tangential motion of the indenter is possible
     """
     if np.any(stuck):
         whole = np.array_equal(stuck, loaded)
         return ContactStatus.FULL_STICK if whole else ContactStatus.PARTIAL_SLIP
-    if carried is not None and abs(carried) >= capacity * (1 - SLIDING):
+    if limit_ratio * (1 - SLIDING) <= 1:
         return ContactStatus.GROSS_SLIDING
     return ContactStatus.NO_STICK_AREA_LEFT

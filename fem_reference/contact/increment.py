@@ -5,6 +5,7 @@ multipliers of a pass are the tractions of the previous pass (see `augmented_lag
 """
 
 from dataclasses import dataclass, replace
+from math import hypot
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from fem_reference.contact.friction_limit import contact_status
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_problem import PointProblem, PointSolution, solve_points
 from fem_reference.contact.point_state import PointState
-from fem_reference.loads import Loads
+from fem_reference.loads import TWIST, Loads, Triple
 from fem_reference.plan import Path
 from fem_reference.residuals import (
     complementarity,
@@ -32,6 +33,7 @@ from fem_reference.residuals import (
     slip_direction,
 )
 
+AT_REST: Triple = (0.0, 0.0, 0.0)
 MAX_ATTEMPTS = 4
 # Smallest tangential displacement over the approach that is not round-off of uncoupled bodies.
 ROUND_OFF = 1e-6
@@ -56,11 +58,11 @@ def advance(
     """
     _refuse_unresolved(contact, loads)
     before = before or contact.state_before_contact()
-    if before.motion is None and not _is_at_limit(contact, loads):
+    if before.motions is None and not _is_at_limit(contact, loads):
         raise motion_undefined()
     increment = _Increment(contact, before, loads, tolerance)
     passes = increment.all_passes()
-    if before.motion is None:
+    if before.motions is None:
         return increment.end_state(passes)
     solution = passes[-1].solution
     free = free_motion(contact, before, loads, solution.pressure, solution.approach)
@@ -73,16 +75,18 @@ def advance(
 def _is_at_limit(contact: PointContact, loads: Loads) -> bool:
     """Return True if the prescribed tangential force is at the friction limit µW.
 
-    The result is False if the friction limit depends on the pressure, as for a torque.
+    The result is False if the friction limit depends on the pressure, as with a torque.
 
     contact  contact problem, with the friction law
     loads    prescribed loads at the end of the increment
     """
-    load, W = loads.tangential.load, loads.normal.force
-    if load is None or W is None or contact.rings.path is Path.TWISTING:
+    *forces, torque = loads.tangential.loads
+    pushing = [force for force in forces if force is not None]
+    W = loads.normal.force
+    if W is None or torque or not pushing:
         return False
     limit = contact.friction.largest_tangential_force(W)
-    return limit is not None and reaches_limit(abs(load), limit)
+    return limit is not None and reaches_limit(hypot(*pushing), limit)
 
 
 def _refuse_unresolved(contact: PointContact, loads: Loads) -> None:
@@ -117,8 +121,8 @@ class _Pass:
     law_gap       gap plus the strain of the springs (points,), zero in contact [length]
     passed        slip of the indenter relative to the body in the increment, minus the strain of
                   the springs (2, points) [length]
-    motion        shift [length] or twist [radian]; None at the friction limit under a prescribed
-                  load
+    motions       shifts along and across the load [length] and twist [radian]; None at the friction
+                  limit under prescribed loads
     residuals     residuals of the contact and friction laws
     outer_iterations
                   number of outer iterations in all attempts
@@ -131,7 +135,7 @@ class _Pass:
     displacement: Field
     law_gap: Vector
     passed: Field
-    motion: float | None
+    motions: Triple | None
     residuals: Residuals
     outer_iterations: int
     solves: int
@@ -219,7 +223,7 @@ class _Increment:
             multiplier[:2] = before.shear
         elif penalty is not None and penalty.augmentations > 0:
             multiplier = before.tractions
-        return self._solve_pass(multiplier, before.tractions, before.motion or 0.0)
+        return self._solve_pass(multiplier, before.tractions, before.motions or AT_REST)
 
     def next_pass(self, last: _Pass) -> _Pass:
         """Solve the contact problem of the increment again, with updated penalty multipliers.
@@ -229,8 +233,8 @@ class _Increment:
 
         last  solution of the last pass
         """
-        motion = self.before.motion or 0.0 if last.motion is None else last.motion
-        after = self._solve_pass(last.tractions, last.tractions, motion)
+        motions = last.motions or self.before.motions or AT_REST
+        after = self._solve_pass(last.tractions, last.tractions, motions)
         outer_iterations, solves = (
             last.outer_iterations + after.outer_iterations,
             last.solves + after.solves,
@@ -302,12 +306,15 @@ class _Increment:
         in_stick = (problem.friction.limit(p) > 0) & ~solution.in_slip
         slipped = np.where(in_stick, 0.0, self._touching_share(p, edges[2]) * last.passed)
         energy = None
-        if last.motion is not None and before.dissipated_energy is not None:
+        if last.motions is not None and before.dissipated_energy is not None:
             bounds = problem.bound(before.pressure), problem.bound(p)
             friction = sliding_friction(before.shear, q, last.passed, *bounds)
             energy = before.dissipated_energy + float(np.sum(w * friction * slipped))
         target, force = problem.tangential, problem.normal.force
-        load = float(np.sum(compliance.along * q))
+        carried = compliance.tangential_loads(q)
+        stuck = in_stick & compliance.carries_shear
+        # The friction limit is computed only where it decides the status.
+        decided = not compliance.acting or bool(np.any(stuck))
         return PointState(
             axisymmetric=contact.axisymmetric,
             pressure=p,
@@ -320,14 +327,14 @@ class _Increment:
             in_stick=in_stick,
             status=contact_status(
                 (p > 0) & compliance.carries_shear,
-                in_stick & compliance.carries_shear,
-                load if np.any(compliance.motion) else None,
-                problem.capacity(p),
+                stuck,
+                np.inf if decided else problem.limit_ratio(p, carried),
             ),
             normal_force=float(np.sum(w * p)) if force is None else force,
             approach=solution.approach,
-            load=load if target.load is None else target.load,
-            motion=last.motion,
+            loads=_prescribed_or_carried(target.loads, carried, compliance.acting),
+            motions=last.motions,
+            twist=target.motions[TWIST],
             dissipated_energy=energy,
             residuals=last.residuals,
             overlap=last.overlap,
@@ -339,7 +346,7 @@ class _Increment:
             algorithm=solution.algorithm,
         )
 
-    def _solve_pass(self, multiplier: Field, start: Field, motion: float) -> _Pass:
+    def _solve_pass(self, multiplier: Field, start: Field, motions: Triple) -> _Pass:
         """Solve the contact problem of the increment for given multipliers of the penalty law.
 
         If a residual exceeds the tolerance, the solve is repeated with a smaller tolerance of the
@@ -348,7 +355,7 @@ class _Increment:
 
         multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
         start       initial guess of the tractions r, θ, z (3, points)
-        motion      initial guess of the shift or twist
+        motions     initial guess of the shifts and the twist
         raises      NotConverged, GrossSliding
         """
         contact, before, loads = self.contact, self.before, self.loads
@@ -363,7 +370,7 @@ class _Increment:
             contact.friction,
             memory
             + self.free
-            - (before.motion or 0.0) * compliance.motion
+            - np.tensordot(before.motions or AT_REST, compliance.motions, axes=1)
             - (loads.strain - before.strain) * compliance.stretch,
             loads.normal,
             loads.tangential,
@@ -371,29 +378,33 @@ class _Increment:
         p, q = start[2], start[:2]
         aim, outer_iterations, solves = 0.5 * self.tolerance, 0, 0
         for _ in range(MAX_ATTEMPTS):
-            solution = solve_points(problem, p, q, motion, aim)
+            solution = solve_points(problem, p, q, motions, aim)
             outer_iterations, solves = (
                 outer_iterations + solution.outer_iterations,
                 solves + solution.solves,
             )
-            self._refuse_above_limit(problem.capacity(solution.pressure))
+            self._refuse_above_limit(problem, solution.pressure)
             done = self._judge_solution(problem, solution, multiplier, outer_iterations, solves)
             if done.residuals.worst <= self.tolerance:
                 return done
             p, q = solution.pressure, solution.shear
-            motion = motion if solution.shift is None else solution.shift
+            motions = solution.motions or motions
             aim *= 0.1
         raise NotConverged("the increment", solves, done.residuals.worst, self.tolerance)
 
-    def _refuse_above_limit(self, capacity: float) -> None:
-        """Raise GrossSliding if friction cannot carry the prescribed tangential load or torque.
+    @staticmethod
+    def _refuse_above_limit(problem: PointProblem, pressure: Vector) -> None:
+        """Raise GrossSliding if friction cannot carry the prescribed tangential loads.
 
-        capacity  largest load that friction can carry under the solved pressure
+        problem   problem with the friction limit of the points, and the prescribed loads
+        pressure  solved pressure at the points (points,) [force/length^2]
         """
-        load = abs(self.loads.tangential.load or 0.0)
-        if load:
-            both = (0.0, load) if self.contact.rings.path is Path.TWISTING else (load, 0.0)
-            refuse_above_limit(*both, capacity / load)
+        loads = problem.tangential.loads
+        acting = {k: loads[k] or 0.0 for k in problem.compliance.acting}
+        torque = abs(acting.pop(TWIST, 0.0))
+        force = hypot(*acting.values())
+        if force or torque:
+            refuse_above_limit(force, torque, problem.limit_ratio(pressure, loads))
 
     def _judge_solution(
         self,
@@ -414,24 +425,33 @@ class _Increment:
         outer_iterations, solves
                     numbers of outer iterations and of linear iterations so far
         """
-        compliance, motion = problem.compliance, solution.shift
-        if motion is None and not np.any(problem.bound(solution.pressure)):
+        compliance, motions = problem.compliance, solution.motions
+        if motions is None and not np.any(problem.bound(solution.pressure)):
             # Without friction at any point the motion of the indenter is indeterminate and is kept.
-            motion = self.before.motion
+            motions = self.before.motions
         u_t, u_z = compliance.displacement(solution.pressure, solution.shear)
         passed = np.zeros_like(u_t)
-        if motion is not None:
-            passed = motion * compliance.motion + problem.target - u_t
+        if motions is not None:
+            moved = np.tensordot(motions, compliance.motions, axes=1)
+            passed = moved + problem.target - u_t
         gap = problem.gap + u_z - solution.approach
         # The tangential strain of the springs is not a displacement of the bodies.
         displacement = u_t - compliance.springs * solution.shear
         residuals = self._law_residuals(
-            problem, solution, gap, passed if motion is not None else None
+            problem, solution, gap, passed if motions is not None else None
         )
         return _Pass(
-            problem, solution, multiplier, displacement, gap, passed, motion, residuals,
-            outer_iterations, solves,
-        )  # fmt: skip
+            problem,
+            solution,
+            multiplier,
+            displacement,
+            gap,
+            passed,
+            motions,
+            residuals,
+            outer_iterations,
+            solves,
+        )
 
     def _touching_share(self, p: Vector, at_edges: Vector) -> Vector:
         """Compute the contact fraction of each point: the part of the increment in contact.
@@ -480,14 +500,16 @@ class _Increment:
         """
         p, q, w = solution.pressure, solution.shear, problem.compliance.areas
         bound, approach = problem.bound(p), solution.approach
-        normal, load = problem.normal.force, problem.tangential.load
+        normal = problem.normal.force
         carried = float(np.sum(w * p))
         pressing = Residuals(
             complementarity=complementarity(p, w * g, w, approach),
             penetration=penetration(w * g, w, approach),
             normal_equilibrium=None if normal is None else abs(carried - normal) / normal,
         )
-        direction = missing = None
+        if self.contact.rings.path is Path.PRESSING:
+            return pressing
+        direction = None
         if passed is not None:
             # Displacement by shear alone: under full stick from the start, a rigid motion has no
             # such displacement.
@@ -495,20 +517,54 @@ class _Increment:
             moved = np.hypot(*np.concatenate([by_shear, self.before.displacement], axis=1))
             largest = max(float(np.max(moved)), ROUND_OFF * approach)
             direction = slip_direction(q, bound, passed, w, largest)
-        if load is not None and (limit := problem.capacity(p)) > 0:
-            missing = abs(float(np.sum(problem.compliance.along * q)) - load) / limit
-        path = self.contact.rings.path
-        if path is Path.PRESSING:
-            return pressing
-        twists = path is Path.TWISTING
+        pushing, turning = _missing_loads(problem, p, q)
         return pressing.with_shear(
             ShearResiduals(
                 friction_cone=friction_cone(np.hypot(*q), bound),
                 slip_direction=direction,
-                tangential_equilibrium=None if twists else missing,
-                torque_equilibrium=missing if twists else None,
+                tangential_equilibrium=pushing,
+                torque_equilibrium=turning,
             )
         )
+
+
+def _prescribed_or_carried(
+    prescribed: tuple[float | None, ...], carried: Vector, acting: tuple[int, ...]
+) -> Triple:
+    """Return the tangential loads of the indenter: prescribed loads, else those of the shear.
+
+    prescribed  prescribed loads (3,); None where the motion is prescribed
+    carried     loads of the shear (3,)
+    acting      motions that the symmetry of the solve does not exclude
+    """
+    along, across, torque = (
+        float(carried[k]) if load is None or k not in acting else load
+        for k, load in enumerate(prescribed)
+    )
+    return along, across, torque
+
+
+def _missing_loads(
+    problem: PointProblem, pressure: Vector, shear: Field
+) -> tuple[float | None, float | None]:
+    """Compute the errors of tangential force and torque over the friction limit [1].
+
+    An error is None if no load is prescribed, or without friction at any point.
+
+    problem   compliance, friction and prescribed loads
+    pressure  pressure at the points (points,) [force/length^2]
+    shear     shear at the points (2, points) [force/length^2]
+    """
+    limits = problem.capacities(pressure)
+    carried = problem.compliance.tangential_loads(shear)
+    missing = {
+        k: (carried[k] - load) / limits[k]
+        for k in problem.compliance.acting
+        if (load := problem.tangential.loads[k]) is not None and limits[k] > 0
+    }
+    forces = [error for k, error in missing.items() if k != TWIST]
+    torque = missing.get(TWIST)
+    return hypot(*forces) if forces else None, None if torque is None else abs(float(torque))
 
 
 def touching_share(

@@ -1,7 +1,7 @@
 """Conversion of a contact state at the points of the surface to an increment of the result."""
 
 from dataclasses import replace
-from math import pi, sqrt
+from math import hypot, pi, sqrt
 from typing import Any, TypeVar
 
 import numpy as np
@@ -14,7 +14,8 @@ from fem_reference.compliance.ring_edge import stick_area
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
 from fem_reference.fields import Increment
-from fem_reference.plan import Path
+from fem_reference.loads import TWIST
+from fem_reference.plan import Path, Plan
 
 Scalar = TypeVar("Scalar", np.float64, np.bool_)
 
@@ -22,7 +23,7 @@ Scalar = TypeVar("Scalar", np.float64, np.bool_)
 def report_increment(
     contact: PointContact,
     state: PointState,
-    direction: tuple[float, float],
+    plan: Plan,
     place: IncrementPosition,
 ) -> Increment:
     """Convert a contact state at the points of the surface to an increment of the result.
@@ -30,10 +31,10 @@ def report_increment(
     The fields of the result have the shape (rings, angles), or (rings,) if the state is
     axisymmetric.
 
-    contact    contact problem at the points of the surface
-    state      converged state at the end of the increment
-    direction  unit vector (x, y) of the tangential load, from which angles are counted
-    place      load step, and index of the increment in the load step
+    contact  contact problem at the points of the surface
+    state    converged state at the end of the increment
+    plan     path, and unit vector (x, y) of the tangential load, from which angles are counted
+    place    load step, and index of the increment in the load step
     """
     compliance, rings = contact.compliance, contact.rings
     p = _result_field(contact, state.pressure)
@@ -59,9 +60,7 @@ def report_increment(
         path=state.algorithm,
     )
     return (
-        pressed
-        if rings.path is Path.PRESSING
-        else _add_shear(pressed, contact, state, direction, edges)
+        pressed if rings.path is Path.PRESSING else _add_shear(pressed, contact, state, plan, edges)
     )
 
 
@@ -69,24 +68,26 @@ def _add_shear(
     pressed: Increment,
     contact: PointContact,
     state: PointState,
-    direction: tuple[float, float],
+    plan: Plan,
     edges: Field,
 ) -> Increment:
     """Add shear, slip, stick zone and tangential load to an increment of the result.
 
-    In torsion, shear and slip are circumferential. Without coupling of pressure and shear they are
-    along the tangential load. Otherwise they have a radial and, under a tangential load, a
-    circumferential component.
+    Without coupling of pressure and shear, shear and slip are circumferential in torsion, and along
+    the load under tangential loads on one line. Otherwise they have a radial and, under a
+    tangential load or torsion, a circumferential component.
 
-    pressed    increment with pressure and gap
-    contact    contact problem at the points of the surface
-    state      converged contact state at the points
-    direction  unit vector (x, y) of the tangential load
-    edges      radius of the contact edge on every ray, the set of points at one angle (angles,)
-               [length]
+    pressed  increment with pressure and gap
+    contact  contact problem at the points of the surface
+    state    converged contact state at the points
+    plan     path, and unit vector (x, y) of the tangential load
+    edges    radius of the contact edge on every ray, the set of points at one angle (angles,)
+             [length]
     """
-    path, (x, y) = contact.rings.path, direction
-    components = {"radial": 0} if contact.axisymmetric else {"radial": 0, "circumferential": 1}
+    path, (x, y) = plan.path, plan.direction
+    components = {"radial": 0, "circumferential": 1}
+    if contact.axisymmetric and not plan.twists:
+        components = {"radial": 0}
     single = {Path.TWISTING: {"circumferential": 1}, Path.SHEARING: {"along_load": 0}}
     fields: dict[str, Any] = {
         f"{field}_{name}": _drop_angle_axis(contact, on_grid[component])
@@ -94,11 +95,17 @@ def _add_shear(
         for on_grid in [contact.compliance.vector_on_grid(vectors)]
         for name, component in single.get(path, components).items()
     }
-    if path is Path.TWISTING:
-        fields |= {"torque": state.load, "twist": state.motion}
-    else:
-        shift = None if state.motion is None else (state.motion * x, state.motion * y)
-        fields |= {"tangential_force": (state.load * x, state.load * y), "tangential_shift": shift}
+    if plan.twists:
+        twist = state.twist if state.motions is None else state.motions[TWIST]
+        fields |= {"torque": state.loads[TWIST], "twist": twist}
+    if path is not Path.TWISTING:
+        force, shift = (
+            None if parts is None else (parts[0] * x - parts[1] * y, parts[0] * y + parts[1] * x)
+            for parts in (state.loads, state.motions)
+        )
+        fields |= {"tangential_force": force, "tangential_shift": shift}
+    if path in (Path.TWISTING_WITH_FRICTION, Path.WHOLE_CIRCLE):
+        fields["elastic_energy"] = _elastic_energy(contact, state)
     return replace(
         pressed,
         status=state.status,
@@ -107,6 +114,21 @@ def _add_shear(
         dissipated_energy=state.dissipated_energy,
         **fields,
     )
+
+
+def _elastic_energy(contact: PointContact, state: PointState) -> float:
+    """Compute the elastic energy ½ ∫ (p u_z + q·u) dA of both bodies [force length].
+
+    The springs of a penalty and of a test rig are excluded.
+
+    contact  contact problem, with the undeformed gap and the areas of the points
+    state    contact state with tractions, gap and tangential displacement
+    """
+    normal = state.gap - contact.gap + state.approach
+    work = state.pressure * normal + np.sum(state.shear * state.displacement, axis=0)
+    down, along = contact.rig
+    in_rig = down * state.normal_force**2 + along * hypot(*state.loads[:TWIST]) ** 2
+    return 0.5 * float(np.sum(contact.compliance.areas * work) - in_rig)
 
 
 def _result_field(contact: PointContact, values: NDArray[Scalar]) -> NDArray[Scalar]:
@@ -167,7 +189,7 @@ def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float
     state    contact state with tractions and slipping points
     edges    radius of the contact edge on every ray (angles,) [length]
     """
-    if state.motion is None:
+    if state.motions is None:
         # At the friction limit the shear may differ from it by round-off, which is no stick zone.
         return 0.0
     contact_area = _contact_area(contact, edges)

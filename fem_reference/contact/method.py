@@ -1,7 +1,7 @@
 """Contact method of a scene: compliance of the bodies, contact law, and selection of the points.
 
-Fields do not depend on the angle θ without coupling of pressure and shear, and before the first
-tangential load on coupled bodies. One point then represents its whole ring.
+Fields do not depend on the angle θ before the first tangential load, nor in uncoupled contacts
+under tangential loads on one line. One point then represents its whole ring.
 """
 
 from dataclasses import dataclass
@@ -24,9 +24,9 @@ from fem_reference.contact.increment_report import report_increment
 from fem_reference.contact.point_contact import PointContact, point_contact
 from fem_reference.contact.point_state import PointState
 from fem_reference.fields import Increment
-from fem_reference.loads import STILL, Loads
+from fem_reference.loads import Loads
 from fem_reference.model import ContactModel
-from fem_reference.plan import Path, Plan
+from fem_reference.plan import ANGULAR, Plan
 
 
 @dataclass(frozen=True)
@@ -39,8 +39,8 @@ class ContactMethod:
     model    the two bodies with their meshes, compliances, undeformed gap and friction
     plan     tractions that the solve computes, and numbers of increments
     penalty  parameters of the penalty law; None for the exact laws of Signorini and Coulomb
-    around   angular points on the half circle, counted from the direction of the load, for coupled
-             bodies under a tangential load; None for scenes without such a load
+    around   angular points on a ring, counted from the direction of the load, for paths with
+             angles; None for other paths
     """
 
     model: ContactModel
@@ -61,14 +61,12 @@ class ContactMethod:
                    ContactNotResolved
         """
         contact = self._axisymmetric_contact
-        if self.plan.path is Path.HARMONICS:
-            loaded = bool(loads.tangential.load or loads.tangential.motion)
-            if loaded or (before is not None and not before.axisymmetric):
+        if self.plan.path in ANGULAR:
+            axisymmetric = before is None or before.axisymmetric
+            if loads.tangential.pushes or not axisymmetric:
                 contact = self._angular_contact
-                if before is not None and before.axisymmetric:
+                if before is not None and axisymmetric:
                     before = contact.extend_to_points(before)
-            else:
-                loads = Loads(loads.normal, STILL)
         state = advance(contact, before, loads, tolerance)
         self._refuse_contact_at_edge(contact, state)
         return state
@@ -102,7 +100,7 @@ class ContactMethod:
         place  load step, and index of the increment in the load step
         """
         contact = self._axisymmetric_contact if state.axisymmetric else self._angular_contact
-        return report_increment(contact, state, self.plan.direction, place)
+        return report_increment(contact, state, self.plan, place)
 
     def work_on_strain(self, before: PointState | None, state: PointState) -> float:
         """Compute the work of the shear on the imposed strain of the lower body in one increment.

@@ -20,11 +20,9 @@ from fem_reference.compliance.ring_compliance import (
 from fem_reference.compliance.ring_edge import GaussEdge
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.point_state import PointState
-from fem_reference.memory import require_memory
+from fem_reference.memory import matrix_bytes, require_memory
 from fem_reference.model import ContactModel
-from fem_reference.plan import Path
-
-COPIES = 5  # of the matrix of all points: two in its units, its rows and their factors in zones
+from fem_reference.plan import ANGULAR, Path
 
 
 @dataclass(frozen=True)
@@ -94,8 +92,9 @@ class PointContact:
             status=ContactStatus.FULL_STICK,
             normal_force=0.0,
             approach=0.0,
-            load=0.0,
-            motion=0.0,
+            loads=(0.0, 0.0, 0.0),
+            motions=(0.0, 0.0, 0.0),
+            twist=0.0,
             dissipated_energy=0.0,
             residuals=Residuals(0.0, 0.0),
         )
@@ -121,8 +120,8 @@ def point_contact(
     """Create the contact problem of two bodies on the rings of their mesh and the angles of a grid.
 
     A ring is a circle around the axis on the surface. The penalty law acts at Gauss points, except
-    on Path.HARMONICS (coupled bodies under a tangential load), where it acts at nodes. Raise
-    ResourceRefused if the memory is insufficient for the compliance matrix of all points.
+    on paths with angles, where it acts at nodes. Raise ResourceRefused if the memory is
+    insufficient for the compliance matrix of all points.
 
     model    the two bodies with their meshes, compliances, undeformed gap and friction
     path     tractions that the solve computes
@@ -130,10 +129,9 @@ def point_contact(
     penalty  parameters of the penalty law; None for the exact laws of Signorini and Coulomb
     """
     rings = ring_compliance(
-        model, path, grid.highest, at_gauss_points=bool(penalty) and path is not Path.HARMONICS
+        model, path, grid.highest, at_gauss_points=bool(penalty) and path not in ANGULAR
     )
-    unknowns = 3.0 * len(rings.radii) * grid.points
-    require_memory(COPIES * 8 * unknowns**2)
+    require_memory(matrix_bytes(len(rings.radii) * grid.points))
     springs = 0.0
     if penalty:
         edge = float(model.radii[2] - model.radii[0])

@@ -14,12 +14,13 @@ from contact_solver.conjugate_gradients import Point
 from contact_solver.coupled_problem import CoupledProblem
 from contact_solver.dense_inverse import DenseInverse
 from contact_solver.globalisation import solve_together
-from contact_solver.gross_slip import full_slip
+from contact_solver.gross_slip import full_slip, limit_load
 from contact_solver.pressure import solve_pressure
+from contact_solver.rigid_motion import RigidMotion, RigidMotions
 from contact_solver.shear import solve_shear
 from contact_solver.unequal_areas import UnequalAreas
 from fem_reference.compliance.point_compliance import PointCompliance
-from fem_reference.loads import NormalTarget, TangentialTarget
+from fem_reference.loads import NormalTarget, TangentialTarget, Triple
 
 # Tolerance of the solver. With exact inverses the last Newton step has an error far below that of
 # the increment; round-off is 1e-13.
@@ -33,11 +34,11 @@ class PointProblem:
     compliance  displacement of all points per traction on all points
     gap         gap without tractions (points,) [length]
     friction    Coulomb friction between the surfaces
-    target      tangential displacement of the points under full stick and zero shift of the
+    target      tangential displacement of the points under full stick and zero motion of the
                 indenter (2, points) [length]: displacement at the start of the increment minus the
                 rigid motion at the start, corrected for penalty springs and imposed strain
     normal      prescribed normal force or approach
-    tangential  prescribed tangential load or motion
+    tangential  prescribed tangential loads or motions
     """
 
     compliance: PointCompliance
@@ -58,17 +59,32 @@ class PointProblem:
         carrying = np.where(self.compliance.carries_shear, pressure, 0.0)
         return self.friction.limit(carrying)
 
-    def capacity(self, pressure: Vector) -> float:
-        """Compute the largest tangential load that friction can carry under a given pressure.
+    def capacities(self, pressure: Vector) -> Vector:
+        """Compute the largest load of each tangential motion that friction can carry alone (3,).
 
-        The load is a force, or a torque in torsion. The result is the sum of friction limit times
-        area times lever arm over all points; the lever arm is 1 for a force. Used to detect gross
-        slip.
+        The loads are the forces along and across the load [force], and the torque [force length].
+        A load is the sum of friction limit times area times lever arm over all points; the lever
+        arm is 1 for a force. Loads of excluded motions are zero.
 
         pressure  pressure at the points (points,) [force/length^2]
         """
-        lever = np.hypot(*self.compliance.motion)
-        return float(np.sum(self.compliance.areas * lever * self.bound(pressure)))
+        levers = np.hypot(self.compliance.motions[:, 0], self.compliance.motions[:, 1])
+        return np.sum(self.compliance.areas * levers * self.bound(pressure), axis=1)
+
+    def limit_ratio(self, pressure: Vector, loads: tuple[float | None, ...] | Vector) -> float:
+        """Compute the factor on given tangential loads at which all points slip [1].
+
+        The factor is zero without friction at any point, and infinite without loads.
+
+        pressure  pressure at the points (points,) [force/length^2]
+        loads     loads of the tangential motions (3,); None for a load that is not prescribed
+        """
+        target = TangentialTarget(tuple(loads), (None, None, None))
+        given = RigidMotions(2, self._rigid_motions(target))
+        bound = self.scale.roots * self.bound(pressure)
+        if not np.any(bound):
+            return 0.0
+        return limit_load(given, bound)[0] if np.any(given.prescribed_forces) else np.inf
 
     @cached_property
     def scale(self) -> UnequalAreas:
@@ -76,9 +92,24 @@ class PointProblem:
         return UnequalAreas(self.compliance.areas)
 
     @cached_property
-    def reach(self) -> float:
-        """Largest displacement of a point by a unit shift or twist; 1 if no motion is possible."""
-        return float(np.max(np.hypot(*self.compliance.motion))) or 1.0
+    def _closing(self) -> RigidMotion:
+        """Approach of the indenter, with prescribed force or value."""
+        shape = np.ones((1, len(self.gap)))
+        return self.scale.rigid_motion(shape, 1.0, self.normal.force, self.normal.approach)
+
+    def _rigid_motions(self, target: TangentialTarget) -> tuple[RigidMotion, ...]:
+        """Return the shifts and the twist of the indenter times `reaches`, without excluded ones.
+
+        A motion without a prescribed load and value is omitted.
+
+        target  prescribed loads or motions
+        """
+        motions, reaches = self.compliance.motions, self.compliance.reaches
+        return tuple(
+            self.scale.rigid_motion(motions[k], reaches[k], target.loads[k], target.motions[k])
+            for k in self.compliance.acting
+            if target.loads[k] is not None or target.motions[k] is not None
+        )
 
     @cached_property
     def coupled(self) -> CoupledProblem:
@@ -89,9 +120,6 @@ class PointProblem:
         matrix = compliance.matrix * units
         matrix *= units[:, None]
         inverse = DenseInverse(matrix)
-        normal, tangential = self.normal, self.tangential
-        # Symmetry may exclude all tangential motions.
-        shifting = [compliance.motion] if np.any(compliance.motion) else []
         return scale.problem(
             product=lambda t: (matrix @ t.ravel()).reshape(t.shape),
             inverse=inverse,
@@ -101,23 +129,20 @@ class PointProblem:
             friction_limit=self.bound,
             friction_slope=lambda p: np.where(carries_shear, friction.slope(p), 0.0),
             target=self.target,
-            closing=scale.rigid_motion(np.ones((1, n)), 1.0, normal.force, normal.approach),
-            shifting=tuple(
-                scale.rigid_motion(shape, self.reach, tangential.load, tangential.motion)
-                for shape in shifting
-            ),
+            closing=self._closing,
+            shifting=self._rigid_motions(self.tangential),
         )
 
 
 @dataclass(frozen=True)
 class PointSolution:
-    """Solution of the contact problem of an increment: tractions and rigid motion of the indenter.
+    """Solution of the contact problem of an increment: tractions and rigid motions of the indenter.
 
     pressure   pressure at the points (points,) [force/length^2]
     shear      shear at the points (2, points) [force/length^2]
     approach   rigid approach [length]
-    shift      shift [length] or twist [radian]; None if the load is at the friction limit (gross
-               slip)
+    motions    shifts along and across the load [length] and twist [radian]; None if the loads are
+               at the friction limit (gross slip)
     in_slip    True for slipping points (points,)
     outer_iterations, solves
                numbers of outer iterations of the coupled problem and of linear iterations
@@ -127,7 +152,7 @@ class PointSolution:
     pressure: Vector
     shear: Field
     approach: float
-    shift: float | None
+    motions: Triple | None
     in_slip: Mask
     outer_iterations: int
     solves: int
@@ -135,17 +160,18 @@ class PointSolution:
 
 
 def solve_points(
-    problem: PointProblem, pressure: Vector, shear: Field, shift: float, tolerance: float
+    problem: PointProblem, pressure: Vector, shear: Field, motions: Triple, tolerance: float
 ) -> PointSolution:
     """Solve pressure and shear of an increment at the points of the surface.
 
-    problem                 compliance, gap, friction and prescribed loads of the increment
-    pressure, shear, shift  initial guesses: p (points,), q (2, points), and shift or twist
-    tolerance               limit of the dimensionless residuals
-    raises                  NotConverged
+    problem                   compliance, gap, friction and prescribed loads of the increment
+    pressure, shear, motions  initial guesses: p (points,), q (2, points), shifts and twist
+    tolerance                 limit of the dimensionless residuals
+    raises                    NotConverged
     """
     coupled, s, aim = problem.coupled, problem.scale.roots, min(tolerance, ACCURATE)
-    motion = np.full(len(coupled.shifting), shift * problem.reach)
+    acting = list(problem.compliance.acting)
+    motion = (np.array(motions) * problem.compliance.reaches)[acting]
     p, q = s * _loaded(problem, pressure), s * shear
     if problem.compliance.couples:
         found = solve_together(coupled, p, q, motion, aim)
@@ -153,7 +179,7 @@ def solve_points(
             found.pressure / s,
             found.shear / s,
             float(found.closing[0]),
-            None if found.at_limit else _shift(problem, found.motion),
+            None if found.at_limit else _motions(problem, found.motion),
             found.in_slip,
             found.outer_iterations,
             found.iterations,
@@ -164,7 +190,7 @@ def solve_points(
     bound = coupled.friction_limit(p)
     if coupled.exhausts_friction(bound):
         q, motion = full_slip(coupled.shifting, bound, motion)
-        moved = None if coupled.shifting.held.each else _shift(problem, motion)
+        moved = None if coupled.shifting.held.each else _motions(problem, motion)
         in_slip = bound > 0
         return PointSolution(p / s, q / s, approach, moved, in_slip, 1, pressed.iterations)
     start = Point(q, coupled.tangential(q))
@@ -173,15 +199,23 @@ def solve_points(
         p / s,
         sheared.shear / s,
         approach,
-        _shift(problem, sheared.motion),
+        _motions(problem, sheared.motion),
         sheared.in_slip,
         1,
         pressed.iterations + sheared.iterations,
     )
 
 
-def _shift(problem: PointProblem, motion: Vector) -> float:
-    return float(motion[0]) / problem.reach if len(motion) else 0.0
+def _motions(problem: PointProblem, motion: Vector) -> Triple:
+    """Return shifts and twist, of which those that symmetry excludes are zero.
+
+    motion  motions of the solver, times `reaches`
+    """
+    found = np.zeros(3)
+    acting = list(problem.compliance.acting)
+    found[acting] = motion / problem.compliance.reaches[acting]
+    along, across, twist = found.tolist()
+    return along, across, twist
 
 
 def _loaded(problem: PointProblem, pressure: Vector) -> Vector:

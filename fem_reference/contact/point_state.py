@@ -7,6 +7,7 @@ import numpy as np
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
+from fem_reference.loads import Triple
 
 
 @dataclass(frozen=True)
@@ -32,11 +33,12 @@ class PointState:
                     points) [length]
     in_stick        True for points in the stick zone (points,)
     status          full stick, partial slip, gross sliding, or no stick area left
-    load            tangential force [force] or torque [force length]
-    motion          shift [length] or twist [radian]; None at the friction limit under a prescribed
-                    load
+    loads           tangential forces along and across the load [force], torque [force length]
+    motions         shifts along and across the load [length], twist [radian]; None at the friction
+                    limit under prescribed loads
+    twist           prescribed twist [radian]; None if the torque is prescribed
     dissipated_energy
-                    energy lost to friction since the start; None if the motion is None
+                    energy lost to friction since the start; None if the motions are None
     overlap         largest overlap that the penalty springs permit [length]
     moved           largest mean tangential displacement in the history, weighted with the shear
                     [length]
@@ -59,8 +61,9 @@ class PointState:
     status: ContactStatus
     normal_force: float
     approach: float
-    load: float
-    motion: float | None
+    loads: Triple
+    motions: Triple | None
+    twist: float | None
     dissipated_energy: float | None
     residuals: Residuals
     overlap: float = 0.0

@@ -64,7 +64,7 @@ class Recovery:
     material: Indices
     share: Field
 
-    def amplitude(self, of: Motion, u: Field, scales: Scales) -> Amplitude:
+    def amplitude(self, of: Motion, u: Field, scales: Scales, *, turned: bool) -> Amplitude:
         """Compute displacement and stress at the nodes of a section from nodal displacements.
 
         The nodal displacements belong to one angular harmonic. A node on an interface has one
@@ -73,6 +73,7 @@ class Recovery:
         of      motion: angular harmonic and components of the displacement
         u       dimensionless nodal displacement (c, nodes) for c components
         scales  units of length and stress of the result
+        turned  True for a harmonic turned by a quarter wave
         """
         strain = dict.fromkeys(ORDER, np.zeros_like(self.at.dx))
         for component, values in zip(of.components, u, strict=True):
@@ -90,7 +91,7 @@ class Recovery:
             np.add.at(row, self.cells.ravel(), (stress @ self.extrapolation.T).ravel())
         displacement = np.zeros((3, len(self.node)))
         displacement[list(of.components)] = u[:, self.node] * scales.length
-        return Amplitude(of, displacement, total / self.share * scales.modulus)
+        return Amplitude(of, displacement, total / self.share * scales.modulus, turned)
 
 
 def recovery_of(section: SectionMesh) -> Recovery:

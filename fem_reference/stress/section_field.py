@@ -24,17 +24,20 @@ class Amplitude:
     """Amplitudes of displacement and stress in one angular harmonic n, at the points of a section.
 
     The motion is the displacement field of the harmonic, such as that of normal loading or torsion.
-    u_theta and the stresses tz and rt are ∝ sin n theta, all other components ∝ cos n theta. The
-    fields of torsion do not depend on theta.
+    u_theta and the stresses tz and rt are ∝ sin n theta, all other components ∝ cos n theta. If the
+    harmonic is turned by a quarter wave, they are ∝ -cos n theta and ∝ sin n theta. The fields of
+    torsion do not depend on theta.
 
     motion        angular harmonic and displacement components
     displacement  u_r, u_theta, u_z (3, points) [length]
     stress        rr, tt, zz, tz, rz, rt (6, points), tension positive [force/length^2]
+    turned        True for a harmonic turned by a quarter wave
     """
 
     motion: Motion
     displacement: Field
     stress: Field
+    turned: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,14 +115,18 @@ class SectionField:
         Each harmonic n has the amplitudes of one motion, such as that of normal loading or torsion.
 
         fields   amplitudes of the field in every motion, such as the stress (6, n)
-        as_sine  indices of the components that are ∝ sin n theta; all others are ∝ cos n theta
+        as_sine  indices of the components that are ∝ sin n theta; all others are ∝ cos n theta,
+                 except in harmonics that are turned by a quarter wave
         theta    angle from the direction of the load [radian]
         """
         total = np.zeros_like(fields[0])
         for part, field in zip(self.parts, fields, strict=True):
             n = part.motion.harmonic
-            factor = np.full(len(field), np.cos(n * theta))
+            even, odd = np.cos(n * theta), np.sin(n * theta)
+            if part.turned:
+                even, odd = odd, -even
+            factor = np.full(len(field), even)
             if n > 0:
-                factor[list(as_sine)] = np.sin(n * theta)
+                factor[list(as_sine)] = odd
             total += factor[:, None] * field
         return total

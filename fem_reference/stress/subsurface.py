@@ -6,6 +6,7 @@ The steps are mesh, nodal forces, one solve for each motion, and recovery of the
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import groupby
 from math import ceil
 
 import numpy as np
@@ -14,14 +15,13 @@ from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial
 from contact_scene.array_types import Field
 from contact_scene.solver_errors import UnsupportedScene
 from fem_reference.elasticity.factored_section import FactoredSection
-from fem_reference.elasticity.motion import Motion
 from fem_reference.elasticity.weak_form import dilatation
 from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from fem_reference.mesh.section_outline import CONTACT_ZONE
 from fem_reference.scales import Scales
 from fem_reference.stress.recovery import recovery_of
 from fem_reference.stress.section_field import SectionField
-from fem_reference.stress.surface_tractions import SurfaceTractions
+from fem_reference.stress.surface_tractions import SurfaceTractions, TractionAmplitude
 
 POINTS_BETWEEN = 4
 # Ratio of a traction amplitude to the largest one, below which the amplitude is round-off.
@@ -70,14 +70,16 @@ def subsurface(
     recovery = recovery_of(section)
     points = _create_load_points(section, tractions, length)
     found = _load_preserving_amplitudes(tractions, points, length)
-    largest = max(float(np.max(np.abs(t))) for _, t in found)
+    largest = max(float(np.max(np.abs(part.values))) for part in found)
+    acting = [part for part in found if np.max(np.abs(part.values)) > ROUND_OFF * largest]
     parts = []
-    for of, amplitude in found:
-        if np.max(np.abs(amplitude)) > ROUND_OFF * largest:
-            sign = np.where(np.array(of.components) == 2, 1.0, -1.0 if upper else 1.0)
-            forces = sign[:, None] * amplitude / modulus @ points.weighted.T
-            u = FactoredSection(section, of).displacement(forces[..., None])[..., 0]
-            parts.append(recovery.amplitude(of, u, scales))
+    for of, loads in groupby(acting, lambda part: part.motion):
+        alike = list(loads)
+        sign = np.where(np.array(of.components) == 2, 1.0, -1.0 if upper else 1.0)
+        forces = [sign[:, None] * part.values / modulus @ points.weighted.T for part in alike]
+        moved = FactoredSection(section, of).displacement(np.stack(forces, axis=-1))
+        for k, part in enumerate(alike):
+            parts.append(recovery.amplitude(of, moved[..., k], scales, turned=part.turned))
     nodes = _node_positions(body, section, recovery.basis.doflocs[:, recovery.node], length)
     return SectionField(nodes, recovery.material, recovery.cells, tuple(parts))
 
@@ -149,13 +151,12 @@ class _LoadPoints:
 
 def _load_preserving_amplitudes(
     tractions: SurfaceTractions, points: _LoadPoints, length: float
-) -> list[tuple[Motion, Field]]:
+) -> list[TractionAmplitude]:
     """Compute amplitudes of surface tractions whose normal load equals that of the contact solve.
 
     The contact solve interpolates tractions linearly between rings. Tractions that decrease like a
     square root at the contact edge have a slightly larger load. All amplitudes are therefore
-    multiplied by the ratio of the loads. Each item of the list contains a motion (angular harmonic)
-    and its amplitudes at the integration points.
+    multiplied by the ratio of the loads. The amplitudes are those at the integration points.
 
     tractions  surface tractions on rings
     points     integration points of the tractions
@@ -166,8 +167,8 @@ def _load_preserving_amplitudes(
     if not tractions.edges.size:
         return found
     linear = replace(tractions, rooted=False).amplitudes(radii)
-    carried, load = (float(parts[0][1][-1] @ weight) for parts in (found, linear))
-    return [(of, amplitude * (load / carried)) for of, amplitude in found]
+    carried, load = (float(parts[0].values[-1] @ weight) for parts in (found, linear))
+    return [replace(part, values=part.values * (load / carried)) for part in found]
 
 
 def _create_load_points(

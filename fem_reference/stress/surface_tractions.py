@@ -12,6 +12,7 @@ from fem_reference.compliance.angular_grid import (
     AngularGrid,
     end_grid,
     mid_grid,
+    whole_grid,
 )
 from fem_reference.compliance.gauss_points import POINTS_PER_EDGE
 from fem_reference.compliance.ring_edge import (
@@ -30,7 +31,24 @@ from fem_reference.fields import Increment
 # line and this oscillation are fitted to FITTED elements before the last.
 FITTED, OSCILLATION = 8, -0.3
 FEWEST_RINGS = 4
+# Indices among r, θ and z of the components whose harmonics q_r, q_theta, the shear along the load
+# and the pressure have. Tractions with angles have no shear along the load.
+COMPONENTS = [0, 1, 0, 2]
 BETWEEN_RAYS = 2  # number of rays for the tractions per ray of the solution
+
+
+@dataclass(frozen=True, eq=False)
+class TractionAmplitude:
+    """Amplitudes of the surface tractions in one angular harmonic, at given radii.
+
+    motion  harmonic and its displacement components
+    values  amplitudes (c, radii) of the c components among q_r, q_theta and p [force/length^2]
+    turned  True for a harmonic turned by a quarter wave: (sin nθ, -cos nθ, sin nθ)
+    """
+
+    motion: Motion
+    values: Field
+    turned: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,12 +135,11 @@ class SurfaceTractions:
         amplitudes = self._angular_grid.cosines @ self._edge_radii
         return np.array([np.sum(amplitudes), np.sum(amplitudes[::2]) - np.sum(amplitudes[1::2])])
 
-    def amplitudes(self, radii: Field) -> list[tuple[Motion, Field]]:
+    def amplitudes(self, radii: Field) -> list[TractionAmplitude]:
         """Compute the amplitudes of the surface tractions in all angular harmonics, at given radii.
 
-        Each item of the list contains a motion, which defines the harmonic and its displacement
-        components, and the amplitudes (c, radii) of the c components among q_r, q_theta and p
-        [force/length^2].
+        The first amplitude contains the pressure of harmonic 0. Amplitudes of one motion are
+        adjacent.
 
         radii  radii at which the tractions are evaluated [length]
         """
@@ -136,14 +153,17 @@ class SurfaceTractions:
             else self._interpolate_linearly(radii, rays)
         )
         if self.angles is not None:
-            motions = [motion(n) for n in range(self._angular_grid.highest + 1)]
-            return [(m, values[[0, 1, 3]][list(m.components), :, m.harmonic]) for m in motions]
-        outward, around, along, pressure = values[..., 0]
-        found = [(PRESSING, np.stack([outward, pressure]))]
+            return [
+                _amplitude_of(n, family[[0, 1, 3], :, n], turned=turned > 0)
+                for n in range(self._angular_grid.highest + 1)
+                for turned, family in enumerate(values)
+            ]
+        outward, around, along, pressure = values[0, ..., 0]
+        found = [TractionAmplitude(PRESSING, np.stack([outward, pressure]))]
         if self.shear_circumferential is not None:
-            found.append((TORSION, around[None]))
+            found.append(TractionAmplitude(TORSION, around[None]))
         if self.shear_along_load is not None:
-            found.append((SHEARING, np.stack([along, -along, 0.0 * along])))
+            found.append(TractionAmplitude(SHEARING, np.stack([along, -along, 0.0 * along])))
         return found
 
     @property
@@ -168,11 +188,13 @@ class SurfaceTractions:
     def _angular_grid(self) -> AngularGrid:
         """Angular grid of the rays on which the tractions are given, with transforms to harmonics.
 
-        A ray is the set of surface points at one angle. The first ray is at θ = 0, or half a step
-        away from it.
+        A ray is the set of surface points at one angle. The rays cover the half circle, with the
+        first ray at θ = 0 or half a step away from it, or the whole circle from θ = 0.
         """
         assert self.angles is not None
         count = len(self.angles)
+        if self.angles[-1] > 1.25 * np.pi:
+            return whole_grid(count // 2)
         return end_grid(count - 1) if self.angles[0] == 0 else mid_grid(count)
 
     @property
@@ -198,8 +220,8 @@ class SurfaceTractions:
     def _interpolate_linearly(self, radii: Field, rays: Field) -> Field:
         """Interpolate surface tractions linearly between rings, and transform them to harmonics.
 
-        The result contains amplitudes of the angular harmonics (4, radii, harmonics), or the
-        interpolated tractions (4, radii, 1) if they are axisymmetric.
+        The result contains amplitudes of the angular harmonics (families, 4, radii, harmonics), or
+        the interpolated tractions (1, 4, radii, 1) if they are axisymmetric.
 
         radii  radii at which the tractions are evaluated [length]
         rays   q_r, q_theta, shear along the load, and pressure on rings and rays (4, rings, angles)
@@ -213,8 +235,8 @@ class SurfaceTractions:
         The pressure is √(1 - r²/a²) times a smooth factor, with the radius a of the contact edge.
         The shear is the pressure times a ratio. Factor and ratio are interpolated between the rays
         first, because a differs from ray to ray. The result contains amplitudes of the angular
-        harmonics (4, radii, harmonics), or the interpolated tractions (4, radii, 1) if they are
-        axisymmetric.
+        harmonics (families, 4, radii, harmonics), or the interpolated tractions (1, 4, radii, 1) if
+        they are axisymmetric.
 
         radii  radii at which the tractions are evaluated [length]
         rays   q_r, q_theta, shear along the load, and pressure on rings and rays (4, rings, angles)
@@ -228,33 +250,51 @@ class SurfaceTractions:
             factors[3, :, ray] = _smooth_factor(radii, at, pressed, edge, self._per_element)
         edges, fine = self._edge_radii, None
         if self.angles is not None:
-            fine = end_grid(BETWEEN_RAYS * self._angular_grid.highest)
-            cosines, sines = self._angular_grid.modes(fine.angles)
-            modes = (cosines, sines, cosines, cosines)
+            grid = self._angular_grid
+            refined = whole_grid if grid.whole else end_grid
+            fine = refined(BETWEEN_RAYS * grid.highest)
+            modes = grid.modes(fine.angles)
             amplitudes = self._transform_angles(factors)
-            factors = np.stack([f @ m for f, m in zip(amplitudes, modes, strict=True)])
-            edges = (self._angular_grid.cosines @ self._edge_radii) @ cosines
+            factors = np.einsum("fcrn,fcnk->crk", amplitudes, modes[:, COMPONENTS])
+            by_family = [transforms[2] @ self._edge_radii for transforms in grid.families]
+            edges = np.einsum("fn,fnk->k", by_family, modes[:, 2])
         root = np.sqrt(np.maximum(1.0 - (radii[:, None] / edges) ** 2, 0.0))
         factors[3] *= root
         factors[:3] *= factors[3]
         if fine is None:
-            return factors
+            return factors[None]
         return self._transform_angles(factors, fine)[..., : self._angular_grid.highest + 1]
 
     def _transform_angles(self, values: Field, grid: AngularGrid | None = None) -> Field:
         """Transform surface tractions at several angles to amplitudes of angular harmonics.
 
-        The result has the shape (4, radii, harmonics). Axisymmetric tractions are returned
-        unchanged.
+        The result has the shape (families, 4, radii, harmonics). Axisymmetric tractions are
+        returned unchanged, as one family.
 
         values  q_r, q_theta, shear along the load, and pressure (4, radii, angles)
         grid    angular grid of the values; None for the rays on which these tractions are given
         """
         if self.angles is None:
-            return values
-        on = grid or self._angular_grid
-        transforms = (on.cosines, on.sines, on.cosines, on.cosines)
-        return np.stack([f @ d.T for f, d in zip(values, transforms, strict=True)])
+            return values[None]
+        return np.stack(
+            [
+                [f @ transforms[c].T for f, c in zip(values, COMPONENTS, strict=True)]
+                for transforms in (grid or self._angular_grid).families
+            ]
+        )
+
+
+def _amplitude_of(n: int, tractions: Field, *, turned: bool) -> TractionAmplitude:
+    """Create the amplitude of one angular harmonic of the tractions on the surface.
+
+    n          number of the harmonic
+    tractions  amplitudes of q_r, q_theta and p (3, radii) [force/length^2]
+    turned     True for a harmonic turned by a quarter wave; that of n = 0 is torsion
+    """
+    if turned and n == 0:
+        return TractionAmplitude(TORSION, -tractions[1:2])
+    of = motion(n)
+    return TractionAmplitude(of, tractions[list(of.components)], turned)
 
 
 def _smooth_factor(radii: Field, at: Field, pressed: Field, edge: float, per_element: int) -> Field:

@@ -17,8 +17,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from contact_scene.array_types import Array, Mask
+from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.solver_errors import UnsupportedScene
-from radial.plan import ELSEWHERE
 from radial.stress.loaded_circle import LoadedCircle
 
 RADII, ANGLES = 241, 360  # grid of a circle; the error of linear interpolation is about 1e-5

@@ -13,6 +13,7 @@ import numpy as np
 from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
 from contact_scene.array_types import Array
 from contact_scene.body_pair import coupling
+from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import UnsupportedScene
@@ -38,7 +39,7 @@ from radial.output_points import (
     target,
     targets,
 )
-from radial.plan import ELSEWHERE, Plan
+from radial.plan import Plan
 from radial.response.bodies import Bodies
 from radial.tangential.free_motion import growth_without_slip
 from radial.tangential.ring_friction import solve_increment

@@ -11,6 +11,7 @@ import numpy as np
 
 from contact_scene import ControlKind, LoadRamp
 from contact_scene.array_types import Array
+from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.load_stepping import (
@@ -20,7 +21,6 @@ from contact_scene.stepping.load_stepping import (
 from radial.fields import Increment
 from radial.normal.pressing import NormalContact
 from radial.output_points import StepsOnRings
-from radial.plan import ELSEWHERE
 from radial.torsion.torsion import Torsion
 from radial.torsion.twist_path import TwistPath
 

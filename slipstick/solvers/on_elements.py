@@ -14,9 +14,10 @@ from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.reading.engineering_units import quantity
 from contact_scene.stepping.checkpoint import CheckpointStore
 from fem_reference import Method, Path, Plan, Result
-from fem_reference.expected_radius import meshed_radius, sections_of
+from fem_reference.expected_radius import count_points, meshed_radius, sections_of
 from fem_reference.memory import largest_bytes, run_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
+from fem_reference.plan import ANGULAR
 from slipstick.solvers.solver import Pairs, Progress, Solver, increments_text
 
 if TYPE_CHECKING:
@@ -71,9 +72,9 @@ class OnElements(Solver):
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
         yield "factorisations", f"{motions * len(sections)}, {text}"
         yield self.time(scene, fineness, fineness, plan)
-        needed = run_bytes(
-            largest_bytes(max(each.quads.shape[1] for each in sections), motions > 1)
-        )
+        largest = largest_bytes(max(each.quads.shape[1] for each in sections), motions > 1)
+        points = count_points(sections, plan.path, fineness.harmonics)
+        needed = run_bytes(largest, points)
         yield "memory", f"about {needed / 2**20:.0f} MiB"
 
     def layout(self, result: Result) -> Pairs:
@@ -109,6 +110,6 @@ def _count_harmonics(plan: Plan, fineness: FiniteElementDiscretisation) -> int:
     plan      solution path of the solve
     fineness  settings with the number of harmonics
     """
-    if plan.path is Path.HARMONICS:
-        return fineness.harmonics + 1
-    return 2 if plan.path in (Path.TWISTING, Path.SHEARING) else 1
+    if plan.path in ANGULAR:
+        return fineness.harmonics + 1 + (plan.path is Path.WHOLE_CIRCLE)
+    return 1 if plan.path in (Path.PRESSING, Path.PRESSING_WITH_FRICTION) else 2

@@ -81,7 +81,7 @@ def _history_dropped(whole: Any, contact: Any, before: Any, *more: Any) -> Any:
         first = contact.state_before_contact()
         forgotten = {
             name: getattr(first, name)
-            for name in ("shear", "displacement", "slip", "motion", "dissipated_energy")
+            for name in ("shear", "displacement", "slip", "motions", "dissipated_energy")
         }
         before = replace(before, **forgotten)
     return whole(contact, before, *more)

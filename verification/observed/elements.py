@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,9 @@ from fem_reference.scales import Scales
 from verification.observed.contact_state import BISECTED, UNDEFINED, Balance, ContactState
 
 Field = NDArray[np.float64]
+
+ANGULAR = (Path.HARMONICS, Path.WHOLE_CIRCLE)
+TWISTED = (Path.TWISTING, Path.TWISTING_WITH_FRICTION, Path.WHOLE_CIRCLE)
 
 # Gauss points of an element, exact for the product of r and a linear function.
 PLACES, PARTS = np.polynomial.legendre.leggauss(2)
@@ -57,7 +61,8 @@ class Rings:
     model   finite element contact model
     path    kind of load history of the result
     basis   functions that carry the tractions over the radius
-    angles  angles of the half circle, ends included; one angle for axisymmetric fields [radian]
+    angles  angles of the half circle, ends included, or of the whole circle; one angle for
+            axisymmetric fields [radian]
     """
 
     model: ContactModel
@@ -86,17 +91,23 @@ class Rings:
 
     @cached_property
     def driven(self) -> Field:
-        """Displacement of the points (2, rings, angles) per unit displacement of the indenter.
+        """Displacement of the points (3, 2, rings, angles) per unit motion of the indenter.
 
-        For a tangential load the indenter is shifted along the load [1]. For torsion it is rotated,
-        and the mean over each ring is taken [length]. The displacement is zero without a tangential
-        load.
+        The motions are the shifts along and across the load [1], and the twist, whose displacement
+        is the mean over each ring [length]. Motions that are excluded on the path have zero
+        displacement.
         """
-        if self.path is Path.TWISTING:
-            return np.stack([self.on_grid(None), self.on_grid(self.arms)])
-        vector = np.stack([np.cos(self.angles), -np.sin(self.angles)])[:, None]
-        tangential = self.path is Path.SHEARING or len(self.angles) > 1
-        return np.broadcast_to(vector if tangential else 0.0, (2, *self._shape))
+        cos, sin = np.cos(self.angles), np.sin(self.angles)
+        found = np.zeros((3, 2, *self._shape))
+        if self.path is Path.SHEARING or len(self.angles) > 1:
+            found[0] = np.stack([cos, -sin])[:, None]
+        if self._covers_circle:
+            found[1] = np.stack([sin, cos])[:, None]
+        if self.path in TWISTED:
+            found[2, 1] = self.on_grid(self.arms)
+            if len(self.angles) > 1:
+                found[2, :, 0] = 0.0
+        return found
 
     @property
     def arms(self) -> Field:
@@ -174,11 +185,13 @@ class Rings:
             normal = self.model.compliance(PRESSING).matrix[1, :, 1]
             return u, self._ring_means(normal, p[:, 0])[:, None]
         tractions, u = np.stack([*q, p]), np.zeros((3, *self._shape))
-        for n in range(len(self.angles)):
-            wave, loads = self._angular_functions(n), self._angular_amplitudes(n, tractions)
+        families = (False, True) if self.path in TWISTED else (False,)
+        for n, turned in product(range(self._highest + 1), families):
+            wave = self._angular_functions(n, turned=turned)
+            loads = self._angular_amplitudes(wave, tractions)
             if not np.any(loads):
                 continue
-            condensed = self.model.compliance(motion(n))
+            condensed = self.model.compliance(TORSION if turned and n == 0 else motion(n))
             for i, a in enumerate(condensed.motion.components):
                 for j, b in enumerate(condensed.motion.components):
                     u[a] += np.outer(self._ring_means(condensed.matrix[i, :, j], loads[b]), wave[a])
@@ -190,30 +203,43 @@ class Rings:
     def _shape(self) -> tuple[int, int]:
         return len(self.basis.radii), len(self.angles)
 
+    @property
+    def _covers_circle(self) -> bool:
+        """True if the angles cover the whole circle, and not half of it."""
+        return len(self.angles) > 1 and self.path is Path.WHOLE_CIRCLE
+
+    @property
+    def _highest(self) -> int:
+        """Highest angular harmonic of the fields."""
+        return len(self.angles) // 2 if self._covers_circle else len(self.angles) - 1
+
     @cached_property
     def _angle_weights(self) -> Field:
         """Integration weights (angles,) of the trapezium rule over the full circle [radian]."""
-        if len(self.angles) == 1:
-            return np.array([2 * np.pi])
+        if len(self.angles) == 1 or self._covers_circle:
+            return np.full(len(self.angles), 2 * np.pi / len(self.angles))
         share = np.full(len(self.angles), 2 * self.angles[1])
         share[[0, -1]] /= 2
         return share
 
-    def _angular_functions(self, n: int) -> Field:
+    def _angular_functions(self, n: int, *, turned: bool) -> Field:
         """Return the cosines and sines (3, angles) by which the r, θ and z components of harmonic n
         vary.
-        """
-        inner = (self.angles > 0) & (np.arange(len(self.angles)) < len(self.angles) - 1)
-        cos, sin = np.cos(n * self.angles), np.where(inner, np.sin(n * self.angles), 0.0)
-        # With as many angles as harmonics, the sine of the last harmonic is zero at all angles.
-        return np.stack([cos, sin if n < len(self.angles) - 1 else 0.0 * sin, cos])
 
-    def _angular_amplitudes(self, n: int, tractions: Field) -> Field:
-        """Compute the amplitudes (3, rings) of harmonic n of tractions (3, rings, angles).
+        turned  True for the harmonic turned by a quarter wave: (sin nθ, -cos nθ, sin nθ)
+        """
+        cos, sin = np.cos(n * self.angles), np.sin(n * self.angles)
+        # The angles are multiples of π/J, at which the sine of the highest harmonic J is zero.
+        sin[(n % max(self._highest, 1) == 0) | (np.abs(np.sin(self.angles)) < 1e-9)] = 0.0
+        return np.stack([sin, -cos, sin] if turned else [cos, sin, cos])
+
+    def _angular_amplitudes(self, waves: Field, tractions: Field) -> Field:
+        """Compute the amplitudes (3, rings) of one harmonic of tractions (3, rings, angles).
 
         The trapezium rule over the angles is exact for these harmonics.
+
+        waves  functions of the angle of the three components (3, angles)
         """
-        waves = self._angular_functions(n)
         norms = np.sum(self._angle_weights * waves**2, axis=1)
         found = np.einsum("cra,ca,a->cr", tractions, waves, self._angle_weights)
         return found / np.where(norms > 0, norms, 1.0)[:, None]
@@ -229,8 +255,9 @@ class Rings:
 
         u  displacements (3, rings, angles) along r, θ and z [length]
         """
-        share, direction = self._angle_weights / (2 * np.pi), self.driven[:, 0]
-        u[:2, 0] = np.sum(share * u[:2, 0] * direction) * direction
+        share, shifts = self._angle_weights / (2 * np.pi), self.driven[:2, :, 0]
+        means = np.sum(share * u[:2, 0] * shifts, axis=(1, 2))
+        u[:2, 0] = np.tensordot(means, shifts, axes=1)
         u[2, 0] = np.sum(share * u[2, 0])
 
 
@@ -242,7 +269,7 @@ def states_on_elements(result: Result) -> list[ContactState]:
     not contain the deformation of the contact springs.
     """
     last = result.increments[-1]
-    penalty, harmonics = last.overlap is not None, result.plan.path is Path.HARMONICS
+    penalty, harmonics = last.overlap is not None, result.plan.path in ANGULAR
     if penalty and harmonics and any(i.augmentations for i in result.increments):
         raise ValueError("springs on harmonics were augmented: take augmentations = 0")
     rings = Rings.of(result, on_points=penalty and not harmonics)
@@ -272,11 +299,11 @@ def _state_on_elements(
 ) -> ContactState:
     p, q = rings.on_grid(increment.pressure), rings.vector(increment, "shear")
     along, u_z = rings.displacement(p, q)
-    if result.plan.path is Path.HARMONICS:  # contact springs are treated as part of the bodies
+    if result.plan.path in ANGULAR:  # contact springs are treated as part of the bodies
         along, u_z, give = along + give * q, u_z + give * p, 0.0
-    force, motion = _load_and_motion(increment, result)
-    if motion is None and force == 0.0:
-        motion = 0.0
+    forces, motions = _loads_and_motions(increment, result)
+    if motions is None and not np.any(forces):
+        motions = np.zeros(3)
     w, friction, depth = rings.weights, rings.model.friction, abs(increment.approach)
     limit, stretched = friction.limit(p), rings.stretched(increment)
     gap, driven = rings.undeformed + u_z - increment.approach, rings.driven
@@ -288,33 +315,40 @@ def _state_on_elements(
         overlap = float(np.max(np.abs(gap), where=p > 0, initial=0.0))
         stated.append(abs(overlap - increment.overlap) / depth)
         loose = (limit + friction.limit(np.maximum(p + gap / give, 0.0))) * give
-    most = float(np.sum(w * limit * np.hypot(*driven))) or float(np.sum(w * limit))
+    most, carried = float(np.sum(w * limit)), np.sum(w * driven * q, axis=(1, 2, 3))
     balances = [Balance(rings.integral(p), increment.normal_force, increment.normal_force)]
     if most:
-        balances.append(Balance(float(np.sum(w * driven * q)), force, most))
-    slip, passed = rings.vector(increment, "slip"), along + stretched - (motion or 0.0) * driven
+        balances.append(Balance(carried[:2], forces[:2], most))
+        turning = float(np.sum(w * limit * driven[2, 1]))
+        if increment.torque is not None and turning:
+            balances.append(Balance(carried[2], forces[2], turning))
+    moved = np.zeros(3) if motions is None else motions
+    slip = rings.vector(increment, "slip")
+    passed = along + stretched - np.tensordot(moved, driven, axes=1)
     if increment.angles is None and result.plan.path is not Path.SHEARING and not give:
         passed[:, 0] = slip[:, 0]  # on the axis there is neither shear nor slip
-    undefined = motion is None or (bool(np.any(q)) and increment.dissipated_energy is None)
+    undefined = motions is None or (bool(np.any(q)) and increment.dissipated_energy is None)
     skipped = BISECTED if increment.halvings else UNDEFINED if undefined else ""
     strain = 0.0 if increment.bulk_strain is None else increment.bulk_strain[0]
     return ContactState(
         increment, w, rings.undeformed, p, gap, q, limit, slip, None if undefined else passed,
-        np.array([increment.normal_force, force, float(np.sum(w * q[0] * rings.arms[:, None]))]),
-        np.array([increment.approach, motion or 0.0, -strain]), depth, tuple(balances),
+        np.array([increment.normal_force, *forces, float(np.sum(w * q[0] * rings.arms[:, None]))]),
+        np.array([increment.approach, *moved, -strain]), depth, tuple(balances),
         tuple(stated), give, loose, unseen=skipped, open=skipped,
     )  # fmt: skip
 
 
-def _load_and_motion(increment: Increment, result: Result) -> tuple[float, float | None]:
-    """Return the tangential force and the shift of an increment, or in torsion the torque and the
-    twist.
+def _loads_and_motions(increment: Increment, result: Result) -> tuple[Field, Field | None]:
+    """Return the tangential loads and the tangential motions of the indenter, each (3,).
 
-    Force and shift are components along the tangential load. The shift or twist is None if it is
-    undefined.
+    The loads are the forces along and across the load, and the torque. The motions are the shifts
+    and the twist. They are None if one of them is undefined.
     """
-    if result.plan.path is Path.TWISTING:
-        return increment.torque or 0.0, increment.twist
-    direction, shift = result.plan.direction, increment.tangential_shift
-    force = float(np.dot(increment.tangential_force or (0.0, 0.0), direction))
-    return force, None if shift is None else float(np.dot(shift, direction))
+    x, y = result.plan.direction
+    axes = np.array([[x, y], [-y, x]])
+    forces = np.array([*axes @ (increment.tangential_force or (0.0, 0.0)), increment.torque or 0.0])
+    shift, twist = increment.tangential_shift, increment.twist
+    unknown = shift is None and increment.tangential_force is not None
+    if unknown or (twist is None and increment.torque is not None):
+        return forces, None
+    return forces, np.array([*axes @ (shift or (0.0, 0.0)), twist or 0.0])

@@ -213,15 +213,12 @@ def tractions_at(
     for value, part in zip(values, parts, strict=True):
         if part is not None:
             value[:] = part.reshape(rings, -1)
-    amplitudes = [
-        np.stack([np.interp(r.ravel(), increment.radii, f, right=0.0) for f in amplitude.T], axis=1)
-        for amplitude in grid.amplitudes(values)
-    ]
-    cosines, sines = grid.modes((theta - load).ravel())
-    q_r, q_theta, p = (
-        np.sum(f * waves.T, axis=1).reshape(r.shape)
-        for f, waves in zip(amplitudes, (cosines, sines, cosines), strict=True)
-    )
+    found, modes = np.zeros((3, r.size)), grid.modes((theta - load).ravel())
+    for family, waves in zip(grid.amplitudes(values), modes, strict=True):
+        for component, amplitude, wave in zip(found, family, waves, strict=True):
+            between = [np.interp(r.ravel(), increment.radii, f, right=0.0) for f in amplitude.T]
+            component += np.sum(np.stack(between) * wave, axis=0)
+    q_r, q_theta, p = found.reshape(3, *r.shape)
     q = np.stack([q_r * np.cos(theta) - q_theta * np.sin(theta),
                   q_r * np.sin(theta) + q_theta * np.cos(theta)])  # fmt: skip
     if increment.shear_along_load is not None:
@@ -231,11 +228,18 @@ def tractions_at(
 
 
 def _grid_of(increment: Increment) -> AngularGrid:
-    from fem_reference.compliance.angular_grid import axisymmetric_grid, end_grid, mid_grid
+    from fem_reference.compliance.angular_grid import (
+        axisymmetric_grid,
+        end_grid,
+        mid_grid,
+        whole_grid,
+    )
 
     if increment.angles is None:
         return axisymmetric_grid()
     points = len(increment.angles)
+    if increment.covers_circle:
+        return whole_grid(points // 2)
     return end_grid(points - 1) if increment.angles[0] == 0 else mid_grid(points)
 
 

@@ -144,11 +144,9 @@ class StabilityCell:
     def posable(self) -> bool:
         """True if the solver of the contact has a model of the scene.
 
-        Finite elements require bodies of revolution, a uniform friction coefficient and a
-        tangential load along one line.
+        Finite elements require bodies of revolution and a uniform friction coefficient.
         """
-        uneven = self.surface in NOT_OF_REVOLUTION or self.path is LoadingPath.CIRCLE
-        return not (self.solver.by_elements and uneven)
+        return not (self.solver.by_elements and self.surface in NOT_OF_REVOLUTION)
 
     def compute(self) -> CaseRecord:
         """Solve the contact and record its outcome; an error of the solver is an outcome, too."""
@@ -473,9 +471,9 @@ OF_SURFACES = (
     ),
 )  # fmt: skip
 
-# Bodies of revolution with uniform friction, and tangential loads along one line.
+# Bodies of revolution with uniform friction.
 SHAPES = tuple(surface for surface in Surface if surface not in NOT_OF_REVOLUTION)
-PATHS = tuple(path for path in LoadingPath if path is not LoadingPath.CIRCLE)
+PATHS = tuple(LoadingPath)
 OF_SECTIONS = (
     Asked(
         "elements-friction", "Finite elements: friction and force, T in one step",
@@ -538,7 +536,6 @@ OF_SECTIONS = (
         "path", "surface", {},
         bases=(
             replace(ORDINARY, surface=Surface.ROUGH), replace(ORDINARY, surface=Surface.PATCHY),
-            replace(ORDINARY, path=LoadingPath.CIRCLE),
         ),
     ),
     Asked(
@@ -873,7 +870,8 @@ def by_elements(posed: Posed, method: Method) -> SolvedContact:
     posed   scene and discretisation of the contact
     method  enforcement of the contact and friction laws: complementarity or penalty
     """
-    on_harmonics = fem_reference.plan(posed.scene).path is fem_reference.Path.HARMONICS
+    path = fem_reference.plan(posed.scene).path
+    on_harmonics = path in (fem_reference.Path.HARMONICS, fem_reference.Path.WHOLE_CIRCLE)
     discretisation = FiniteElementDiscretisation(
         elements_per_radius=posed.elements,
         harmonics=posed.elements // ELEMENTS_PER_HARMONIC,

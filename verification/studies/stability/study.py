@@ -423,8 +423,8 @@ REMARKS = (
     "are worked out anew from the returned tractions and the compliance of the section. Springs at "
     "Gauss points, corrected once, are held to what any correction allows: no overlap beyond p/ε, "
     "no slip that the motion lacks.",
-    "They cannot pose height maps, uneven friction and turning loads: of each one cell stands for "
-    "all, and is refused by name.",
+    "They cannot pose height maps and uneven friction: of each one cell stands for all, and is "
+    "refused by name.",
 )
 
 
