@@ -143,7 +143,6 @@ def test_slip_zone_of_an_earlier_step_is_that_where_a_pressed_contact_returns_to
 VALUES = np.linspace(0.1, 0.2, 16).reshape(4, 4)
 MAP = CoulombFriction.model_validate({"coefficient": {"map": VALUES, "spacing": 1.0}})
 REFUSED: dict[str, dict[str, Any]] = {
-    "zero": {"friction": CoulombFriction(coefficient=0.0)},
     "map": {"friction": MAP},
     "rim": {"indenter": FlatPunch(radius=RADIUS, material=RIGID)},
     "moment or a tilt": {"loading": (PRESS, LoadStep(tilt=(1e-4, 0.0)), push(0.3))},
