@@ -53,7 +53,7 @@ def run_bytes(factoring: float, points: int = 0) -> float:
                `required_bytes` [byte]
     points     number of contact points with coupled tractions
     """
-    return LIBRARIES + max(DRAWING, PART_IN_USE * factoring, matrix_bytes(points))
+    return LIBRARIES + max(DRAWING, PART_IN_USE * factoring) + matrix_bytes(points)
 
 
 def largest_bytes(elements: int, several_motions: bool) -> int:
