@@ -72,6 +72,8 @@ ORDERS: Mapping[str, float] = MappingProxyType(
         "map": 1.0,  # heights between points beside an edge of the surface
     }
 )
+# Relative round-off of a scalar by another method.
+REFERENCE_PRECISION = 1e-12
 # Ratio of the relative error of a scalar to the relative residual that causes this error.
 PER_TOLERANCE = 10.0
 # Largest ratio of error to scalar at which the error estimate counts as converged: a larger error
@@ -433,7 +435,7 @@ class SolvedRun:
             return None
         here = self.values[step][name]
         sizes = [np.abs(here - of[step][name]) for of in self.references if name in of[step]]
-        return np.max(sizes, axis=0) if sizes else None
+        return np.max(sizes, axis=0) + REFERENCE_PRECISION * np.abs(here) if sizes else None
 
     @cached_property
     def _largest_so_far(self) -> Sequence[Values]:
