@@ -62,6 +62,7 @@ LOOP = (
     LoadStep(tangential_force=(20.0, 0.0), increments=2),
     LoadStep(tangential_force=(-15.0, 0.0), increments=2),
 )
+ACROSS = LoadStep(tangential_force=(0.0, 15.0), increments=2)
 LED = (*LOOP, LoadStep(tangential_shift=(1e-8, 0.0), increments=3))
 SOFTER = Body(material=SOFT)
 LIFTED = (*LOOP, LoadStep(normal_force=0.0, tangential_force=(0.0, 0.0), increments=2), *LOOP[:2])
@@ -132,7 +133,12 @@ SOLVES = {
     **{
         f"{name} by {method.value}": on_section(body, loading, method)
         for method in fem_reference.Method
-        for name, body, loading in (("similar", PLAIN, LED), ("coupled", COATED, LOOP))
+        for name, body, loading in (
+            ("similar", PLAIN, LED),
+            ("coupled", COATED, LOOP),
+            ("turned and twisted", COATED, (*LOOP[:2], ACROSS, TURNED[1])),
+            ("coupled torsion", COATED, TURNED),
+        )
     },
 }
 
