@@ -72,8 +72,8 @@ ORDERS: Mapping[str, float] = MappingProxyType(
         "map": 1.0,  # heights between points beside an edge of the surface
     }
 )
-# Relative round-off of a scalar by another method.
-REFERENCE_PRECISION = 1e-12
+# Relative error of a scalar by another method: tolerance of the radial solver for layers.
+REFERENCE_PRECISION = 1e-9
 # Ratio of the relative error of a scalar to the relative residual that causes this error.
 PER_TOLERANCE = 10.0
 # Largest ratio of error to scalar at which the error estimate counts as converged: a larger error

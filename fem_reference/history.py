@@ -23,7 +23,7 @@ from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
 )
-from contact_scene.stepping.self_similar_growth import grow_from_nothing, self_similar_growth
+from contact_scene.stepping.self_similar_growth import grow_from_nothing, self_similar_exponent
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
 from fem_reference.energy import add_energies
@@ -122,12 +122,9 @@ class _IncrementSolver:
             self._tangential_target(ramp, start, fraction),
             (ramp.strain(fraction) or UNSTRAINED)[0],
         )
-        growth = None
-        if start is None:
-            last = (before.normal_force, before.approach) if before else (0.0, 0.0)
-            growth = self_similar_growth(self.scene, ramp, last, fraction)
+        exponent = self_similar_exponent(self.scene, ramp, fraction) if before is None else None
         return grow_from_nothing(
-            growth,
+            exponent,
             before,
             lambda state: self.method.advance(state, loads, self.tolerance),
             self.method.dilate,

@@ -21,7 +21,7 @@ from contact_scene.stepping.load_stepping import (
 )
 from contact_scene.stepping.self_similar_growth import (
     grow_from_nothing,
-    self_similar_growth,
+    self_similar_exponent,
 )
 from semi_analytical.edge.contact_area import covered_cells
 from semi_analytical.edge.corrected import Corrected, EdgeReport
@@ -204,15 +204,13 @@ class _Solver:
         def solve(last: State | None) -> State:
             return self.increment(self.model, last, normal, tangential, self.tolerance)
 
-        if start is not None or self.plan.coupling is Coupling.NONE:
+        if before is not None or self.plan.coupling is Coupling.NONE:
             return solve(before)
         from semi_analytical.coupled.dilated_state import dilated_state, with_free_motion
 
-        reached = (before.normal_force, before.pressing.approach) if before else (0.0, 0.0)
-        growth = self_similar_growth(self.model.scene, ramp, reached, fraction)
-        dilate = partial(dilated_state, self.model)
-        after = grow_from_nothing(growth, before, solve, dilate)
-        return after if growth is None else with_free_motion(self.model, before, after)
+        exponent = self_similar_exponent(self.model.scene, ramp, fraction)
+        after = grow_from_nothing(exponent, before, solve, partial(dilated_state, self.model))
+        return after if exponent is None else with_free_motion(self.model, after)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
         """Compute the gap of the undeformed surfaces on the full window at a tilt [length].

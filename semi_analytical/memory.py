@@ -4,7 +4,6 @@ from contact_scene.machine import available_bytes
 from contact_scene.quantities.stored_fields import MAX_IN_MEMORY
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.operator.transforms import MAX_BY_MATRIX
 from semi_analytical.plan import Coupling, Plan
 
 DOUBLE = 8
@@ -40,7 +39,8 @@ PRESSURE_RESULT = 2
 SHEAR_RESULT = 7
 LIGHT = 500  # bytes of an increment whose attributes are in a file
 LIBRARIES = 42 << 20  # bytes of libraries for the solution, without SciPy
-SCIPY = 27 << 20  # bytes of SciPy, which not every solution imports: 19 to 44 MiB by modules
+SCIPY = 27 << 20  # bytes of SciPy, for the solution or its errors: 19 to 44 MiB by modules
+REFERENCE = 20 << 20  # bytes of the radial solver, with which errors of uncoupled bodies compare
 # Output: libraries, arrays, and memory of the solver that is not returned to the system, more of
 # coupled bodies. Measured with the overview picture on 32 to 724 cells per side.
 DRAWING, DRAWING_ARRAYS, DRAWING_COUPLED = 75 << 20, 11, 9 << 20
@@ -49,7 +49,7 @@ DRAWING, DRAWING_ARRAYS, DRAWING_COUPLED = 75 << 20, 11, 9 << 20
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
     """Estimate the peak memory of a semi-analytical solution [byte].
 
-    Libraries, stored increments and figures are included.
+    Libraries, stored increments, figures and stated errors are included.
 
     grid  cells of the full window
     plan  physical effects to compute, and number of increments
@@ -64,20 +64,8 @@ def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
         solving = array * _count_arrays(grid, plan) + _edge_bytes(grid, plan)
     coupled = plan.coupling is not Coupling.NONE
     drawing = DRAWING + DRAWING_ARRAYS * array + DRAWING_COUPLED * coupled
-    libraries = LIBRARIES + SCIPY * _imports_scipy(grid, plan)
+    libraries = LIBRARIES + SCIPY + (0 if coupled else REFERENCE)
     return int(libraries + held + max(solving, drawing))
-
-
-def _imports_scipy(grid: SurfaceGrid, plan: Plan) -> bool:
-    """Return True if a solution uses SciPy: layers, coupled bodies, torsion, long transforms.
-
-    Transforms along an axis normal to a mirror plane are products with a matrix up to
-    `MAX_BY_MATRIX` cells of the reduced domain.
-    """
-    planes = plan.symmetry.planes if grid.even else ()
-    long = any(grid.cells[axis] > 2 * MAX_BY_MATRIX for axis in planes)
-    layered = any(effect.on and effect.name == "layers" for effect in plan.effects)
-    return long or layered or plan.torsion or plan.coupling is not Coupling.NONE
 
 
 def _domain_share(grid: SurfaceGrid, plan: Plan) -> float:

@@ -156,6 +156,7 @@ def test_all_numbers_kinds_and_families_are_judged(
     rows: list[Row], covered: Status, width: Status
 ) -> None:
     found = conclude(SETTINGS, records(rows)).statements
+    assert found
     expected_of = {"all numbers: tight": width} | dict.fromkeys(
         ("all numbers: covered", "approach", "family balls"), covered
     )

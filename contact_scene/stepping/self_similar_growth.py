@@ -1,4 +1,4 @@
-"""Contact of coupled bodies whose loads grow together from nothing, in large increments.
+"""First contact of coupled bodies whose loads grow together from nothing.
 
 The gap of a smooth tip is proportional to r^n. If the loads are in a constant ratio and friction is
 uniform, half-spaces in contact have no length but the contact radius a (Spence 1968). The contact
@@ -6,16 +6,15 @@ is then self-similar about the point of first contact:
 
     displacements ~ a^n,    tractions ~ a^(n-1),    forces ~ a^(n+1),    energies ~ a^(2n+1)
 
-The state at the contact radius λa is the state at a, dilated by λ. An increment of large growth is
-solved from this state, repeatedly, until the state at its end agrees with that at its start. A
+The state at the contact radius λa is the state at a, dilated by λ. A single increment is solved
+from this state, repeatedly, until the state at its end agrees with that at its start. A
 particle that sticks at the end has stuck since the border of the stick zone passed it. With the
 relative displacement s_b at the distance r_b of the border on its ray, its displacement is
 
     s = (r/r_b)^n s_b.
 
 Bodies with layers are self-similar only while the contact is small or large compared with the
-layers. The error is then of first order in the growth, with a smaller factor than without this
-start. Increments of small growth start from the preceding state, so that results converge.
+layers. Several increments start from their preceding state, so that results converge.
 """
 
 from __future__ import annotations
@@ -40,31 +39,13 @@ S = TypeVar("S")
 FACTOR = 0.9
 # Least number of points over the contact radius, so that both contact edges are one point apart.
 LEAST_POINTS = 1 / (1 - FACTOR)
-# Largest ratio of the contact radii at the start and the end of an increment that is solved in this
-# way: the first two of equal increments of the radius. The error of the others is smaller than that
-# of the state, if the bodies have layers.
-LARGE_GROWTH = 0.6
-# Limit of the change of the displacements at the start, at which the solves stop, over the
-# displacements at the end of the load step. The radius of the stick zone is then within 1 %, the
-# shift within 0.1 % of the limit.
+# Limit of the relative change of the displacements at the start, at which the solves stop. The
+# radius of the stick zone is then within 1 %, the shift within 0.1 % of the limit.
 SETTLED = 5e-4
 # Largest number of solves after the first one. Most contacts need 3 to 12.
 MAX_SOLVES = 12
 # Relative eigenvalue of the matrix of products below which mixing drops a direction.
 DEPENDENT = 1e-12
-
-
-class Growth(NamedTuple):
-    """Self-similar growth of a contact in an increment.
-
-    exponent  exponent n of the gap r^n of the indenter
-    start     contact radius at the start over that at the end, 0 without contact
-    settled   limit of the relative change of the displacements at the start
-    """
-
-    exponent: float
-    start: float
-    settled: float
 
 
 class Similarity(NamedTuple):
@@ -106,20 +87,20 @@ class Similarity(NamedTuple):
         return np.asarray((distance / source) ** self.exponent)
 
 
-def self_similar_growth(
-    scene: Scene, ramp: LoadRamp, last: tuple[float, float], fraction: float
-) -> Growth | None:
-    """Determine if a contact grows self-similarly from nothing in an increment, and how far.
+def self_similar_exponent(scene: Scene, ramp: LoadRamp, fraction: float) -> float | None:
+    """Return the exponent n of the gap if a contact grows self-similarly in one increment.
 
-    None is returned otherwise, and for an increment in which the contact grows little. The bodies
-    are coupled and have friction. Normal and tangential loads grow together from 0, both as forces
-    or, without springs of a test rig, both as displacements.
+    The result is None if it does not, and if the load step has several increments: these start
+    from their preceding state, and their number determines the error. The bodies are coupled and
+    have friction. Normal and tangential loads grow together from 0, both as forces or, without
+    springs of a test rig, both as displacements.
 
     scene     bodies, shape of the indenter and friction
     ramp      load ramp that starts without contact
-    last      normal force and approach at the start of the increment, 0 without contact
     fraction  fraction of the ramp at the end of the increment
     """
+    if fraction < 1:
+        return None
     normal, tangential, friction = ramp.normal, ramp.tangential, scene.friction
     if friction is None or not friction.uniform or not isinstance(scene.indenter, SmoothTip | Cone):
         return None
@@ -133,42 +114,33 @@ def self_similar_growth(
             return None
         if tangential.start is None or any(tangential.start):
             return None
-    exponent = scene.indenter.gap_exponent
-    assert exponent is not None
-    power = 1 / (exponent if displaced else exponent + 1)
-    radius = (last[displaced] / (fraction * normal.end)) ** power
-    if radius > LARGE_GROWTH:
-        return None
-    return Growth(exponent, radius, SETTLED / fraction ** (power * exponent))
+    return scene.indenter.gap_exponent
 
 
 def grow_from_nothing(
-    growth: Growth | None,
+    exponent: float | None,
     before: S | None,
     solve: Callable[[S | None], S],
-    dilate: Callable[[S, S | None, Similarity, Mixing], S | None],
+    dilate: Callable[[S, Similarity, Mixing], S | None],
 ) -> S:
-    """Solve an increment of a contact, if it grows self-similarly from a state of itself.
+    """Solve an increment of a contact, from its own end if the contact grows self-similarly.
 
     A solve that does not converge is repeated without mixing. If it does not converge either, the
     result is that of the preceding one.
 
-    growth  self-similar growth of the contact in the increment; None without
-    before  state at the start of the increment; None without contact
-    solve   function that solves the increment from a state at its start
-    dilate  function that dilates a state, with a dissipation not below that of `before`; None if
-            the rigid motion is undefined or fewer than LEAST_POINTS resolve the contact
+    exponent  exponent of the gap; None if the contact does not grow self-similarly
+    before    state at the start of the increment; None without contact
+    solve     function that solves the increment from a state at its start
+    dilate    function that dilates a state; None if the rigid motion is undefined or fewer than
+              LEAST_POINTS resolve the contact
     """
-    if growth is None:
-        return solve(before)
-    mixing, exponent = Mixing(), growth.exponent
-    start = None
-    if before is not None:
-        start = dilate(before, before, Similarity(exponent, FACTOR / growth.start), mixing)
-    state = solve(before if start is None else start)
+    state = solve(before)
+    if exponent is None:
+        return state
+    mixing, similarity = Mixing(), Similarity(exponent, FACTOR)
     for _ in range(MAX_SOLVES):
-        smaller = dilate(state, before, Similarity(exponent, FACTOR), mixing)
-        if smaller is None or mixing.change <= growth.settled:
+        smaller = dilate(state, similarity, mixing)
+        if smaller is None or mixing.change <= SETTLED:
             break
         try:
             state = solve(smaller)

@@ -13,7 +13,6 @@ from fem_reference.contact.point_state import PointState
 def dilated_state(
     compliance: PointCompliance,
     state: PointState,
-    before: PointState | None,
     similarity: Similarity,
     mixing: Mixing,
 ) -> PointState | None:
@@ -23,7 +22,6 @@ def dilated_state(
 
     compliance  points of the surface
     state       state of the contact, which has grown from nothing
-    before      state at the start of the increment, which has dissipated less; None without contact
     similarity  ratio of the contact radii, and powers of it
     mixing      acceleration of the solves
     """
@@ -63,7 +61,6 @@ def dilated_state(
     energy = state.dissipated_energy
     if energy is not None:
         energy *= similarity.energy
-        energy = max(energy, (before.dissipated_energy if before else None) or 0.0)
     return replace(
         state,
         pressure=smaller[2],

@@ -72,23 +72,18 @@ class ContactMethod:
         return state
 
     def dilate(
-        self,
-        state: PointState,
-        before: PointState | None,
-        similarity: Similarity,
-        mixing: Mixing,
+        self, state: PointState, similarity: Similarity, mixing: Mixing
     ) -> PointState | None:
         """Dilate a contact that has grown from nothing to another radius, at the same points.
 
-        None is returned in gross slip, where the motion is undefined.
+        None is returned in gross slip, where the motion is undefined, and for few rings in contact.
 
         state       state of the contact
-        before      state at the start of the increment; None without contact
         similarity  ratio of the contact radii, and powers of it
         mixing      acceleration of the solves
         """
         contact = self._axisymmetric_contact if state.axisymmetric else self._angular_contact
-        return dilated_state(contact.compliance, state, before, similarity, mixing)
+        return dilated_state(contact.compliance, state, similarity, mixing)
 
     def increment(self, state: PointState, place: IncrementPosition) -> Increment:
         """Convert the contact state at the end of an increment to an increment of the result.

@@ -189,7 +189,6 @@ def tangential_state(
 def dilated_state(
     points: ContactPoints,
     state: TangentialState,
-    before: TangentialState | None,
     similarity: Similarity,
     mixing: Mixing,
 ) -> TangentialState | None:
@@ -200,7 +199,6 @@ def dilated_state(
 
     points      points of the contact (rings × angles)
     state       state of the contact
-    before      state at the start of the increment, which has dissipated less; None without contact
     similarity  ratio of the contact radii, and powers of it
     mixing      acceleration of the solves
     """
@@ -229,9 +227,6 @@ def dilated_state(
         energy=similarity.energy * end.energy,
     )
     stuck, energy = state.stick_through, similarity.energy
-    lost = state.dissipated
-    if lost is not None:
-        lost = max(energy * lost, (before.dissipated if before else None) or 0.0)
     forces, motions = (
         tuple(None if value is None else ratio * value for value in prescribed)
         for ratio, prescribed in (
@@ -249,8 +244,8 @@ def dilated_state(
         slip=slip.reshape(2, -1),
         carried=similarity.force * state.carried,
         work=None if state.work is None else energy * state.work,
-        dissipated=lost,
-        uncertainty=max(energy * state.uncertainty, before.uncertainty if before else 0.0),
+        dissipated=None if state.dissipated is None else energy * state.dissipated,
+        uncertainty=energy * state.uncertainty,
     )
 
 

@@ -22,7 +22,7 @@ from contact_scene.stepping.self_similar_growth import (
     Mixing,
     Similarity,
     grow_from_nothing,
-    self_similar_growth,
+    self_similar_exponent,
 )
 from radial.angular_grid import RingAngles
 from radial.fields import Increment
@@ -212,18 +212,14 @@ class TangentialSteps(StepsOnRings):
             (*pair, turn, press) for pair, turn, press in zip(tangential, about, down, strict=True)
         )
         loads = Loads(forces, motions)
-        growth = None
-        if start is None:
-            last = (before.forces[NORMAL], before.motions[NORMAL]) if before else (0.0, 0.0)
-            growth = self_similar_growth(self.scene, ramp, last, fraction)
+        exponent = self_similar_exponent(self.scene, ramp, fraction) if before is None else None
         return grow_from_nothing(
-            growth, before, lambda state: self._solve_loads(loads, state), self._dilate
+            exponent, before, lambda state: self._solve_loads(loads, state), self._dilate
         )
 
     def _dilate(
         self,
         state: TangentialState,
-        before: TangentialState | None,
         similarity: Similarity,
         mixing: Mixing,
     ) -> TangentialState | None:
@@ -233,7 +229,6 @@ class TangentialSteps(StepsOnRings):
         contact whose slip annulus is narrower than a ring.
 
         state       state of the contact
-        before      state at the start of the increment; None without contact
         similarity  ratio of the contact radii, and powers of it
         mixing      acceleration of the solves
         """
@@ -241,7 +236,7 @@ class TangentialSteps(StepsOnRings):
         if state.end.slides or (state.status is ContactStatus.FULL_STICK and not angular):
             return None
         points = self.points if angular else self.points.axisymmetric
-        return dilated_state(points, state, before, similarity, mixing)
+        return dilated_state(points, state, similarity, mixing)
 
     def _scene_components(self, parts: tuple[float, ...]) -> Pair:
         """Rotate a vector from the axes of the tangential load to the x and y axes of the scene.

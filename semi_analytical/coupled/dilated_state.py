@@ -22,7 +22,6 @@ ROUND_OFF = 1e-9
 def dilated_state(
     model: ContactModel,
     state: State,
-    before: State | None,
     similarity: Similarity,
     mixing: Mixing,
 ) -> State | None:
@@ -32,7 +31,6 @@ def dilated_state(
 
     model       contact model
     state       state of the contact, which has grown from nothing
-    before      state at the start of the increment, which has dissipated less; None without contact
     similarity  ratio of the contact radii, and powers of it
     mixing      acceleration of the solves
     """
@@ -52,9 +50,6 @@ def dilated_state(
     locked = mixing.next_field(_locked(model, sheared, relative, similarity, dilation))
     slid = length * dilation(sheared.slip_distance)
     lost = similarity.energy / similarity.factor**2 * dilation(sheared.dissipation)
-    if before is not None and before.sheared is not None:
-        slid = np.maximum(slid, before.sheared.slip_distance)
-        lost = np.maximum(lost, before.sheared.dissipation)
     smaller = replace(
         sheared,
         shear=q,
@@ -89,25 +84,19 @@ def dilated_state(
     )
 
 
-def with_free_motion(model: ContactModel, before: State | None, after: State) -> State:
-    """Return a state at the end of an increment, completed by the free motion in the increment.
+def with_free_motion(model: ContactModel, after: State) -> State:
+    """Return a state at the end of the first increment, completed by the free motion in it.
 
     The free motion is the motion relative to the indenter until the dilated state from which the
     increment was solved. The slip that the energy balance of the increment counts comes after.
 
-    model   contact model
-    before  state at the start of the increment; None without contact
-    after   state at the end of the increment, solved from a dilated state
+    model  contact model
+    after  state at the end of the increment
     """
     sheared, start = after.sheared, after.behind
     if sheared is None or start is None:
         return after
-    last = None if before is None else before.sheared
-    if last is not None and start.displacement is last.displacement:  # not dilated
-        return after
     free = start.displacement - rigid(model, start.shift)
-    if last is not None:
-        free = free - (last.displacement - rigid(model, last.motion))
     return replace(after, sheared=replace(sheared, free=free))
 
 

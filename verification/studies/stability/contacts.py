@@ -471,9 +471,9 @@ OF_SURFACES = (
     ),
 )  # fmt: skip
 
-# Bodies of revolution with uniform friction.
+# Bodies of revolution with uniform friction. Of turning loads one cell stands for all.
 SHAPES = tuple(surface for surface in Surface if surface not in NOT_OF_REVOLUTION)
-PATHS = tuple(LoadingPath)
+PATHS = tuple(path for path in LoadingPath if path is not LoadingPath.CIRCLE)
 OF_SECTIONS = (
     Asked(
         "elements-friction", "Finite elements: friction and force, T in one step",
@@ -536,6 +536,7 @@ OF_SECTIONS = (
         "path", "surface", {},
         bases=(
             replace(ORDINARY, surface=Surface.ROUGH), replace(ORDINARY, surface=Surface.PATCHY),
+            replace(ORDINARY, path=LoadingPath.CIRCLE),
         ),
     ),
     Asked(

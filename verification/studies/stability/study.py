@@ -424,7 +424,7 @@ REMARKS = (
     "Gauss points, corrected once, are held to what any correction allows: no overlap beyond p/ε, "
     "no slip that the motion lacks.",
     "They cannot pose height maps and uneven friction: of each one cell stands for all, and is "
-    "refused by name.",
+    "refused by name. Of turning loads, too, one cell stands for all.",
 )
 
 
