@@ -123,8 +123,10 @@ class Features:
                   zone may be hidden within a cell
     fitted        true if the contact edge is fitted within the cells
     stick_fitted  true if the edge of the stick zone is fitted within the cells
-    sharp         true for a rim, and for a tip below a contact edge that is not fitted; all scalars
-                  then have at most the order 1
+    rim           true for an indenter with a rim, which cuts cells at any position and at which the
+                  pressure has a root singularity; all scalars then have the order ½
+    sharp         true for a tip below a contact edge that is not fitted; all scalars then have at
+                  most the order 1
     infinite      true if the exact peak pressure is infinite
     cusp          true if the pressure has a cusp, because shear changes the pressure or the gap is
                   a power between 1 and 2 of the distance
@@ -144,6 +146,7 @@ class Features:
     annulus: float | None = None
     fitted: bool = False
     stick_fitted: bool = False
+    rim: bool = False
     sharp: bool = False
     infinite: bool = False
     cusp: bool = False
@@ -159,7 +162,7 @@ class Features:
 
         name  name of the scalar, such as "peak_pressure"
         """
-        if name == "ruiz_f2" or (name == PEAK and self.cusp):
+        if self.rim or name == "ruiz_f2" or (name == PEAK and self.cusp):
             return ROOT
         # Without slip the edge of the stick zone is that of the contact.
         small = self.stick is not None and self.stick < FITTED_STICK
