@@ -155,7 +155,9 @@ SCENES = {
     "steel on aluminium, cells": Scene(ALUMINIUM, ON_ALUMINIUM, 3e-6, 96, levels=4),
     "edge-singular flat punch": Scene(
         text('shape = "flat_punch"\nradius = "0.4 mm"', RIGID, STEEL),
-        {"approach": PUNCH.approach}, 0.1,  # the radius is that of the rim on every level
+        # The order is between ½ and 1 by the place of the rim in its cells. The radius is that of
+        # the rim on every level.
+        {"approach": PUNCH.approach}, 0.15,
     ),
     "cusp of a cone": Scene(
         text('shape = "cone"\nslope_angle = 0.02', RIGID, STEEL),
