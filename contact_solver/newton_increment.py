@@ -43,7 +43,7 @@ def solve_by_newton(
     for number in range(1, MAX_STEPS + 1):
         at.linearise()
         residual = _largest_residual(problem, at)
-        if residual <= tolerance:
+        if at.is_admissible and residual <= tolerance:
             in_slip = at.natural.slip & (at.natural.bound > 0)
             q, p = at.point.tractions[:2], at.point.tractions[2]
             return CoupledSolution(

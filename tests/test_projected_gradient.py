@@ -16,6 +16,7 @@ from fem_scenes import solved
 
 from contact_scene import Scene
 from contact_solver.conjugate_gradients import Map
+from contact_solver.newton_increment import solve_by_newton
 from contact_solver.pressure import PressureProblem
 from contact_solver.shear import ShearProblem
 from fem_reference import Method
@@ -166,3 +167,14 @@ def test_drawn_increments_on_elements_have_the_tractions_of_projected_gradients(
     kept = keep_increments(monkeypatch, *((point_problem, name) for name in names))
     solved(drawn_of_revolution(seed), 6, law, harmonics=3)
     assert_same_tractions(kept[1:])
+
+
+def test_a_loose_tolerance_gives_admissible_tractions(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Exact inverses: iterates far from the solution are not admissible and do not count."""
+    kept = keep_increments(monkeypatch, (point_problem, "solve_together"))
+    solved(drawn_of_revolution(3), 6, harmonics=3)
+    problem, solution = kept[-1]
+    start = solution.pressure, 0.99 * solution.shear, solution.motion
+    found = solve_by_newton(problem, *start, 0.1)
+    assert found.closing == pytest.approx(solution.closing, rel=1e-2)
+    assert np.all(np.hypot(*found.shear) <= problem.friction_limit(found.pressure) * (1 + 1e-9))
