@@ -123,10 +123,9 @@ class Features:
                   zone may be hidden within a cell
     fitted        true if the contact edge is fitted within the cells
     stick_fitted  true if the edge of the stick zone is fitted within the cells
-    rim           true for an indenter with a rim, which cuts cells at any position and at which the
-                  pressure has a root singularity; all scalars then have the order ½
-    sharp         true for a tip below a contact edge that is not fitted; all scalars then have at
-                  most the order 1
+    largest_order  largest convergence order of all scalars: ½ on cells below a rim, which cuts them
+                  at any position and at which the pressure has a root singularity; 1 below a tip,
+                  if the contact edge is not fitted
     infinite      true if the exact peak pressure is infinite
     cusp          true if the pressure has a cusp, because shear changes the pressure or the gap is
                   a power between 1 and 2 of the distance
@@ -146,8 +145,7 @@ class Features:
     annulus: float | None = None
     fitted: bool = False
     stick_fitted: bool = False
-    rim: bool = False
-    sharp: bool = False
+    largest_order: float = SMOOTH
     infinite: bool = False
     cusp: bool = False
     peak_by_edge: bool = False
@@ -162,20 +160,19 @@ class Features:
 
         name  name of the scalar, such as "peak_pressure"
         """
-        if self.rim or name == "ruiz_f2" or (name == PEAK and self.cusp):
+        if name == "ruiz_f2" or (name == PEAK and self.cusp):
             return ROOT
         # Without slip the edge of the stick zone is that of the contact.
         small = self.stick is not None and self.stick < FITTED_STICK
         stick_fitted = self.fitted if self.annulus is None else self.stick_fitted and not small
         first = (
-            self.sharp
-            or name == LARGEST_TENSION  # at the edge of the contact, or inside
+            name == LARGEST_TENSION  # at the edge of the contact, or inside
             or name in AT_EDGES
             or (name == PEAK and self.peak_by_edge)
             or (name in CONTACT_EDGE and not self.fitted)
             or (name in STICK_EDGE and not stick_fitted)
         )
-        return EDGE if first else SMOOTH
+        return min(self.largest_order, EDGE if first else SMOOTH)
 
     def unresolved(self, name: str) -> str | None:
         """Return the reason if a feature of the contact on which a scalar depends is unresolved.

@@ -17,7 +17,15 @@ from contact_errors.coarse_solves import (
     Refinement,
 )
 from contact_errors.cost_estimate import CELL_OVERHEAD, Work
-from contact_errors.error_formula import PEAK, Features, has_cusp, is_singular
+from contact_errors.error_formula import (
+    EDGE,
+    PEAK,
+    ROOT,
+    SMOOTH,
+    Features,
+    has_cusp,
+    is_singular,
+)
 from contact_results.result_warnings import unresolved_pressure
 from contact_scene import SurfaceDiscretisation
 from contact_scene.quantities.stated_error import (
@@ -160,6 +168,9 @@ class CellSolver(DiscretisedSolver):
         hides = sliding and _may_hide_stick(end)
         ridge = report is not None and report.ridge
         fitted = report is not None and (not thin or bool(law))
+        largest_order = SMOOTH if fitted or not is_singular(indenter) else EDGE
+        if indenter.rim is not None:
+            largest_order = ROOT
         return Features(
             contact=cells.contact,
             layer=cells.layer,
@@ -168,8 +179,7 @@ class CellSolver(DiscretisedSolver):
             annulus=0.0 if hides else cells.annulus,
             fitted=fitted,
             stick_fitted=report is not None and report.stick is not None and not coupled,
-            rim=indenter.rim is not None,
-            sharp=is_singular(indenter) and not fitted,
+            largest_order=largest_order,
             infinite=is_singular(indenter),
             cusp=coupled or has_cusp(indenter),
             peak_by_edge=ridge or _distance_of_peak_to_edge(end) < cells.contact / 2,

@@ -21,7 +21,7 @@ from contact_errors.coarse_solves import (
     slip_zone,
 )
 from contact_errors.cost_estimate import ELEMENT_OVERHEAD, SET_UP_INCREMENTS, Work
-from contact_errors.error_formula import Features, has_cusp, is_singular
+from contact_errors.error_formula import EDGE, SMOOTH, Features, has_cusp, is_singular
 from contact_scene import FiniteElementDiscretisation
 from contact_scene.body_pair import coupling
 from contact_scene.quantities.stated_error import (
@@ -165,7 +165,7 @@ class ElementSolver(DiscretisedSolver):
             layer=per_length * thinnest,
             stick=stick,
             annulus=annulus,
-            sharp=is_singular(indenter),
+            largest_order=EDGE if is_singular(indenter) else SMOOTH,
             infinite=is_singular(indenter),
             cusp=cusped or has_cusp(indenter),
             peak_by_edge=True,

@@ -19,7 +19,7 @@ from contact_errors.coarse_solves import (
     slip_zone,
 )
 from contact_errors.cost_estimate import RING_OVERHEAD, Work
-from contact_errors.error_formula import Features, Values, is_singular
+from contact_errors.error_formula import EDGE, SMOOTH, Features, Values, is_singular
 from contact_errors.known_pressing import known_pressing
 from contact_scene import RadialDiscretisation
 from contact_scene.quantities.stated_error import (
@@ -134,14 +134,15 @@ class RingSolver(DiscretisedSolver):
         widest = float(np.max(np.diff([0.0, *within, end.contact_radius])))
         side = end.contact_radius / (len(within) or 1)
         stick, annulus = slip_zone(end, LINEAR / side) if self.depends_on_rings else (None, None)
+        # Values at rings are biased, so that all scalars converge with the first order.
+        biased = self.depends_on_rings and (plan.circle is None or indenter.rim is not None)
         return Features(
             contact=LINEAR * end.contact_radius / widest if self.depends_on_rings else np.inf,
             stick=stick,
             annulus=annulus,
             fitted=not plan.circle,
             stick_fitted=not plan.circle,
-            # Values at rings are biased, so that all scalars converge with the first order.
-            sharp=self.depends_on_rings and (plan.circle is None or indenter.rim is not None),
+            largest_order=EDGE if biased else SMOOTH,
             infinite=is_singular(indenter),
             cusp=plan.coupled,
             slides=end.status is ContactStatus.GROSS_SLIDING,

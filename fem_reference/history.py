@@ -23,7 +23,6 @@ from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
 )
-from contact_scene.stepping.self_similar_growth import grow_from_nothing, self_similar_exponent
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
 from fem_reference.energy import add_energies
@@ -122,13 +121,7 @@ class _IncrementSolver:
             self._tangential_target(ramp, start, fraction),
             (ramp.strain(fraction) or UNSTRAINED)[0],
         )
-        exponent = self_similar_exponent(self.scene, ramp, fraction) if before is None else None
-        return grow_from_nothing(
-            exponent,
-            before,
-            lambda state: self.method.advance(state, loads, self.tolerance),
-            self.method.dilate,
-        )
+        return self.method.advance(before, loads, self.tolerance)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
         """Return the gap between the undeformed surfaces at the rings of an increment [length].

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
@@ -18,10 +17,6 @@ from contact_scene.stepping.checkpoint import (
 from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
-)
-from contact_scene.stepping.self_similar_growth import (
-    grow_from_nothing,
-    self_similar_exponent,
 )
 from semi_analytical.edge.contact_area import covered_cells
 from semi_analytical.edge.corrected import Corrected, EdgeReport
@@ -163,7 +158,11 @@ class _Solver:
         before    state of the previous increment; None before first contact
         fraction  completed fraction of the ramp at the end of the increment, 0 to 1
         """
-        after = self._solve_increment(ramp, start, before, fraction)
+        normal = normal_target(ramp, start, fraction, self.plan.tilt)
+        tangential = None
+        if self.plan.shear:
+            tangential = tangential_target(ramp, start, fraction, self.plan.torsion)
+        after = self.increment(self.model, before, normal, tangential, self.tolerance)
         residuals_of(self.model, after).require(self.tolerance, "the increment", after.iterations)
         matters = self.plan.path[ramp.step - 1].path_matters
         after = add_energies(self.model, before, after, path_matters=matters)
@@ -186,31 +185,6 @@ class _Solver:
             elif np.any(after.sheared.in_stick):
                 stick = None
         return replace(after, corrected=edges, edge_report=replace(edges.report, stick=stick))
-
-    def _solve_increment(
-        self, ramp: LoadRamp, start: State | None, before: State | None, fraction: float
-    ) -> State:
-        """Solve for the contact state at a fraction of a load ramp, without its energies.
-
-        Coupled bodies whose contact grows from nothing start from their self-similar state.
-
-        ramp, start, before, fraction  see `advance`
-        """
-        normal = normal_target(ramp, start, fraction, self.plan.tilt)
-        tangential = None
-        if self.plan.shear:
-            tangential = tangential_target(ramp, start, fraction, self.plan.torsion)
-
-        def solve(last: State | None) -> State:
-            return self.increment(self.model, last, normal, tangential, self.tolerance)
-
-        if before is not None or self.plan.coupling is Coupling.NONE:
-            return solve(before)
-        from semi_analytical.coupled.dilated_state import dilated_state, with_free_motion
-
-        exponent = self_similar_exponent(self.model.scene, ramp, fraction)
-        after = grow_from_nothing(exponent, before, solve, partial(dilated_state, self.model))
-        return after if exponent is None else with_free_motion(self.model, after)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
         """Compute the gap of the undeformed surfaces on the full window at a tilt [length].

@@ -147,7 +147,6 @@ ORDERS = {
         "point_contact",
         "point_problem",
         "free_motion",
-        "dilated_state",
         "increment",
         "increment_report",
         "method",

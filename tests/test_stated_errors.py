@@ -222,7 +222,7 @@ def test_an_error_that_falls_as_a_power_is_covered_and_not_by_much(order, ratios
         Comparison(part, of_fine, other, [ratio])
         for other, ratio in zip(others, ratios, strict=True)
     ]
-    found = errors_of_one(order, comparisons, Features(10, sharp=order == 1))
+    found = errors_of_one(order, comparisons, Features(10, largest_order=order))
     assert abs(fine - exact) < size(found) < 3.0 * abs(fine - exact)
 
 

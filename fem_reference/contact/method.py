@@ -12,13 +12,11 @@ from numpy.typing import NDArray
 
 from contact_scene.solver_errors import ContactAtZoneEdge
 from contact_scene.stepping.load_stepping import IncrementPosition
-from contact_scene.stepping.self_similar_growth import Mixing, Similarity
 from fem_reference.compliance.angular_grid import (
     AngularGrid,
     axisymmetric_grid,
 )
 from fem_reference.contact.augmented_lagrangian import Penalty
-from fem_reference.contact.dilated_state import dilated_state
 from fem_reference.contact.increment import advance
 from fem_reference.contact.increment_report import report_increment
 from fem_reference.contact.point_contact import PointContact, point_contact
@@ -70,20 +68,6 @@ class ContactMethod:
         state = advance(contact, before, loads, tolerance)
         self._refuse_contact_at_edge(contact, state)
         return state
-
-    def dilate(
-        self, state: PointState, similarity: Similarity, mixing: Mixing
-    ) -> PointState | None:
-        """Dilate a contact that has grown from nothing to another radius, at the same points.
-
-        None is returned in gross slip, where the motion is undefined, and for few rings in contact.
-
-        state       state of the contact
-        similarity  ratio of the contact radii, and powers of it
-        mixing      acceleration of the solves
-        """
-        contact = self._axisymmetric_contact if state.axisymmetric else self._angular_contact
-        return dilated_state(contact.compliance, state, similarity, mixing)
 
     def increment(self, state: PointState, place: IncrementPosition) -> Increment:
         """Convert the contact state at the end of an increment to an increment of the result.

@@ -6,7 +6,7 @@ The module computes slip, stick area, energies and residuals from the solved tra
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import pi, sqrt
 
 import numpy as np
@@ -16,7 +16,6 @@ from contact_scene.array_types import Array
 from contact_scene.friction import sliding_friction
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
-from contact_scene.stepping.self_similar_growth import Mixing, Rays, Similarity
 from contact_solver.residuals import complementarity, penetration
 from radial.angular_grid import RingAngles
 from radial.frictional.contact_growth import (
@@ -184,69 +183,6 @@ def tangential_state(
         slip - passed, forces, work, dissipated,
         (before.uncertainty if before else 0.0) + float(open_ @ areas),
     )  # fmt: skip
-
-
-def dilated_state(
-    points: ContactPoints,
-    state: TangentialState,
-    similarity: Similarity,
-    mixing: Mixing,
-) -> TangentialState | None:
-    """Return the state of a smaller contact, from which the self-similar contact grows to a state.
-
-    None is returned if few rings are in contact. The predictor of the next solve extrapolates to
-    the tractions and the motion of the state.
-
-    points      points of the contact (rings × angles)
-    state       state of the contact
-    similarity  ratio of the contact radii, and powers of it
-    mixing      acceleration of the solves
-    """
-    end, count, areas = state.end, points.count, np.tile(points.areas, 2)
-    sticks = (end.share <= 1) & (end.pressure > 0)
-    rays = Rays(points.radii, sticks.reshape(-1, count))
-
-    def on_rays(values: Array) -> Array:
-        return values.reshape(-1, len(points.radii), count)
-
-    if not rays.resolve(on_rays(end.pressure)[0]):
-        return None
-    motion = similarity.displacement * end.motion
-    relative = (end.moved - end.motion[:NORMAL] @ points.rigid_motions) / areas
-    locked = mixing.next_field(rays.locked(on_rays(relative), similarity)).ravel() * areas
-    tractions = (
-        similarity.traction * rays.dilated(on_rays(end.tractions), similarity.factor).ravel()
-    )
-    slip = similarity.displacement * rays.dilated(on_rays(state.slip), similarity.factor)
-    smaller = replace(
-        end,
-        tractions=tractions,
-        moved=locked + motion[:NORMAL] @ points.rigid_motions,
-        motion=motion,
-        changed=np.append(end.tractions - tractions, end.motion - motion),
-        energy=similarity.energy * end.energy,
-    )
-    stuck, energy = state.stick_through, similarity.energy
-    forces, motions = (
-        tuple(None if value is None else ratio * value for value in prescribed)
-        for ratio, prescribed in (
-            (similarity.force, state.prescribed.forces),
-            (similarity.displacement, state.prescribed.motions),
-        )
-    )
-    return replace(
-        state,
-        end=smaller,
-        prescribed=Loads(forces, motions),
-        radius=similarity.factor * state.radius,
-        start_radius=similarity.factor**2 * state.radius,
-        stick_through=None if stuck is None else similarity.factor * stuck,
-        slip=slip.reshape(2, -1),
-        carried=similarity.force * state.carried,
-        work=None if state.work is None else energy * state.work,
-        dissipated=None if state.dissipated is None else energy * state.dissipated,
-        uncertainty=energy * state.uncertainty,
-    )
 
 
 def residuals_of(

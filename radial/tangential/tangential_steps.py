@@ -18,12 +18,6 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.load_stepping import ConvergedIncrement
-from contact_scene.stepping.self_similar_growth import (
-    Mixing,
-    Similarity,
-    grow_from_nothing,
-    self_similar_exponent,
-)
 from radial.angular_grid import RingAngles
 from radial.fields import Increment
 from radial.frictional.coupling import Coupling
@@ -53,7 +47,6 @@ from radial.tangential.ring_state import (
 )
 from radial.tangential.tangential_increment import (
     TangentialState,
-    dilated_state,
     residuals_of,
     tangential_state,
 )
@@ -212,31 +205,7 @@ class TangentialSteps(StepsOnRings):
             (*pair, turn, press) for pair, turn, press in zip(tangential, about, down, strict=True)
         )
         loads = Loads(forces, motions)
-        exponent = self_similar_exponent(self.scene, ramp, fraction) if before is None else None
-        return grow_from_nothing(
-            exponent, before, lambda state: self._solve_loads(loads, state), self._dilate
-        )
-
-    def _dilate(
-        self,
-        state: TangentialState,
-        similarity: Similarity,
-        mixing: Mixing,
-    ) -> TangentialState | None:
-        """Dilate a contact that has grown from nothing to a smaller contact at the same points.
-
-        None is returned in gross slip, where the rigid motion is undefined, and for an axisymmetric
-        contact whose slip annulus is narrower than a ring.
-
-        state       state of the contact
-        similarity  ratio of the contact radii, and powers of it
-        mixing      acceleration of the solves
-        """
-        angular = state.circle is not RingAngles.ONE
-        if state.end.slides or (state.status is ContactStatus.FULL_STICK and not angular):
-            return None
-        points = self.points if angular else self.points.axisymmetric
-        return dilated_state(points, state, similarity, mixing)
+        return self._solve_loads(loads, before)
 
     def _scene_components(self, parts: tuple[float, ...]) -> Pair:
         """Rotate a vector from the axes of the tangential load to the x and y axes of the scene.

@@ -8,7 +8,7 @@ t₁)·(u₁ - u₀) Δ, for increments of any size. With u_z = g + rigid motion
     input work = ΔE + dissipation + unresolved work
     input work       Σ ½ (f₀ + f₁)(ω₁ - ω₀), forces and moments f, conjugate motions ω
     dissipation      -Σ f·κ(s₁ - s₀) Δ, with the mean friction f and the contact fraction κ
-    unresolved work  ½ Σ (p₁ g₀ - p₀ g₁) Δ - dissipation - ½ Σ (q₀ + q₁)·(s₁ - s₀ + d) Δ
+    unresolved work  ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf·(s₁ - s₀) - ½ (q₀ + q₁)·(s₁ - s₀ + d)) Δ
 
 The mean friction f has the direction of q₁, for which the slip was solved, and the magnitude ½ µ(p₀
 + p₁), the mean of both friction limits. This is exact for constant pressure and for proportional
@@ -35,6 +35,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.friction import sliding_friction
 
 
 @dataclass(frozen=True)
@@ -187,8 +188,7 @@ def add_increment_energy(
     ):  # fmt: skip
         return Energy(elastic, None, None, None, None, max(spent.largest, elastic))
     work += worked
-    lost = dissipated - (spent.dissipated or 0.0)
-    unresolved += unresolved_work(before, after, lost, cell_area)
+    unresolved += unresolved_work(before, after, cell_area)
     if path_matters:
         uncertain += friction_changed(before, after, cell_area)
     sizes = (abs(term) for term in (elastic, work, dissipated, unresolved))
@@ -225,28 +225,31 @@ def pressed_work(pressure: Field, displacement: Field) -> float:
     return float(np.sum(pressure[pressed] * (displacement - bend / 24)[pressed]))
 
 
-def unresolved_work(
-    before: Configuration, after: Configuration, lost: float, cell_area: float
-) -> float:
+def unresolved_work(before: Configuration, after: Configuration, cell_area: float) -> float:
     """Compute the work of one increment that linear interpolation between its ends misses.
 
-    The formula is ½ Σ (p₁ g₀ - p₀ g₁) Δ - D - ½ Σ (q₀ + q₁)·(s₁ - s₀ + d) Δ [force length]. Indices
-    0 and 1 denote start and end of the increment, p pressure, g gap, q shear, D dissipation, s
-    slip, d free motion before contact and Δ the cell area. The first sum is over cells where
-    contact begins or ends. A gap within lasting contact is a residual of the solution and belongs
-    to the imbalance.
+    The formula is ½ Σ (p₁ g₀ - p₀ g₁) Δ + Σ (κf·(s₁ - s₀) - ½ (q₀ + q₁)·(s₁ - s₀ + d)) Δ [force
+    length]. Indices 0 and 1 denote start and end of the increment, p pressure, g gap, q shear, f
+    mean friction, κ contact fraction, s slip, d free motion before contact and Δ the cell area. The
+    first sum is over cells where contact begins or ends. A gap within lasting contact is a residual
+    of the solution and belongs to the imbalance.
 
     before, after  configurations (tractions, displacements, loads) at the start and the end
-    lost           energy dissipated in the increment [force length]
     cell_area      area Δ of a cell and its mirror images [length^2]
     """
     p0, p1 = before.pressure, after.pressure
     begins, ends = (p0 == 0) & (p1 > 0), (p0 > 0) & (p1 == 0)
     closing = float(np.sum(p1[begins] * before.gap[begins]))
     opening = float(np.sum(p0[ends] * after.gap[ends]))
-    moved = after.slipped - before.slipped
-    shear = 0.5 * (before.shear + after.shear)
-    return (0.5 * (closing - opening) - float(np.sum(shear * moved))) * cell_area - lost
+    sliding, moved = 0.0, after.slipped - before.slipped
+    if np.any(moved):
+        slipped = moved - after.free
+        friction = sliding_friction(
+            before.shear, after.shear, -slipped, before.friction_limit, after.friction_limit
+        )
+        shear = 0.5 * (before.shear + after.shear)
+        sliding = float(np.sum(after.contact_fraction * friction * slipped - shear * moved))
+    return (0.5 * (closing - opening) + sliding) * cell_area
 
 
 def friction_changed(before: Configuration, after: Configuration, cell_area: float) -> float:

@@ -115,7 +115,6 @@ TINY = float(np.finfo(float).tiny)
 # Reasons for which a law is not evaluated.
 BISECTED, UNDEFINED = "the increment was bisected", "the motion of the indenter is undefined"
 CORRECTED = "slip and energies are those before the edge correction"
-DILATED = "a single increment starts from its own end, dilated, which the result does not contain"
 GROWN = "the contact with friction has grown: stored energy and unresolved work are as stated"
 FEW_RINGS = "the contact has too few rings for integrals"
 

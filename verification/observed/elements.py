@@ -25,7 +25,6 @@ from fem_reference.model import ContactModel, outermost_modulus
 from fem_reference.scales import Scales
 from verification.observed.contact_state import (
     BISECTED,
-    DILATED,
     UNDEFINED,
     Balance,
     ContactState,
@@ -34,7 +33,6 @@ from verification.observed.contact_state import (
 Field = NDArray[np.float64]
 
 ANGULAR = (Path.HARMONICS, Path.WHOLE_CIRCLE)
-COUPLED = (*ANGULAR, Path.PRESSING_WITH_FRICTION, Path.TWISTING_WITH_FRICTION)
 TWISTED = (Path.TWISTING, Path.TWISTING_WITH_FRICTION, Path.WHOLE_CIRCLE)
 
 # Gauss points of an element, exact for the product of r and a linear function.
@@ -336,9 +334,6 @@ def _state_on_elements(
         passed[:, 0] = slip[:, 0]  # on the axis there is neither shear nor slip
     undefined = motions is None or (bool(np.any(q)) and increment.dissipated_energy is None)
     skipped = BISECTED if increment.halvings else UNDEFINED if undefined else ""
-    first = increment.step == increment.increments_in_step == 1
-    if first and result.plan.path in COUPLED:
-        skipped = skipped or DILATED
     strain = 0.0 if increment.bulk_strain is None else increment.bulk_strain[0]
     return ContactState(
         increment, w, rings.undeformed, p, gap, q, limit, slip, None if undefined else passed,
