@@ -6,10 +6,6 @@ depends on the normal load at this time only. It is that of the contact without 
 - for bodies of revolution, with or without layers, by the radial solver without friction, once
   with the default and once with twice the numbers of orders and points, and
 - for bare ellipsoids, by Hertz (1882; Johnson 1985, section 4.2) with Carlson's integrals.
-
-A tilt φ of a paraboloid of radius R only shifts the paraboloid:
-
-    x²/2R - φx = (x - Rφ)²/2R - Rφ²/2
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -20,7 +16,7 @@ import numpy as np
 
 import radial
 from contact_errors.error_formula import Values
-from contact_scene import Ellipsoid, LoadRamp, LoadStep, Paraboloid, Scene
+from contact_scene import Ellipsoid, LoadRamp, LoadStep, Scene
 from contact_scene.body_pair import contact_modulus, coupling
 from contact_scene.rig import compliances
 from contact_scene.solver_errors import SolverError
@@ -38,8 +34,8 @@ def known_pressing(scene: Scene) -> Sequence[Sequence[Values]]:
 
     Returns the scalars by name at the end of each load step, once for each method. A load step that
     separates the bodies has none. The result is empty if no method applies: for coupled bodies with
-    friction, an approach prescribed through a spring or with a tilt, a tilt of other shapes than
-    paraboloids, and scenes that the radial solver refuses.
+    friction, an approach prescribed through a spring, tilted indenters, and scenes that the radial
+    solver refuses.
 
     scene  contact problem with its load history
     """
@@ -48,22 +44,21 @@ def known_pressing(scene: Scene) -> Sequence[Sequence[Values]]:
     by_force = all(ramp.normal.kind is ControlKind.FORCE for ramp in ramps)
     sprung = compliances(scene.rig)[0] and not by_force
     tilts = any(any(ramp.tilting.end) for ramp in ramps)
-    shifted_only = by_force and isinstance(indenter, Paraboloid)
     coupled = not frictionless and coupling(scene)[0]
-    if sprung or coupled or (tilts and not shifted_only):
+    if sprung or coupled or tilts:
         return ()
     bare = not (scene.body.layers or indenter.layers)
     if isinstance(indenter, Ellipsoid) and bare:
-        upright = [[_hertz(scene, indenter, ramp) for ramp in ramps]]
+        found = [[_hertz(scene, indenter, ramp) for ramp in ramps]]
     elif indenter.is_of_revolution:
-        upright = _by_rings(scene, ramps)
+        found = _by_rings(scene, ramps)
     else:
         return ()
-    return [list(_tilted(scene, ramps, found)) for found in upright]
+    return [list(_known_values(scene, ramps, scalars)) for scalars in found]
 
 
 def _by_rings(scene: Scene, ramps: Sequence[LoadRamp]) -> list[list[Mapping[str, float]]]:
-    """Compute the scalars of the upright pressing by the radial solver, with each fineness.
+    """Compute the scalars of the pressing by the radial solver, with each fineness.
 
     The result is empty if the solver refuses the scene.
     """
@@ -127,44 +122,24 @@ def _hertz(scene: Scene, indenter: Ellipsoid, ramp: LoadRamp) -> Mapping[str, fl
     return dict(zip((*PRESSING, *ENERGIES), (*map(float, sizes), elastic, elastic), strict=True))
 
 
-def _tilted(
-    scene: Scene, ramps: Sequence[LoadRamp], upright: Sequence[Mapping[str, float]]
+def _known_values(
+    scene: Scene, ramps: Sequence[LoadRamp], scalars: Sequence[Mapping[str, float]]
 ) -> Iterator[Values]:
-    """Yield the known scalars of each load step, those of the upright pressing moved by the tilt.
+    """Yield the known scalars of each load step.
 
-    The energies are left out from the first load step on that shears or tilts the contact.
+    The energies are left out from the first load step on that shears the contact.
 
-    upright  scalars of the pressing without tilt at the end of each load step, by name
+    scalars  scalars of the pressing at the end of each load step, by name
     """
-    moved, compliance = False, compliances(scene.rig)[0]
-    for ramp, values in zip(ramps, upright, strict=True):
+    sheared, compliance = False, compliances(scene.rig)[0]
+    for ramp, values in zip(ramps, scalars, strict=True):
         shears = any(ramp.tangential.end) or ramp.twisting.end or ramp.strains
-        moved = moved or bool(shears) or any(ramp.tilting.end)
+        sheared = sheared or bool(shears)
         found = {
             name: np.array([value])
             for name, value in values.items()
-            if not (moved and name in ENERGIES)
+            if np.isfinite(value) and not (sheared and name in ENERGIES)
         }
-        if found and any(ramp.tilting.end):
-            found |= _motion_by_tilt(scene, ramp, found)
         if found and compliance:
             found["actuator_approach"] = found["approach"] + compliance * found["normal_force"]
         yield found
-
-
-def _motion_by_tilt(scene: Scene, ramp: LoadRamp, upright: Values) -> Values:
-    """Compute tilt, moment and approach of a tilted paraboloid.
-
-    The tilts (y, x)/R shift it by (x, y), so that the moments of the normal force W are W (y, x).
-
-    upright  scalars of the pressing without tilt, by name
-    """
-    assert isinstance(scene.indenter, Paraboloid)
-    load, end = upright["normal_force"], np.array(ramp.tilting.end)
-    arms = end / load if ramp.tilting.kind is ControlKind.FORCE else end * scene.indenter.radius
-    tilt = arms / scene.indenter.radius
-    return {
-        "tilt": tilt,
-        "moment": load * arms,
-        "approach": upright["approach"] - np.sum(arms * tilt) / 2,
-    }
