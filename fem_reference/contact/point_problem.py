@@ -25,7 +25,8 @@ from fem_reference.loads import NormalTarget, TangentialTarget, Triple
 # Tolerance of the solver. With exact inverses the last Newton step has an error far below that of
 # the increment.
 ACCURATE = 1e-11
-# Round-off of displacements. Of the shear it is a larger part, by the coefficient of friction.
+# Relative round-off of displacements. The shear is smaller than the pressure by the coefficient of
+# friction, so that its relative round-off is larger by the inverse.
 ROUND_OFF = 1e-15
 
 
@@ -172,8 +173,8 @@ def solve_points(
     raises                    NotConverged
     """
     coupled, s = problem.coupled, problem.scale.roots
-    reached = ROUND_OFF / (problem.friction.largest or 1.0)
-    aim = min(tolerance, max(ACCURATE, reached))
+    round_off = ROUND_OFF / (problem.friction.largest or 1.0)
+    aim = min(tolerance, max(ACCURATE, round_off))
     acting = list(problem.compliance.acting)
     motion = (np.array(motions) * problem.compliance.reaches)[acting]
     p, q = s * _loaded(problem, pressure), s * shear
