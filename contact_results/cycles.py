@@ -20,7 +20,7 @@ import numpy as np
 from contact_results.edge_slip import CycleEdge
 from contact_results.loop import loop_numbers
 from contact_results.surface import Cells, Surface, surface_of
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Indices
 from contact_scene.quantities.cycles import (
     LoadCycle,
     load_cycles,
@@ -230,20 +230,23 @@ def _slip_amplitude(slips: Callable[[], Iterable[Field]]) -> Field:
     each of DIRECTIONS fixed directions, it is the distance of the two slips that are farthest apart
     along this direction; the largest of these distances counts. It is exact for slips on a line,
     and otherwise at most 1 - cos(π/2n) = 0.5 % too small with n directions: a direction differs by
-    at most π/2n from that of the largest distance. Time and memory are linear in the increments and
-    in the points.
+    at most π/2n from that of the largest distance. The directions x and y alone have this bound
+    where slips extend along one of them, with a width below tan(π/2n) of their length. Time and
+    memory are linear in the increments and in the points.
 
     slips  function that iterates over the slip vectors of the increments (2, …) [length]
     """
     first = next(iter(slips()))
     moves = reduce(np.logical_or, (np.any(slip != first, axis=0) for slip in slips()))
-    amplitude, places = np.zeros(moves.shape), np.flatnonzero(moves)
-    angles = np.pi / DIRECTIONS * np.arange(DIRECTIONS)
-    for angle in angles if len(places) else ():
+    amplitude = np.zeros(moves.shape)
+
+    def extend_amplitude(places: Indices, number: int) -> Field:
+        """Raise the amplitude of some points to that along a direction; return the extents."""
+        angle = np.pi / DIRECTIONS * number
         direction = np.array([np.cos(angle), np.sin(angle)])
         ends = [first.reshape(2, -1)[:, places] for _ in range(2)]
         farthest = [direction @ end for end in ends]
-        for slip in slips():
+        for slip in slips() if len(places) else ():
             reached = slip.reshape(2, -1)[:, places]
             along = direction @ reached
             for end, most, beyond in zip(ends, farthest, (np.less, np.greater), strict=True):
@@ -252,4 +255,12 @@ def _slip_amplitude(slips: Callable[[], Iterable[Field]]) -> Field:
                 np.copyto(end, reached, where=new)
         apart = 0.5 * np.linalg.norm(ends[1] - ends[0], axis=0)
         amplitude.flat[places] = np.maximum(amplitude.flat[places], apart)
+        return np.asarray(farthest[1] - farthest[0])
+
+    places, y = np.flatnonzero(moves), DIRECTIONS // 2
+    shorter, longer = np.sort([extend_amplitude(places, number) for number in (0, y)], axis=0)
+    wide = places[shorter > np.tan(np.pi / (2 * DIRECTIONS)) * longer]
+    for number in range(DIRECTIONS):
+        if number not in (0, y):
+            extend_amplitude(wide, number)
     return amplitude

@@ -318,7 +318,7 @@ def test_the_largest_slip_below_a_rim_is_that_of_the_cells():
     assert edge.largest_amplitude() == np.max(slip)
 
 
-@pytest.mark.parametrize("width", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize("width", [0.0, 0.05, 0.3, 1.0])
 def test_slip_amplitude_keeps_its_bound_in_linear_time(width):
     """On lines in all directions, exactly; on ellipses and random paths within the bound."""
     angle, turn = np.linspace(0, 2 * pi, 64), np.linspace(0, pi, 50)
