@@ -737,7 +737,8 @@ def radial_pressing(level: Level = Level.QUICK) -> Case:
         _pressure_error,
         "p_H, or the mean pressure of cone and punch",
     )
-    rows = [Within(what, 1e-12, why, each=True) for what in (APPROACH, CONTACT_RADIUS, of_pressure)]
+    rows = [Within(what, 1e-12, why, each=True) for what in (APPROACH, of_pressure)]
+    of_edge = Within(CONTACT_RADIUS, 1e-12, why, each=True)
     problems = {"ball": BARE, "cone": CONE, "punch": PUNCH} | dict(
         zip(NAMES, map(coated_ball, ROWS), strict=True)
     )
@@ -749,7 +750,10 @@ def radial_pressing(level: Level = Level.QUICK) -> Case:
         "solver shares the response of layers to a wavenumber with the semi-analytical solver; "
         "the references share neither that response nor the polynomials.",
         *(
-            judged(on_radii(problem, name, (1,) if level is Level.QUICK else (2, 1)), rows)
+            judged(
+                on_radii(problem, name, (1,) if level is Level.QUICK else (2, 1)),
+                rows if problem is PUNCH else [*rows, of_edge],  # a punch prescribes the radius
+            )
             for name, problem in problems.items()
         ),
         no_order="polynomials converge faster than any power: all numbers of terms are exact to "

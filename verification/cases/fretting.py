@@ -793,7 +793,7 @@ def growing_loads(level: Level = Level.QUICK) -> Case:
             (meshes, SHEAR, 1 / elements, 1.0),
             (on_rings, of_rings, 1 / RINGS, 1 / RINGS),
         ):
-            parts.append(judged(levels, _rows_without_slip(shear, side, part * side)))
+            parts.append(judged(levels, _rows_without_slip(by_force, shear, side, part * side)))
     return case(
         "growing_loads",
         "Loads that grow together without slip",
@@ -806,21 +806,26 @@ def growing_loads(level: Level = Level.QUICK) -> Case:
     )
 
 
-def _rows_without_slip(shear: Observable, side: float, edge: float) -> tuple[Row, ...]:
+def _rows_without_slip(
+    by_force: bool, shear: Observable, side: float, edge: float
+) -> tuple[Row, ...]:
     """Return the rows that are judged after each load step of a contact that grows without slip.
 
-    shear  error norm of the shear
-    side   side of a cell, element or ring over the contact radius
-    edge   allowed error of the shear
+    by_force  True if forces are prescribed, so that the shift is judged; else the force is
+    shear     error norm of the shear
+    side      side of a cell, element or ring over the contact radius
+    edge      allowed error of the shear
     """
-    square = f"a quarter of the square of a side of {side:.2g} a; the approach has order 2"
+    what, allowed, why = FORCE, side**2 / 2, "twice the error of the shift: W ∝ δ^(3/2)"
+    if by_force:
+        what, allowed = SHIFT, side**2 / 4
+        why = f"a quarter of the square of a side of {side:.2g} a; the approach has order 2"
     return tuple(
         row
         for stop in HALVES.items()
         for row in (
             Within(shear.at(*stop, "kN"), edge, "as for the pressure, whose error is at the edge"),
-            Within(SHIFT.at(*stop, "kN"), side**2 / 4, square),
-            Within(FORCE.at(*stop, "kN"), side**2 / 2, "twice as much: W ∝ δ^(3/2)"),
+            Within(what.at(*stop, "kN"), allowed, why),
             Within(STICK_RADIUS.at(*stop, "kN"), 0.1 * side, "a tenth of a side"),
             Within(WORK.at(*stop, "kN"), 1e-9, "no cell slips: round-off"),
         )

@@ -245,7 +245,6 @@ def hertz_approach_control(level: Level = Level.QUICK) -> Case:
             "order 2, as the approach under force; the cap is its 5e-5 times 3/2, the exponent of "
             "Hertz's law",
         ),
-        Refined(APPROACH, 2.0, 1e-12, "prescribed: only rounding may change it"),
     )  # fmt: skip
     return case(
         "hertz_approach_control",

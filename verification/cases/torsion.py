@@ -195,13 +195,15 @@ def torsion(level: Level = Level.QUICK) -> Case:
         "twist",
         name="torque_of_given_twist",
     )  # fmt: skip
-    stuck_area = Observable(
-        "stuck_area", "stick area over contact area of the stuck punch", "",
-        lambda result, step, _: float(
-            (result.steps[step].stick_area or np.nan) / result.steps[step].contact_area
+    stuck_work = error_norm(
+        "stuck_work",
+        "energy dissipated by the stuck punch",
+        lambda result, step, problem: (
+            result.steps[step].dissipated_energy
+            / (problem.ends[step].moment * problem.ends[step].twist)
         ),
-        lambda _: 1.0,
-    )  # fmt: skip
+        "torque times twist",
+    )
     of_punch = (
         Within(
             TWIST, part_of_side(1.5),
@@ -209,7 +211,7 @@ def torsion(level: Level = Level.QUICK) -> Case:
             "changes the effective radius by up to half a cell",
             name="stuck_twist",
         ),
-        Within(stuck_area, 1e-12, "µ is twice the coefficient at which the rim slips"),
+        Within(stuck_work, 1e-12, "µ is twice the coefficient at which the rim slips"),
     )  # fmt: skip
     return case(
         "torsion",
