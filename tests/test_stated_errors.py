@@ -246,6 +246,24 @@ def test_a_number_needs_cells_for_what_it_depends_on(name, features, resolved) -
     assert (Features(contact=10.0, **features).unresolved(name) is None) is resolved
 
 
+@pytest.mark.parametrize(
+    ("name", "asked", "solver"),
+    [
+        ("semi-analytical", SurfaceDiscretisation(cells=(24, 24)), CellSolver),
+        ("fem", FiniteElementDiscretisation(elements_per_radius=8), ElementSolver),
+        ("radial", RadialDiscretisation(), RingSolver),
+    ],
+)
+def test_the_peak_of_a_coupled_contact_is_a_cusp(name, asked, solver) -> None:
+    """Friction changes the pressure below a rigid ball, and not between two alike bodies."""
+    orders = []
+    for like in (False, True):
+        posed = rubbed(body=Body(material=steel()), like=like)
+        result = package.solve(posed, name, asked)
+        orders.append(solver.of(result).features(result)[-1].convergence_order("peak_pressure"))
+    assert orders[0] == 0.5 < orders[1]
+
+
 def test_constants_are_those_that_are_explained() -> None:
     """A new constant in the package needs a derivation, and an entry here: no quantity and no kind
     of scene has a constant of its own. Functions have units and round-off alone."""
