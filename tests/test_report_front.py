@@ -2,6 +2,8 @@
 
 import lzma
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from report_examples import case, report_of, run_record, verdict
@@ -12,6 +14,7 @@ from verification.judging.outcome import (
     Change,
     ChangeKind,
     Origin,
+    Status,
     Verdict,
 )
 from verification.report.files import (
@@ -26,7 +29,7 @@ from verification.report.files import (
     write_report,
 )
 from verification.report.page import line_of, render_page
-from verification.report.summary_text import moved_rows, worse_rows
+from verification.report.summary_text import claims_line, moved_rows, worse_rows
 from verification.running.report_record import dump_report, load_report
 
 
@@ -41,6 +44,13 @@ def test_a_line_names_the_quantity_nearest_to_its_limit() -> None:
     assert line_of(judged(far, near, solved)) == "3 verdicts; radius uses 90 % of what is allowed"
     wrong = verdict("energy", 1.02, 1.0)
     assert line_of(judged(near, wrong)).startswith("1 of 2 verdicts passed; energy uses 200 %")
+
+
+def test_a_claim_that_is_inconclusive_does_not_hold() -> None:
+    outcomes = (Status.PASS, Status.FAIL, Status.INCONCLUSIVE, None)
+    stated = [SimpleNamespace(outcome=outcome) for outcome in outcomes]
+    record: Any = SimpleNamespace(level="full", conclusion=SimpleNamespace(statements=stated))
+    assert claims_line(record) == "1 of its 3 judged claims hold (level full)"
 
 
 def test_the_front_shows_what_is_worse_and_the_table_only_what_moved() -> None:
