@@ -15,6 +15,7 @@ from contact_scene import disk_cache
 from contact_scene.disk_cache import (
     SUFFIX,
     cached_array,
+    without_cache,
 )
 from fem_reference.elasticity import compliance
 from semi_analytical.influence import layered
@@ -49,6 +50,16 @@ def the_entry(folder: Path) -> Path:
 
 def test_what_is_kept_is_not_computed_again(folder: Path) -> None:
     assert [computed(), computed(), computed("that"), computed()] == [True, False, True, False]
+
+
+def test_without_the_cache_nothing_is_read_or_kept(folder: Path) -> None:
+    with without_cache():
+        assert computed()
+    assert not folder.exists()
+    assert computed()
+    with without_cache():
+        assert computed()
+    assert not computed()
 
 
 def grown_to_zeros(path: Path) -> None:
