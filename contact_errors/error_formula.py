@@ -406,7 +406,8 @@ class SolvedRun:
             near = np.all(sum(both.values()) <= LARGEST_SHARE * np.abs(value))
             return build_stated_error(both, None if near else TOO_LARGE)
         apart = not np.any(self.values[step]["contact_area"])
-        if not np.any(value) and (apart or name in STICK_EDGE):
+        empty = name in STICK_EDGE and not np.any(self.values[step].get("stick_area", value))
+        if not np.any(value) and (apart or empty):
             return EXACT if apart or features.slides else unknown_error(HIDDEN)
         largest = self._largest_so_far[step][name]
         parts = self._error_parts(step, name, largest)

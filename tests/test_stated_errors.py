@@ -264,6 +264,12 @@ def test_the_peak_of_a_coupled_contact_is_a_cusp(name, asked, solver) -> None:
     assert orders[0] == 0.5 < orders[1]
 
 
+def test_a_stick_zone_in_the_middle_has_an_exact_centre() -> None:
+    posed = rubbed(push(0.6), push(-0.6), push(0.6), body=Body(material=LOOSE))
+    result = package.solve(posed, "semi-analytical", cells(24))
+    assert stated_errors(result).steps[-1]["stick_centre"].status is ErrorStatus.EXACT
+
+
 def test_constants_are_those_that_are_explained() -> None:
     """A new constant in the package needs a derivation, and an entry here: no quantity and no kind
     of scene has a constant of its own. Functions have units and round-off alone."""
