@@ -22,7 +22,7 @@ STYLE = (
     "background:#fff}h1{font-size:1.5rem}h2{font-size:1.15rem;margin:1rem 0 .3rem}"
     "img{max-width:100%;height:auto}td,th{text-align:left;vertical-align:top;"
     "padding:.15rem 1rem .15rem 0}td{font-variant-numeric:tabular-nums}"
-    ".wide{overflow-x:auto}.wide td+td{white-space:nowrap}"
+    ".wide{overflow-x:auto}.wide td+td,.wide th+td{white-space:nowrap}"
     "pre{overflow-x:auto;background:#f2f2f2;padding:.5rem}.soft{color:#595959;max-width:46rem}"
     "@media(prefers-color-scheme:dark){body{color:#e8e8e8;background:#16181b}pre{background:#24272c}"
     ".soft{color:#a9adb2}a{color:#7cc4ee}img{background:#fff;padding:.5rem;box-sizing:border-box}}"
@@ -153,11 +153,17 @@ def _setting_rows(result: Result) -> Iterator[tuple[str, str]]:
 def _cycle_section(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
     """Yield the HTML of the section on load cycles, with table and legend.
 
+    The table has one row per number, so that it fits a narrow page.
+
     columns  table of the load cycles, as columns by heading
     """
-    yield "<h2>Load cycles</h2>"
-    yield from _table_html(columns)
-    yield f'<p class="soft">{_text_html(LOOPS)}</p>'
+    yield '<h2>Load cycles</h2><div class="wide"><table>'
+    for heading, texts in columns.items():
+        *words, unit = heading.split("\n") if "\n" in heading else (heading, "")
+        name = _text_html(" ".join(words) + (f" ({unit})" if unit else ""))
+        cells = "".join(f"<td>{_text_html(text)}</td>" for text in texts)
+        yield f'<tr><th scope="row">{name}</th>{cells}</tr>'
+    yield f'</table></div><p class="soft">{_text_html(LOOPS)}</p>'
 
 
 def _table_html(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
