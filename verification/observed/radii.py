@@ -91,7 +91,7 @@ def _state_on_radii(now: Increment, result: Result, *, few: bool) -> ContactStat
         weights = _over_hats(r, np.ones_like)
         arm, f = (_over_hats(r, g) / weights for g in (lambda r: r, lambda r: gap(r, 0.0)))
     w = weights[:, None] * _angle_shares(now.angles)
-    limit = (result.scene.friction or FRICTIONLESS).limit(p)
+    limit = (result.scene.friction or FRICTIONLESS).at_radii(r[:, None]).limit(p)
     carried = _carried_loads(now, w, arm[:, None], q, result.plan.direction)
     force, torque = now.tangential_force or (0.0, 0.0), now.torque or 0.0
     most = float(np.sum(w * limit)) or now.normal_force
