@@ -31,6 +31,7 @@ from contact_scene.checks.axisymmetric import SYMMETRIC
 from contact_scene.friction import FRICTIONLESS, sliding_friction
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding, UnsupportedScene
+from fem_reference.plan import ANGULAR
 from verification.observed.contact_state import observed
 
 CELLS = (6, 5)
@@ -176,7 +177,7 @@ def on_elements(method: fem_reference.Method) -> Callable[[Scene], fem_reference
     """Springs on harmonics alone, as only their law can be observed."""
 
     def solve(scene: Scene) -> fem_reference.Result:
-        on_harmonics = fem_reference.plan(scene).path is fem_reference.Path.HARMONICS
+        on_harmonics = fem_reference.plan(scene).path in ANGULAR
         more = {"penalty": 1000.0, "augmentations": 0, "overlap": 1.0} if on_harmonics else {}
         mesh = FiniteElementDiscretisation(elements_per_radius=32, harmonics=4, **more)
         return fem_reference.solve(scene, mesh, method)
