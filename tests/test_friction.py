@@ -32,6 +32,7 @@ from contact_scene.friction import FRICTIONLESS, sliding_friction
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding, UnsupportedScene
 from fem_reference.plan import ANGULAR
+from verification.judging.case import OVER_ANGLES
 from verification.observed.contact_state import observed
 
 CELLS = (6, 5)
@@ -198,39 +199,14 @@ def scene(*loading: LoadStep, coupled: bool, mu: float = 0.1) -> Scene:
     )
 
 
-def ring_violation(result: radial.Result) -> float:
-    """Excess of the shear over the limit, and what slip misses of opposing the shear at its limit
-    [1]."""
-    friction, worst, last = result.scene.friction, 0.0, np.zeros((2, 1))
-    assert friction is not None
-    for now in result.increments:
-        limit, shape = friction.limit(now.pressure), now.pressure.shape
-        radial_and_around = (
-            (now.shear_radial, now.shear_circumferential),
-            (now.slip_radial, now.slip_circumferential),
-        )
-        q, s = (
-            np.array([np.zeros(shape) if v is None else v for v in pair])
-            for pair in radial_and_around
-        )
-        moved, last = s - (last if last.ndim == s.ndim else last[..., None]), s
-        length = np.hypot(*moved)
-        missing = np.sum(limit * length + np.sum(q * moved, axis=0))
-        worst = max(
-            worst,
-            float(np.max(np.hypot(*q) - limit) / np.max(limit)),
-            float(missing / np.sum(limit * length)) if np.any(length) else 0.0,
-        )
-    return worst
-
-
-# Loading, whether bodies couple, and bound of `ring_violation`: between the angles of its points
-# the solver interpolates the shear, whose direction turns where coupled bodies are pushed.
+# Loading, whether bodies couple, and bound of violations on rings: between the angles of its points
+# the solver interpolates the shear, whose direction turns where coupled bodies are pushed. Of
+# torsion the displacements are known to 5e-5.
 HISTORIES = {
     "pushed": ((PRESS, PUSH), False, 2e-3),
     "pressed, coupled": ((PRESS,), True, 1e-2),
-    "pushed, coupled": ((PRESS, PUSH), True, 0.1),
-    "twisted": ((PRESS, TWIST), False, 1e-9),
+    "pushed, coupled": ((PRESS, PUSH), True, OVER_ANGLES),
+    "twisted": ((PRESS, TWIST), False, 1e-4),
 }
 
 
@@ -246,7 +222,7 @@ def test_any_law_of_friction_holds_in_every_solver_which_agree(law, history) -> 
     assert observed(cells).violation < TOLERANCE
     if coupled:
         assert max(one.convolutions for one in cells.increments) < MAX_CONVOLUTIONS
-    assert ring_violation(rings) < bound
+    assert observed(rings).violation < bound
     for name, result in elements.items():
         assert observed(result).violation < TOLERANCE, name
     for name, most in AGREE.items():
@@ -312,8 +288,8 @@ def test_a_map_about_the_axis_gives_the_same_in_every_solver(history: str) -> No
     results = {name: solve(asked) for name, solve in EVERYWHERE.items()}
     expected = results["rings"].steps[-1]
     for name, result in results.items():
-        if name != "rings":
-            assert observed(result).violation < TOLERANCE, name
+        allowed = OVER_ANGLES if name == "rings" else TOLERANCE
+        assert observed(result).violation < allowed, name
         for quantity, most in AGREE.items():
             found = number(getattr(result.steps[-1], quantity))
             known = number(getattr(expected, quantity))
