@@ -31,8 +31,9 @@ Field = NDArray[np.float64]
 # Largest and smallest wavenumber times the radius of the last ring. The displacements have an
 # error of 3e-5 for the rings of the solver, of which the smallest are 1/1000 of this radius apart.
 SHORTEST, LONGEST = 500.0, 1e-3
-# Gauss points of an element between two rings: 12 resolve half a wave per point at 1/24 of the
-# radius and the largest wavenumber.
+# Largest wavenumber times radius per ring: the phase changes by at most 25 over an even ring of 7.
+PER_RING = 14.0
+# Gauss points of an element between two rings: n resolve a change of the phase of 4 (n - 6).
 PLACES, PARTS = np.polynomial.legendre.leggauss(12)
 BLOCK = 256  # wavenumbers that are transformed at a time
 ABSENT = 1e-9  # below this mean square a wave is zero at all angles, up to round-off
@@ -98,7 +99,8 @@ class RingDisplacement:
     def _wavenumbers(self) -> tuple[Field, Field]:
         """Wavenumbers k and their weights k dk, each (k,)."""
         reach = float(self.radii[-1])
-        places, weights = wave_quadrature(SHORTEST, LONGEST, 1.0).rule
+        shortest = min(SHORTEST, PER_RING * len(self.radii))
+        places, weights = wave_quadrature(shortest, LONGEST, 1.0).rule
         return places / reach, places * weights / reach**2
 
     @cached_property
