@@ -55,6 +55,17 @@ LEAST_TOLERANCE = 1e-13
 # Largest number of refinements until the cells resolve the contact, and their factor.
 MAX_DOUBLINGS = 5
 DOUBLING = 2.0
+# Scalars in proportion to the friction limit or to slip.
+TANGENTIAL = (
+    "tangential_shift",
+    "tangential_force",
+    "twist",
+    "torque",
+    "stick_radius",
+    "stick_area",
+    "dissipated_energy",
+    "energy_per_cycle",
+)
 # Linear elements, and linear interpolation between rings, resolve a feature as twice their number
 # of cells.
 LINEAR = 2.0
@@ -276,9 +287,12 @@ class DiscretisedSolver(ABC):
         """Return the relative errors of scalars, by name, due to effects that the solver neglects.
 
         An example is the error of the peak pressure by roughness that the cells do not resolve. By
-        default the mapping is empty.
+        default the tangential scalars have the asymmetry of the friction map, because solvers of
+        bodies of revolution take its means over circles.
         """
-        return {}
+        friction = self.scene.friction
+        mapped = None if friction is None else friction.coefficient_map
+        return {} if mapped is None else dict.fromkeys(TANGENTIAL, mapped.asymmetry)
 
     def references(self) -> Sequence[Sequence[Values]]:
         """Return scalars of the scene by other methods at the end of each load step, by name.

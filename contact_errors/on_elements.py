@@ -13,6 +13,7 @@ import fem_reference
 from contact_errors.coarse_solves import (
     LINEAR,
     SHARES,
+    TANGENTIAL,
     CoarseSolve,
     DiscretisedSolver,
     Fineness,
@@ -40,9 +41,6 @@ CUSPED = (Path.PRESSING_WITH_FRICTION, Path.TWISTING_WITH_FRICTION, Path.HARMONI
 FEWEST_ELEMENTS, SMALLEST_BOX, FEWEST_HARMONICS, LARGEST_OVERLAP = 4, 5.0, 2, 1.0
 FIRST_ELEMENTS, MAX_ELEMENTS, MAX_HARMONICS = 8, 512, 64
 LEAST_OVERLAP, LARGEST_BOX = 1e-8, 1e6
-
-ACROSS = ("tangential_shift", "tangential_force", "stick_radius", "stick_area",
-          "dissipated_energy", "energy_per_cycle")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -175,18 +173,21 @@ class ElementSolver(DiscretisedSolver):
     def neglected_errors(self, result: Result) -> Mapping[str, float]:
         """Return relative errors of tangential scalars due to the neglected slip across the load.
 
-        The errors are not zero for contacts solved with shear along the load only (Path.SHEARING).
-        In Mindlin's solution the slip is inclined to the load by at most α = ν/(4 - 2ν) with
-        Poisson's ratio ν (Johnson 1985, section 7.2). Shear of this inclination carries 1 - α²/2 of
-        the load, so the relative error is α²/2. Layers respond differently along and across a wave
-        for any ν, so the largest α, that of ν = ½, applies to them.
+        The asymmetry of a friction map is added. The other errors are not zero for contacts solved
+        with shear along the load only (Path.SHEARING). In Mindlin's solution the slip is inclined
+        to the load by at most α = ν/(4 - 2ν) with Poisson's ratio ν (Johnson 1985, section 7.2).
+        Shear of this inclination carries 1 - α²/2 of the load, so the relative error is α²/2.
+        Layers respond differently along and across a wave for any ν, so the largest α, that of
+        ν = ½, applies to them.
         """
+        by_map = super().neglected_errors(result)
         if result.plan.path is not Path.SHEARING:
-            return {}
+            return by_map
         bodies = self.scene.body, self.scene.indenter
         ratios = (m.poisson_ratio for body in bodies for m in body.elastic_materials)
         nu = 0.5 if any(body.layers for body in bodies) else max(ratios)
-        return dict.fromkeys(ACROSS, (nu / (4 - 2 * nu)) ** 2 / 2)
+        across = (nu / (4 - 2 * nu)) ** 2 / 2
+        return {name: across + by_map.get(name, 0.0) for name in TANGENTIAL}
 
     def first_space(self) -> FiniteElementDiscretisation:
         return change_settings(self.discretisation, elements_per_radius=FIRST_ELEMENTS)

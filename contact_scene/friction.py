@@ -1,6 +1,8 @@
 """Coulomb's law of friction with a uniform coefficient or a map of coefficients."""
 
+from dataclasses import replace
 from functools import cached_property
+from math import ceil
 from types import EllipsisType
 from typing import Annotated, Any
 
@@ -27,6 +29,8 @@ Where = tuple[slice, slice] | EllipsisType
 ROUND_OFF = 1e-14
 # Above every pressure of a contact: a limit with the same slope here and at 0 is proportional to p.
 HIGHEST_PRESSURE = 1e30  # [force/length^2]
+# Number of angles of the mean of a map over a circle. The mean has no error by harmonics below it.
+ANGLES = 64
 
 
 class FrictionMap(Description):
@@ -76,7 +80,7 @@ class FrictionMap(Description):
     def constant(self) -> float | None:
         """Coefficient of friction if all values of the map are equal; None if they differ."""
         values = self.map.values
-        return float(values[0, 0]) if np.all(values == values[0, 0]) else None
+        return float(values.flat[0]) if np.all(values == values.flat[0]) else None
 
     @property
     def is_even(self) -> bool:
@@ -90,6 +94,50 @@ class FrictionMap(Description):
         return self.origin == (0.0, 0.0) and all(
             np.allclose(values, image, rtol=0.0, atol=nearly) for image in images
         )
+
+    @property
+    def reach(self) -> float:
+        """Radius of the largest circle about the origin within the outermost points [length]."""
+        sides = zip(self.extent, self.spacing, strict=True)
+        return 0.5 * min(side - spacing for side, spacing in sides)
+
+    @cached_property
+    def _means(self) -> tuple[Field, Field]:
+        """Radii of circles about the origin, and the mean of the interpolated map on each.
+
+        The circles are at most a spacing of the map apart, the last one is at `reach`.
+        """
+        radii = np.linspace(0.0, self.reach, ceil(self.reach / min(self.spacing)) + 1)
+        angles = 2 * np.pi * (np.arange(ANGLES) + 0.5) / ANGLES
+        x, y = np.multiply.outer((np.cos(angles), np.sin(angles)), radii)
+        values = interpolate_between(
+            self.map.values, self.spacing, x - self.origin[0], y - self.origin[1]
+        )
+        return radii, np.mean(values, axis=0)
+
+    @cached_property
+    def asymmetry(self) -> float:
+        """Largest difference of a coefficient from the mean at its radius, over the largest [1].
+
+        The values of the map within `reach` are compared. The value is 0 for a coefficient that
+        depends on the distance from the origin alone, up to the interpolation of the map.
+        """
+        x, y = (
+            (np.arange(count) - (count - 1) / 2) * side + middle
+            for count, side, middle in zip(self.map.shape, self.spacing, self.origin, strict=True)
+        )
+        r, values = np.hypot(x[:, None], y), self.map.values
+        off = np.abs(values - np.interp(r, *self._means))
+        largest = float(np.max(values))
+        return float(np.max(off, where=r <= self.reach, initial=0.0)) / largest if largest else 0.0
+
+    def at_radii(self, radii: Field) -> "FrictionMap":
+        """Return the map with its means over circles, in the order of points at given radii.
+
+        radii  distances of the points from the origin, at most `reach` (any shape) [length]
+        """
+        values = np.interp(radii, *self._means)
+        return self.model_copy(update={"map": replace(self.map, values=values)})
 
     def on_grid(self, cells: tuple[int, int], spacing: Pair) -> "FrictionMap":
         """Interpolate the map of the coefficient of friction at the cell centres of a grid.
@@ -169,7 +217,19 @@ class CoulombFriction(Description):
         """
         if not isinstance(self.coefficient, FrictionMap):
             return self
-        return CoulombFriction(coefficient=self.coefficient.on_grid(cells, spacing))
+        return self.model_copy(update={"coefficient": self.coefficient.on_grid(cells, spacing)})
+
+    def at_radii(self, radii: Field) -> "CoulombFriction":
+        """Return the friction law with the coefficients of points at distances from the axis.
+
+        The coefficient of a point is the mean of the map over its circle. A law with a uniform
+        coefficient is returned unchanged.
+
+        radii  distances of the points from the axis, covered by the map (any shape) [length]
+        """
+        if self.coefficient_map is None:
+            return self
+        return self.model_copy(update={"coefficient": self.coefficient_map.at_radii(radii)})
 
     @property
     def is_even(self) -> bool:

@@ -117,7 +117,6 @@ def plan(scene: Scene) -> Plan:
     couples, why = coupling(scene)
     rough = scene.friction is not None and scene.friction.largest > 0
     couples = couples and rough
-    refuse_coefficient_map(scene)
     refuse_tilt(scene, pushed=loaded, coupled=couples)
     strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
     strained = requires_bulk_strain(strains, friction and (loaded or twisted))
@@ -126,6 +125,8 @@ def plan(scene: Scene) -> Plan:
     free = any(ramp.twisting.kind is ControlKind.FORCE for ramp in ramps)
     twists = friction and (twisted or (curved and free))
     path = _choose_path(friction, loaded, twisted, couples or (rough and strained), curved=curved)
+    if path is not Path.PRESSING:
+        refuse_coefficient_map(scene)
     matters, grows = _path_matters(scene, path, couples)
     return Plan(
         path,

@@ -222,15 +222,15 @@ def _path_increments(
 def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) -> None:
     """Raise UnsupportedScene if the solver does not support the friction of a scene.
 
-    A coefficient of friction that varies over the surface is not supported. Friction below an
-    indenter with a rim is supported only for torsion in closed form.
+    A coefficient of friction that varies with the distance from the axis is supported at points on
+    rings. Friction below an indenter with a rim is supported only for torsion in closed form.
 
     scene       contact problem with friction
     frictional  true if friction acts under a normal load alone
     circle      angles of a solve at points; None without such a solve
     """
     assert scene.friction is not None
-    refuse_coefficient_map(scene)
+    refuse_coefficient_map(scene, symmetric=circle is not None)
     if scene.indenter.rim is not None and (frictional or circle):
         raise UnsupportedScene(
             "the scene has friction below an indenter with a rim, where tractions are infinite, "

@@ -435,9 +435,9 @@ def test_maps_are_refused_by_name(tmp_path: FilePath) -> None:
     np.save(tmp_path / "map.npy", np.eye(16))
     rough = {"shape": "height_map", "file": str(tmp_path / "map.npy"), "spacing": 1e-4,
              "material": "rigid"}  # fmt: skip
-    document = scene(PRESS).model_dump()
+    document, pushed = (scene(*steps).model_dump() for steps in ((PRESS,), (PRESS, push(0.5))))
     with pytest.raises(UnsupportedScene, match="height map"):
         plan(Scene.model_validate({**document, "indenter": rough}))
     patchy = {"coefficient": {"map": str(tmp_path / "map.npy"), "spacing": 1e-4}}
     with pytest.raises(UnsupportedScene, match="coefficient of friction is a map"):
-        plan(Scene.model_validate({**document, "friction": patchy}))
+        plan(Scene.model_validate({**pushed, "friction": patchy}))

@@ -2,13 +2,17 @@
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from contact_scene import Body, CoulombFriction, LoadStep
+from contact_scene.quantities.residuals import Residuals
+from radial.tangential import ring_layout, ring_problem
 from verification.judging.case import (
     OTHER_NORMS,
+    OVER_ANGLES,
     SOLVER_TOLERANCE,
     RadiiRun,
     Run,
@@ -18,6 +22,7 @@ from verification.judging.case import (
 from verification.observed.cells import states_on_cells
 from verification.observed.contact_state import imbalances, missed, observed, violations
 from verification.observed.elements import states_on_elements
+from verification.observed.radii import states_on_radii
 from verification.problems import problem as paper
 from verification.problems.cattaneo_mindlin import torque_step
 from verification.problems.problem import (
@@ -49,9 +54,10 @@ def twisted():
     return paper.frictional("Twisted", paper.paraboloid(STEEL), STEEL, torque_step(0.6))
 
 
-def coupled():
+def coupled(*more):
     title, indenter, body = "Pressed with friction", rigid_ball(), Body(material=SUBSTRATE)
     smooth = pressed(title, indenter, body, LoadStep(normal_force=NORMAL_FORCE, increments=3))
+    smooth = smooth.model_copy(update={"loading": (*smooth.loading, *more)})
     friction = scene().friction
     return smooth.model_copy(update={"friction": friction})
 
@@ -88,6 +94,11 @@ RUNS = {
     "radii, coupled": RadiiRun("radii, coupled", coupled()),
     "radii, twisted": RadiiRun("radii, twisted", twisted()),
     "radii, on points": RadiiRun("radii, on points", twisted(), at_points=True),
+    "radii, coupled on points": RadiiRun("radii, coupled on points", coupled(), at_points=True),
+    "radii, turned": RadiiRun("radii, turned", scene(*LOOP, push(-0.3, 0.4))),
+    "radii, coupled and pushed": RadiiRun(
+        "radii, coupled and pushed", coupled(push(0.4)), laws=OVER_ANGLES
+    ),
 }
 
 
@@ -203,3 +214,79 @@ def test_prescribed_force_that_is_not_told_is_missed(solved, name):
     *before, last = solved[name].increments
     untold = replace(solved[name], increments=(*before, replace(last, tangential_force=None)))
     assert max(missed(untold.scene, untold.steps)) > SEEN
+
+
+# ---- Points on rings: defects planted in the solver, and in a single field of its result.
+
+
+def of_old_pressure(monkeypatch):
+    """The friction limit at the end of an increment is that at its start."""
+    usual = ring_problem.RingProblem.of.__func__
+
+    def late(cls, points, friction, loads, before, free=None):
+        problem = usual(cls, points, friction, loads, before, free)
+        if before is None:
+            return problem
+        old = SimpleNamespace(
+            limit=lambda p: np.minimum(friction.limit(before.pressure), 1e3 * p),
+            slope=lambda p: np.zeros_like(p),
+            largest=friction.largest,
+        )
+        return replace(problem, friction=old)
+
+    monkeypatch.setattr(ring_problem.RingProblem, "of", classmethod(late))
+
+
+def along_the_shear(monkeypatch):
+    """The slip is told with the wrong sign."""
+    usual = ring_problem.RingProblem.slip_increment
+    monkeypatch.setattr(ring_problem.RingProblem, "slip_increment", lambda *given: -usual(*given))
+
+
+def stiffer(block, factor):
+    """Compliances of some harmonics and components are wrong by a factor."""
+
+    def plant(monkeypatch):
+        usual = ring_layout.ring_compliance
+
+        def wrong(*given):
+            found = usual(*given)
+            found[block] *= factor
+            return found
+
+        monkeypatch.setattr(ring_layout, "ring_compliance", wrong)
+
+    return plant
+
+
+LESS = LoadStep(normal_force=0.8 * NORMAL_FORCE, increments=2)
+PLANTED = {
+    "friction limit of the old pressure": (of_old_pressure, scene(push(0.7), LESS)),
+    "wrong sign of slip": (along_the_shear, scene(*LOOP)),
+    "stiffer in shear": (stiffer(np.s_[1:2, :2, :2], 0.9), scene(*LOOP)),
+    "stiffer in pressure": (stiffer(np.s_[0, 2, 2], 0.98), scene(*LOOP)),
+    "less coupling": (stiffer(np.s_[:, :2, 2], 0.9), coupled(push(0.4))),
+    "stiffer in torsion": (stiffer(np.s_[0, 1, 1], 0.8), twisted()),
+}
+
+
+@pytest.mark.parametrize("defect", PLANTED)
+def test_a_defect_in_rings_is_seen(monkeypatch, defect):
+    plant, asked = PLANTED[defect]
+    run = RadiiRun("rings", asked, at_points=defect == "stiffer in torsion")
+    sound = run.solve()
+    assert max(observed(sound)[:2]) < run.laws
+    plant(monkeypatch)
+    monkeypatch.setattr(Residuals, "require", lambda *_: None)
+    assert max(observed(run.solve())[:2]) > 2 * run.laws
+
+
+def test_one_ring_above_its_limit_is_seen(solved):
+    *before, last = states_on_radii(solved["radii"])
+    slipping = np.argwhere(np.hypot(*last.shear) > 0.999 * last.limit)
+    ring = slipping[len(slipping) // 2][0]
+    shear = last.shear.copy()
+    shear[:, ring] *= 1.02
+    bound = RUNS["radii"].laws
+    assert max(violations([*before, last])) < bound / 5
+    assert max(violations([*before, replace(last, shear=shear)])) > bound

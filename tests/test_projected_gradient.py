@@ -5,6 +5,7 @@ computes the tractions anew, which are unique; the forces of the solution are ch
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from coupled_scenes import coated
 from coupled_scenes import scene as coupled_scene
 from fem_scenes import solved
 
+import radial
 from contact_scene import Scene
 from contact_solver.conjugate_gradients import Map
 from contact_solver.newton_increment import solve_by_newton
@@ -21,6 +23,8 @@ from contact_solver.pressure import PressureProblem
 from contact_solver.shear import ShearProblem
 from fem_reference import Method
 from fem_reference.contact import point_problem
+from radial.angular_grid import RingAngles
+from radial.tangential import ring_friction
 from semi_analytical import solve
 from semi_analytical.coupled import coupled_increment
 from semi_analytical.increments import normal_solve, tangential_solve
@@ -166,6 +170,19 @@ def test_drawn_increments_on_elements_have_the_tractions_of_projected_gradients(
     names = ("solve_pressure", "solve_shear", "solve_together")
     kept = keep_increments(monkeypatch, *((point_problem, name) for name in names))
     solved(drawn_of_revolution(seed), 6, law, harmonics=3)
+    assert_same_tractions(kept[1:])
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_drawn_increments_on_rings_have_the_tractions_of_projected_gradients(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = ("solve_by_newton", "solve_together")
+    kept = keep_increments(monkeypatch, *((ring_friction, name) for name in names))
+    asked = drawn_of_revolution(seed)
+    chosen = radial.plan(asked)  # torsion at points, although it has a closed form
+    few = replace(chosen, circle=chosen.circle or RingAngles.ONE, fineness=0.3)
+    radial.solve(asked, plan=few)
     assert_same_tractions(kept[1:])
 
 

@@ -66,10 +66,11 @@ def profile_plot(result: Result, surface: Surface) -> Figure:
 
 def _friction_limit(friction: CoulombFriction, end: Increment, surface: Surface) -> Field:
     """Compute the friction limit µp on the surface at the end of a load step [force/length^2]."""
+    p = _pressure_field(end, surface)
     if isinstance(surface, Cells):
         x, y = surface.x, surface.y
-        friction = friction.on_grid((len(x), len(y)), (float(x[1] - x[0]), float(y[1] - y[0])))
-    return friction.limit(_pressure_field(end, surface))
+        return friction.on_grid(p.shape, (float(x[1] - x[0]), float(y[1] - y[0]))).limit(p)
+    return friction.at_radii(surface.radii.reshape(-1, *(1,) * (p.ndim - 1))).limit(p)
 
 
 def draw_end(ax: Any, result: Result, surface: Surface) -> None:

@@ -1,12 +1,19 @@
 """Refusal of scenes that no solver of bodies of revolution supports: shapes, friction and tilts."""
 
+import numpy as np
+
+from contact_scene.array_types import Field
 from contact_scene.checks.expected_contact import refuse_ring
+from contact_scene.friction import CoulombFriction
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.scene import Scene
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.load_path import ControlKind
 
 ELSEWHERE = "solve it with the semi-analytical solver"
+# Largest asymmetry of a friction map of which a solver of bodies of revolution takes the means over
+# circles. Measured coefficients are not known better than 1 %. Stated errors contain the asymmetry.
+SYMMETRIC = 0.01
 
 
 def refuse_shape(scene: Scene) -> None:
@@ -23,16 +30,41 @@ def refuse_shape(scene: Scene) -> None:
     refuse_ring(scene)
 
 
-def refuse_coefficient_map(scene: Scene) -> None:
-    """Raise UnsupportedScene if the coefficient of friction varies over the surface.
+def refuse_coefficient_map(scene: Scene, *, symmetric: bool = True) -> None:
+    """Raise UnsupportedScene if the coefficient of friction is a map that a solver does not take.
 
-    scene  contact problem with its friction
+    scene      contact problem with its friction
+    symmetric  True if the solver takes a map that depends on the distance from the axis alone
     """
-    if scene.friction is not None and scene.friction.coefficient_map is not None:
-        raise UnsupportedScene(
-            "the coefficient of friction is a map, and this solver requires one number. Give one "
-            f"number, or {ELSEWHERE}"
+    friction = None if scene.friction is None else scene.friction.coefficient_map
+    if friction is None or (symmetric and friction.asymmetry <= SYMMETRIC):
+        return
+    reason = "this solver requires one number where friction acts under a normal load alone"
+    if symmetric:
+        reason = (
+            f"at equal distance from the axis it varies by {friction.asymmetry:.2g} of its largest "
+            f"value; this solver allows {SYMMETRIC:g}"
         )
+    raise UnsupportedScene(
+        f"the coefficient of friction is a map, and {reason}. Give one number, or {ELSEWHERE}"
+    )
+
+
+def friction_at_radii(friction: CoulombFriction, radii: Field) -> CoulombFriction:
+    """Return the friction law with the coefficients of points at distances from the axis.
+
+    Raise UnsupportedScene if a friction map does not cover all points.
+
+    friction  friction law of the scene
+    radii     distances of the points from the axis (any shape) [length]
+    """
+    mapped, farthest = friction.coefficient_map, float(np.max(radii))
+    if mapped is not None and farthest > mapped.reach:
+        raise UnsupportedScene(
+            f"the friction map covers distances up to {mapped.reach:.3g} m from the axis, and the "
+            f"rings of this solver extend to {farthest:.3g} m. Use a larger map, or {ELSEWHERE}"
+        )
+    return friction.at_radii(radii)
 
 
 def refuse_tilt(scene: Scene, *, pushed: bool, coupled: bool) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 
 from contact_scene.array_types import Vector
 from contact_scene.body_pair import contact_modulus
+from contact_scene.checks.axisymmetric import friction_at_radii
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
@@ -137,5 +138,7 @@ def point_contact(
         edge = float(model.radii[2] - model.radii[0])
         springs = 1 / penalty.stiffness(contact_modulus(model.scene), edge)
     compliance = PointCompliance(rings, grid, springs)
-    friction = FRICTIONLESS if path is Path.PRESSING else model.friction
+    friction = FRICTIONLESS
+    if path is not Path.PRESSING:
+        friction = friction_at_radii(model.friction, rings.radii[compliance.ring_of_point])
     return PointContact(compliance, friction, penalty, compliances(model.scene.rig))

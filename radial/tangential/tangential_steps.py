@@ -13,7 +13,7 @@ import numpy as np
 from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
 from contact_scene.array_types import Array
 from contact_scene.body_pair import coupling
-from contact_scene.checks.axisymmetric import ELSEWHERE
+from contact_scene.checks.axisymmetric import ELSEWHERE, friction_at_radii
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import UnsupportedScene
@@ -252,15 +252,16 @@ class TangentialSteps(StepsOnRings):
         if last is not None and before is not None and before.circle is not points.circle:
             last, slip = last.repeat_angles(points), points.repeat_angles(slip)
         guess = None if last else self._frictionless_guess(points, loads)
+        friction = self._friction_at(points)
         end = self._solve_at_points(points, loads, last, guess)
         if not coupling(self.scene)[0]:
             springs = compliances(self.scene.rig)
-            growth = growth_without_slip(points, self.friction, loads, last, end, springs)
+            growth = growth_without_slip(points, friction, loads, last, end, springs)
             if growth is not None:
                 end = self._solve_at_points(points, loads, last, growth.guess, growth.free)
         resolved = points.is_resolved(end.pressure)
         smooth = None if resolved else self._solve_frictionless(loads).contact.radius
-        return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
+        return tangential_state(points, friction, end, last, slip, loads, before, smooth)
 
     def _solve_at_points(
         self,
@@ -279,7 +280,12 @@ class TangentialSteps(StepsOnRings):
         free    free motion of points until their contact, times areas (2 N,); None without
         """
         held, tolerance = _fix_excluded_motions(points, loads), EXACT * self.tolerance
-        return solve_increment(points, self.friction, held, last, tolerance, guess, free)
+        friction = self._friction_at(points)
+        return solve_increment(points, friction, held, last, tolerance, guess, free)
+
+    def _friction_at(self, points: ContactPoints) -> CoulombFriction:
+        """Return the friction law with the coefficients of all points on the rings."""
+        return friction_at_radii(self.friction, np.repeat(points.radii, points.count))
 
     def _solve_frictionless(self, loads: Loads) -> NormalContact:
         """Solve the frictionless contact under the prescribed normal load of an increment.
@@ -342,7 +348,7 @@ class TangentialSteps(StepsOnRings):
         points = self.points if angular else self.points.axisymmetric
         if reached.place.index == reached.place.increments_in_step:
             self._refuse_narrow(state, reached.place.step)
-        residuals = residuals_of(points, self.friction, state)
+        residuals = residuals_of(points, self._friction_at(points), state)
         residuals.require(self.tolerance, "contact and friction on rings", end.steps)
         p = self._interpolate_scalar(points, end.pressure)
         q_r, q_t = self._interpolate_vector(points, end.shear)
@@ -357,7 +363,8 @@ class TangentialSteps(StepsOnRings):
         share = np.where(np.isfinite(end.share), end.share, 2.0)
         p, gap = np.maximum(p, 0.0), np.maximum(self._interpolate_scalar(points, gap), 0.0)
         if angular:
-            q_r, q_t = self._limit_shear(points, np.stack([q_r, q_t]), self.friction.limit(p))
+            limit = self.friction.at_radii(points.radii[:, None]).limit(p)
+            q_r, q_t = self._limit_shear(points, np.stack([q_r, q_t]), limit)
         increment = Increment(
             step=reached.place.step,
             index=reached.place.index,

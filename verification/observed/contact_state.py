@@ -177,6 +177,8 @@ class ContactState:
     unseen      reason for which slip is not compared with the shear; empty if it is compared
     open        reason for which energies are not compared with those of the preceding state
     told        True if stored energy and unresolved work cannot be computed from the fields
+    between     True if the fields are interpolated between the points of the solver; slip and
+                motion of the surfaces are then compared in the mean, weighted with the limit
     """
 
     increment: Any
@@ -201,6 +203,7 @@ class ContactState:
     unseen: str = ""
     open: str = ""
     told: bool = False
+    between: bool = False
 
     @property
     def not_compared(self) -> str:
@@ -296,7 +299,9 @@ def _slip_violations(before: ContactState | None, now: ContactState) -> Iterator
     slip, passed = now.slip - start.slip, now.passed - start.passed
     approach = abs(now.increment.approach)
     other = _other_than_motion(slip, passed, start.pressure > 0) - now.loose
-    yield float(np.max(np.where(now.weights * now.limit > 0, other, 0.0)) / approach)
+    other = np.where(now.weights * now.limit > 0, other, 0.0)
+    mean = now.over(now.limit * other) / now.over(now.limit) if now.between else np.max(other)
+    yield float(mean / approach)
     work, friction = now.limit * np.hypot(*slip), np.max(now.limit) / np.max(now.pressure)
     least = max(LEAST_SLIP * friction, SLIP_ROUNDING) * approach * now.over(now.limit)
     scale = max(now.over(work), now.least_work, least)

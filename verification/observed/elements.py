@@ -309,7 +309,8 @@ def _state_on_elements(
     forces, motions = _loads_and_motions(increment, result)
     if motions is None and not np.any(forces):
         motions = np.zeros(3)
-    w, friction, depth = rings.weights, rings.model.friction, abs(increment.approach)
+    w, depth = rings.weights, abs(increment.approach)
+    friction = rings.model.friction.at_radii(rings.basis.radii[:, None])
     limit, stretched = friction.limit(p), rings.stretched(increment)
     gap, driven = rings.undeformed + u_z - increment.approach, rings.driven
     apart = np.where(p > 0, 0.0, gap)

@@ -5,9 +5,10 @@ as a root at the edge. Tractions at points on rings are hat functions (piecewise
 are integrated exactly. The angles of the points have equal weights. Between these angles the solver
 interpolates: there the shear is within its limit, but opposite to the slip only approximately.
 
-If there is no slip during indentation, a contact has the normal displacement δ - f and a tangential
-displacement of slip and rigid motion. δ is the approach and f the initial gap. Otherwise particles
-move relative to each other before first contact, and the stored energy is not recomputed.
+At points on rings, gap and relative motion are computed again from the tractions. On a disc without
+slip during indentation, a contact has the normal displacement δ - f and a tangential displacement
+of slip and rigid motion. δ is the approach and f the initial gap. Otherwise particles move relative
+to each other before first contact, and the stored energy is not recomputed.
 """
 
 from __future__ import annotations
@@ -21,7 +22,13 @@ from scipy.interpolate import CubicSpline
 
 from contact_scene.friction import FRICTIONLESS
 from radial import Increment, Result
-from verification.observed.contact_state import BISECTED, FEW_RINGS, Balance, ContactState
+from verification.observed.contact_state import (
+    BISECTED,
+    FEW_RINGS,
+    Balance,
+    ContactState,
+)
+from verification.observed.ring_displacement import RingDisplacement, angle_weights
 
 Field = NDArray[np.float64]
 
@@ -39,6 +46,7 @@ def states_on_radii(result: Result) -> list[ContactState]:
     """
     states, before, under_shear = list[ContactState](), None, False
     on_disc, coupled = result.plan.circle is None, result.plan.coupled
+    elastic = None if on_disc else _elastic(result)
     for now in result.increments:
         few = _has_few_rings(now, result)
         grown = before is None or now.contact_radius > GROWTH * before.contact_radius
@@ -54,20 +62,30 @@ def states_on_radii(result: Result) -> list[ContactState]:
         divided = BISECTED if on_disc and coupled and grown else bisected
         states.append(
             replace(
-                _state_on_radii(now, result, few=few),
+                _state_on_radii(now, result, elastic, few=few),
                 open=lacking or divided, unseen=bisected or lacking or annulus,
-                told=coupled or few or under_shear,
+                told=few or (on_disc and (coupled or under_shear)),
             )
         )  # fmt: skip
         before = now
     return states
 
 
-def _state_on_radii(now: Increment, result: Result, *, few: bool) -> ContactState:
+def _elastic(result: Result) -> RingDisplacement:
+    """Create the elastic displacement of the rings of a result."""
+    last = result.increments[-1]
+    highest = 0 if last.angles is None else result.plan.highest
+    return RingDisplacement(result.scene, last.radii, highest)
+
+
+def _state_on_radii(
+    now: Increment, result: Result, elastic: RingDisplacement | None, *, few: bool
+) -> ContactState:
     """Create the state of the contact surface at the end of one increment of the radial solver.
 
     now     increment
     result  result of the increment
+    elastic displacement of points on rings by their tractions; None on discs
     few     True if the contact has too few rings for integrals; the points then have equal weights,
             and the state has no balances
     """
@@ -90,8 +108,9 @@ def _state_on_radii(now: Increment, result: Result, *, few: bool) -> ContactStat
     else:
         weights = _over_hats(r, np.ones_like)
         arm, f = (_over_hats(r, g) / weights for g in (lambda r: r, lambda r: gap(r, 0.0)))
-    w = weights[:, None] * _angle_shares(now.angles)
-    limit = (result.scene.friction or FRICTIONLESS).limit(p)
+    angles = np.zeros(1) if now.angles is None else now.angles
+    w = weights[:, None] * angle_weights(angles)
+    limit = (result.scene.friction or FRICTIONLESS).at_radii(r[:, None]).limit(p)
     carried = _carried_loads(now, w, arm[:, None], q, result.plan.direction)
     force, torque = now.tangential_force or (0.0, 0.0), now.torque or 0.0
     most = float(np.sum(w * limit)) or now.normal_force
@@ -101,15 +120,45 @@ def _state_on_radii(now: Increment, result: Result, *, few: bool) -> ContactStat
         if now.torque is not None:
             balances.append(Balance(carried[2], torque, most * now.contact_radius))
     strain = 0.0 if now.bulk_strain is None else now.bulk_strain[0]
-    return ContactState(
-        now, w, np.broadcast_to(f[:, None], p.shape), p, now.gap.reshape(p.shape), q, limit, slip,
-        slip,
+    undeformed, opened = np.broadcast_to(f[:, None], p.shape), now.gap.reshape(p.shape)
+    state = ContactState(
+        now, w, undeformed, p, opened, q, limit, slip, slip,
         np.array([now.normal_force, *force, torque, float(np.sum(w * arm[:, None] * q[0]))]),
         np.array(
             [now.approach, *(now.tangential_shift or (0.0, 0.0)), now.twist or 0.0, -strain]
         ),
         now.approach, () if few else tuple(balances), least_work=now.dissipated_energy or 0.0,
     )  # fmt: skip
+    if elastic is None or few:
+        return state
+    u = elastic.by(np.stack([*q, p]), angles)
+    gap = undeformed + u[2] - now.approach
+    off = float(np.max(np.abs(np.where(p > 0, 0.0, gap) - opened)) / now.approach)
+    passed = u[:2] - _driven(now, angles, arm[:, None], result.plan.direction)
+    passed[0] += strain * arm[:, None]
+    passed[:, 0] = slip[:, 0]  # the axis is one point with the mean of its angles
+    return replace(
+        state,
+        gap=gap,
+        passed=None if now.dissipated_energy is None else passed,
+        stated=(off,),
+        between=now.angles is not None,
+    )
+
+
+def _driven(now: Increment, angles: Field, arm: Field, along: tuple[float, float]) -> Field:
+    """Compute the displacement r, θ of the rings by shift and twist of the indenter [length].
+
+    now     increment
+    angles  angles of the points from the direction of the load [radian]
+    arm     distance of the rings from the axis (rings, 1) [length]
+    along   unit vector of the direction of angle zero
+    """
+    (x, y), shift = along, now.tangential_shift or (0.0, 0.0)
+    ahead, aside = x * shift[0] + y * shift[1], x * shift[1] - y * shift[0]
+    cos, sin = np.cos(angles), np.sin(angles)
+    outward = ahead * cos + aside * sin + 0 * arm
+    return np.stack([outward, aside * cos - ahead * sin + (now.twist or 0.0) * arm])
 
 
 def _carried_loads(
@@ -175,18 +224,3 @@ def _over_hats(r: Field, function: Callable[[Field], Field]) -> Field:
     at = r[:-1, None] + length * v
     part = np.pi * function(at) * at * length * shares
     return np.append(part @ (1 - v), 0.0) + np.append(0.0, part @ v)
-
-
-def _angle_shares(angles: Field | None) -> Field:
-    """Return the integration weights (angles,) of the points on a ring, with sum 1.
-
-    The angles cover the full circle, or a half circle with both ends.
-
-    angles  angles of the points [radian]; None for axisymmetric fields
-    """
-    if angles is None:
-        return np.ones(1)
-    shares = np.ones(len(angles))
-    if angles[-1] <= np.pi:
-        shares[[0, -1]] = 0.5
-    return shares / np.sum(shares)
