@@ -15,7 +15,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 from pydantic import Field, model_validator
 
@@ -98,6 +98,37 @@ class RecordedQuantity(Description):
     def key(self) -> Key:
         """Key of the quantity in its verification case: name, run and kind of tolerance."""
         return key_of(self)
+
+
+class JudgedQuantity(RecordedQuantity):
+    """Judged answer of a solver outside this program: `value` is its error relative to its scale.
+
+    The reference is 0. The value is None if the answer has no finite error, or is judged otherwise.
+    """
+
+    answer: float | None = None
+    """Answered number, in the unit that the challenge requires; null for fields and points."""
+
+    order: tuple[float, float] | None = None
+    """Observed order of convergence and half-width of its 95 % interval; null if unknown."""
+
+    @property
+    def scale(self) -> float:
+        """Scale of the value, which is 1, because errors are relative."""
+        return 1.0
+
+    @property
+    def most_allowed(self) -> float:
+        """Largest accepted error, relative to its scale."""
+        return self.allowed
+
+    @property
+    def stated_error(self) -> None:
+        """Error that the solver states: None, because its claims are verdicts of their own."""
+        return None
+
+
+Judged: TypeAlias = Verdict | JudgedQuantity
 
 
 class RecordedFinding(Description):
@@ -446,7 +477,7 @@ BETTER_BY = 2.0
 BETTER_BY_PART = 0.05
 
 
-def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Origin) -> Change:
+def quantity_change(verdict: Judged, was: RecordedQuantity | None, origin: Origin) -> Change:
     """Classify the change of a judged quantity since its recorded value as worse, better, new or
     other.
 
@@ -489,7 +520,7 @@ def finding_change(finding: FindingRecord, was: RecordedFinding | None, origin: 
     return Change(kind=kind, was=was.value, since=origin.name)
 
 
-def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: float) -> ChangeKind:
+def _kind(verdict: Judged, was: RecordedQuantity, difference: float, allowed: float) -> ChangeKind:
     if verdict.status is Status.FAIL and was.status is not Status.FAIL:
         return ChangeKind.OUTSIDE
     if was.status is Status.FAIL and verdict.status is not Status.FAIL:
@@ -513,7 +544,7 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
     return ChangeKind.BETTER if better else ChangeKind.DRIFT
 
 
-def _is_judged_less(verdict: Verdict, was: RecordedQuantity) -> bool:
+def _is_judged_less(verdict: Judged, was: RecordedQuantity) -> bool:
     """Return True if a recorded number is no longer judged, or with a tolerance wider by half.
 
     Tolerances of orders and of the worst run depend on results. Derived ones follow the noise.
@@ -524,7 +555,7 @@ def _is_judged_less(verdict: Verdict, was: RecordedQuantity) -> bool:
     return lost or (fixed and verdict.most_allowed > WORSE_BY * was.allowed + noise)
 
 
-def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
+def _is_farther(verdict: Judged, was: RecordedQuantity) -> bool:
     """Return True if the present value is farther from its reference than the recorded value.
 
     A convergence order that was recorded as inconclusive, because its interval is too wide, is not
@@ -543,7 +574,7 @@ def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
 
 
 def grows(
-    small: Verdict | RecordedQuantity, large: Verdict | RecordedQuantity, by: float, least: float
+    small: Judged | RecordedQuantity, large: Judged | RecordedQuantity, by: float, least: float
 ) -> bool:
     """Return True if the error of one quantity is much smaller than that of another one.
 
@@ -560,10 +591,18 @@ def grows(
     error, larger = (
         abs(one.value - one.reference) for one in (small, large) if one.value is not None
     )
-    return larger >= by * error and larger - error >= least
+    return has_grown(error, larger, by, least)
 
 
-def _remarks(verdict: Verdict, was: RecordedQuantity) -> Iterator[str]:
+def has_grown(error: float, larger: float, by: float, least: float) -> bool:
+    """Return True if an error has become `by` times as large, and larger by at least `least`.
+
+    This is the rule for all accuracy regressions: of verdicts and of stated errors.
+    """
+    return larger > error and larger >= by * error and larger - error >= least
+
+
+def _remarks(verdict: Judged, was: RecordedQuantity) -> Iterator[str]:
     """Yield the differences between a verdict and its recorded quantity other than the value, as
     texts.
 
@@ -610,10 +649,15 @@ def counter_changes(case: CaseOutcome | Recording, recorded: Recording) -> Itera
     both = [(run, then[run.label]) for run in case.runs if run.label in then]
     for name in COUNTERS:
         now, was = (sum(getattr(pair[i], name) for pair in both) for i in (0, 1))
-        if abs(now - was) > SAME_COUNT * was:
-            kind = ChangeKind.DEARER if now > was else ChangeKind.DRIFT
-            remark = f"{now / was:.3g} times" if was else ""
-            yield CounterChange(name=name, kind=kind, was=was, now=now, remark=remark)
+        yield from count_change(name, now, was)
+
+
+def count_change(name: str, now: int, was: int) -> Iterator[CounterChange]:
+    """Yield the change of a count of work, such as "iterations", if it changed by more than 5 %."""
+    if abs(now - was) > SAME_COUNT * was:
+        kind = ChangeKind.DEARER if now > was else ChangeKind.DRIFT
+        remark = f"{now / was:.3g} times" if was else ""
+        yield CounterChange(name=name, kind=kind, was=was, now=now, remark=remark)
 
 
 def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
