@@ -10,7 +10,6 @@ case.
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -20,6 +19,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 from pydantic import Field, model_validator
 
 from contact_results.directory.atomic_file import Refused, atomic_file
+from contact_results.directory.json_record import read_record, record_text, write_record
 from contact_scene.reading.description import Description
 from verification.judging.case import Level
 from verification.judging.outcome import (
@@ -284,7 +284,8 @@ Each removed key of an accepted baseline, with its successor or the reason for i
 | case | quantity [run] | successor, or reason |
 | --- | --- | --- |
 """
-REMEDY = "restore it from the repository, or delete it and accept it anew"
+RESTORE = "restore it from the repository"
+REMEDY = f"{RESTORE}, or delete it and accept it anew"
 
 
 def read_baselines(directory: Path | None = None) -> dict[str, Baseline]:
@@ -330,7 +331,7 @@ def write_baselines(
         ordered = {
             name: levels[name] for name in sorted(levels, key=lambda name: Level[name.upper()])
         }
-        texts[path] = dump_baseline(Baseline(case=case, levels=ordered)) if ordered else ""
+        texts[path] = record_text(Baseline(case=case, levels=ordered)) if ordered else ""
     if removed:
         path = directory / REMOVED
         head = path.read_text(encoding="utf-8") if path.exists() else REMOVED_HEAD
@@ -349,23 +350,8 @@ def write_baselines(
     return tuple(path for path in texts if path.suffix == ENDING)
 
 
-def dump_baseline(baseline: Baseline) -> str:
-    """Convert the accepted results of a case to the JSON text of its baseline file, with all
-    digits."""
-    content = baseline.model_dump(mode="json")
-    return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-
-
 def _read_baseline(path: Path) -> Baseline:
-    if path.exists() and not path.is_file():
-        raise BaselineRefused(f"baseline {path} is not a regular file")
-    try:
-        baseline = Baseline.model_validate_json(path.read_bytes())
-    except OSError as error:
-        raise BaselineRefused(f"baseline {path} cannot be read: {error.strerror}") from error
-    except ValueError as error:
-        problem = " ".join(str(error).splitlines()[:3])
-        raise BaselineRefused(f"baseline {path} is damaged: {problem}; {REMEDY}") from None
+    baseline = read_record(path, Baseline, "baseline", REMEDY, BaselineRefused)
     unknown = sorted(baseline.levels.keys() - {level.name.lower() for level in Level})
     for wrong, text in (
         (baseline.schema_version != BASELINE_VERSION, f"is of version {baseline.schema_version}"),
@@ -863,11 +849,7 @@ def read_tolerances(level: str, directory: Path = TOLERANCES) -> Tolerances:
     path = directory / f"{level}.json"
     if not path.exists():
         return Tolerances(level=level)
-    try:
-        return Tolerances.model_validate_json(path.read_bytes())
-    except ValueError as error:
-        problem = " ".join(str(error).splitlines()[:3])
-        raise BaselineRefused(f"tolerances {path} are damaged: {problem}") from None
+    return read_record(path, Tolerances, "file of tolerances", RESTORE, BaselineRefused)
 
 
 def held_to(cases: Sequence[CaseOutcome], tolerances: Tolerances) -> tuple[CaseOutcome, ...]:
@@ -992,10 +974,7 @@ def accept_tolerances(reports: Sequence[Report], because: str, directory: Path =
         because=because, commit=made[0].commit, kernels=tuple(kernels), tolerances=new
     )
     content = Tolerances(level=level, accepted=(*kept, *((accepted,) if new else ())))
-    directory.mkdir(parents=True, exist_ok=True)
-    with atomic_file(directory / f"{level}.json") as temporary:
-        text = json.dumps(content.model_dump(mode="json"), indent=1, ensure_ascii=False)
-        temporary.write_text(text + "\n", encoding="utf-8", newline="\n")
+    write_record(directory / f"{level}.json", content)
     return sum(map(len, new.values()))
 
 
