@@ -671,7 +671,7 @@ def test_tolerances_need_a_reason_and_one_level(outcome: CaseOutcome, tmp_path: 
     with pytest.raises(BaselineRefused, match="name one level"):
         proposed([report_of(outcome), report_of(outcome, level="full")])
     (tmp_path / "quick.json").write_text("{")
-    with pytest.raises(BaselineRefused, match=r"quick\.json is damaged: expected JSON"):
+    with pytest.raises(BaselineRefused, match=r"quick\.json is damaged: got no JSON"):
         read_tolerances("quick", tmp_path)
 
 

@@ -11,6 +11,8 @@ from contact_scene.reading.description import Description
 from contact_scene.reading.scene_error import dotted_key, shown
 
 R = TypeVar("R", bound=Description)
+# Start of pydantic's message about a value of another kind or size.
+INVALID = "Input should be "
 
 
 def record_text(record: Description) -> str:
@@ -55,12 +57,8 @@ def first_mistake(error: ValidationError) -> str:
     """Describe the first mistake of an invalid record by its key, received and expected value."""
     first = error.errors(include_url=False)[0]
     kind, message = first["type"], first["msg"].removeprefix("Value error, ")
-    sentences = {
-        "missing": "the key is missing",
-        "extra_forbidden": "unknown key",
-        "json_invalid": f"expected JSON, got another text ({message.removeprefix('Invalid JSON: ')})",
-    }
-    expected = message.removeprefix("Input should be ")
-    told = f"got {shown(first['input'])}, expected {expected}"
-    sentence = sentences.get(kind, message if expected == message else told)
+    sentences = {"missing": "the key is missing", "extra_forbidden": "unknown key"}
+    sentence = sentences.get(kind, message.replace("Invalid JSON: ", "got no JSON: "))
+    if message.startswith(INVALID):
+        sentence = f"got {shown(first['input'])}, expected {message.removeprefix(INVALID)}"
     return ": ".join(filter(None, (dotted_key(first["loc"]), sentence)))
