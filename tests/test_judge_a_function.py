@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -14,8 +15,11 @@ from contact_results.directory.atomic_file import Refused
 from slipstick.cli import main
 from verification import Answer, SolverFailed
 from verification import judge as judge_function
-from verification.challenge.python_api import posed
-from verification.challenge.solver_process import named_solver
+from verification.challenge.python_api import Judgement, posed
+from verification.challenge.requested_quantities import Key
+from verification.challenge.saved_judgements import judgement_changes, save_judgement
+from verification.challenge.solver_process import Posed, named_solver
+from verification.judging.outcome import ChangeKind
 from verification.problems.problem import HERTZ
 
 FILE = """
@@ -111,6 +115,84 @@ def test_the_exit_code_says_how_a_function_did(
     assert judge(f"{file}:{function}", *case, *options) == code
     told = capsys.readouterr()
     assert said in told.out + told.err
+
+
+# A solver, its changes since its judgement was saved, and the worst change with its text.
+SAVED = {"error": 8e-4, "claim": 1e-5, "unknowns": 100}
+LATER = [
+    ({}, None, ""),
+    ({"error": 1.2 * 8e-4}, ChangeKind.DRIFT, "error 0.00096, was error 0.0008 at saved.json"),
+    ({"error": -1.2 * 8e-4}, ChangeKind.DRIFT, ""),
+    ({"error": 1.6 * 8e-4}, ChangeKind.WORSE, "hertz_point/approach [step 1]: error 0.00128"),
+    ({"error": 8e-3}, ChangeKind.WORSE, "error 0.008"),
+    ({"error": 1.6e-2}, ChangeKind.OUTSIDE, "pass -> fail"),
+    ({"error": 1e-4}, ChangeKind.BETTER, ""),
+    ({"unknowns": 104}, None, ""),
+    ({"unknowns": 106}, ChangeKind.DEARER, "unknowns [all levels]: 106, was 100"),
+    ({"unknowns": 50}, ChangeKind.DRIFT, "unknowns"),
+    ({"claim": 1e-1}, ChangeKind.WORSE, "pass -> inconclusive"),
+    ({"claim": 0}, ChangeKind.GONE, "own uncertainty"),
+    ({"levels": 2}, None, ""),
+]
+
+
+def judged_solver(
+    error: float, claim: float, unknowns: int, levels: int = 1, grade: str = "C"
+) -> Judgement:
+    def solve(problem: Posed, level: int) -> Answer:
+        radius = HERTZ.contact_radius
+        values: dict[Key, float | tuple[float, float]] = {
+            ("approach", 1): HERTZ.approach * (1 + error / 1.1**level),
+            ("contact_radius", 1): (radius, claim * radius) if claim else radius,
+        }
+        return Answer(1e-5 / 2**level, values, unknowns=unknowns * (level == 0))
+
+    return judge_function("hertz_point", solve, levels, grade, seconds=None)
+
+
+@pytest.mark.parametrize(("change", "kind", "said"), LATER)
+def test_a_solver_is_held_to_its_saved_judgement(
+    tmp_path: Path, change: dict[str, Any], kind: ChangeKind | None, said: str
+) -> None:
+    path = tmp_path / "saved.json"
+    save_judgement(judged_solver(**SAVED), path)
+    once = path.read_bytes()
+    save_judgement(judged_solver(**SAVED), path)
+    assert path.read_bytes() == once
+    rows = judgement_changes("hertz_point", judged_solver(**(SAVED | change)), path)
+    assert [row.kind for row in rows[:1]] == [kind] * (kind is not None)
+    assert said in "".join(row.line for row in rows[:1])
+    fewer = judgement_changes("hertz_point", None, path)
+    assert {row.kind for row in fewer} == {ChangeKind.GONE}
+    assert {row.name for row in fewer} >= {"approach", "contact_radius", "level"}
+
+
+def test_a_judgement_that_is_worse_than_the_saved_one_ends_with_7(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("mine.py").write_text(FILE)
+    saved, coated = Path("saved.json"), "coated_paraboloid/E1_over_E2=2"
+    save_judgement(judged_solver(**SAVED), saved)
+    case, against = ("--case", "hertz_point", "--levels", "1"), ("--against", "saved.json")
+    for function, code, said in (
+        ("right", 7, "own uncertainty  step 1  gone"),
+        ("off", 1, "pass -> fail"),
+        ("cannot", 7, "the solver no longer gives it"),
+    ):
+        assert judge(f"mine.py:{function}", *case, *against) == code
+        assert said in capsys.readouterr().out
+    assert judge("mine.py:right", *case, "--save", "saved.json") == 0
+    assert judge("mine.py:right", *case, "--strict", *against) == 0
+    assert "nothing has changed since saved.json" in capsys.readouterr().out
+    assert judge("mine.py:right", *case, *against, "--save", "saved.json") == 2
+    for damage, other, expected in (
+        ("", coated, f"key cases: got hertz_point, expected {coated}; add it by --save"),
+        ("bad", "hertz_point", 'quantities[1].status: got "bad", expected'),
+    ):
+        saved.write_text(saved.read_text().replace("pass", damage or "pass"))
+        assert judge("mine.py:right", "--case", other, *against, "--partial") == 2
+        assert expected in capsys.readouterr().err
 
 
 def test_a_file_imports_what_lies_beside_it(

@@ -61,4 +61,5 @@ def first_mistake(error: ValidationError) -> str:
     sentence = sentences.get(kind, message.replace("Invalid JSON: ", "got no JSON: "))
     if message.startswith(INVALID):
         sentence = f"got {shown(first['input'])}, expected {message.removeprefix(INVALID)}"
-    return ": ".join(filter(None, (dotted_key(first["loc"]), sentence)))
+    key = dotted_key(first["loc"])
+    return f"key {key}: {sentence}" if key else sentence

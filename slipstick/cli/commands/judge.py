@@ -147,13 +147,18 @@ def judge(
     if save is not None:
         save_judgement(found, save)
         typer.echo(f"saved: {save}")
-    code = found.exit_code(partial=partial)
+    worse = ExitCode.PASS
     if against is not None:
         rows = judgement_changes(found.challenge.name, found, against)
-        code = code or compare_with_file(rows, against, "--save")
+        worse = compare_with_file(rows, against, "--save")
     # A lost verdict is inconclusive, too: what is worse precedes.
-    if code := code or found.exit_code(strict=strict, partial=partial):
-        raise typer.Exit(code)
+    codes = (
+        found.exit_code(partial=partial),
+        worse,
+        found.exit_code(strict=strict, partial=partial),
+    )
+    if any(codes):
+        raise typer.Exit(next(filter(None, codes)))
 
 
 def _judge_function(
