@@ -32,7 +32,7 @@ from verification.regression.change_row import ChangeRow, rows_that_matter
 from verification.running.study import CaseRecord
 
 WHAT = "file of expected numbers"
-REMEDY = "restore it, or delete it and save the numbers again by --save-expected"
+REMEDY = "restore it, or save the numbers by --save-expected"
 # An error that has not converged is right to an order of magnitude at best.
 DOUBT = 10.0
 MAX_KEYS = 5  # of another scene, listed in a message
