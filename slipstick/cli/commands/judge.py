@@ -126,8 +126,9 @@ def judge(
     FILE.py is executed in a process of its own: judge only code that you trust.
     """
     refuse_if([(save and against, "--save excludes --against; omit one of them")])
-    if against is not None:
-        read_judgements(against)  # Refuse before the solve.
+    earlier = against or (save if save and save.exists() else None)
+    if earlier is not None:
+        read_judgements(earlier)  # Refuse before the solve.
     if names_a_solver(answers):
         found = _judge_function(answers, case, levels, seconds, grade, strict, against)
     elif case is not None:
