@@ -19,7 +19,6 @@ from verification.challenge.python_api import Judgement, posed
 from verification.challenge.requested_quantities import Key
 from verification.challenge.saved_judgements import judgement_changes, save_judgement
 from verification.challenge.solver_process import Posed, named_solver
-from verification.judging.outcome import ChangeKind
 from verification.problems.problem import HERTZ
 
 FILE = """
@@ -91,17 +90,17 @@ def test_the_exit_code_says_how_a_function_did(
 SAVED = {"error": 8e-4, "claim": 1e-5, "unknowns": 100}
 LATER = [
     ({}, None, ""),
-    ({"error": 1.2 * 8e-4}, ChangeKind.DRIFT, "error 0.00096, was error 0.0008 at saved.json"),
-    ({"error": -1.2 * 8e-4}, ChangeKind.DRIFT, ""),
-    ({"error": 1.6 * 8e-4}, ChangeKind.WORSE, "hertz_point/approach [step 1]: error 0.00128"),
-    ({"error": 8e-3}, ChangeKind.WORSE, "error 0.008"),
-    ({"error": 1.6e-2}, ChangeKind.OUTSIDE, "pass -> fail"),
-    ({"error": 1e-4}, ChangeKind.BETTER, ""),
+    ({"error": 1.2 * 8e-4}, "drift", "error 0.00096, was error 0.0008 at saved.json"),
+    ({"error": -1.2 * 8e-4}, "drift", ""),
+    ({"error": 1.6 * 8e-4}, "worse", "hertz_point/approach [step 1]: error 0.00128"),
+    ({"error": 8e-3}, "worse", "error 0.008"),
+    ({"error": 1.6e-2}, "outside", "pass -> fail"),
+    ({"error": 1e-4}, "better", ""),
     ({"unknowns": 104}, None, ""),
-    ({"unknowns": 106}, ChangeKind.DEARER, "unknowns [all levels]: 106, was 100"),
-    ({"unknowns": 50}, ChangeKind.DRIFT, "unknowns"),
-    ({"claim": 1e-1}, ChangeKind.WORSE, "pass -> inconclusive"),
-    ({"claim": 0}, ChangeKind.GONE, "own uncertainty"),
+    ({"unknowns": 106}, "dearer", "unknowns [all levels]: 106, was 100"),
+    ({"unknowns": 50}, "drift", "unknowns"),
+    ({"claim": 1e-1}, "worse", "pass -> inconclusive"),
+    ({"claim": 0}, "gone", "own uncertainty"),
     ({"levels": 2}, None, ""),
 ]
 
@@ -122,7 +121,7 @@ def judged_solver(
 
 @pytest.mark.parametrize(("change", "kind", "said"), LATER)
 def test_a_solver_is_held_to_its_saved_judgement(
-    tmp_path: Path, change: dict[str, Any], kind: ChangeKind | None, said: str
+    tmp_path: Path, change: dict[str, Any], kind: str | None, said: str
 ) -> None:
     path = tmp_path / "saved.json"
     save_judgement(judged_solver(**SAVED), path)
@@ -133,7 +132,7 @@ def test_a_solver_is_held_to_its_saved_judgement(
     assert [row.kind for row in rows[:1]] == [kind] * (kind is not None)
     assert said in "".join(row.line for row in rows[:1])
     fewer = judgement_changes("hertz_point", None, path)
-    assert {row.kind for row in fewer} == {ChangeKind.GONE}
+    assert {row.kind for row in fewer} == {"gone"}
     assert {row.name for row in fewer} >= {"approach", "contact_radius", "level"}
 
 
