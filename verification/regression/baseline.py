@@ -112,6 +112,9 @@ class JudgedQuantity(RecordedQuantity):
     order: tuple[float, float] | None = None
     """Observed order of convergence and half-width of its 95 % interval; null if unknown."""
 
+    stated_error: float | None = None
+    """Null, because the claims of a solver are verdicts of their own."""
+
     @property
     def scale(self) -> float:
         """Scale of the value, which is 1, because errors are relative."""
@@ -121,11 +124,6 @@ class JudgedQuantity(RecordedQuantity):
     def most_allowed(self) -> float:
         """Largest accepted error, relative to its scale."""
         return self.allowed
-
-    @property
-    def stated_error(self) -> None:
-        """Error that the solver states: None, because its claims are verdicts of their own."""
-        return None
 
 
 Judged: TypeAlias = Verdict | JudgedQuantity
