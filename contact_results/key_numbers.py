@@ -172,7 +172,7 @@ def _without_round_off(value: float | None, negligible: float) -> float | None:
     return 0.0 if value is not None and abs(value) <= negligible else value
 
 
-# Symbols of the numbers of load cycles in tables, and units of Ruiz's parameters.
+# Symbols of the numbers of load cycles in tables, and units of Ruiz's parameters and of areas.
 SYMBOLS = {
     **{"energy_per_cycle": "E_d", "force_amplitude": "Q*", "actuator_amplitude": "δ*"},
     **{"shift_amplitude": "δ", "loop_opening": "δ_g", "energy_ratio": "A"},
@@ -182,7 +182,11 @@ SYMBOLS = {
 }
 # Numbers in tables: those of load steps, and those of load cycles.
 SHOWN = (*(name for name, mark in SCALARS.items() if mark.key), *SYMBOLS)
-PRODUCTS = {"Pa m": EngineeringUnit(1e3, "MPa mm"), "Pa^2 m": EngineeringUnit(1e9, "MPa² mm")}
+PRODUCTS = {
+    "Pa m": EngineeringUnit(1e3, "MPa mm"),
+    "Pa^2 m": EngineeringUnit(1e9, "MPa² mm"),
+    "m^2": EngineeringUnit(1e-6, "mm²"),
+}
 
 
 def cycle_columns(

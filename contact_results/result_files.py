@@ -23,6 +23,7 @@ from contact_results.number_text import doubt_texts
 from contact_results.omitted_parts import OmittedParts
 from contact_results.result_warnings import warnings_of
 from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
+from contact_scene.quantities.summary import RunSummary
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
@@ -33,12 +34,14 @@ Figures = Literal["none", "overview", "all"]
 
 @dataclass(frozen=True)
 class WrittenResult:
-    """Texts of a written result, for the terminal.
+    """Summary and texts of a written result.
 
+    summary   summary as in `summary.json`, without warnings
     cycles    table of load cycles, see `cycle_columns`; empty without load cycles
     warnings  warnings about the result, as in `summary.json`
     """
 
+    summary: RunSummary
     cycles: dict[str, list[str]]
     warnings: tuple[str, ...]
 
@@ -127,4 +130,4 @@ def write_computed(
     warnings += omitted.warnings
     # The summary is last: it has the digest of the fields and the list of omitted parts.
     write_summary(summary, directory, warnings)
-    return WrittenResult(shown, warnings)
+    return WrittenResult(summary, shown, warnings)

@@ -174,6 +174,7 @@ ORDERS = {
     ),
     "verification.challenge": (
         *("requested_quantities", "cases", "files", "solver_process", "python_api"),
+        "saved_judgements",
     ),
     "slipstick": (
         *(
@@ -183,6 +184,7 @@ ORDERS = {
             "sweep",
             "sweep_chart",
             "against",
+            "expected",
             "cli",
             "__main__",
         ),

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -14,12 +15,14 @@ from contact_results.directory.atomic_file import Refused
 from slipstick.cli import main
 from verification import Answer, SolverFailed
 from verification import judge as judge_function
-from verification.challenge.python_api import posed
-from verification.challenge.solver_process import named_solver
+from verification.challenge.python_api import Judgement, posed
+from verification.challenge.requested_quantities import Key
+from verification.challenge.saved_judgements import judgement_changes, save_judgement
+from verification.challenge.solver_process import Posed, named_solver
 from verification.problems.problem import HERTZ
 
 FILE = """
-from verification import Answer, CannotDo
+from verification import Answer
 from verification.problems.problem import HERTZ
 
 def right(problem, level):
@@ -38,32 +41,11 @@ def gives_up(problem, level):
 def raises(problem, level):
     raise RuntimeError("singular matrix")
 
-def cannot(problem, level):
-    raise CannotDo("balls only")
-
-def nothing(problem, level):
-    return None
-
-def no_values(problem, level):
-    return Answer(1e-5, {("approach", 1): None})
-
 def typo(problem, level):
     return Answer(1e-5, {("approach_z", 1): HERTZ.approach})
 
-def alone(problem, level):
-    return Answer(1e-5, {"approach": HERTZ.approach})
-
-def word(problem, level):
-    return Answer(1e-5, {("approach", 1): "8 um"})
-
-def three(problem, level):
-    return Answer(1e-5, {("approach", 1): [1.0, 2.0, 3.0]})
-
 def endless(problem, level):
     return Answer(float("nan"), {("approach", 1): HERTZ.approach})
-
-def rising(problem, level):
-    return Answer(1e-5 * (1 + level), {("approach", 1): HERTZ.approach})
 
 number = 3
 """
@@ -87,18 +69,9 @@ def judge(*arguments: object) -> int:
         ("part", ("--partial",), 0, "partial"),
         ("gives_up", (), 3, "too steep"),
         ("raises", (), 3, "singular matrix"),
-        ("cannot", (), 0, "cannot: balls only"),
-        ("cannot", ("--strict",), 6, "cannot: balls only"),
-        ("missing", (), 2, "has no function 'missing'"),
         ("number", (), 2, "has no function 'number'"),
-        ("nothing", (), 2, "NoneType came back, expected an Answer"),
-        ("no_values", (), 2, "nothing to judge"),
         ("typo", (), 2, "('approach_z', 1) is not asked; asked: ('approach', 1)"),
-        ("alone", (), 2, "'approach', expected a quantity and a loading step"),
-        ("word", (), 2, "is '8 um', expected a number"),
-        ("three", (), 2, "has 3 numbers, expected one"),
         ("endless", (), 2, "h is nan, expected a positive length"),
-        ("rising", ("--levels", "2"), 2, "levels go from coarse to fine"),
     ],
 )
 def test_the_exit_code_says_how_a_function_did(
@@ -111,6 +84,56 @@ def test_the_exit_code_says_how_a_function_did(
     assert judge(f"{file}:{function}", *case, *options) == code
     told = capsys.readouterr()
     assert said in told.out + told.err
+
+
+# A solver, its changes since its judgement was saved, and the worst change with its text.
+SAVED = {"error": 8e-4, "claim": 1e-5, "unknowns": 100}
+LATER = [
+    ({}, None, ""),
+    ({"error": 1.2 * 8e-4}, "drift", "error 0.00096, was error 0.0008 at saved.json"),
+    ({"error": -1.2 * 8e-4}, "drift", ""),
+    ({"error": 1.6 * 8e-4}, "worse", "hertz_point/approach [step 1]: error 0.00128"),
+    ({"error": 8e-3}, "worse", "error 0.008"),
+    ({"error": 1.6e-2}, "outside", "pass -> fail"),
+    ({"error": 1e-4}, "better", ""),
+    ({"unknowns": 104}, None, ""),
+    ({"unknowns": 106}, "dearer", "unknowns [all levels]: 106, was 100"),
+    ({"unknowns": 50}, "drift", "unknowns"),
+    ({"claim": 1e-1}, "worse", "pass -> inconclusive"),
+    ({"claim": 0}, "gone", "own uncertainty"),
+    ({"levels": 2}, None, ""),
+]
+
+
+def judged_solver(
+    error: float, claim: float, unknowns: int, levels: int = 1, grade: str = "C"
+) -> Judgement:
+    def solve(problem: Posed, level: int) -> Answer:
+        radius = HERTZ.contact_radius
+        values: dict[Key, float | tuple[float, float]] = {
+            ("approach", 1): HERTZ.approach * (1 + error / 1.1**level),
+            ("contact_radius", 1): (radius, claim * radius) if claim else radius,
+        }
+        return Answer(1e-5 / 2**level, values, unknowns=unknowns * (level == 0))
+
+    return judge_function("hertz_point", solve, levels, grade, seconds=None)
+
+
+@pytest.mark.parametrize(("change", "kind", "said"), LATER)
+def test_a_solver_is_held_to_its_saved_judgement(
+    tmp_path: Path, change: dict[str, Any], kind: str | None, said: str
+) -> None:
+    path = tmp_path / "saved.json"
+    save_judgement(judged_solver(**SAVED), path)
+    once = path.read_bytes()
+    save_judgement(judged_solver(**SAVED), path)
+    assert path.read_bytes() == once
+    rows = judgement_changes("hertz_point", judged_solver(**(SAVED | change)), path)
+    assert [row.kind for row in rows[:1]] == [kind] * (kind is not None)
+    assert said in "".join(row.line for row in rows[:1])
+    fewer = judgement_changes("hertz_point", None, path)
+    assert {row.kind for row in fewer} == {"gone"}
+    assert {row.name for row in fewer} >= {"approach", "contact_radius", "level"}
 
 
 def test_a_file_imports_what_lies_beside_it(
@@ -128,24 +151,6 @@ def test_a_file_imports_what_lies_beside_it(
         f"{lost.name}: ModuleNotFoundError: No module named 'no_such_kernel'"
         in capsys.readouterr().err
     )
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (("none.py:solve", "--case", "hertz_point"), "none.py: no such file"),
-        (("no_module:solve", "--case", "hertz_point"), "No module named 'no_module'"),
-        (("none.py:solve",), "needs --case"),
-        (("none.py:solve", "--case", "hertz_pont"), "hertz_point"),
-        (("folder", "--case", "hertz_point"), "--case applies to functions"),
-        (("folder",), "expected the folder of 'slipstick challenge export'"),
-    ],
-)
-def test_what_names_no_solver_is_refused(
-    capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], said: str
-) -> None:
-    assert judge(*arguments) == 2
-    assert said in capsys.readouterr().err.replace("\n", " ")
 
 
 def test_our_own_solvers_are_named_by_their_module() -> None:

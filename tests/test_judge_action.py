@@ -10,6 +10,10 @@ from pathlib import Path
 
 import pytest
 
+from verification import Answer, judge
+from verification.challenge.saved_judgements import save_judgement
+from verification.problems.problem import HERTZ
+
 ACTION = Path(__file__).resolve().parents[1] / ".github" / "actions" / "judge"
 SLIPSTICK = Path(sys.executable).with_name("slipstick")
 FILE = """
@@ -50,6 +54,11 @@ def test_a_failure_on_any_case_is_that_of_the_action(tmp_path: Path) -> None:
     )
     assert (code, "class A" in page) == (0, True)
     assert (tmp_path / "judged" / "hertz_point" / "badge.json").is_file()
+    exact = {("approach", 1): HERTZ.approach, ("contact_radius", 1): HERTZ.contact_radius}
+    two_levels = judge("hertz_point", lambda *_: Answer(1e-5, exact), 2, seconds=None)
+    save_judgement(two_levels, tmp_path / "saved.json")
+    code, _ = act(tmp_path, SOLVER="mine.py:right", CASES="hertz_point", AGAINST="saved.json")
+    assert code == 7  # a level is missing
 
 
 @pytest.mark.parametrize("inputs", [{}, {"SOLVER": "a.py:f", "ANSWERS": "b"}, {"ANSWERS": "none"}])

@@ -1,17 +1,21 @@
 """Plugin of pytest that judges a solver on challenges, with one test per challenge.
 
 `pytest --slipstick` collects files `challenge_*.py`. They define `solve` and `CASES`, optionally
-`LEVELS`, `CLASS`, `SOLVER` and `SECONDS`, as `verification.judge` expects them, and `PARTIAL =
-True` if required numbers may be omitted.
+`LEVELS`, `CLASS`, `SOLVER` and `SECONDS`, as `verification.judge` expects them, `PARTIAL = True` if
+required numbers may be omitted, and `AGAINST`, the file of `slipstick judge --save` with which the
+answers are compared, relative to the file of the solver.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
+
+if TYPE_CHECKING:
+    from verification.challenge.python_api import Judgement
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -76,8 +80,9 @@ class ChallengeItem(pytest.Item):
 
         The test fails with the failed verdicts as message, and is skipped if the solver cannot
         solve the problem. With --slipstick-strict, inconclusive verdicts and unsolvable problems
-        fail as well.
+        fail as well. With `AGAINST`, numbers that are worse than the saved ones fail.
         """
+        from contact_results.directory.atomic_file import Refused
         from verification.challenge.python_api import judge
         from verification.challenge.solver_process import FORKS, CannotDo, SolverFailed
 
@@ -94,11 +99,16 @@ class ChallengeItem(pytest.Item):
         solve = self.module.solve if FORKS else f"{self.path}:solve"
         try:
             found = judge(self.name, solve, **given)
+            worse = self._worse_than_saved(found)
         except CannotDo as reason:
-            (pytest.fail if strict else pytest.skip)(f"cannot: {reason}")
+            (pytest.fail if strict or self._worse_than_saved(None) else pytest.skip)(
+                f"cannot: {reason}"
+            )
         except SolverFailed as reason:
             pytest.fail(f"{self.name}: solve {reason}", pytrace=False)
-        told = [
+        except Refused as reason:
+            pytest.fail(f"{self.name}: {reason}", pytrace=False)
+        told = worse + [
             f"{row.quantity}, step {row.step} (error {row.error}): {row.because}"
             for row in found.rows
             if row.status.value == "fail" or (strict and row.status.value != "pass")
@@ -106,8 +116,23 @@ class ChallengeItem(pytest.Item):
         told += [
             f"{name}, step {step}: omitted" for name, step, required in found.omitted if required
         ]
-        if found.exit_code(strict=strict, partial=getattr(self.module, "PARTIAL", False)):
+        partial = getattr(self.module, "PARTIAL", False)
+        if worse or found.exit_code(strict=strict, partial=partial):
             pytest.fail("\n".join([found.line, *told]), pytrace=False)
+
+    def _worse_than_saved(self, found: Judgement | None) -> list[str]:
+        """Return one line for each number that is worse than in the file `AGAINST` of the solver.
+
+        The result is empty without such a file. Raises Refused for a file that cannot be read.
+
+        found  judgement of the challenge; None if the solver cannot do the challenge
+        """
+        from verification.challenge.saved_judgements import judgement_changes
+
+        if not hasattr(self.module, "AGAINST"):
+            return []
+        rows = judgement_changes(self.name, found, self.path.parent / self.module.AGAINST)
+        return [row.line for row in rows if row.kind.regresses]
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
         return self.path, None, self.name

@@ -10,16 +10,16 @@ case.
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 from pydantic import Field, model_validator
 
 from contact_results.directory.atomic_file import Refused, atomic_file
+from contact_results.directory.json_record import read_record, record_text, write_record
 from contact_scene.reading.description import Description
 from verification.judging.case import Level
 from verification.judging.outcome import (
@@ -98,6 +98,35 @@ class RecordedQuantity(Description):
     def key(self) -> Key:
         """Key of the quantity in its verification case: name, run and kind of tolerance."""
         return key_of(self)
+
+
+class JudgedQuantity(RecordedQuantity):
+    """Judged answer of a solver outside this program: `value` is its error relative to its scale.
+
+    The reference is 0. The value is None if the answer has no finite error, or is judged otherwise.
+    """
+
+    answer: float | None = None
+    """Answered number, in the unit that the challenge requires; null for fields and points."""
+
+    order: tuple[float, float] | None = None
+    """Observed order of convergence and half-width of its 95 % interval; null if unknown."""
+
+    stated_error: float | None = None
+    """Null, because the claims of a solver are verdicts of their own."""
+
+    @property
+    def scale(self) -> float:
+        """Scale of the value, which is 1, because errors are relative."""
+        return 1.0
+
+    @property
+    def most_allowed(self) -> float:
+        """Largest accepted error, relative to its scale."""
+        return self.allowed
+
+
+Judged: TypeAlias = Verdict | JudgedQuantity
 
 
 class RecordedFinding(Description):
@@ -253,7 +282,8 @@ Each removed key of an accepted baseline, with its successor or the reason for i
 | case | quantity [run] | successor, or reason |
 | --- | --- | --- |
 """
-REMEDY = "restore it from the repository, or delete it and accept it anew"
+RESTORE = "restore it from the repository"
+REMEDY = f"{RESTORE}, or delete it and accept it anew"
 
 
 def read_baselines(directory: Path | None = None) -> dict[str, Baseline]:
@@ -299,7 +329,7 @@ def write_baselines(
         ordered = {
             name: levels[name] for name in sorted(levels, key=lambda name: Level[name.upper()])
         }
-        texts[path] = dump_baseline(Baseline(case=case, levels=ordered)) if ordered else ""
+        texts[path] = record_text(Baseline(case=case, levels=ordered)) if ordered else ""
     if removed:
         path = directory / REMOVED
         head = path.read_text(encoding="utf-8") if path.exists() else REMOVED_HEAD
@@ -318,23 +348,8 @@ def write_baselines(
     return tuple(path for path in texts if path.suffix == ENDING)
 
 
-def dump_baseline(baseline: Baseline) -> str:
-    """Convert the accepted results of a case to the JSON text of its baseline file, with all
-    digits."""
-    content = baseline.model_dump(mode="json")
-    return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-
-
 def _read_baseline(path: Path) -> Baseline:
-    if path.exists() and not path.is_file():
-        raise BaselineRefused(f"baseline {path} is not a regular file")
-    try:
-        baseline = Baseline.model_validate_json(path.read_bytes())
-    except OSError as error:
-        raise BaselineRefused(f"baseline {path} cannot be read: {error.strerror}") from error
-    except ValueError as error:
-        problem = " ".join(str(error).splitlines()[:3])
-        raise BaselineRefused(f"baseline {path} is damaged: {problem}; {REMEDY}") from None
+    baseline = read_record(path, Baseline, "baseline", REMEDY, BaselineRefused)
     unknown = sorted(baseline.levels.keys() - {level.name.lower() for level in Level})
     for wrong, text in (
         (baseline.schema_version != BASELINE_VERSION, f"is of version {baseline.schema_version}"),
@@ -446,7 +461,7 @@ BETTER_BY = 2.0
 BETTER_BY_PART = 0.05
 
 
-def quantity_change(verdict: Verdict, was: RecordedQuantity | None, origin: Origin) -> Change:
+def quantity_change(verdict: Judged, was: RecordedQuantity | None, origin: Origin) -> Change:
     """Classify the change of a judged quantity since its recorded value as worse, better, new or
     other.
 
@@ -489,7 +504,7 @@ def finding_change(finding: FindingRecord, was: RecordedFinding | None, origin: 
     return Change(kind=kind, was=was.value, since=origin.name)
 
 
-def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: float) -> ChangeKind:
+def _kind(verdict: Judged, was: RecordedQuantity, difference: float, allowed: float) -> ChangeKind:
     if verdict.status is Status.FAIL and was.status is not Status.FAIL:
         return ChangeKind.OUTSIDE
     if was.status is Status.FAIL and verdict.status is not Status.FAIL:
@@ -513,7 +528,7 @@ def _kind(verdict: Verdict, was: RecordedQuantity, difference: float, allowed: f
     return ChangeKind.BETTER if better else ChangeKind.DRIFT
 
 
-def _is_judged_less(verdict: Verdict, was: RecordedQuantity) -> bool:
+def _is_judged_less(verdict: Judged, was: RecordedQuantity) -> bool:
     """Return True if a recorded number is no longer judged, or with a tolerance wider by half.
 
     Tolerances of orders and of the worst run depend on results. Derived ones follow the noise.
@@ -524,7 +539,7 @@ def _is_judged_less(verdict: Verdict, was: RecordedQuantity) -> bool:
     return lost or (fixed and verdict.most_allowed > WORSE_BY * was.allowed + noise)
 
 
-def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
+def _is_farther(verdict: Judged, was: RecordedQuantity) -> bool:
     """Return True if the present value is farther from its reference than the recorded value.
 
     A convergence order that was recorded as inconclusive, because its interval is too wide, is not
@@ -543,7 +558,7 @@ def _is_farther(verdict: Verdict, was: RecordedQuantity) -> bool:
 
 
 def grows(
-    small: Verdict | RecordedQuantity, large: Verdict | RecordedQuantity, by: float, least: float
+    small: Judged | RecordedQuantity, large: Judged | RecordedQuantity, by: float, least: float
 ) -> bool:
     """Return True if the error of one quantity is much smaller than that of another one.
 
@@ -560,10 +575,18 @@ def grows(
     error, larger = (
         abs(one.value - one.reference) for one in (small, large) if one.value is not None
     )
-    return larger >= by * error and larger - error >= least
+    return has_grown(error, larger, by, least)
 
 
-def _remarks(verdict: Verdict, was: RecordedQuantity) -> Iterator[str]:
+def has_grown(error: float, larger: float, by: float, least: float) -> bool:
+    """Return True if an error has become `by` times as large, and larger by at least `least`.
+
+    This is the rule for all accuracy regressions: of verdicts and of stated errors.
+    """
+    return larger > error and larger >= by * error and larger - error >= least
+
+
+def _remarks(verdict: Judged, was: RecordedQuantity) -> Iterator[str]:
     """Yield the differences between a verdict and its recorded quantity other than the value, as
     texts.
 
@@ -610,10 +633,15 @@ def counter_changes(case: CaseOutcome | Recording, recorded: Recording) -> Itera
     both = [(run, then[run.label]) for run in case.runs if run.label in then]
     for name in COUNTERS:
         now, was = (sum(getattr(pair[i], name) for pair in both) for i in (0, 1))
-        if abs(now - was) > SAME_COUNT * was:
-            kind = ChangeKind.DEARER if now > was else ChangeKind.DRIFT
-            remark = f"{now / was:.3g} times" if was else ""
-            yield CounterChange(name=name, kind=kind, was=was, now=now, remark=remark)
+        yield from count_change(name, now, was)
+
+
+def count_change(name: str, now: int, was: int) -> Iterator[CounterChange]:
+    """Yield the change of a count of work, such as "iterations", if it changed by more than 5 %."""
+    if abs(now - was) > SAME_COUNT * was:
+        kind = ChangeKind.DEARER if now > was else ChangeKind.DRIFT
+        remark = f"{now / was:.3g} times" if was else ""
+        yield CounterChange(name=name, kind=kind, was=was, now=now, remark=remark)
 
 
 def compared(report: Report, baselines: Mapping[str, Baseline]) -> Report:
@@ -819,11 +847,7 @@ def read_tolerances(level: str, directory: Path = TOLERANCES) -> Tolerances:
     path = directory / f"{level}.json"
     if not path.exists():
         return Tolerances(level=level)
-    try:
-        return Tolerances.model_validate_json(path.read_bytes())
-    except ValueError as error:
-        problem = " ".join(str(error).splitlines()[:3])
-        raise BaselineRefused(f"tolerances {path} are damaged: {problem}") from None
+    return read_record(path, Tolerances, "file of tolerances", RESTORE, BaselineRefused)
 
 
 def held_to(cases: Sequence[CaseOutcome], tolerances: Tolerances) -> tuple[CaseOutcome, ...]:
@@ -948,10 +972,7 @@ def accept_tolerances(reports: Sequence[Report], because: str, directory: Path =
         because=because, commit=made[0].commit, kernels=tuple(kernels), tolerances=new
     )
     content = Tolerances(level=level, accepted=(*kept, *((accepted,) if new else ())))
-    directory.mkdir(parents=True, exist_ok=True)
-    with atomic_file(directory / f"{level}.json") as temporary:
-        text = json.dumps(content.model_dump(mode="json"), indent=1, ensure_ascii=False)
-        temporary.write_text(text + "\n", encoding="utf-8", newline="\n")
+    write_record(directory / f"{level}.json", content)
     return sum(map(len, new.values()))
 
 

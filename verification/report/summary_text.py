@@ -31,6 +31,7 @@ from verification.judging.outcome import (
 )
 from verification.problems.problem import ReferenceKind
 from verification.regression.baseline import NOISE
+from verification.regression.change_row import ChangeRow, rows_that_matter
 from verification.running.provenance import age_text, is_current
 from verification.running.report_record import Report
 from verification.running.study import StudyRecord, measured_text, study_failure_line
@@ -198,59 +199,6 @@ OMISSIONS = (
 
 DIGITS = 9  # enough to see what changed
 CASE, ALL = "case", "all runs"  # in place of a quantity and its run
-# The worst first.
-RANK = {
-    kind: rank
-    for rank, kind in enumerate(
-        (
-            ChangeKind.OUTSIDE,
-            ChangeKind.WORSE,
-            ChangeKind.DEARER,
-            ChangeKind.GONE,
-            ChangeKind.DRIFT,
-            ChangeKind.BETTER,
-            ChangeKind.NEW,
-        )
-    )
-}
-
-
-@dataclass(frozen=True)
-class ChangeRow:
-    """Difference between a result of a verification report and its recorded baseline, as texts of a
-    table.
-
-    case      name of the verification case
-    name      name of the quantity
-    run       name of the run of the case
-    kind      kind of the change, such as worse, better or new
-    was, now  recorded and present value
-    moved     size of the change in words
-    since     name of the origin (commit) of the recorded value
-    remark    explanation of the change
-    size      size of the change, in tolerances or as fraction of a count, for sorting
-    """
-
-    case: str
-    name: str
-    run: str
-    kind: ChangeKind
-    was: str
-    now: str
-    moved: str
-    since: str
-    remark: str
-    size: float = 0.0
-
-    @property
-    def line(self) -> str:
-        """Text of the change of a result since the recorded baseline, as one line of a log."""
-        moved = "" if self.moved == "–" else f" ({self.moved})"
-        remark = f"; {self.remark}" if self.remark else ""
-        return (
-            f"{self.kind} {self.case}/{self.name} [{self.run}]: {self.now}, was {self.was} "
-            f"at {self.since}{moved}{remark}"
-        )
 
 
 def change_rows(report: Report) -> list[ChangeRow]:
@@ -259,8 +207,7 @@ def change_rows(report: Report) -> list[ChangeRow]:
 
     The changes are sorted by severity of their kind, then by size.
     """
-    rows = [row for row in _all_rows(report) if row.kind.matters]
-    return sorted(rows, key=lambda row: (RANK[row.kind], -row.size))
+    return rows_that_matter(_all_rows(report))
 
 
 def moved_rows(report: Report) -> list[ChangeRow]:

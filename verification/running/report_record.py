@@ -14,6 +14,7 @@ from typing import Any
 
 from pydantic import ValidationError, model_validator
 
+from contact_results.directory.json_record import first_mistake
 from contact_scene.reading.description import Description
 from verification.judging.case import Level
 from verification.judging.outcome import (
@@ -138,10 +139,7 @@ def load_report(path: Path) -> Report:
     try:
         return Report.model_validate_json(content)
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        place = ".".join(map(str, first["loc"]))
-        problem = first["msg"].removeprefix("Value error, ")
-        raise ValueError(f"{place}: {problem}" if place else problem) from None
+        raise ValueError(first_mistake(error)) from None
 
 
 def _unpacked(path: Path) -> bytes:

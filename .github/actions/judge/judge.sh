@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Judges SOLVER on CASES, or the folders in ANSWERS: sheets and badges in OUTPUT, tables in the log, one
 # line of each on the page of the job. Ends with the first exit code that is not 0: 1 an error beyond its
-# class or an omitted number, 2 what cannot be read, 3 a solver that gave up or raised, 6 what is open where STRICT is true.
+# class or an omitted number, 2 what cannot be read, 3 a solver that gave up or raised, 6 what is open where STRICT is true,
+# 7 what is worse than in AGAINST.
 set -euo pipefail
 
 options=()
 if [ -n "${GRADE:-}" ]; then options+=(--class "$GRADE"); fi
+if [ -n "${AGAINST:-}" ]; then options+=(--against "$AGAINST"); fi
 if [ "${STRICT:-false}" = true ]; then options+=(--strict); fi
 if [ "${PARTIAL:-false}" = true ]; then options+=(--partial); fi
 read -ra cases <<<"${CASES:-}"

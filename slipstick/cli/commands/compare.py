@@ -7,10 +7,10 @@ from typing import Annotated
 
 import typer
 
+from slipstick.cli.changes import print_changes
 from slipstick.cli.commands.report import read_report
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional
-from slipstick.cli.terminal import print_table
 from verification.judging.outcome import ChangeKind, failure_line
 from verification.regression.baseline import (
     Baseline,
@@ -122,14 +122,7 @@ def _print_changes(report: Report) -> None:
                 typer.echo(failure_line(case.name, verdict, report.level))
     rows = change_rows(report)
     if rows:
-        columns = ("quantity", "run", "change", "was", "is", "moved by", "since", "remark")
-        print_table(
-            columns,
-            [
-                (f"{r.case}/{r.name}", r.run, r.kind, r.was, r.now, r.moved, r.since, r.remark)
-                for r in rows
-            ],
-        )
+        print_changes(rows)
         judged = {case.name for case in report.cases}
         names = dict.fromkeys(row.case for row in rows if row.case in judged)
         command = " ".join(("slipstick verify", *names, f"--level {report.level}"))

@@ -9,14 +9,20 @@ from typing import Annotated
 import typer
 
 from contact_results.directory.atomic_file import Refused, atomic_file
+from slipstick.cli.changes import compare_with_file
 from slipstick.cli.errors import ExitCode
-from slipstick.cli.options import optional, refuse_unknown
+from slipstick.cli.options import optional, refuse_if, refuse_unknown
 from slipstick.cli.terminal import print_table
 from verification.challenge.cases import challenges
 from verification.challenge.files import read_answers
 from verification.challenge.python_api import Judgement, judged
 from verification.challenge.python_api import judge as judge_solver
 from verification.challenge.requested_quantities import Grade
+from verification.challenge.saved_judgements import (
+    judgement_changes,
+    read_judgements,
+    save_judgement,
+)
 from verification.challenge.solver_process import (
     SECONDS_PER_LEVEL,
     CannotDo,
@@ -83,6 +89,23 @@ def judge(
     partial: Annotated[
         bool, typer.Option("--partial", help="Accept answers without required numbers.")
     ] = False,
+    save: Annotated[
+        Path | None,
+        optional(
+            "--save",
+            metavar="FILE",
+            help="Save errors, answers, orders and unknowns of the case in FILE (JSON), which "
+            "keeps other cases.",
+        ),
+    ] = None,
+    against: Annotated[
+        Path | None,
+        optional(
+            "--against",
+            metavar="FILE",
+            help="Compare with the judgement that --save stored in FILE.",
+        ),
+    ] = None,
 ) -> None:
     """Judge the answers of another code by bounds that do not depend on the code.
 
@@ -97,11 +120,17 @@ def judge(
     - 2: the files cannot be read
     - 3: the solver failed, ended without an answer, or exceeded the time limit
     - 6: a verdict is inconclusive, with --strict
+    - 7: with --against, an error grew by 50 % and by more than 1e-6 of its scale, unknowns grew by
+      5 %, or a verdict, number or level is missing
 
     FILE.py is executed in a process of its own: judge only code that you trust.
     """
+    refuse_if([(save and against, "--save excludes --against; omit one of them")])
+    earlier = against or (save if save and save.exists() else None)
+    if earlier is not None:
+        read_judgements(earlier)  # Refuse before the solve.
     if names_a_solver(answers):
-        found = _judge_function(answers, case, levels, seconds, grade, strict)
+        found = _judge_function(answers, case, levels, seconds, grade, strict, against)
     elif case is not None:
         raise typer.BadParameter("--case applies to functions only; omit it for a folder")
     else:
@@ -116,8 +145,21 @@ def judge(
             with atomic_file(path) as unfinished:
                 unfinished.write_text(text, encoding="utf-8")
         typer.echo(f"sheet: {page}")
-    if code := found.exit_code(strict=strict, partial=partial):
-        raise typer.Exit(code)
+    if save is not None:
+        save_judgement(found, save)
+        typer.echo(f"saved: {save}")
+    worse = ExitCode.PASS
+    if against is not None:
+        rows = judgement_changes(found.challenge.name, found, against)
+        worse = compare_with_file(rows, against, "--save")
+    # A lost verdict is inconclusive, too: what is worse precedes.
+    codes = (
+        found.exit_code(partial=partial),
+        worse,
+        found.exit_code(strict=strict, partial=partial),
+    )
+    if any(codes):
+        raise typer.Exit(next(filter(None, codes)))
 
 
 def _judge_function(
@@ -127,6 +169,7 @@ def _judge_function(
     seconds: float,
     grade: GradeName | None,
     strict: bool,
+    against: Path | None,
 ) -> Judgement:
     """Call a Python function that solves a challenge, and judge its answers.
 
@@ -137,6 +180,8 @@ def _judge_function(
     levels   number of refinement levels at which the function is called
     seconds  time limit of each level
     grade    accuracy class that every error must meet, or None
+    strict   true to exit with code 6 if the function cannot solve the challenge
+    against  file of saved judgements; code 7 if it contains the unsolved challenge
     """
     if case is None:
         raise typer.BadParameter(
@@ -151,7 +196,10 @@ def _judge_function(
         raise Refused(f"{case} by {name}: {reason}") from None
     except CannotDo as reason:
         typer.echo(f"{case} | {name} | cannot: {reason}")
-        raise typer.Exit(ExitCode.INCONCLUSIVE if strict else ExitCode.PASS) from None
+        code = ExitCode.INCONCLUSIVE if strict else ExitCode.PASS
+        if against is not None and (lost := judgement_changes(case, None, against)):
+            code = compare_with_file(lost, against, "--save")
+        raise typer.Exit(code) from None
     except SolverFailed as reason:
         typer.echo(f"{case}: {name} {reason}", err=True)
         raise typer.Exit(ExitCode.NOT_CONVERGED) from None

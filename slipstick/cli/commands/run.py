@@ -15,6 +15,7 @@ from slipstick.cli.accuracy_option import (
     solve_to_accuracy,
 )
 from slipstick.cli.errors import exit_code, print_traceback
+from slipstick.cli.expect_option import ExpectOption, SaveExpectedOption, read_expectation
 from slipstick.cli.options import (
     OutputOption,
     SceneArgument,
@@ -26,7 +27,9 @@ from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
+    from contact_scene import SceneFile
     from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
+    from slipstick.expected import Source
     from slipstick.solvers.solver import Solver
 
 
@@ -73,6 +76,8 @@ def run(
     ] = False,
     accuracy: AccuracyOption = None,
     most_seconds: MostSecondsOption = None,
+    save_expected: SaveExpectedOption = None,
+    expect: ExpectOption = None,
 ) -> None:
     """Solve a scene and write summary, fields, tables, a figure and a page into DIR.
 
@@ -80,6 +85,9 @@ def run(
     run of more than some seconds stores checkpoints next to DIR: after it was killed, the same
     command resumes it. A part of the results that cannot be computed is named in a warning; the
     solved fields and the other parts are written.
+
+    With --expect, a result whose numbers are worse than the expected ones is written, too, and the
+    command exits with code 7.
 
     With --accuracy, or a table [accuracy] in the scene, the scene is first solved on a coarse grid
     or mesh. Cells and increments are then refined until the stated errors meet the request.
@@ -97,6 +105,9 @@ def run(
     with stopwatch.phase("read"):
         contents = read_scene_file(scene, overrides or ())
         request = read_requested_accuracy(contents, accuracy, most_seconds, error=error)
+        expectation = read_expectation(
+            expect, save_expected, lambda: _source(contents, solver), error=error
+        )
         printed = print_input_warnings(contents)
     with stopwatch.phase("import"):
         chosen = solver.solver
@@ -150,12 +161,26 @@ def run(
     if not error:
         typer.echo("  no errors, because of --no-error")
     typer.echo(f"results in {output}")
+    worse = 0
+    if expectation is not None:
+        from slipstick.expected import step_numbers
+
+        worse = expectation.settle(step_numbers(written.summary.steps))
     exit_unless_met(reached)
     causes = list(omitted.causes.values())
     for cause in causes:
         print_traceback(cause)
     if causes:
         raise typer.Exit(exit_code(causes[0]))
+    if worse:
+        raise typer.Exit(worse)
+
+
+def _source(contents: "SceneFile", solver: SolverName) -> "Source":
+    """Return the origin of the numbers of a run, for the comparison with expected numbers."""
+    from slipstick.expected import Source, scene_keys
+
+    return Source("run", scene_keys(contents.scene), solver.value)
 
 
 def _print_outcome(

@@ -43,6 +43,7 @@ from slipstick.cli.accuracy_option import (
     read_requested_accuracy,
     solve_to_accuracy,
 )
+from slipstick.cli.expect_option import ExpectOption, SaveExpectedOption, read_expectation
 from slipstick.cli.options import (
     OptionalSolver,
     OutputOption,
@@ -58,6 +59,7 @@ from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
+    from slipstick.expected import Source
 
 
 # Accepted heads of a table of points.
@@ -140,6 +142,8 @@ def stress(
     most_seconds: MostSecondsOption = None,
     overrides: SetOption = None,
     solver: OptionalSolver = None,
+    save_expected: SaveExpectedOption = None,
+    expect: ExpectOption = None,
 ) -> None:
     """Compute the stress in layers and substrate.
 
@@ -148,6 +152,9 @@ def stress(
 
     With --accuracy, or a table [accuracy] in the scene, the scene is refined as by 'run';
     "max_principal 1%" requests the accuracy of the largest tensile stress in the body.
+
+    With --expect, a result with a stress that is worse than expected is written, too, and the
+    command exits with code 7.
 
     With --at, DIR receives stress_history.csv and .png instead.
     """
@@ -160,7 +167,13 @@ def stress(
         refuse_with_run(given | {"--accuracy": accuracy, "--most-seconds": most_seconds})
     else:
         _refuse_beside_section(chosen, chosen_depths, volume, at)
-    without_points = {"--depths": depths, "--volume": volume, "--accuracy": accuracy}
+    without_points = {
+        "--depths": depths,
+        "--volume": volume,
+        "--accuracy": accuracy,
+        "--save-expected": save_expected,
+        "--expect": expect,
+    }
     refuse_if(
         (
             (
@@ -185,6 +198,12 @@ def stress(
     if at or history:
         _write_points(source, contents, at or [], step, chosen, output, history, indenter)
         return
+    expectation = read_expectation(
+        expect,
+        save_expected,
+        lambda: _source(source, contents, chosen, step, depths, indenter),
+        error=error,
+    )
     with ExitStack() as until_written:
         if contents is None:
             state = state_of_run(source, step)
@@ -248,7 +267,41 @@ def stress(
     elif not on_disc and state.by_increments is None:
         typer.echo("  errors without that of increments, which the run does not state")
     typer.echo(f"results in {output}")
+    worse = 0
+    if expectation is not None:
+        from slipstick.expected import stress_numbers
+
+        worse = expectation.settle(stress_numbers(found, errors or (), f"step {state.step}"))
     exit_unless_met(reached)
+    if worse:
+        raise typer.Exit(worse)
+
+
+def _source(
+    given: Path,
+    contents: SceneFile | None,
+    chosen: SolverName,
+    step: int | None,
+    depths: str | None,
+    indenter: bool,
+) -> Source:
+    """Return the origin of the largest stresses, for the comparison with expected numbers.
+
+    given     output directory of a run, or scene file
+    contents  contents of the scene file; None for a run
+    step      load step, from 1; None for the last
+    depths    text of the option `--depths`, or None
+    """
+    from contact_results.files.stored_run import load
+    from slipstick.expected import Source, scene_keys
+
+    if contents is None:
+        run = load(given)
+        scene, solver = run.scene, run.solver
+    else:
+        scene, solver = contents.scene, chosen.value
+    more = {"--step": step or len(scene.loading), "--indenter": indenter, "--depths": depths}
+    return Source("stress", scene_keys(scene, **more), solver)
 
 
 def _write_points(

@@ -17,6 +17,7 @@ from contact_results.number_text import Uncertainty, number_text
 from contact_scene import read_scene_file
 from slipstick.cli.commands.plan import radial_method
 from slipstick.cli.errors import ExitCode
+from slipstick.cli.expect_option import ExpectOption, SaveExpectedOption, read_expectation
 from slipstick.cli.options import (
     OutputOption,
     SceneArgument,
@@ -28,6 +29,7 @@ from slipstick.cli.options import (
 )
 from slipstick.cli.progress import outcome_text, run_with_progress
 from slipstick.cli.terminal import print_message, print_pairs, print_table
+from slipstick.expected import Source, scene_keys, sweep_numbers
 from slipstick.solvers.names import SolverName
 from slipstick.sweep import SweepError, Variation, quantities, sweep_points
 from slipstick.sweep_chart import (
@@ -75,12 +77,15 @@ def sweep(
         int, typer.Option("--workers", metavar="N", min=1, help="Processes at a time.")
     ] = 2,
     scheduler: SchedulerOption = None,
+    save_expected: SaveExpectedOption = None,
+    expect: ExpectOption = None,
 ) -> None:
     """Solve a scene for every combination of values of its keys; write a table and a chart.
 
     DIR receives sweep.csv, with numbers, errors and scene of every point, and sweep.png. Every
     finished point is stored in DIR/points: after the command was killed, the same command computes
-    the missing points. Exit code 3 if a point has no result.
+    the missing points. Exit code 3 if a point has no result; with --expect, 7 if a number is worse
+    than expected.
     """
     try:
         variations = [Variation.of(text) for text in vary]
@@ -94,6 +99,12 @@ def sweep(
     first = read_scene_file(scene, valid.overrides).scene
     listing = "slipstick maintain schema summary"
     refuse_unknown("quantity", names, quantities(first.body), listing)
+    expectation = read_expectation(
+        expect,
+        save_expected,
+        lambda: Source("sweep", scene_keys(first), solver.value),
+        error=error,
+    )
     print_pairs([("points", str(len(made))), ("solver", solver.value)])
     if solver is not SolverName.RADIAL and (how := radial_method(first)):
         print_pairs([("radial", f"--solver radial can solve this: {how}")])
@@ -110,11 +121,17 @@ def sweep(
         title = first.title or scene.name
         _write_table_and_chart(records, variations, names, output, title)
     typer.echo(f"results in {output}")
+    worse = 0
+    if expectation is not None:
+        places = (" ".join(point.overrides[-len(variations) :]) for point in made)
+        worse = expectation.settle(sweep_numbers(zip(places, records, strict=True), names))
     if missing := sum(bool(record.words["refused"]) for record in records):
         print_message(
             f"{missing} of {len(records)} points have no result; see the column refused of {TABLE}"
         )
         raise typer.Exit(ExitCode.NOT_CONVERGED)
+    if worse:
+        raise typer.Exit(worse)
 
 
 def _write_table_and_chart(

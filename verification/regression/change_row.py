@@ -1,0 +1,67 @@
+"""Changes of numbers since they were recorded, as rows of a table: the worst first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from verification.judging.outcome import ChangeKind
+
+# The worst first.
+RANK = {
+    kind: rank
+    for rank, kind in enumerate(
+        (
+            ChangeKind.OUTSIDE,
+            ChangeKind.WORSE,
+            ChangeKind.DEARER,
+            ChangeKind.GONE,
+            ChangeKind.DRIFT,
+            ChangeKind.BETTER,
+            ChangeKind.NEW,
+        )
+    )
+}
+
+
+@dataclass(frozen=True)
+class ChangeRow:
+    """Difference between a number and its recorded value, as texts of a table.
+
+    case      name of the verification case, challenge or command
+    name      name of the quantity
+    run       name of the run, load step or point
+    kind      kind of the change, such as worse, better or new
+    was, now  recorded and present value
+    moved     size of the change in words
+    since     name of the origin (commit or file) of the recorded value
+    remark    explanation of the change
+    size      size of the change, in tolerances or as fraction of a count, for sorting
+    """
+
+    case: str
+    name: str
+    run: str
+    kind: ChangeKind
+    was: str
+    now: str
+    moved: str
+    since: str
+    remark: str
+    size: float = 0.0
+
+    @property
+    def line(self) -> str:
+        """Text of the change of a result since the recorded baseline, as one line of a log."""
+        moved = "" if self.moved == "–" else f" ({self.moved})"
+        remark = f"; {self.remark}" if self.remark else ""
+        return (
+            f"{self.kind} {self.case}/{self.name} [{self.run}]: {self.now}, was {self.was} "
+            f"at {self.since}{moved}{remark}"
+        )
+
+
+def rows_that_matter(rows: Iterable[ChangeRow]) -> list[ChangeRow]:
+    """Return the rows of changed numbers, sorted by severity of their kind, then by size."""
+    changed = [row for row in rows if row.kind.matters]
+    return sorted(changed, key=lambda row: (RANK[row.kind], -row.size))
