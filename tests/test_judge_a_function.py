@@ -91,7 +91,7 @@ def test_the_exit_code_says_how_a_function_did(
 
 
 # A solver, its changes since its judgement was saved, and the worst change with its text.
-SAVED = {"error": 8e-4, "claim": 1e-5, "unknowns": 100}
+SAVED: dict[str, Any] = {"error": 8e-4, "claim": 1e-5, "unknowns": 100}
 LATER = [
     ({}, None, ""),
     ({"error": 1.2 * 8e-4}, "drift", "error 0.00096, was error 0.0008 at saved.json"),
