@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 from command import outcome
@@ -64,7 +65,7 @@ def number(value: float, error: float | None, mark: str = "") -> ExpectedNumber:
         (None, (1, 0.1), "new"),
     ],
 )
-def test_numbers_are_compared_by_their_stated_errors(was, now, kind) -> None:
+def test_numbers_are_compared_by_their_stated_errors(was: Any, now: Any, kind: str) -> None:
     """No tolerance is chosen. An error with a question mark is right to an order of magnitude."""
     expected, found = (
         SOURCE.with_numbers({"step 1": {"approach": number(*one)} if one else {}})

@@ -17,7 +17,11 @@ from verification import Answer, SolverFailed
 from verification import judge as judge_function
 from verification.challenge.python_api import Judgement, posed
 from verification.challenge.requested_quantities import Key
-from verification.challenge.saved_judgements import judgement_changes, save_judgement
+from verification.challenge.saved_judgements import (
+    judgement_changes,
+    read_judgements,
+    save_judgement,
+)
 from verification.challenge.solver_process import Posed, named_solver
 from verification.problems.problem import HERTZ
 
@@ -87,7 +91,7 @@ def test_the_exit_code_says_how_a_function_did(
 
 
 # A solver, its changes since its judgement was saved, and the worst change with its text.
-SAVED = {"error": 8e-4, "claim": 1e-5, "unknowns": 100}
+SAVED: dict[str, Any] = {"error": 8e-4, "claim": 1e-5, "unknowns": 100}
 LATER = [
     ({}, None, ""),
     ({"error": 1.2 * 8e-4}, "drift", "error 0.00096, was error 0.0008 at saved.json"),
@@ -125,9 +129,12 @@ def test_a_solver_is_held_to_its_saved_judgement(
 ) -> None:
     path = tmp_path / "saved.json"
     save_judgement(judged_solver(**SAVED), path)
-    once = path.read_bytes()
+    once = path.read_text()
     save_judgement(judged_solver(**SAVED), path)
-    assert path.read_bytes() == once
+    assert path.read_text() == once
+    path.write_text(once.replace("hertz_point", "another_case"))
+    save_judgement(judged_solver(**SAVED), path)
+    assert list(read_judgements(path).cases) == ["another_case", "hertz_point"]
     rows = judgement_changes("hertz_point", judged_solver(**(SAVED | change)), path)
     assert [row.kind for row in rows[:1]] == [kind] * (kind is not None)
     assert said in "".join(row.line for row in rows[:1])
