@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -16,6 +17,10 @@ from pydantic import ValidationError
 import fem_reference
 import radial
 import semi_analytical
+from contact_errors.on_elements import ElementSolver
+from contact_errors.on_radii import RingSolver
+from contact_results.figures.profile_plot import profile_plot
+from contact_results.surface import surface_of
 from contact_scene import (
     RIGID,
     Body,
@@ -380,3 +385,28 @@ def test_a_map_is_symmetric_up_to_its_interpolation() -> None:
     moved = ASKEW["off-centre"]
     assert moved.asymmetry > SYMMETRIC
     assert mapped(np.zeros(CELLS)).asymmetry == 0.0
+
+
+@pytest.mark.parametrize("load", [PUSH, TWIST])
+def test_the_asymmetry_of_a_map_is_a_part_of_stated_errors(load: LoadStep) -> None:
+    nearly = radial_map(lambda x: steep(x) + 1e-3 * (np.arange(201) > 100))
+    assert 0.002 < nearly.asymmetry < SYMMETRIC
+    asked = with_friction(scene(PRESS, load, coupled=False), nearly)
+    rings = RingSolver(asked, RadialDiscretisation())
+    elements = ElementSolver(asked, FiniteElementDiscretisation())
+    plans = SimpleNamespace(plan=fem_reference.plan(asked))
+    for neglected in (rings.neglected_errors(None), elements.neglected_errors(cast("Any", plans))):
+        assert min(neglected.values()) >= nearly.asymmetry
+        assert {"tangential_shift", "twist", "dissipated_energy"} <= set(neglected)
+
+
+@pytest.mark.parametrize("solve", [on_cells, on_rings, *ELEMENTS.values()])
+@pytest.mark.parametrize("load", [PUSH, TWIST])
+def test_the_profile_shows_the_limit_of_a_map(solve, load: LoadStep) -> None:
+    asked = scene(PRESS, load, coupled=False)
+    bands = []
+    for mu in (0.1, radial_map(lambda x: 0.2 + 1e-6 * x**2)):
+        result = solve(with_friction(asked, mu))
+        (band,) = profile_plot(result, surface_of(result)).axes[1].collections
+        bands.append(np.max(band.get_paths()[0].vertices[:, 1]))
+    assert bands[1] == pytest.approx(2 * bands[0], rel=1e-2)
