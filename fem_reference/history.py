@@ -147,7 +147,7 @@ class _IncrementSolver:
         increment = replace(increment, halvings=reached.halvings)
         increment = add_contact_displacements(increment, self.scene.rig)
         resisted = self.method.work_on_strain(reached.before, reached.state)
-        return add_energies(self.scene, self.method.plan, last, increment, resisted)
+        return add_energies(self.method.plan, last, increment, resisted)
 
     def _tangential_target(
         self, ramp: LoadRamp, start: PointState | None, fraction: float

@@ -82,8 +82,6 @@ class Plan:
     direction     unit vector (x, y) of the tangential load, (1, 0) without one
     increments    number of increments of each load step
     path_matters  for each load step, True if its final state depends on the number of increments
-    grows         for each load step, True if the normal load or the imposed strain changes under
-                  shear, so that particles may move tangentially before their contact
     effects       all physical effects, such as friction, with the reasons for or against them, for
                   output
     twists        True if torque and twist are output
@@ -93,7 +91,6 @@ class Plan:
     direction: tuple[float, float]
     increments: tuple[int, ...]
     path_matters: tuple[bool, ...]
-    grows: tuple[bool, ...]
     effects: tuple[Effect, ...]
     twists: bool = False
 
@@ -126,13 +123,12 @@ def plan(scene: Scene) -> Plan:
     free = any(ramp.twisting.kind is ControlKind.FORCE for ramp in ramps)
     twists = friction and (twisted or (curved and free))
     path = _choose_path(friction, loaded, twisted, couples or (rough and strained), curved=curved)
-    matters, grows = _path_matters(scene, path, couples)
+    matters = _path_matters(scene, path, couples)
     return Plan(
         path,
         first_direction(ramps),
         _increment_counts(scene, path, matters),
         matters,
-        grows,
         _list_effects(scene, path, (friction, loaded, twists, couples), why),
         twists,
     )
@@ -162,21 +158,18 @@ def _choose_path(
     return Path.PRESSING_WITH_FRICTION if couples else Path.PRESSING
 
 
-def _path_matters(
-    scene: Scene, path: Path, couples: bool
-) -> tuple[tuple[bool, ...], tuple[bool, ...]]:
+def _path_matters(scene: Scene, path: Path, couples: bool) -> tuple[bool, ...]:
     """Determine for each load step whether its final state depends on the number of increments.
 
     Friction makes a load step path-dependent if there is shear while the normal load or the imposed
     strain changes, unless nothing slips. For coupled pressure and shear, and on the whole circle, a
-    change of the tangential load or of the twist is sufficient. The results are `Plan.path_matters`
-    and `Plan.grows`.
+    change of the tangential load or of the twist is sufficient.
 
     scene    contact problem with its load history
     path     tractions that the solve computes
     couples  True if normal loading causes shear
     """
-    matters, grows = [], []
+    matters = []
     sheared = couples or path is Path.PRESSING_WITH_FRICTION
     uncoupled = path in UNCOUPLED or (path is Path.WHOLE_CIRCLE and not couples)
     for ramp in scene.load_path():
@@ -186,11 +179,10 @@ def _path_matters(
         shearing = path in ANGULAR and ramp.tangential.start != ramp.tangential.end
         shearing = shearing or (path is not Path.TWISTING and _twists(path, ramp))
         sheared = sheared and path is not Path.PRESSING
-        grows.append(sheared and pressing)
         moves = sheared and (pressing or shearing)
         sticks = uncoupled and grows_without_slip(scene, ramp)
         matters.append(moves and not sticks)
-    return tuple(matters), tuple(grows)
+    return tuple(matters)
 
 
 def _increment_counts(scene: Scene, path: Path, matters: tuple[bool, ...]) -> tuple[int, ...]:

@@ -351,7 +351,7 @@ class _Increment:
 
         If a residual exceeds the tolerance, the solve is repeated with a smaller tolerance of the
         algorithm. The residuals follow from displacements that are computed again from the final
-        tractions, harmonic by harmonic, without the compliance matrix.
+        tractions.
 
         multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
         start       initial guess of the tractions r, θ, z (3, points)

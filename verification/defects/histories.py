@@ -20,6 +20,7 @@ from contact_scene.stepping.load_path import (
     ControlKind,
 )
 from contact_solver import admissible_pressure, admissible_shear, pressure, residuals
+from fem_reference.contact import increment_report
 from fem_reference.elasticity import compliance
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import TORSION
@@ -110,10 +111,9 @@ def _map_transposed(whole: Any, self: Any) -> Any:
     return CoulombFriction.model_validate({"coefficient": turned})
 
 
-@replaces(fem_reference.energy, "elastic_energy")
+@replaces(increment_report, "_elastic_energy")
 def _stored_by_elements(whole: Any, *given: Any) -> Any:
-    energy = whole(*given)
-    return None if energy is None else 1.05 * energy
+    return 1.05 * whole(*given)
 
 
 @replaces(fem_reference.energy, "input_work")
