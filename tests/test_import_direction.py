@@ -109,7 +109,6 @@ ORDERS = {
         "elasticity",
         "plan",
         "loads",
-        "residuals",
         "fields",
         "energy",
         "model",

@@ -17,6 +17,7 @@ from contact_scene.quantities.residuals import (
     ShearResiduals,
 )
 from contact_scene.solver_errors import NotConverged, NothingTouches, motion_undefined
+from contact_solver.residuals import complementarity, friction_cone, penetration, slip_direction
 from fem_reference.contact.augmented_lagrangian import repeat_passes
 from fem_reference.contact.free_motion import free_motion
 from fem_reference.contact.friction_limit import contact_status
@@ -25,13 +26,6 @@ from fem_reference.contact.point_problem import PointProblem, PointSolution, sol
 from fem_reference.contact.point_state import PointState
 from fem_reference.loads import TWIST, Loads, Triple
 from fem_reference.plan import Path
-from fem_reference.residuals import (
-    complementarity,
-    friction_cone,
-    over,
-    penetration,
-    slip_direction,
-)
 
 AT_REST: Triple = (0.0, 0.0, 0.0)
 MAX_ATTEMPTS = 4
@@ -503,8 +497,8 @@ class _Increment:
         normal = problem.normal.force
         carried = float(np.sum(w * p))
         pressing = Residuals(
-            complementarity=complementarity(p, w * g, w, approach),
-            penetration=penetration(w * g, w, approach),
+            complementarity=complementarity(w * p, g, approach),
+            penetration=penetration(g, approach),
             normal_equilibrium=None if normal is None else abs(carried - normal) / normal,
         )
         if self.contact.rings.path is Path.PRESSING:
@@ -514,18 +508,29 @@ class _Increment:
             # Displacement by shear alone: under full stick from the start, a rigid motion has no
             # such displacement.
             by_shear, _ = problem.compliance.displacement(np.zeros_like(p), q)
-            moved = np.hypot(*np.concatenate([by_shear, self.before.displacement], axis=1))
-            largest = max(float(np.max(moved)), ROUND_OFF * approach)
-            direction = slip_direction(q, bound, passed, w, largest)
+            moved = np.maximum(np.abs(by_shear), np.abs(self.before.displacement))
+            moved = np.maximum(moved, ROUND_OFF * approach)
+            direction = slip_direction(w * q, w * bound, passed, moved)
         pushing, turning = _missing_loads(problem, p, q)
         return pressing.with_shear(
             ShearResiduals(
-                friction_cone=friction_cone(np.hypot(*q), bound),
+                friction_cone=friction_cone(q, bound),
                 slip_direction=direction,
                 tangential_equilibrium=pushing,
                 torque_equilibrium=turning,
             )
         )
+
+
+def over(part: float, whole: float) -> float:
+    """Compute the ratio part / whole of a relative error, also for a zero denominator.
+
+    The ratio is 0 if the numerator `part` is zero, and infinite if only the denominator `whole` is
+    zero.
+    """
+    if not part:
+        return 0.0
+    return part / whole if whole else float("inf")
 
 
 def _prescribed_or_carried(

@@ -16,7 +16,7 @@ from contact_scene.array_types import Array
 from contact_scene.friction import sliding_friction
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
-from contact_solver.residuals import complementarity, penetration
+from contact_solver.residuals import complementarity, friction_cone, penetration, slip_direction
 from radial.angular_grid import RingAngles
 from radial.frictional.contact_growth import (
     contact_fraction,
@@ -199,12 +199,8 @@ def residuals_of(
     end, prescribed = state.end, state.prescribed.forces
     W, force = float(state.carried[NORMAL]), prescribed[NORMAL]
     limit = friction.limit(end.pressure)
-    slip_increment = np.hypot(*end.slip_increment.reshape(2, -1))
-    slips = (slip_increment > REST * end.approach * points.areas) & (end.pressure > 0)
-    most = float(np.sum(limit * slip_increment, where=slips))
-    against = float(
-        np.sum(np.sum(end.shear * end.slip_increment.reshape(2, -1), axis=0), where=slips)
-    )
+    slip = -end.slip_increment.reshape(2, -1) / points.areas
+    moving = points.areas * (np.hypot(*slip) > REST * end.approach)
     drag = [
         state.carried[way] - value
         for way in (ALONG, ACROSS)
@@ -215,10 +211,10 @@ def residuals_of(
         complementarity=complementarity(points.areas * end.pressure, end.gap, end.approach),
         penetration=penetration(end.gap, end.approach),
         normal_equilibrium=None if force is None else abs(W / force - 1),
-        friction_cone=_share(
-            max(0.0, float(np.max(np.hypot(*end.shear) - limit))), float(np.max(limit))
-        ),
-        slip_direction=None if end.slides else (most + against) / most if most > 0 else 0.0,
+        friction_cone=friction_cone(end.shear, limit),
+        slip_direction=None
+        if end.slides
+        else slip_direction(moving * end.shear, moving * limit, slip, slip),
         tangential_equilibrium=_share(float(np.linalg.norm(drag)), float(points.areas @ limit))
         if drag
         else None,
