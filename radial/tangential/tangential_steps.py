@@ -257,7 +257,8 @@ class TangentialSteps(StepsOnRings):
             springs = compliances(self.scene.rig)
             growth = growth_without_slip(points, self.friction, loads, last, end, springs)
             if growth is not None:
-                end = self._solve_at_points(points, loads, last, growth.guess, growth.free)
+                free, guess = growth
+                end = self._solve_at_points(points, loads, last, guess, free)
         resolved = points.is_resolved(end.pressure)
         smooth = None if resolved else self._solve_frictionless(loads).contact.radius
         return tangential_state(points, self.friction, end, last, slip, loads, before, smooth)
