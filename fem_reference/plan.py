@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from enum import Enum
-from math import ceil, hypot
 
 from contact_scene import ControlKind, LoadRamp, Scene, effect
 from contact_scene.body_pair import (
@@ -17,6 +16,7 @@ from contact_scene.checks.axisymmetric import (
 )
 from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
+from contact_scene.friction_limit import increments_by_force
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
 from contact_scene.stepping.growing_contact import grows_without_slip
@@ -25,7 +25,6 @@ from contact_scene.stepping.load_path import along_one_line, first_direction
 # Largest ratio of shear moduli within a body. Above this ratio the stiffness of the softest
 # material is lost in round-off.
 MAX_CONTRAST = 1e8
-ROUND_OFF = 1e-9
 # Number of increments of a path-dependent load step. Errors are proportional to its inverse.
 PATH_INCREMENTS = 20
 LARGEST_SHARE = 0.05
@@ -214,17 +213,10 @@ def _path_increments(scene: Scene, path: Path, ramp: LoadRamp) -> int:
     path   tractions that the solve computes
     ramp   linear change of the loads in the load step
     """
-    friction = scene.friction
-    by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
     pressing = ramp.normal.start != ramp.normal.end or ramp.strains
-    if pressing or _twists(path, ramp) or not by_force:
+    if pressing or _twists(path, ramp):
         return PATH_INCREMENTS
-    limit = friction.largest_tangential_force(ramp.normal.end) if friction is not None else None
-    if limit is None:
-        return PATH_INCREMENTS
-    start, end = ramp.tangential.start or (0.0, 0.0), ramp.tangential.end
-    change = hypot(end[0] - start[0], end[1] - start[1])
-    return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF)) if limit > 0 else 1
+    return increments_by_force(scene.friction, ramp, LARGEST_SHARE, PATH_INCREMENTS)
 
 
 def _twists(path: Path, ramp: LoadRamp) -> bool:
