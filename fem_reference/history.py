@@ -13,6 +13,7 @@ import numpy as np
 from contact_scene import LoadRamp, Scene
 from contact_scene.array_types import Field
 from contact_scene.bulk_strain import UNSTRAINED
+from contact_scene.quantities.ring_increment import add_work
 from contact_scene.rig import add_contact_displacements
 from contact_scene.stepping.checkpoint import (
     Checkpoint,
@@ -25,7 +26,7 @@ from contact_scene.stepping.load_stepping import (
 )
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
-from fem_reference.energy import add_energies
+from fem_reference.energy import dissipation_uncertainty
 from fem_reference.fields import Increment
 from fem_reference.loads import (
     ACROSS,
@@ -147,7 +148,9 @@ class _IncrementSolver:
         increment = replace(increment, halvings=reached.halvings)
         increment = add_contact_displacements(increment, self.scene.rig)
         resisted = self.method.work_on_strain(reached.before, reached.state)
-        return add_energies(self.method.plan, last, increment, resisted)
+        increment = add_work(last, increment, resisted)
+        uncertainty = dissipation_uncertainty(self.method.plan, last, increment)
+        return replace(increment, dissipation_uncertainty=uncertainty)
 
     def _tangential_target(
         self, ramp: LoadRamp, start: PointState | None, fraction: float

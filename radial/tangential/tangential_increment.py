@@ -55,9 +55,8 @@ class TangentialState:
     slip           slip since first contact of the particles (2, N) [length]
     carried        resultants of the tractions: tangential force along θ = 0 and across it, torque,
                    normal force (4,)
-    work           work of the loads since the start of the history [force length]; None after an
+    dissipated     energy dissipated since the start of the history [force length]; None after an
                    increment at the friction limit under force control, where the shift is undefined
-    dissipated     energy dissipated since the start of the history [force length]; None like `work`
     uncertainty    uncertainty of `dissipated` by finite increments [force length]
     """
 
@@ -70,7 +69,6 @@ class TangentialState:
     stick_radius: float | None
     slip: Array
     carried: Array
-    work: float | None
     dissipated: float | None
     uncertainty: float
 
@@ -155,7 +153,6 @@ def tangential_state(
     limits = (friction.limit(last.pressure) if last else nothing), friction.limit(end.pressure)
     rubbing = sliding_friction(start, end.shear, passed, *limits)
     forces, motion = resultant_loads(points, end.tractions), last.motion if last else np.zeros(4)
-    both = forces + (before.carried if before else 0.0)
     stick_through = None
     if end.slides:
         stick_through = 0.0
@@ -171,16 +168,15 @@ def tangential_state(
         stick_radius = extrapolate_stick_radius(
             radius, start_radius, stick_through, before.start_radius, before.stick_through
         )
-    work, dissipated = (before.work, before.dissipated) if before else (0.0, 0.0)
-    if end.slides or work is None or dissipated is None:
-        work = dissipated = None
+    dissipated = before.dissipated if before else 0.0
+    if end.slides or dissipated is None:
+        dissipated = None
     else:
-        work += 0.5 * float(both @ (end.motion - motion))
         dissipated += float(np.sum(rubbing * passed, axis=0) @ areas)
     open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
     return TangentialState(
         end, points.circle, prescribed, radius, start_radius, stick_through, stick_radius,
-        slip - passed, forces, work, dissipated,
+        slip - passed, forces, dissipated,
         (before.uncertainty if before else 0.0) + float(open_ @ areas),
     )  # fmt: skip
 

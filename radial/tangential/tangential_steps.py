@@ -14,6 +14,7 @@ from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
 from contact_scene.array_types import Array
 from contact_scene.body_pair import coupling
 from contact_scene.checks.axisymmetric import ELSEWHERE
+from contact_scene.quantities.ring_increment import add_work
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import UnsupportedScene
@@ -336,7 +337,7 @@ class TangentialSteps(StepsOnRings):
         do not resolve the slip annulus.
 
         reached  solved state at the end of the increment
-        last     output of the previous increment (not used)
+        last     output of the previous increment, whose work is continued
         """
         state, end = reached.state, reached.state.end
         angular = state.circle is not RingAngles.ONE
@@ -354,7 +355,7 @@ class TangentialSteps(StepsOnRings):
         in_springs = down * state.forces[NORMAL] ** 2 + along * float(np.dot(force, force))
         free = end.slides and state.prescribed.forces[TORSION] is not None
         twist = None if free else state.motions[TORSION]
-        stored, lost, work = end.energy - 0.5 * in_springs, state.dissipated, state.work
+        lost = state.dissipated
         share = np.where(np.isfinite(end.share), end.share, 2.0)
         p, gap = np.maximum(p, 0.0), np.maximum(self._interpolate_scalar(points, gap), 0.0)
         if angular:
@@ -378,9 +379,7 @@ class TangentialSteps(StepsOnRings):
             twist=twist if self.twists else None,
             dissipated_energy=lost,
             dissipation_uncertainty=None if lost is None else state.uncertainty,
-            elastic_energy=stored,
-            input_work=None if lost is None else stored + lost,
-            unresolved_work=None if lost is None or work is None else work - end.energy - lost,
+            elastic_energy=end.energy - 0.5 * in_springs,
             radii=points.radii,
             angles=points.output_angles if angular else None,
             pressure=p,
@@ -391,7 +390,7 @@ class TangentialSteps(StepsOnRings):
             slip_circumferential=s_t if angular or self.twists else None,
             in_stick=(self._interpolate_scalar(points, share) < 1) & (p > 0),
         )
-        return add_contact_displacements(increment, self.scene.rig)
+        return add_work(last, add_contact_displacements(increment, self.scene.rig))
 
     def _refuse_narrow(self, state: TangentialState, step: int) -> None:
         """Raise UnsupportedScene if the slip annulus after normal loading is narrower than a ring.

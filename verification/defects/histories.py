@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-import fem_reference.energy
 from contact_results import cycles, loop
 from contact_scene import CoulombFriction, HeightMap, Scene, bulk_strain, rig
+from contact_scene.quantities import ring_increment
 from contact_scene.stepping.load_path import (
     Control,
     ControlKind,
@@ -116,7 +116,7 @@ def _stored_by_elements(whole: Any, *given: Any) -> Any:
     return 1.05 * whole(*given)
 
 
-@replaces(fem_reference.energy, "input_work")
+@replaces(ring_increment, "input_work")
 def _work_on_elements(whole: Any, before: Any, increment: Any) -> Any:
     work, start = whole(before, increment), before.trapezoidal_work if before else 0.0
     return None if work is None else start + 0.8 * (work - start)
