@@ -4,9 +4,12 @@ Where points represent different areas, pressure, shear and friction limit are m
 See `contact_scene.quantities.residuals.Residuals`. A NaN in a field gives a NaN.
 """
 
+from collections.abc import Sequence
+from math import hypot
+
 import numpy as np
 
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Vector
 
 # Least scale of slip, relative to the tangential displacement: the direction of smaller slip is
 # undefined.
@@ -69,3 +72,25 @@ def slip_direction(q: Field, bound: Field, slip: Field, displacement: Field) -> 
     largest = np.maximum(np.max(np.abs(displacement[:, contact])), np.max(np.abs(slip[:, contact])))
     least = LEAST_SLIP * largest * np.sum(bound)
     return 0.0 if largest == 0 else float(missing / np.maximum(np.sum(work), least))
+
+
+def equilibrium(
+    carried: Vector, prescribed: Sequence[float | None], most: tuple[float, float]
+) -> tuple[float | None, float | None]:
+    """Compute the errors of the tangential force and of the torque, over the friction limit [1].
+
+    An error is None if no load is prescribed, or without friction.
+
+    carried     force along two axes and torque of the shear (3,)
+    prescribed  prescribed loads (3,); None where the motion is prescribed
+    most        largest force and largest torque that friction can carry
+    """
+    errors = [
+        None if load is None else float(found - load)
+        for found, load in zip(carried, prescribed, strict=True)
+    ]
+    forces, torque = [error for error in errors[:2] if error is not None], errors[2]
+    return (
+        hypot(*forces) / most[0] if forces and most[0] > 0 else None,
+        abs(torque) / most[1] if torque is not None and most[1] > 0 else None,
+    )

@@ -77,6 +77,11 @@ class PointCompliance:
         """Indices of the tangential motions that the symmetry of the solve does not exclude."""
         return tuple(np.flatnonzero(np.any(self.motions, axis=(1, 2))).tolist())
 
+    @property
+    def levers(self) -> Vector:
+        """Lever arms of the points in the torque (points,); 0 without twist [length]."""
+        return np.hypot(*self.motions[TWIST])
+
     @cached_property
     def reaches(self) -> Vector:
         """Largest displacement of a point by each unit motion (3,); 1 for an excluded motion."""

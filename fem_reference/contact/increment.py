@@ -17,7 +17,13 @@ from contact_scene.quantities.residuals import (
     ShearResiduals,
 )
 from contact_scene.solver_errors import NotConverged, NothingTouches, motion_undefined
-from contact_solver.residuals import complementarity, friction_cone, penetration, slip_direction
+from contact_solver.residuals import (
+    complementarity,
+    equilibrium,
+    friction_cone,
+    penetration,
+    slip_direction,
+)
 from fem_reference.contact.augmented_lagrangian import repeat_passes
 from fem_reference.contact.free_motion import free_motion
 from fem_reference.contact.friction_limit import contact_status
@@ -511,7 +517,12 @@ class _Increment:
             moved = np.maximum(np.abs(by_shear), np.abs(self.before.displacement))
             moved = np.maximum(moved, ROUND_OFF * approach)
             direction = slip_direction(w * q, w * bound, passed, moved)
-        pushing, turning = _missing_loads(problem, p, q)
+        acting, loads = problem.compliance.acting, problem.tangential.loads
+        pushing, turning = equilibrium(
+            problem.compliance.tangential_loads(q),
+            [load if k in acting else None for k, load in enumerate(loads)],
+            (float(np.sum(w * bound)), float(np.sum(w * problem.compliance.levers * bound))),
+        )
         return pressing.with_shear(
             ShearResiduals(
                 friction_cone=friction_cone(q, bound),
@@ -547,29 +558,6 @@ def _prescribed_or_carried(
         for k, load in enumerate(prescribed)
     )
     return along, across, torque
-
-
-def _missing_loads(
-    problem: PointProblem, pressure: Vector, shear: Field
-) -> tuple[float | None, float | None]:
-    """Compute the errors of tangential force and torque over the friction limit [1].
-
-    An error is None if no load is prescribed, or without friction at any point.
-
-    problem   compliance, friction and prescribed loads
-    pressure  pressure at the points (points,) [force/length^2]
-    shear     shear at the points (2, points) [force/length^2]
-    """
-    limits = problem.capacities(pressure)
-    carried = problem.compliance.tangential_loads(shear)
-    missing = {
-        k: (carried[k] - load) / limits[k]
-        for k in problem.compliance.acting
-        if (load := problem.tangential.loads[k]) is not None and limits[k] > 0
-    }
-    forces = [error for k, error in missing.items() if k != TWIST]
-    torque = missing.get(TWIST)
-    return hypot(*forces) if forces else None, None if torque is None else abs(float(torque))
 
 
 def touching_share(

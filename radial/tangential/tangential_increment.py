@@ -16,7 +16,13 @@ from contact_scene.array_types import Array
 from contact_scene.friction import sliding_friction
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
-from contact_solver.residuals import complementarity, friction_cone, penetration, slip_direction
+from contact_solver.residuals import (
+    complementarity,
+    equilibrium,
+    friction_cone,
+    penetration,
+    slip_direction,
+)
 from radial.angular_grid import RingAngles
 from radial.frictional.contact_growth import (
     contact_fraction,
@@ -24,8 +30,6 @@ from radial.frictional.contact_growth import (
 )
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
-    ACROSS,
-    ALONG,
     NORMAL,
     TORSION,
     Loads,
@@ -197,12 +201,11 @@ def residuals_of(
     limit = friction.limit(end.pressure)
     slip = -end.slip_increment.reshape(2, -1) / points.areas
     moving = points.areas * (np.hypot(*slip) > REST * end.approach)
-    drag = [
-        state.carried[way] - value
-        for way in (ALONG, ACROSS)
-        if (value := prescribed[way]) is not None
-    ]
-    torque = prescribed[TORSION]
+    pushing, turning = equilibrium(
+        state.carried[:NORMAL],
+        prescribed[:NORMAL],
+        (float(points.areas @ limit), float(points.levers @ limit)),
+    )
     return Residuals(
         complementarity=complementarity(points.areas * end.pressure, end.gap, end.approach),
         penetration=penetration(end.gap, end.approach),
@@ -211,15 +214,6 @@ def residuals_of(
         slip_direction=None
         if end.slides
         else slip_direction(moving * end.shear, moving * limit, slip, slip),
-        tangential_equilibrium=_share(float(np.linalg.norm(drag)), float(points.areas @ limit))
-        if drag
-        else None,
-        torque_equilibrium=None
-        if torque is None
-        else _share(abs(float(state.carried[TORSION]) - torque), float(points.levers @ limit)),
+        tangential_equilibrium=pushing,
+        torque_equilibrium=turning,
     )
-
-
-def _share(missing: float, limit: float) -> float:
-    """Return a missing or excess load as a share of the friction limit; 0 if nothing is missing."""
-    return missing / limit if missing else 0.0
