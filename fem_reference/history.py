@@ -22,6 +22,7 @@ from contact_scene.stepping.checkpoint import (
 from contact_scene.stepping.load_path import ScalarControl
 from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
+    Solver,
     resumable_increments,
 )
 from fem_reference.contact.method import ContactMethod
@@ -74,12 +75,8 @@ def resumable_solve(
 
 
 @dataclass(frozen=True)
-class _IncrementSolver:
+class _IncrementSolver(Solver[PointState, Increment]):
     """Finite-element solver of single increments, called by the load stepping of `contact_scene`.
-
-    The load stepping calls `advance` for each increment and `report` for its result. The load
-    stepping could limit the bisection of increments by the work of the solver. This limit is not
-    used here, so that `spent` and `most_spent` are zero.
 
     scene      contact problem
     method     contact method of the scene
@@ -89,15 +86,6 @@ class _IncrementSolver:
     scene: Scene
     method: ContactMethod
     tolerance: float
-    most_spent: float = 0.0
-
-    def spent(self) -> float:
-        """Return the work of the solver on the load history so far: always 0 for this solver.
-
-        The load stepping may use the work to limit the bisection of increments that do not
-        converge. The finite-element solver sets no such limit.
-        """
-        return 0.0
 
     def advance(
         self,
