@@ -13,6 +13,7 @@ import os
 import tempfile
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
+from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
@@ -55,6 +56,24 @@ def cached_array(
         with contextlib.suppress(OSError):
             _write_entry(path, key, values)
     return values
+
+
+@cache
+def sources_digest(package: Path, folders: tuple[str, ...], libraries: tuple[str, ...]) -> str:
+    """Compute a digest of the source files that determine an array, for cache keys.
+
+    A change of the sources or of a library invalidates the cached arrays.
+
+    package    folder that contains the folders
+    folders    folders of the source files
+    libraries  versions of the libraries that the files use
+    """
+    digest = sha256(repr(libraries).encode())
+    for folder in folders:
+        for source in sorted((package / folder).rglob("*.py")):
+            content = sha256(source.read_bytes()).hexdigest()
+            digest.update(f"{source.relative_to(package).as_posix()} {content}\n".encode())
+    return digest.hexdigest()
 
 
 @contextlib.contextmanager

@@ -5,7 +5,7 @@ indenter that conforms to the load is undefined there. Above the limit there is 
 """
 
 from collections.abc import Sequence
-from math import hypot
+from math import ceil, hypot
 
 from contact_scene.friction import CoulombFriction
 from contact_scene.solver_errors import GrossSliding
@@ -19,6 +19,8 @@ ROUND_OFF = 1e-12
 # like (1 - T/µW)^-½, here by 3e4, which exceeds the contact. A solver would determine it from a
 # difference of forces below the tolerance of equilibrium.
 AT_LIMIT = 1e-9
+# Round-off of a number of increments.
+SHARE_ROUND_OFF = 1e-9
 
 
 def reaches_limit(load: float, limit: float) -> bool:
@@ -74,6 +76,25 @@ def limit_of_step(friction: CoulombFriction | None, ramp: LoadRamp) -> float | N
     if ControlKind.DISPLACEMENT in (ramp.normal.kind, ramp.tangential.kind) or not friction:
         return None
     return friction.largest_tangential_force(ramp.normal.end)
+
+
+def increments_by_force(
+    friction: CoulombFriction | None, ramp: LoadRamp, share: float, most: int
+) -> int:
+    """Compute the number of increments of a load step in which the tangential force alone changes.
+
+    The force changes in each increment by at most a share of the friction limit.
+
+    friction  friction law of the scene; None without friction
+    ramp      load ramp of the load step
+    share     largest change over the friction limit [1]
+    most      number if the limit or the change of the force depends on the solution
+    """
+    limit, start = limit_of_step(friction, ramp), ramp.tangential.start
+    if limit is None or start is None:
+        return most
+    change = hypot(*(end - begin for begin, end in zip(start, ramp.tangential.end, strict=True)))
+    return max(1, ceil(change / (share * limit) - SHARE_ROUND_OFF)) if limit > 0 else 1
 
 
 def step_at_limit(friction: CoulombFriction | None, ramps: Sequence[LoadRamp]) -> int | None:

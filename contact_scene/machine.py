@@ -11,6 +11,8 @@ from pathlib import Path
 
 from threadpoolctl import ThreadpoolController
 
+from contact_scene.solver_errors import ResourceRefused
+
 MEMORY = Path("/proc/meminfo")
 # Flags of some systems: do not wait for a named pipe, and read bytes instead of text.
 NEITHER_WAITING_NOR_TEXT = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
@@ -28,6 +30,21 @@ def available_bytes() -> int:
     if not hasattr(os, "sysconf"):  # unknown on Windows
         return sys.maxsize
     return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+
+
+def require_memory(needed: float, what: str, remedy: str) -> None:
+    """Raise ResourceRefused if a solve needs more memory than is available on this machine.
+
+    needed  memory that the solve needs [byte]
+    what    subject of the error message, in the plural
+    remedy  sentence that states a way to use less memory
+    """
+    available = available_bytes()
+    if needed > available:
+        raise ResourceRefused(
+            f"{what} need about {needed / 2**30:.1f} GiB, {available / 2**30:.1f} GiB are "
+            f"available. {remedy}"
+        )
 
 
 @contextmanager

@@ -4,7 +4,7 @@ import numpy as np
 
 from contact_scene.array_types import Matrix, Vector
 from contact_solver.conjugate_gradients import Map
-from contact_solver.slip_compliance_bins import shares
+from contact_solver.slip_compliance_bins import beyond, shares
 from contact_solver.zones import Zones
 
 
@@ -17,8 +17,9 @@ class BinnedPreconditioner:
         M = Π F⁻¹ Π + Σ_j χ_j t (f + d_j)⁻¹ t χ_j,    Π = stick + χ_0 t t
 
     F is the tangential operator with the unpadded period, f its scalar mean. χ_j is the weight of a
-    point in bin j with the compliance d_j, and t the unit vector perpendicular to the slip. Rows
-    and free unknowns are vectors of the zones.
+    point in bin j with the compliance d_j, and t the unit vector perpendicular to the slip. Far
+    beyond the last bin d dominates f: there M tends to t (K₀ + d)⁻¹ t, with the self-compliance K₀
+    of a point. Rows and free unknowns are vectors of the zones.
     """
 
     def __init__(self, zones: Zones, inverse: Map, self_compliance: float) -> None:
@@ -30,7 +31,11 @@ class BinnedPreconditioner:
                          [length^3/force]
         """
         self._zones, self._inverse = zones, inverse
-        self._shares = shares(zones.slip_compliance / self_compliance)
+        compliance = zones.slip_compliance / self_compliance
+        excess = beyond(compliance)
+        self._shares = shares(compliance)
+        self._shares[-1] *= np.sqrt(1 - excess)
+        self._alone = excess / (self_compliance + zones.slip_compliance)
 
     def __call__(self, residuals: Matrix) -> Matrix:
         """Convert residuals of Newton's method to changes of the free tractions, approximately.
@@ -44,15 +49,17 @@ class BinnedPreconditioner:
         first, *others = self._shares
         weighted = rows.copy()
         along = zones.split_unknowns(weighted)[1]
+        alone = self._alone * along
         bins = np.zeros((len(others), zones.contact.size))
         for one, share in zip(bins, others, strict=True):
             one[slip] = share * along
         along *= first
-        v = np.concatenate([zones.field(weighted), bins])
-        u = self._inverse(v)
-        free = zones.free(u[:3])
+        field = zones.field(weighted)
+        u = self._inverse(np.concatenate([field, bins]))
+        free = zones.free(u[: len(field)])
         along = zones.split_unknowns(free)[1]
         along *= first
-        for one, share in zip(u[3:], others, strict=True):
+        along += alone
+        for one, share in zip(u[len(field) :], others, strict=True):
             along += share * one[slip]
         return free

@@ -33,27 +33,26 @@ def solve_in_zones(
     displace: Map,
     rows: Callable[[Field, Field], Field],
     precondition: Map,
-    base: Point,
     residual: Field,
     depth: float,
     most: int,
-) -> tuple[Point, int]:
+) -> tuple[Field, Field, int]:
     """Solve a contact problem linearised in fixed zones by preconditioned conjugate gradients.
 
-    Displacements are carried along, so that the result needs no further product. Return the point
-    and the number of iterations.
+    Displacements are carried along, so that the result needs no further product. Return the change
+    of the tractions, its displacements, and the number of iterations.
 
-    displace      map from tractions to displacements; symmetric, positive
-    rows          map from a change of the tractions and its displacements to the rows of the linear
-                  system, in free components only
+    displace      map from a change of the free tractions to displacements; symmetric, positive
+    rows          map from such a change and its displacements to the rows of the linear system
     precondition  approximate inverse, from rows to changes that keep the prescribed forces
-    base          start
-    residual      residual at the start, in free components only
+    residual      rows of the residual at the start
     depth         reduction of the residual norm at which the iteration stops
     most          largest number of iterations
     """
-    t, u, r = base.tractions.copy(), base.displacements.copy(), residual
+    r = residual
     d = z = precondition(r)
+    t = np.zeros_like(d)
+    u: Field | float = 0.0
     rz = first = inner(r, z)
     iterations = 0
     while rz > depth**2 * first and iterations < most:
@@ -65,9 +64,9 @@ def solve_in_zones(
             break
         step = rz / curvature
         t += step * d
-        u += step * d_u
+        u = u + step * d_u
         r = r - step * fall
         z = precondition(r)
         rz, last = inner(r, z), rz
         d = z + (rz / last) * d
-    return Point(t, u), iterations
+    return t, np.asarray(u), iterations

@@ -13,7 +13,6 @@ from contact_solver.gross_slip import exhausts_friction
 from contact_solver.pressure import PressureProblem
 from contact_solver.rigid_motion import RigidMotions
 from contact_solver.shear import ShearProblem
-from contact_solver.shear_zones import ShearZones
 from contact_solver.zones import Zones
 
 
@@ -74,7 +73,7 @@ class CoupledProblem:
     normal_by_shear: Map
     shear_by_pressure: Map
     inverse_on: Callable[[Mask], Map]
-    inverse_in: Callable[[ShearZones], Map]
+    inverse_in: Callable[[Zones], Map]
     together: Map
     inverse: Preconditioner
     gap: Vector

@@ -10,10 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve, lu_factor, lu_solve
 
-from contact_scene.array_types import Field, Indices, Mask, Matrix
+from contact_scene.array_types import Field, Mask, Matrix
 from contact_scene.solver_errors import NotConverged
 from contact_solver.conjugate_gradients import Map
-from contact_solver.shear_zones import ShearZones
 from contact_solver.zones import Zones
 
 
@@ -37,44 +36,21 @@ class DenseInverse:
         normal = slice(2 * contact.size, None)
         return inverse_on(self.matrix[normal, normal], contact)
 
-    def in_stick_and_slip(self, zones: ShearZones) -> Map:
-        """Return the inverse of the shear problem in zones of stick and slip.
-
-        zones   zones of an iterate
-        raises  NotConverged if the matrix is not positive definite
-        """
-        n = zones.slip.size
-        stick, slip = np.flatnonzero(zones.stick), np.flatnonzero(zones.slip)
-        tangent = zones.tangent[:, slip]
-        rows = _free_rows(self.matrix[: 2 * n, : 2 * n], stick, slip, tangent)
-        derivative = _free_rows(rows.T, stick, slip, tangent).T.copy()
-        along = np.arange(2 * len(stick), len(derivative))
-        derivative[along, along] += zones.slip_compliance[slip]
-        solve = _symmetric_inverse(derivative)
-
-        def inverse(v: Field) -> Field:
-            q = np.zeros_like(v)
-            free = solve(
-                np.concatenate([v[0][stick], v[1][stick], np.sum(tangent * v[:, slip], axis=0)])
-            )
-            q[0][stick], q[1][stick] = free[: 2 * len(stick)].reshape(2, -1)
-            q[:, slip] = tangent * free[along]
-            return q
-
-        return inverse
-
     def in_zones(self, zones: Zones) -> Map:
-        """Return the inverse of the coupled problem in zones of contact, stick and slip.
+        """Return the inverse in zones of contact, stick and slip, as a map of rows (k, size).
 
         zones   zones of an iterate
         raises  NotConverged if the derivative is singular
         """
-        n, at = zones.contact.size, (zones.stick_points, zones.slip, zones.tangent)
-        rows = _free_rows(self.matrix, *at, zones.contact_points)
-        derivative = _free_rows(rows.T, *at, zones.contact_points).T.copy()
+        n = zones.contact.size
+        rows = _free_rows(self.matrix, zones)
+        derivative = _free_rows(rows.T, zones).T.copy()
         stuck, slips = 2 * len(zones.stick_points), len(zones.slip)
         along = np.arange(stuck, stuck + slips)
         derivative[along, along] += zones.slip_compliance
+        if zones.friction_slope is None:
+            solve = _symmetric_inverse(derivative)
+            return lambda rows: solve(rows.T).T
         # In slipping points the shear along the slip follows the pressure.
         pressed = stuck + slips + np.searchsorted(zones.contact_points, zones.slip)
         for axis, slope in enumerate(zones.friction_slope):
@@ -110,23 +86,17 @@ def inverse_on(matrix: Matrix, contact: Mask) -> Map:
     return inverse
 
 
-def _free_rows(
-    matrix: Matrix, stick: Indices, slip: Indices, tangent: Field, contact: Indices | None = None
-) -> Matrix:
-    """Restrict the rows of a matrix to the free unknowns in zones, in the order of `Zones`.
+def _free_rows(matrix: Matrix, zones: Zones) -> Matrix:
+    """Restrict the rows of a matrix to the free unknowns in zones.
 
-    matrix   rows for the components (q_x, q_y, p) of n points (3 n, k)
-    stick    indices of sticking points
-    slip     indices of slipping points
-    tangent  unit vectors perpendicular to the slip (2, slip)
-    contact  indices of points whose pressure is free; None for shear alone
+    matrix  rows for the components (q_x, q_y, p) of n points (3 n, k)
+    zones   zones of an iterate
     """
-    n = len(matrix) // 3 if contact is not None else len(matrix) // 2
-    across = tangent[0][:, None] * matrix[slip] + tangent[1][:, None] * matrix[n + slip]
-    parts = [matrix[stick], matrix[n + stick], across]
-    if contact is not None:
-        parts.append(matrix[2 * n + contact])
-    return np.concatenate(parts)
+    n, stick, slip = zones.contact.size, zones.stick_points, zones.slip
+    t_x, t_y = zones.tangent[:, :, None]
+    across = t_x * matrix[slip] + t_y * matrix[n + slip]
+    pressed = matrix[2 * n + zones.contact_points]
+    return np.concatenate([matrix[stick], matrix[n + stick], across, pressed])
 
 
 def _symmetric_inverse(matrix: Matrix) -> Map:

@@ -62,30 +62,19 @@ class LinearisedContact:
         """Assemble the linear system of a Newton step.
 
         carriers  tractions that change the prescribed forces, from similar zones (see
-                  `carriers_in`), which saves their computation; None to compute them
+                  `Zones.transfer`), which saves their computation; None to compute them
         """
-        self._problem, self._zones = problem, zones
+        self._problem, self.zones = problem, zones
         self._shifts, self._closures = problem.shifting.held, problem.closing.held
         units = self._free_units
         if carriers is None:
             carriers = units if problem.inverse.exact else self._precondition(units)
-        self._carriers = carriers
+        self.carriers = carriers
 
     @cached_property
     def _precondition(self) -> Map:
         """Inverse in the zones, on first use: a converged iterate may need none."""
-        return self._problem.inverse.in_zones(self._zones)
-
-    def carriers_in(self, zones: Zones) -> Matrix:
-        """Map the carriers to the free unknowns of other zones of contact, stick and slip.
-
-        Carriers are tractions that change the prescribed forces. The result (k, unknowns) has one
-        row per prescribed force.
-
-        zones  zones of the next iterate
-        """
-        transferred = (zones.free(self._zones.field(carrier)) for carrier in self._carriers)
-        return np.array([*transferred]).reshape(-1, zones.size)
+        return self._problem.inverse.in_zones(self.zones)
 
     @cached_property
     def _free_units(self) -> Matrix:
@@ -94,7 +83,7 @@ class LinearisedContact:
         Only motions with a prescribed force are included. Rows are the shifts and the twist of the
         tangential load, then approach and tilts of the normal load.
         """
-        zones, free = self._zones, []
+        zones, free = self.zones, []
         for parts, motions in ((slice(2), self._shifts), (slice(2, 3), self._closures)):
             for motion in motions.each:
                 unit = np.zeros((3, zones.contact.size))
@@ -111,13 +100,13 @@ class LinearisedContact:
         tractions  (q_x, q_y, p), shape (3, n)
         raises     NotConverged if the load reaches the friction limit
         """
-        problem, zones, shifts = self._problem, self._zones, self._shifts
+        problem, zones, shifts = self._problem, self.zones, self._shifts
         p = problem.pressing.admissible(np.maximum(tractions[2], 0.0) * zones.contact)
         bound = problem.friction_limit(p)
         if problem.exhausts_friction(bound):
             raise NotConverged("the coupled increment", 0, np.inf, 0.0)
         t = zones.admissible_tractions(np.concatenate([tractions[:2], p[None]]), bound)
-        carriers = self._carriers[: len(shifts)]
+        carriers = self.carriers[: len(shifts)]
         forces = np.array([shifts.forces(zones.field(carrier)[:2]) for carrier in carriers])
         forces = forces.reshape(len(carriers), len(carriers))
         weights = np.linalg.pinv(forces.T, rcond=UNDETERMINED) @ (
@@ -136,7 +125,7 @@ class LinearisedContact:
 
         base, natural  iterate, and natural map at the iterate
         """
-        zones = self._zones
+        zones = self.zones
         rows = zones.free(np.concatenate([natural.slipped, -natural.gap[None]]))
         rows -= zones.slip_terms(zones.free(base.tractions))
         return rows
@@ -147,15 +136,15 @@ class LinearisedContact:
         residual  residual of the iterate, one row per free unknown [length]
         depth     reduction of the residual at which GMRES stops
         """
-        zones, problem = self._zones, self._problem
-        responses = np.einsum("ki,ji->kj", self._force_rows, self._carriers)
+        zones, problem = self.zones, self._problem
+        responses = np.einsum("ki,ji->kj", self._force_rows, self.carriers)
         weights = np.linalg.pinv(responses, rcond=UNDETERMINED)
 
         def apply_operator(rows: Vector) -> tuple[Vector, Vector, Vector]:
             """Precondition, correct to constant prescribed forces, and apply the operator."""
             free = self._precondition(rows[None])[0]
             changes = weights @ np.einsum("ki,i->k", self._force_rows, free)
-            for change, carrier in zip(changes, self._carriers, strict=True):
+            for change, carrier in zip(changes, self.carriers, strict=True):
                 free -= change * carrier
             u = problem.together(zones.tractions(free))
             return free, zones.free(u) + zones.slip_terms(free), zones.restrict_to_fixed(u)
@@ -180,7 +169,7 @@ class LinearisedContact:
         point   tractions and displacements of the iterate
         motion  rigid tangential motion of the iterate
         """
-        problem, zones = self._problem, self._zones
+        problem, zones = self._problem, self.zones
         p = np.maximum(point.tractions[2], 0.0)
         t = zones.admissible_tractions(
             np.concatenate([point.tractions[:2], p[None]]), problem.friction_limit(p)
@@ -206,9 +195,10 @@ class LinearisedContact:
     @cached_property
     def _force_rows(self) -> Matrix:
         """Changes of the prescribed forces by changes of the free unknowns (k, unknowns)."""
-        zones, rows = self._zones, self._free_units.copy()
+        zones, rows = self.zones, self._free_units.copy()
         before = zones.size - len(zones.contact_points)
         pressed = before + np.searchsorted(zones.contact_points, zones.slip)
+        assert zones.friction_slope is not None
         along = self._shifts.shapes.at(zones.slip).along(zones.friction_slope)
         rows[: len(self._shifts), pressed] += along
         return rows

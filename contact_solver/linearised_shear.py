@@ -7,11 +7,11 @@ pseudo-inverse leaves it to the exact projection.
 
 import numpy as np
 
-from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.array_types import Matrix, Vector, VectorField
 from contact_solver.admissible_shear import admissible_shear
 from contact_solver.conjugate_gradients import Map, Point, solve_in_zones
 from contact_solver.rigid_motion import RigidMotions
-from contact_solver.shear_zones import ShearZones
+from contact_solver.zones import Zones
 
 MAX_ITERATIONS = 100
 # Relative singular value below which the zones do not determine a force.
@@ -24,38 +24,33 @@ class LinearisedShear:
     Newton's method solves this linear problem in each step.
 
     displace  map from shear to displacement
-    inverse   approximate inverse of the derivative in the zones, from and to free components
+    inverse   approximate inverse of the derivative in the zones, of rows (k, size)
     zones     stick and slip zones of an iterate
     motions   rigid motions of the indenter
-    carriers  shears (2, n) that change the prescribed forces in these zones, one per force
+    carriers  shears that change the prescribed forces in these zones (k, size), one row per force
     """
 
     def __init__(
         self,
         displace: Map,
         inverse: Map,
-        zones: ShearZones,
+        zones: Zones,
         motions: RigidMotions,
-        carriers: list[VectorField] | None = None,
+        carriers: Matrix | None = None,
     ) -> None:
         """Compute the carriers: shears in the given zones that change the prescribed forces.
 
         Combinations of the carriers correct the forces of an iterate.
 
-        carriers  carriers of another iterate with the same zones, which are reused; None to compute
-                  them
+        carriers  carriers in similar zones; None to compute them
         """
-        self._displace, self._inverse, self._zones = displace, inverse, zones
-        self._motions, self._held = motions, motions.held
-        if carriers is None:
-            shape = zones.sliding_shear.shape
-            units = (np.broadcast_to(one.shape, shape) for one in self._held.each)
-            self.carriers = [inverse(zones.free(unit)) for unit in units]
-        else:
-            self.carriers = [zones.free(carrier) for carrier in carriers]
-        count = len(self.carriers)
-        responses = np.array([self._held.forces(carrier) for carrier in self.carriers])
-        self._shares = np.linalg.pinv(responses.reshape(count, count).T, rcond=UNDETERMINED)
+        self._displace, self._inverse, self.zones = displace, inverse, zones
+        self._motions, self._held, shape = motions, motions.held, (2, zones.contact.size)
+        units = [zones.free(np.broadcast_to(one.shape, shape)) for one in self._held.each]
+        self._units = np.array(units).reshape(len(units), zones.size)
+        self.carriers = inverse(self._units) if carriers is None else carriers
+        responses = np.einsum("ki,ji->kj", self._units, self.carriers)
+        self._shares = np.linalg.pinv(responses, rcond=UNDETERMINED)
 
     def admissible(self, q: VectorField, bound: Vector) -> VectorField:
         """Return a shear near q that is within the friction limit and has the prescribed forces.
@@ -69,8 +64,10 @@ class LinearisedShear:
         q      shear (2, n)
         bound  friction limit µp (n,)
         """
-        near = np.where(self._zones.slip, self._zones.sliding_shear, q)
-        self._correct_forces(self._held.prescribed_forces - self._held.forces(near), near)
+        zones, near = self.zones, q.copy()
+        near[:, zones.slip] = bound[zones.slip] * zones.normal
+        missing = self._held.prescribed_forces - self._held.forces(near)
+        near += zones.field(self._change_of_forces(missing))
         return admissible_shear(self._motions, near, bound)
 
     def solve(self, base: Point, slipped: VectorField, depth: float) -> tuple[Point, int]:
@@ -83,36 +80,31 @@ class LinearisedShear:
                  stick requires minus the actual displacement
         depth    reduction of the residual norm at which the iteration stops
         """
-        zones = self._zones
-        return solve_in_zones(
-            self._displace,
-            lambda d, d_u: zones.free(d_u) + zones.slip_compliance * d,
+        zones = self.zones
+        change, u, iterations = solve_in_zones(
+            lambda d: self._displace(zones.field(d)),
+            lambda d, d_u: zones.free(d_u) + zones.slip_terms(d),
             self._precondition,
-            base,
-            zones.free(slipped - zones.slip_compliance * base.tractions),
+            zones.free(slipped) - zones.slip_terms(zones.free(base.tractions)),
             depth,
             MAX_ITERATIONS,
         )
+        return Point(base.tractions + zones.field(change), base.displacements + u), iterations
 
-    def _precondition(self, v: VectorField) -> VectorField:
+    def _precondition(self, rows: Vector) -> Vector:
         """Apply the preconditioner to a residual, and correct the result to zero prescribed forces.
 
         The conjugate gradients then keep the forces of the shear constant.
 
-        v  residual displacement (2, n) [length]
+        rows  residual, one row per free unknown [length]
         """
-        free = self._inverse(v)
-        self._correct_forces(-self._held.forces(free), free)
-        return free
+        free = self._inverse(rows[None])[0]
+        forces = np.einsum("ki,i->k", self._units, free)
+        return np.asarray(free - self._change_of_forces(forces))
 
-    def _correct_forces(self, forces: Field, free: VectorField) -> None:
-        """Change the prescribed forces of a shear by given amounts, in place.
+    def _change_of_forces(self, forces: Vector) -> Vector:
+        """Return a combination of the carriers (size,) that changes the prescribed forces.
 
-        A combination of the carriers is added. Carriers are the shears that change the prescribed
-        forces in the present stick and slip zones.
-
-        forces  required change of the forces (k,)
-        free    shear that is changed (2, n)
+        forces  change of the forces (k,)
         """
-        for share, carrier in zip(self._shares @ forces, self.carriers, strict=True):
-            free += share * carrier
+        return np.einsum("k,ki->i", self._shares @ forces, self.carriers)

@@ -19,7 +19,7 @@ The term b n changes with the pressure by µ n, µ = db/dp. This makes the deriv
 about µ|β|, with β Dundurs' parameter.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,12 +27,9 @@ from numpy.typing import NDArray
 from contact_scene.array_types import Field, Mask, Vector, VectorField
 from contact_solver.admissible_shear import magnitude, natural_shear
 from contact_solver.coupled_problem import CoupledProblem
-from contact_solver.zones import Zones
+from contact_solver.zones import Zones, zones_at
 
 Tractions = NDArray[np.float64]
-
-# Largest slip compliance d over the self-compliance.
-MAX_SLIP_COMPLIANCE = 1e6
 
 
 @dataclass(frozen=True)
@@ -133,17 +130,8 @@ def zones_of(natural: Natural, problem: CoupledProblem) -> Zones:
     natural  contact and friction conditions at the iterate (natural map)
     problem  operators, loads and friction law of the increment
     """
-    slip = np.flatnonzero(natural.slip)
-    length, bound = natural.length[slip], natural.bound[slip]
-    normal = natural.z[:, slip] / length
-    excess = length - bound
-    slope = problem.friction_slope(np.maximum(natural.pressure, 0.0))
-    most = MAX_SLIP_COMPLIANCE * problem.self_compliance
-    return Zones(
-        contact=natural.contact,
-        stick=natural.contact & ~natural.slip,
-        slip=slip,
-        tangent=np.stack([-normal[1], normal[0]]),
-        friction_slope=slope[slip] * normal,
-        slip_compliance=excess / np.maximum(problem.gamma * bound, excess / most),
+    zones = zones_at(
+        natural.contact, natural.z, natural.bound, problem.gamma, problem.self_compliance
     )
+    slope = problem.friction_slope(np.maximum(natural.pressure, 0.0))
+    return replace(zones, friction_slope=slope[zones.slip] * zones.normal)

@@ -82,7 +82,9 @@ class NewtonIterate:
         contact, changed = np.sum(zones.contact), zones.changes(self._zones)
         self.settled = bool(images * changed <= SETTLED * np.sqrt(images * contact))
         increment = self._increment
-        carriers = increment.carriers_in(zones) if increment and self.settled else None
+        carriers = None
+        if increment and self.settled:
+            carriers = increment.zones.transfer(increment.carriers, zones)
         self._zones, self._increment = zones, None
         del increment  # limit the memory to one increment
         increment = self._increment = LinearisedContact(problem, zones, carriers)

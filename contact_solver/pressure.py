@@ -224,15 +224,15 @@ def close_gap(
     depth    reduction of the residual norm at which the iteration stops
     """
     projected, precondition = problem.projection(contact), problem.inverse_on(contact)
-    return solve_in_zones(
+    p, u, iterations = solve_in_zones(
         problem.displace,
         lambda d, d_u: projected(d_u),
         lambda r: projected(precondition(r)),
-        start,
         projected(-g),
         depth,
         MAX_ITERATIONS_PER_STEP,
     )
+    return Point(start.tractions + p, start.displacements + u), iterations
 
 
 def _line_search(

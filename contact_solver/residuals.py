@@ -1,11 +1,15 @@
 """Dimensionless residuals of the contact and friction conditions, independent of the cell size.
 
+Where points represent different areas, pressure, shear and friction limit are multiplied by them.
 See `contact_scene.quantities.residuals.Residuals`. A NaN in a field gives a NaN.
 """
 
+from collections.abc import Sequence
+from math import hypot
+
 import numpy as np
 
-from contact_scene.array_types import Field
+from contact_scene.array_types import Field, Vector
 
 # Least scale of slip, relative to the tangential displacement: the direction of smaller slip is
 # undefined.
@@ -39,13 +43,14 @@ def penetration(g: Field, approach: float) -> float:
 def friction_cone(q: Field, bound: Field) -> float:
     """Compute the residual of Coulomb's friction limit: largest excess of the shear over the limit.
 
-    The residual is max(|q| - bound) / max(bound), dimensionless, and at least 0.
+    The residual is max(|q| - bound) / max(bound), dimensionless, and at least 0. Without friction
+    it is 0.
 
     q      shear (2, n)
     bound  friction limit µp (n,)
     """
-    excess = np.max(np.sqrt(q[0] ** 2 + q[1] ** 2) - bound)
-    return float(np.maximum(0.0, excess) / np.max(bound))
+    excess, largest = np.max(np.sqrt(q[0] ** 2 + q[1] ** 2) - bound), np.max(bound)
+    return 0.0 if largest == 0 else float(np.maximum(0.0, excess) / largest)
 
 
 def slip_direction(q: Field, bound: Field, slip: Field, displacement: Field) -> float:
@@ -61,7 +66,31 @@ def slip_direction(q: Field, bound: Field, slip: Field, displacement: Field) -> 
     """
     work = bound * np.sqrt(slip[0] ** 2 + slip[1] ** 2)
     missing = np.sum(work - q[0] * slip[0] - q[1] * slip[1])
-    contact = bound > 0
+    contact = bound != 0
+    if not np.any(contact):
+        return 0.0
     largest = np.maximum(np.max(np.abs(displacement[:, contact])), np.max(np.abs(slip[:, contact])))
     least = LEAST_SLIP * largest * np.sum(bound)
     return 0.0 if largest == 0 else float(missing / np.maximum(np.sum(work), least))
+
+
+def equilibrium(
+    carried: Vector, prescribed: Sequence[float | None], most: tuple[float, float]
+) -> tuple[float | None, float | None]:
+    """Compute the errors of the tangential force and of the torque, over the friction limit [1].
+
+    An error is None if no load is prescribed, or without friction.
+
+    carried     force along two axes and torque of the shear (3,)
+    prescribed  prescribed loads (3,); None where the motion is prescribed
+    most        largest force and largest torque that friction can carry
+    """
+    errors = [
+        None if load is None else float(found - load)
+        for found, load in zip(carried, prescribed, strict=True)
+    ]
+    forces, torque = [error for error in errors[:2] if error is not None], errors[2]
+    return (
+        hypot(*forces) / most[0] if forces and most[0] > 0 else None,
+        abs(torque) / most[1] if torque is not None and most[1] > 0 else None,
+    )

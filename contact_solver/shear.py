@@ -20,7 +20,7 @@ from contact_solver.conjugate_gradients import Map, Point
 from contact_solver.linearised_shear import LinearisedShear
 from contact_solver.residuals import slip_direction
 from contact_solver.rigid_motion import RigidMotions
-from contact_solver.shear_zones import ShearZones
+from contact_solver.zones import Zones, zones_at
 
 MAX_STEPS = 120
 # Residual norm after a linear solve over that before: largest value, used while the zones change.
@@ -64,8 +64,7 @@ class ShearProblem:
     displace         map A from shear (2, n) to its tangential displacement (2, n); symmetric,
                      positive
     inverse_in       function from zones of stick and slip to the approximate inverse of the
-                     derivative in these zones, on free components (2, n); symmetric, positive, see
-                     `ShearZones.precondition`
+                     derivative in these zones, of rows (k, size); symmetric, positive
     bound            friction limit µp (n,), zero outside the contact [force/length^2]
     target           c (2, n) [length], the displacement that stick requires: points stick where
                      A q = ω + c
@@ -75,7 +74,7 @@ class ShearProblem:
     """
 
     displace: Map
-    inverse_in: Callable[[ShearZones], Map]
+    inverse_in: Callable[[Zones], Map]
     bound: Vector
     target: VectorField
     motions: RigidMotions
@@ -116,24 +115,20 @@ def solve_shear(
     """
     bound, target = problem.bound, problem.target
     guess, natural = start, problem.natural(start, motion)
-    zones: ShearZones | None = None
-    carriers: list[VectorField] | None = None
+    linearised: LinearisedShear | None = None
     accepted: tuple[Point, float] | None = None  # with its distance from P(z)
     iterations, first, residual, shortened = 0, np.inf, np.inf, False
     for number in range(MAX_STEPS):
         if not np.isfinite(natural.error):
             break
-        found = ShearZones(natural.z, bound, problem.self_compliance)
-        settled = found.has_same_slip(zones)
-        zones = found
+        compliance = problem.self_compliance
+        found = zones_at(bound > 0, natural.z, bound, 1 / compliance, compliance)
+        settled, carriers = False, None
+        if linearised is not None and np.array_equal(found.slip, linearised.zones.slip):
+            settled, carriers = True, linearised.zones.transfer(linearised.carriers, found)
         linearised = LinearisedShear(
-            problem.displace,
-            problem.inverse_in(zones),
-            zones,
-            problem.motions,
-            carriers if settled else None,
+            problem.displace, problem.inverse_in(found), found, problem.motions, carriers
         )
-        carriers = linearised.carriers
         q = linearised.admissible(guess.tractions, bound)
         trial = Point(q, problem.displace(q))
         point, natural = _line_search(problem, accepted, trial, natural.motion)

@@ -92,7 +92,7 @@ class UnequalAreas:
             normal_by_shear=lambda q: by_shear(q)[2],
             shear_by_pressure=lambda p: by_pressure(p)[:2],
             inverse_on=lambda contact: dense().on_contact(contact),
-            inverse_in=lambda zones: dense().in_stick_and_slip(zones),
+            inverse_in=lambda zones: dense().in_zones(zones),
             together=product,
             inverse=inverse,
             gap=s * gap,

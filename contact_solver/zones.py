@@ -1,4 +1,9 @@
-"""Zones of contact, stick and slip, and the free unknowns of the coupled problem in them."""
+"""Zones of contact, stick and slip, and the free unknowns of a contact problem in them.
+
+With z of the natural map, points in contact with |z| above the friction limit b slip along n = z /
+|z|. A slipping point has the shear b n + s t, with t perpendicular to n. The free component s has
+the additional compliance d = (|z| - b) / (γ b) due to the curvature of the friction disc |q| = b.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene.array_types import Field, Indices, Mask, Vector
+from contact_scene.array_types import Field, Indices, Mask, Matrix, Vector, VectorField
+from contact_solver.admissible_shear import magnitude
+
+# Largest slip compliance d over the self-compliance, for points of very small friction limit.
+MAX_SLIP_COMPLIANCE = 1e6
 
 
 @dataclass(frozen=True)
@@ -17,23 +26,29 @@ class Zones:
     """Zones of contact, stick and slip of an iterate, and the free unknowns in these zones.
 
     Free unknowns and the rows of the derivative are vectors: q_x, then q_y of the stick zone, the
-    shear s perpendicular to the slip direction n in the slip zone, p of the contact.
+    shear s perpendicular to the slip direction n in the slip zone, p of the contact. At a given
+    pressure, p is not free, and fields have the components x and y alone.
 
     contact, stick   points in contact and sticking points (n,)
     slip             flat indices of slipping points (points,)
-    tangent          unit vector t perpendicular to the slip in slipping points (2, points)
-    friction_slope   µ n in slipping points (2, points), µ the derivative of the friction limit with
-                     respect to the pressure
+    normal           direction n of the slip in slipping points (2, points)
     slip_compliance  compliance d of slipping points perpendicular to the slip (points,)
                      [length^3/force]
+    friction_slope   µ n in slipping points (2, points), µ the derivative of the friction limit with
+                     respect to the pressure; None at a given pressure
     """
 
     contact: Mask
     stick: Mask
     slip: Indices
-    tangent: Field
-    friction_slope: Field
+    normal: Field
     slip_compliance: Vector
+    friction_slope: Field | None = None
+
+    @cached_property
+    def tangent(self) -> Field:
+        """Unit vector t perpendicular to the slip in slipping points (2, points)."""
+        return np.stack([-self.normal[1], self.normal[0]])
 
     @cached_property
     def stick_points(self) -> Indices:
@@ -41,7 +56,8 @@ class Zones:
 
     @cached_property
     def contact_points(self) -> Indices:
-        return np.flatnonzero(self.contact)
+        """Points whose pressure is free."""
+        return np.flatnonzero(self.contact & (self.friction_slope is not None))
 
     @cached_property
     def _open_points(self) -> Indices:
@@ -68,40 +84,48 @@ class Zones:
         return vector[:stuck].reshape(2, -1), vector[stuck : stuck + slip], vector[stuck + slip :]
 
     def free(self, v: NDArray[Any]) -> Vector:
-        """Restrict a traction or displacement field (3, n) to the free unknowns of a step.
+        """Restrict a traction or displacement field to the free unknowns of a step.
 
         Newton's method solves for these unknowns: both tangential components in the stick zone, the
         component across the slip direction in the slip zone, and the normal component in contact.
         The result is a vector (size,).
 
-        v  tractions (q_x, q_y, p) or displacements (u_x, u_y, u_z)
+        v  tractions (q_x, q_y, p) or displacements (u_x, u_y, u_z) (3, n), or x and y alone (2, n)
         """
         # NumPy is many times slower with indices after a slice, so components are separate.
-        x, y, z = v
+        x, y, *z = v
         free = np.empty(self.size)
         (stuck_x, stuck_y), along, pressed = self.split_unknowns(free)
-        stuck_x[:], stuck_y[:], pressed[:] = (
-            x[self.stick_points],
-            y[self.stick_points],
-            z[self.contact_points],
-        )
+        stuck_x[:], stuck_y[:] = x[self.stick_points], y[self.stick_points]
         along[:] = self.tangent[0] * x[self.slip] + self.tangent[1] * y[self.slip]
+        for normal in z:
+            pressed[:] = normal[self.contact_points]
         return free
 
     def field(self, vector: Vector) -> Field:
-        """Convert a vector of the free unknowns of a Newton step to a traction field (3, n).
+        """Convert a vector of the free unknowns of a Newton step to a traction field.
 
-        All other components of the field are zero.
+        The shape is (3, n), at a given pressure (2, n). All other components of the field are
+        zero.
 
         vector  free unknowns: shear of sticking points, shear across the slip direction of slipping
                 points, pressure of points in contact
         """
-        v = np.zeros((3, self.contact.size))
+        v = np.zeros((2 if self.friction_slope is None else 3, self.contact.size))
         stuck, along, pressed = self.split_unknowns(vector)
         for one, at_stick, tangent in zip(v[:2], stuck, self.tangent, strict=True):
             one[self.stick_points], one[self.slip] = at_stick, tangent * along
-        v[2][self.contact_points] = pressed
+        for normal in v[2:]:
+            normal[self.contact_points] = pressed
         return v
+
+    def transfer(self, vectors: Matrix, zones: Zones) -> Matrix:
+        """Convert vectors of the free unknowns (k, size) to those of other zones.
+
+        zones  zones of another iterate
+        """
+        transferred = [zones.free(self.field(vector)) for vector in vectors]
+        return np.array(transferred).reshape(len(vectors), zones.size)
 
     def restrict_to_fixed(self, v: Field) -> Vector:
         """Restrict a field (3, n) to the components that the linear system does not solve for.
@@ -112,7 +136,7 @@ class Zones:
 
         v  displacements (u_x, u_y, u_z) or tractions
         """
-        across = self.tangent[1] * v[0][self.slip] - self.tangent[0] * v[1][self.slip]
+        across = self.normal[0] * v[0][self.slip] + self.normal[1] * v[1][self.slip]
         return np.concatenate([across, *(one[self._open_points] for one in v)])
 
     def assemble_field(self, free: Vector, fixed: Vector) -> Field:
@@ -130,15 +154,14 @@ class Zones:
             one[self._open_points] = apart
         return v
 
-    def _add_slip_components(self, v: Field, normal: Vector) -> Field:
+    def _add_slip_components(self, v: Field, along: Vector) -> Field:
         """Add given components along the slip direction in slipping points to a field, in place.
 
-        v       field (3, n), such as tractions
-        normal  components along the slip direction n (points,)
+        v      field (3, n), such as tractions
+        along  components along the slip direction n (points,)
         """
-        x, y, _ = v
-        x[self.slip] += self.tangent[1] * normal
-        y[self.slip] -= self.tangent[0] * normal
+        for one, normal in zip(v[:2], self.normal, strict=True):
+            one[self.slip] += normal * along
         return v
 
     def tractions(self, free: Vector) -> Field:
@@ -150,6 +173,8 @@ class Zones:
         free  changes of the free unknowns (size,)
         """
         t = self.field(free)
+        if self.friction_slope is None:
+            return t
         pressure = t[2][self.slip]
         for one, slope in zip(t[:2], self.friction_slope, strict=True):
             one[self.slip] += slope * pressure
@@ -190,3 +215,24 @@ class Zones:
             return self.contact.size
         same = (self.contact == other.contact) & (self.stick == other.stick)
         return int(same.size - np.count_nonzero(same))
+
+
+def zones_at(
+    contact: Mask, z: VectorField, bound: Vector, gamma: float, self_compliance: float
+) -> Zones:
+    """Determine the zones of an iterate at a given pressure.
+
+    contact          points in contact (n,)
+    z                q + γ slip (2, n), with the shear q
+    bound            friction limit b (n,)
+    gamma            stiffness γ [force/length^3]
+    self_compliance  displacement of a point by its own unit shear [length^3/force]
+    """
+    length = magnitude(z)
+    slips = contact & (length > bound)
+    slip = np.flatnonzero(slips)
+    length, limit = length[slip], bound[slip]
+    excess = length - limit
+    least = excess / (MAX_SLIP_COMPLIANCE * self_compliance)
+    compliance = excess / np.maximum(gamma * limit, least)
+    return Zones(contact, contact & ~slips, slip, z[:, slip] / length, compliance)

@@ -1,7 +1,8 @@
 """Axisymmetric finite-element reference solver for frictional contact of layered bodies.
 
-The package shares the scene description `contact_scene` with the solver `semi_analytical`, but no
-numerical code. The two solvers therefore verify each other.
+The package shares the scene and its load stepping (`contact_scene`) and the contact of points
+(`contact_solver`) with the other solvers, but no elasticity. The solvers therefore verify each
+other.
 """
 
 from contact_scene.effect import Effect

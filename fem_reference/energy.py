@@ -1,74 +1,12 @@
-"""Energy balance of an increment: work of the loads, elastic energy and dissipation error.
+"""Error of the dissipated energy by finite increments, from the fields of the increments."""
 
-All integrals are computed from the fields of the increments.
-"""
-
-from collections.abc import Iterator
-from dataclasses import replace
 from math import pi
 
 import numpy as np
 
-from contact_scene import Scene
 from contact_scene.array_types import Field
-from fem_reference.elasticity.hat_functions import Hats, hats_on
 from fem_reference.fields import Increment
-from fem_reference.plan import UNCOUPLED, Plan
-
-
-def add_energies(
-    scene: Scene,
-    plan: Plan,
-    before: Increment | None,
-    increment: Increment,
-    on_strain: float = 0.0,
-) -> Increment:
-    """Add input work, elastic energy and the error of the dissipated energy to an increment.
-
-    If the elastic energy and the work of the loads are defined, the stored input work is elastic
-    energy plus dissipated energy. Its difference from the work of the loads is stored as
-    `unresolved_work`.
-
-    scene      contact problem with the shape of the indenter
-    plan       tractions of the solve, and the load steps that are path-dependent
-    before     previous increment of the history; None for the first increment
-    increment  increment of the result without work; its elastic energy is computed here from
-               contact and slip if it has none
-    on_strain  work of the shear on the imposed strain of the lower body in this increment [force
-               length]
-    """
-    work, stored = input_work(before, increment), increment.elastic_energy
-    if stored is None:
-        stored = elastic_energy(scene, plan, increment)
-    work = None if work is None else work - on_strain
-    known = None if stored is None else stored + (increment.dissipated_energy or 0.0)
-    open_ = None if work is None or known is None else work - known
-    return replace(
-        increment,
-        input_work=work if open_ is None else known,
-        unresolved_work=open_,
-        elastic_energy=stored,
-        dissipation_uncertainty=dissipation_uncertainty(plan, before, increment),
-    )
-
-
-def input_work(before: Increment | None, increment: Increment) -> float | None:
-    """Compute the work of all loads since the start of the history by the trapezoidal rule.
-
-    The work is Σ ½ (f₀ + f₁)(ω₁ - ω₀) over the increments [force length]. f are the normal force,
-    tangential force and torque at the start (0) and end (1) of an increment. ω are the conjugate
-    motions of the indenter: approach, shift and twist. Return None as soon as a motion is
-    undefined, that is at the friction limit under force control.
-
-    before     previous increment, whose work is continued; None for the first increment
-    increment  increment whose contribution is added
-    """
-    worked = 0.0 if before is None else before.trapezoidal_work
-    forces, motions = (np.zeros(4), np.zeros(4)) if before is None else _conjugate_loads(before)
-    now, place = _conjugate_loads(increment)
-    if worked is None or motions is None or place is None:
-        return None
-    return worked + float(np.sum(0.5 * (forces + now) * (place - motions)))
+from fem_reference.plan import Plan
 
 
 def dissipation_uncertainty(
@@ -122,85 +60,3 @@ def _change_magnitude(name: str, before: Increment | None, increment: Increment)
             start = np.zeros_like(now) if last is None else last
             changes.append(now - (start[:, None] if start.ndim < now.ndim else start))
     return np.asarray(np.hypot.reduce(np.abs(changes), axis=0))
-
-
-def elastic_energy(scene: Scene, plan: Plan, increment: Increment) -> float | None:
-    """Compute the elastic energy ½ ∫ (p u_z + q·u) dA of both bodies [force length].
-
-    p and q are pressure and shear, u_z and u the displacements of the surfaces. Within the contact
-    u_z = approach - initial gap, and u = slip + rigid tangential motion, so that no displacement
-    has to be computed. Return None if these relations do not hold: after normal loads that change
-    under shear or for coupled bodies, where particles may move before their contact, and if the
-    motion is undefined.
-
-    scene      contact problem with the shape of the indenter
-    plan       tractions of the solve, and the load steps that grow under shear
-    increment  converged state whose energy is computed
-    """
-    if plan.path not in UNCOUPLED or any(plan.grows[: increment.step]):
-        return None
-    carrying = increment.pressure > 0
-    hats = _ring_hats(increment.radii)
-    gap = hats.integrate(lambda r: np.asarray(scene.indenter.initial_gap(r, 0.0)))
-    p = np.where(carrying, increment.pressure, 0.0)
-    stored = pi * np.sum(p * (increment.approach * hats.weights - np.where(carrying, gap, 0)))
-    for shear, slip, motion in _shear_components(plan, increment, hats):
-        if motion is None:
-            return None
-        stored += pi * np.sum(shear * (slip * hats.weights + motion))
-    return float(stored)
-
-
-def _shear_components(
-    plan: Plan, increment: Increment, hats: Hats
-) -> Iterator[tuple[Field, Field, Field | None]]:
-    """Yield shear, slip and rigid displacement of each shear component, for the elastic energy.
-
-    The components are the one along the load and the circumferential one, each only if it exists.
-    Each item contains three arrays (rings,): the shear, the slip, and the rigid displacement of the
-    indenter integrated over the hat functions of the rings. The rigid displacement is None if the
-    motion of the indenter is undefined.
-
-    plan       direction of the tangential load
-    increment  increment with shear, slip and motion
-    hats       hat functions over the radius, one for each ring
-    """
-    if increment.shear_along_load is not None and increment.slip_along_load is not None:
-        shift = increment.tangential_shift
-        size = None if shift is None else float(np.dot(shift, plan.direction)) * hats.weights
-        yield increment.shear_along_load, increment.slip_along_load, size
-    if increment.shear_circumferential is not None and increment.slip_circumferential is not None:
-        turned = increment.twist
-        size = None if turned is None else turned * hats.integrate(lambda r: r)
-        yield increment.shear_circumferential, increment.slip_circumferential, size
-
-
-def _ring_hats(radii: Field) -> Hats:
-    """Create the hat functions over the radius for the rings of an increment of the result.
-
-    The rings are the corner nodes of the functions. The midside nodes are halfway between them.
-    Used to integrate fields of the increment over the surface.
-
-    radii  radii of the rings, circles around the axis on the surface (rings,) [length]
-    """
-    nodes = np.empty(2 * len(radii) - 1)
-    nodes[::2] = radii
-    nodes[1::2] = 0.5 * (radii[:-1] + radii[1:])
-    return hats_on(nodes)
-
-
-def _conjugate_loads(increment: Increment) -> tuple[Field, Field | None]:
-    """Return the loads of the indenter and its conjugate motions, for the work of the loads.
-
-    The loads are (W, T_x, T_y, M_z): normal force, tangential force and torque. The motions are
-    (approach, shift along x, shift along y, twist). They are None if the shift or the twist is
-    undefined, as at the friction limit under force control.
-
-    increment  increment of the result
-    """
-    force, shift = increment.tangential_force, increment.tangential_shift
-    torque, twist = increment.torque, increment.twist
-    now = np.array([increment.normal_force, *(force or (0.0, 0.0)), torque or 0.0])
-    if (force is not None and shift is None) or (torque is not None and twist is None):
-        return now, None
-    return now, np.array([increment.approach, *(shift or (0.0, 0.0)), twist or 0.0])

@@ -13,6 +13,7 @@ import numpy as np
 from contact_scene import LoadRamp, Scene
 from contact_scene.array_types import Field
 from contact_scene.bulk_strain import UNSTRAINED
+from contact_scene.quantities.ring_increment import add_work
 from contact_scene.rig import add_contact_displacements
 from contact_scene.stepping.checkpoint import (
     Checkpoint,
@@ -21,11 +22,12 @@ from contact_scene.stepping.checkpoint import (
 from contact_scene.stepping.load_path import ScalarControl
 from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
+    Solver,
     resumable_increments,
 )
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
-from fem_reference.energy import add_energies
+from fem_reference.energy import dissipation_uncertainty
 from fem_reference.fields import Increment
 from fem_reference.loads import (
     ACROSS,
@@ -73,12 +75,8 @@ def resumable_solve(
 
 
 @dataclass(frozen=True)
-class _IncrementSolver:
+class _IncrementSolver(Solver[PointState, Increment]):
     """Finite-element solver of single increments, called by the load stepping of `contact_scene`.
-
-    The load stepping calls `advance` for each increment and `report` for its result. The load
-    stepping could limit the bisection of increments by the work of the solver. This limit is not
-    used here, so that `spent` and `most_spent` are zero.
 
     scene      contact problem
     method     contact method of the scene
@@ -88,15 +86,6 @@ class _IncrementSolver:
     scene: Scene
     method: ContactMethod
     tolerance: float
-    most_spent: float = 0.0
-
-    def spent(self) -> float:
-        """Return the work of the solver on the load history so far: always 0 for this solver.
-
-        The load stepping may use the work to limit the bisection of increments that do not
-        converge. The finite-element solver sets no such limit.
-        """
-        return 0.0
 
     def advance(
         self,
@@ -147,7 +136,9 @@ class _IncrementSolver:
         increment = replace(increment, halvings=reached.halvings)
         increment = add_contact_displacements(increment, self.scene.rig)
         resisted = self.method.work_on_strain(reached.before, reached.state)
-        return add_energies(self.scene, self.method.plan, last, increment, resisted)
+        increment = add_work(last, increment, resisted)
+        uncertainty = dissipation_uncertainty(self.method.plan, last, increment)
+        return replace(increment, dissipation_uncertainty=uncertainty)
 
     def _tangential_target(
         self, ramp: LoadRamp, start: PointState | None, fraction: float

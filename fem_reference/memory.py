@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from contact_scene.machine import available_bytes
-from contact_scene.solver_errors import ResourceRefused
+from contact_scene.machine import require_memory
 
 # Entries of both factors, divided by components × unknowns × log2(unknowns): without, and with
 # unknown pressures.
@@ -70,14 +69,9 @@ def largest_bytes(elements: int, several_motions: bool) -> int:
     return int(required_bytes(elements, unknowns * components, components, False))
 
 
-def require_memory(needed: float) -> None:
-    """Raise ResourceRefused if the required memory exceeds the memory available on this machine.
+def refuse_if_too_large(needed: float) -> None:
+    """Raise ResourceRefused if the finite-element matrices exceed the memory of this machine.
 
     needed  required memory [byte]
     """
-    free = available_bytes()
-    if needed > free:
-        raise ResourceRefused(
-            f"the finite-element matrix needs about {needed / 1e9:.1f} GB of memory, and "
-            f"{free / 1e9:.1f} GB are available. Use fewer elements_per_radius"
-        )
+    require_memory(needed, "the finite-element matrices", "Use fewer elements_per_radius")

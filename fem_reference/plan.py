@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from enum import Enum
-from math import ceil, hypot
 
 from contact_scene import ControlKind, LoadRamp, Scene, effect
 from contact_scene.body_pair import (
@@ -17,6 +16,7 @@ from contact_scene.checks.axisymmetric import (
 )
 from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
+from contact_scene.friction_limit import increments_by_force
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
 from contact_scene.stepping.growing_contact import grows_without_slip
@@ -25,7 +25,6 @@ from contact_scene.stepping.load_path import along_one_line, first_direction
 # Largest ratio of shear moduli within a body. Above this ratio the stiffness of the softest
 # material is lost in round-off.
 MAX_CONTRAST = 1e8
-ROUND_OFF = 1e-9
 # Number of increments of a path-dependent load step. Errors are proportional to its inverse.
 PATH_INCREMENTS = 20
 LARGEST_SHARE = 0.05
@@ -82,8 +81,6 @@ class Plan:
     direction     unit vector (x, y) of the tangential load, (1, 0) without one
     increments    number of increments of each load step
     path_matters  for each load step, True if its final state depends on the number of increments
-    grows         for each load step, True if the normal load or the imposed strain changes under
-                  shear, so that particles may move tangentially before their contact
     effects       all physical effects, such as friction, with the reasons for or against them, for
                   output
     twists        True if torque and twist are output
@@ -93,7 +90,6 @@ class Plan:
     direction: tuple[float, float]
     increments: tuple[int, ...]
     path_matters: tuple[bool, ...]
-    grows: tuple[bool, ...]
     effects: tuple[Effect, ...]
     twists: bool = False
 
@@ -127,13 +123,12 @@ def plan(scene: Scene) -> Plan:
     path = _choose_path(friction, loaded, twisted, couples or (rough and strained), curved=curved)
     if path is not Path.PRESSING:
         refuse_coefficient_map(scene)
-    matters, grows = _path_matters(scene, path, couples)
+    matters = _path_matters(scene, path, couples)
     return Plan(
         path,
         first_direction(ramps),
         _increment_counts(scene, path, matters),
         matters,
-        grows,
         _list_effects(scene, path, (friction, loaded, twists, couples), why),
         twists,
     )
@@ -163,21 +158,18 @@ def _choose_path(
     return Path.PRESSING_WITH_FRICTION if couples else Path.PRESSING
 
 
-def _path_matters(
-    scene: Scene, path: Path, couples: bool
-) -> tuple[tuple[bool, ...], tuple[bool, ...]]:
+def _path_matters(scene: Scene, path: Path, couples: bool) -> tuple[bool, ...]:
     """Determine for each load step whether its final state depends on the number of increments.
 
     Friction makes a load step path-dependent if there is shear while the normal load or the imposed
     strain changes, unless nothing slips. For coupled pressure and shear, and on the whole circle, a
-    change of the tangential load or of the twist is sufficient. The results are `Plan.path_matters`
-    and `Plan.grows`.
+    change of the tangential load or of the twist is sufficient.
 
     scene    contact problem with its load history
     path     tractions that the solve computes
     couples  True if normal loading causes shear
     """
-    matters, grows = [], []
+    matters = []
     sheared = couples or path is Path.PRESSING_WITH_FRICTION
     uncoupled = path in UNCOUPLED or (path is Path.WHOLE_CIRCLE and not couples)
     for ramp in scene.load_path():
@@ -187,11 +179,10 @@ def _path_matters(
         shearing = path in ANGULAR and ramp.tangential.start != ramp.tangential.end
         shearing = shearing or (path is not Path.TWISTING and _twists(path, ramp))
         sheared = sheared and path is not Path.PRESSING
-        grows.append(sheared and pressing)
         moves = sheared and (pressing or shearing)
         sticks = uncoupled and grows_without_slip(scene, ramp)
         matters.append(moves and not sticks)
-    return tuple(matters), tuple(grows)
+    return tuple(matters)
 
 
 def _increment_counts(scene: Scene, path: Path, matters: tuple[bool, ...]) -> tuple[int, ...]:
@@ -223,17 +214,10 @@ def _path_increments(scene: Scene, path: Path, ramp: LoadRamp) -> int:
     path   tractions that the solve computes
     ramp   linear change of the loads in the load step
     """
-    friction = scene.friction
-    by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
     pressing = ramp.normal.start != ramp.normal.end or ramp.strains
-    if pressing or _twists(path, ramp) or not by_force:
+    if pressing or _twists(path, ramp):
         return PATH_INCREMENTS
-    limit = friction.largest_tangential_force(ramp.normal.end) if friction is not None else None
-    if limit is None:
-        return PATH_INCREMENTS
-    start, end = ramp.tangential.start or (0.0, 0.0), ramp.tangential.end
-    change = hypot(end[0] - start[0], end[1] - start[1])
-    return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF)) if limit > 0 else 1
+    return increments_by_force(scene.friction, ramp, LARGEST_SHARE, PATH_INCREMENTS)
 
 
 def _twists(path: Path, ramp: LoadRamp) -> bool:

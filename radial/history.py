@@ -16,6 +16,7 @@ from contact_scene.array_types import Array
 from contact_scene.machine import one_thread
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.residuals import Residuals
+from contact_scene.quantities.ring_increment import add_work
 from contact_scene.rig import add_contact_displacements
 from contact_scene.stepping.checkpoint import (
     CheckpointStore,
@@ -213,10 +214,6 @@ class _FrictionlessSteps(StepsOnRings):
             normal_equilibrium=None if force is None else abs(contact.load / force - 1),
         )
         residuals.require(self.tolerance, "the contact radius", state.iterations)
-        work = 0.0 if last is None else last.trapezoidal_work or 0.0
-        start = (0.0, 0.0) if last is None else (last.normal_force, last.approach)
-        approach = state.approach - state.target.spring * state.normal_force
-        work += 0.5 * (start[0] + state.normal_force) * (approach - start[1])
         increment = Increment(
             step=reached.place.step,
             index=reached.place.index,
@@ -229,10 +226,8 @@ class _FrictionlessSteps(StepsOnRings):
             contact_radius=contact.radius,
             peak_pressure=largest_pressure(contact, x, p),
             elastic_energy=contact.elastic_energy,
-            input_work=contact.elastic_energy,
-            unresolved_work=work - contact.elastic_energy,
             radii=self.radii,
             pressure=p,
             gap=gap,
         )
-        return add_contact_displacements(increment, self.scene.rig)
+        return add_work(last, add_contact_displacements(increment, self.scene.rig))

@@ -8,8 +8,7 @@ layer.
 from __future__ import annotations
 
 from contact_scene import Scene
-from contact_scene.machine import available_bytes
-from contact_scene.solver_errors import ResourceRefused
+from contact_scene.machine import require_memory
 from radial.angular_grid import RingAngles
 from radial.plan import Plan
 
@@ -59,10 +58,8 @@ def refuse_if_too_large(scene: Scene, plan: Plan) -> None:
     scene  contact problem
     plan   physical effects of the scene, and number of increments of each load step
     """
-    needed, available = estimated_bytes(scene, plan), available_bytes()
-    if needed > available:
-        raise ResourceRefused(
-            f"the solve needs about {needed / 2**30:.1f} GiB for its layers and "
-            f"{sum(plan.increments)} increments, and {available / 2**30:.1f} GiB are available. "
-            "Use a smaller load or fewer increments"
-        )
+    require_memory(
+        estimated_bytes(scene, plan),
+        f"the layers and {sum(plan.increments)} increments",
+        "Use a smaller load or fewer increments",
+    )

@@ -17,6 +17,7 @@ from contact_scene.array_types import Array
 from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.rig import compliances
 from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.stepping.load_stepping import Solver
 from radial.fields import Increment
 from radial.normal.disc import Disc
 from radial.normal.pressing import (
@@ -88,34 +89,13 @@ def output_radii(count: int, largest: Sequence[NormalContact], rim: float | None
 
 
 @dataclass(frozen=True)
-class StepsOnRings:
+class StepsOnRings(Solver[Any, Increment]):
     """Base class of the solvers of load steps of bodies of revolution.
-
-    The class does not limit the repeated bisection of an increment that does not converge. A
-    subclass that limits the bisection overrides `most_spent` and `spent`.
 
     scene  the contact problem
     """
 
     scene: Scene
-
-    @property
-    def most_spent(self) -> float:
-        """Work of the solver above which an increment is not bisected again.
-
-        Load stepping divides an increment that does not converge into halves, until the work for
-        the increment exceeds this value. The work is the increase of `spent`. The value 0 sets no
-        limit, because `spent` returns 0 here.
-        """
-        return 0.0
-
-    def spent(self) -> float:
-        """Return the work of the solver up to now, such as a number of Newton steps.
-
-        Load stepping limits the bisection of increments that do not converge by this number. The
-        number is 0 if the solver does not count its work, as in this class.
-        """
-        return 0.0
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
         """Return the gap of the undeformed surfaces at first contact, at output points [length].

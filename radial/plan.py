@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import dropwhile
-from math import ceil, hypot
 
 from contact_scene import ControlKind, LoadRamp, Scene, effect
 from contact_scene.body_pair import (
@@ -23,6 +22,7 @@ from contact_scene.checks.axisymmetric import (
 )
 from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
+from contact_scene.friction_limit import increments_by_force
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
 from contact_scene.solver_errors import UnsupportedScene
@@ -40,7 +40,6 @@ PATH_INCREMENTS = 64
 # in an increment over the friction limit.
 PUSHED_INCREMENTS = 20
 LARGEST_SHARE = 0.05
-ROUND_OFF = 1e-9
 # RINGS, ANGLES: rings, and angles of a half circle, of a contact at points. ROUND_RINGS: rings of
 # an axisymmetric contact at points (torsion).
 RINGS, ANGLES, ROUND_RINGS = 24, 9, 64
@@ -204,19 +203,12 @@ def _path_increments(
         return PATH_INCREMENTS if frictional and (presses or ramp.strains) else 1
     if not frictional and grows_without_slip(scene, ramp):
         return 1
-    start, end = ramp.tangential.start, ramp.tangential.end
     most = PATH_INCREMENTS if circle is RingAngles.ONE else PUSHED_INCREMENTS
     if presses or ramp.twisting.start != ramp.twisting.end:
         return most
-    if start == end:
+    if ramp.tangential.start == ramp.tangential.end:
         return 1
-    by_force = ramp.normal.kind is ramp.tangential.kind is ControlKind.FORCE
-    assert scene.friction is not None
-    limit = scene.friction.largest_tangential_force(ramp.normal.end)
-    if not by_force or start is None or not limit:
-        return most
-    change = hypot(end[0] - start[0], end[1] - start[1])
-    return max(1, ceil(change / (LARGEST_SHARE * limit) - ROUND_OFF))
+    return increments_by_force(scene.friction, ramp, LARGEST_SHARE, most)
 
 
 def _refuse_friction(scene: Scene, frictional: bool, circle: RingAngles | None) -> None:

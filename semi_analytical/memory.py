@@ -1,8 +1,7 @@
 """Estimate of the peak memory of a semi-analytical solution."""
 
-from contact_scene.machine import available_bytes
+from contact_scene.machine import require_memory
 from contact_scene.quantities.stored_fields import MAX_IN_MEMORY
-from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import Coupling, Plan
 
@@ -132,10 +131,9 @@ def refuse_if_too_large(grid: SurfaceGrid, plan: Plan) -> None:
     grid  cells of the full window
     plan  physical effects to compute, and number of increments
     """
-    needed, available = estimated_bytes(grid, plan), available_bytes()
-    if needed > available:
-        raise ResourceRefused(
-            f"{grid.cells[0]} x {grid.cells[1]} cells and {sum(plan.increments)} increments need "
-            f"about {needed / 2**30:.1f} GiB, {available / 2**30:.1f} GiB are available. Use fewer "
-            f"cells or increments"
-        )
+    (nx, ny), increments = grid.cells, sum(plan.increments)
+    require_memory(
+        estimated_bytes(grid, plan),
+        f"{nx} x {ny} cells and {increments} increments",
+        "Use fewer cells or increments",
+    )

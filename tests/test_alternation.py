@@ -1,7 +1,5 @@
 """Tests of the coupled solvers on small dense problems: contact law, friction law, convergence."""
 
-from functools import partial
-
 import numpy as np
 import pytest
 from contact_scenes import grid
@@ -80,12 +78,12 @@ class DenseContact:
         tangent, normal = np.split(np.arange(3 * POINTS), [2 * POINTS])
         A_tt, A_zz = self.matrix[np.ix_(tangent, tangent)], self.matrix[np.ix_(normal, normal)]
         A_zt = self.matrix[np.ix_(normal, tangent)]
-        self_compliance = float(np.mean(np.diag(A_tt)))
+        rough, self_compliance = graded_inverse(A_tt), float(np.mean(np.diag(A_tt)))
         return CoupledProblem(
             normal=as_map(A_zz),
             inverse_on=lambda contact: rough_inverse(A_zz),
             tangential=as_map(A_tt),
-            inverse_in=lambda zones: partial(zones.precondition, inverse=graded_inverse(A_tt)),
+            inverse_in=lambda zones: BinnedPreconditioner(zones, rough, self_compliance),
             normal_by_shear=lambda q: A_zt @ q.ravel(),
             shear_by_pressure=lambda p: (A_zt.T @ p).reshape(2, POINTS),
             together=as_map(self.matrix),

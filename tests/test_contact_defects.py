@@ -21,7 +21,6 @@ from contact_scene.solver_errors import NotConverged
 from contact_solver import admissible_pressure, admissible_shear, pressure, residuals, shear
 from contact_solver.pressure import PressureProblem
 from contact_solver.rigid_motion import MotionShapes
-from contact_solver.shear_zones import ShearZones
 from semi_analytical import solve
 from semi_analytical.coupled import coupled_increment
 from semi_analytical.increments import tangential_solve, tangential_state
@@ -102,10 +101,15 @@ def _contact_never_grows(whole: Any, problem: Any, contact: Any, start: Any, *re
     return whole(problem, contact & (start.tractions > 0), start, *rest)
 
 
-@replaces(ShearZones, "__init__")
-def _slip_compliance_dropped(whole: Any, self: Any, *given: Any) -> None:
-    whole(self, *given)
-    self.slip_compliance = np.zeros_like(self.slip_compliance)
+@replaces(shear, "zones_at")
+def _slip_compliance_dropped(whole: Any, *given: Any) -> Any:
+    zones = whole(*given)
+    return replace(zones, slip_compliance=np.zeros_like(zones.slip_compliance))
+
+
+@replaces(shear, "zones_at")
+def _zones_not_updated(whole: Any, contact: Any, z: Any, *rest: Any) -> Any:
+    return whole(contact, np.roll(z, 1, axis=1), *rest)
 
 
 # A scene whose result shows the error, and the error.
@@ -165,10 +169,7 @@ def test_without_error_nothing_is_seen(name: str) -> None:
 # Errors of Newton's method that leave the solution as it is, and cost steps.
 COSTLY: dict[str, tuple[str, Replacements]] = {
     "slope of the friction limit dropped": ("coupled", _slope_dropped),
-    "zones not updated": (
-        "pushed",
-        replaces(shear, "ShearZones")(lambda whole, z, *rest: whole(np.roll(z, 1, axis=1), *rest)),
-    ),
+    "zones not updated": ("pushed", _zones_not_updated),
     "slip compliance dropped": ("pushed", _slip_compliance_dropped),
 }
 

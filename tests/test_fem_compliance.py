@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from hankel_responses import Coating, Patch, nodal_forces, patch_energy
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Layer
+from contact_scene import RIGID, Body, IsotropicMaterial, Layer, machine
 from contact_scene.solver_errors import ResourceRefused
-from fem_reference import memory
 from fem_reference.elasticity import factored_section
 from fem_reference.elasticity.compliance import composite, condense
 from fem_reference.elasticity.factored_section import FactoredSection
@@ -186,9 +185,9 @@ def own_directory(tmp_path, monkeypatch):
 
 
 def test_too_little_memory_is_refused_before_any_factorisation(monkeypatch):
-    monkeypatch.setattr(memory, "available_bytes", lambda: 1e6)
+    monkeypatch.setattr(machine, "available_bytes", lambda: 1e6)
     monkeypatch.delattr(factored_section, "splu")
-    with pytest.raises(ResourceRefused, match=r"about 0\.0 GB.*elements_per_radius"):
+    with pytest.raises(ResourceRefused, match=r"about 0\.0 GiB.*elements_per_radius"):
         FactoredSection(section_mesh(HALF_SPACE, 4), PRESSING)
 
 

@@ -160,14 +160,6 @@ def grid_name(grid):
 # transforms and compliance
 
 
-@pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
-def test_point_values_and_amplitudes_say_the_same(grid):
-    values = np.random.default_rng(1).normal(size=(3, 5, grid.points))
-    if not grid.whole:
-        values[1, :, ~np.any(grid.sines, axis=0)] = 0.0
-    np.testing.assert_allclose(grid.evaluate_at_points(grid.amplitudes(values)), values, atol=1e-13)
-
-
 @pytest.mark.parametrize("grid", GRIDS[1:], ids=grid_name)
 def test_harmonics_between_points_pass_through_the_point_values(grid):
     values = np.random.default_rng(1).normal(size=(3, 5, grid.points))
@@ -179,14 +171,23 @@ def test_harmonics_between_points_pass_through_the_point_values(grid):
 
 
 @pytest.mark.parametrize("springs", [0.0, 0.3])
-@pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
+@pytest.mark.parametrize("grid", GRIDS[1:], ids=grid_name)
 def test_displacement_by_harmonics_is_that_of_the_matrix(grid, springs):
     compliance = contact(COATED, grid=grid, springs=springs).compliance
     t = tractions(compliance)
     u_t, u_z = compliance.displacement(t[2], t[:2])
-    by_matrix = (compliance.matrix @ t.ravel()).reshape(3, -1) / compliance.areas
-    by_matrix[:2] *= compliance.carries_shear
-    np.testing.assert_allclose(np.stack([*u_t, u_z]), by_matrix, atol=1e-12 * np.max(by_matrix))
+    found, given = (
+        np.stack([*compliance.vector_on_grid(v[:2]), compliance.scalar_on_grid(v[2])])[:, 1:]
+        for v in (np.stack([*u_t, u_z]), t)
+    )
+    rings = compliance.rings
+    loads = np.stack([*compliance.vector_on_grid(t[:2]), compliance.scalar_on_grid(t[2])])
+    weak = np.einsum(
+        "naibk,fbkn->fain", rings.harmonics[: grid.highest + 1], grid.amplitudes(loads)
+    )
+    by_harmonics = np.einsum("fain,fanj->aij", weak, grid.modes(grid.angles))
+    by_harmonics = (by_harmonics / rings.areas[:, None])[:, 1:] + springs * given
+    np.testing.assert_allclose(found, by_harmonics, atol=1e-12 * np.max(found))
 
 
 def tractions(compliance):

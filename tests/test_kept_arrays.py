@@ -153,7 +153,8 @@ def test_all_sources_of_an_array_are_in_its_key(cached: Any, tmp_path: Path) -> 
     ours = {name for name in imported if name.startswith(own) and not name.startswith(inside)}
     assert ours <= {"fem_reference.memory"}
     assert any(name.startswith(inside) for name in imported)
-    assert cached.sources_digest(tmp_path) == cached.sources_digest()
+    at, given = disk_cache.sources_digest, (cached.FOLDERS, cached.LIBRARIES)
+    assert at(tmp_path, *given) == at(cached.PACKAGE, *given)
     sources[-1].write_text(texts[-1] + "# another line\n", encoding="utf-8")
-    cached.sources_digest.cache_clear()
-    assert cached.sources_digest(tmp_path) != cached.sources_digest()
+    at.cache_clear()
+    assert at(tmp_path, *given) != at(cached.PACKAGE, *given)

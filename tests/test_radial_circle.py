@@ -336,11 +336,11 @@ def test_inverse_from_the_stiffness_is_that_of_the_matrix_in_any_zones(slipping:
     slips = contact & (rng.random(len(contact)) < slipping)
     slip = np.flatnonzero(slips)
     angle = rng.uniform(0, 2 * math.pi, len(slip))
-    tangent = np.stack([-np.sin(angle), np.cos(angle)])
-    slope = rng.uniform(0, 1, len(slip)) * np.stack([np.cos(angle), np.sin(angle)])
+    normal = np.stack([np.cos(angle), np.sin(angle)])
+    slope = rng.uniform(0, 1, len(slip)) * normal
     compliance = points.equal_compliance
     own = np.median(compliance.diagonal)
-    zones = Zones(contact, contact & ~slips, slip, tangent, slope, own * rng.random(len(slip)))
+    zones = Zones(contact, contact & ~slips, slip, normal, own * rng.random(len(slip)), slope)
     rows = rng.standard_normal((2, zones.size))
     found = StiffnessInverse(compliance, points.stiffness, points.count).in_zones(zones)(rows)
     exact = DenseInverse(compliance.matrix).in_zones(zones)(rows)

@@ -20,6 +20,7 @@ from contact_results.stress.on_section import stress_on_section
 from contact_results.stress.points import StressField
 from contact_results.stress.stress_maxima import extremes
 from contact_results.stress_result import write_stress
+from contact_scene import machine
 from contact_scene.quantities.field_metadata import CONVENTION
 from contact_scene.solver_errors import ResourceRefused
 from semi_analytical.stress import field as stress_field
@@ -113,7 +114,7 @@ def test_stress_is_refused_before_it_takes_more_memory_than_there_is(
     state = pressed_and_pushed({"x": x, "y": x}, hertz(np.hypot(x[:, None], x)))
     required: list[int] = []
     monkeypatch.setattr(stress_field, "FIXED", 0)
-    monkeypatch.setattr(stress_field, "available_bytes", lambda: max(required, default=1 << 40))
+    monkeypatch.setattr(machine, "available_bytes", lambda: max(required, default=1 << 40))
     tracemalloc.start()
     volume = on_cells.stress_on_cells(state, volume=True, see_edge=False).volume
     _, peak = tracemalloc.get_traced_memory()

@@ -1,12 +1,12 @@
 """Results of one increment for bodies of revolution, with fields on concentric rings."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 import numpy as np
 
-from contact_scene.array_types import Field, Mask
+from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.quantities.field_metadata import (
     Kind,
     Reported,
@@ -81,3 +81,64 @@ class RingIncrement(ReportedIncrement):
     def in_contact(self) -> Mask:
         """Mask of the rings in contact, circles around the axis with a positive pressure."""
         return np.asarray(self.pressure > 0)
+
+
+Rings = TypeVar("Rings", bound=RingIncrement)
+
+
+def add_work(before: RingIncrement | None, increment: Rings, on_strain: float = 0.0) -> Rings:
+    """Add the work of the loads to an increment that has its elastic and dissipated energy.
+
+    The stored input work is elastic energy plus dissipated energy. Its difference from the
+    trapezoidal work of the loads is stored as `unresolved_work`. Both are None as soon as a motion
+    of the indenter is undefined.
+
+    before     previous increment of the history; None for the first increment
+    increment  increment without work
+    on_strain  work of the shear on the imposed strain of the lower body in this increment [force
+               length]
+    """
+    work = input_work(before, increment)
+    assert increment.elastic_energy is not None
+    known = increment.elastic_energy + (increment.dissipated_energy or 0.0)
+    return replace(
+        increment,
+        input_work=None if work is None else known,
+        unresolved_work=None if work is None else work - on_strain - known,
+    )
+
+
+def input_work(before: RingIncrement | None, increment: RingIncrement) -> float | None:
+    """Compute the work of all loads since the start of the history by the trapezoidal rule.
+
+    The work is Σ ½ (f₀ + f₁)(ω₁ - ω₀) over the increments [force length]. f are the normal force,
+    tangential force and torque at the start (0) and end (1) of an increment. ω are the conjugate
+    motions of the indenter: approach, shift and twist. Return None as soon as a motion is
+    undefined, that is at the friction limit under force control.
+
+    before     previous increment, whose work is continued; None for the first increment
+    increment  increment whose contribution is added
+    """
+    worked = 0.0 if before is None else before.trapezoidal_work
+    forces, motions = (np.zeros(4), np.zeros(4)) if before is None else _conjugate_loads(before)
+    now, place = _conjugate_loads(increment)
+    if worked is None or motions is None or place is None:
+        return None
+    return worked + float(np.sum(0.5 * (forces + now) * (place - motions)))
+
+
+def _conjugate_loads(increment: RingIncrement) -> tuple[Vector, Vector | None]:
+    """Return the loads of the indenter and its conjugate motions, for the work of the loads.
+
+    The loads are (W, T_x, T_y, M_z): normal force, tangential force and torque. The motions are
+    (approach, shift along x, shift along y, twist). They are None if the shift or the twist is
+    undefined, as at the friction limit under force control.
+
+    increment  increment of the result
+    """
+    force, shift = increment.tangential_force, increment.tangential_shift
+    torque, twist = increment.torque, increment.twist
+    now = np.array([increment.normal_force, *(force or (0.0, 0.0)), torque or 0.0])
+    if (force is not None and shift is None) or (torque is not None and twist is None):
+        return now, None
+    return now, np.array([increment.approach, *(shift or (0.0, 0.0)), twist or 0.0])

@@ -14,12 +14,14 @@ has moved by the free motion k u_t(Δp) - Δω relative to the indenter.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from math import hypot
 from typing import NamedTuple
 
 import numpy as np
 
-from contact_scene.array_types import Field, Vector
+from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.body_pair import UNCOUPLED, contact_modulus, dundurs_beta
 from contact_scene.friction_limit import reaches_limit
 from contact_scene.geometry import Cone, FlatPunch, SmoothTip
@@ -28,51 +30,86 @@ from contact_scene.scene import Scene
 from contact_scene.stepping.load_path import ControlKind, LoadRamp
 
 
-class GrowingContact(NamedTuple):
-    """Growth of a contact in an increment, from which the growth of its shear follows.
+class Growth(NamedTuple):
+    """Shear of a contact that grows without slip in an increment, at n points.
 
-    Sums run over n points. A rigid motion is one direction of the tangential shift.
+    The tangential load changes in m directions. Vectors at points have c components.
 
-    pressure  p₀ + p₁ times the area of each point, p at the start and the end (n,) [force]
-    normal    normal displacement of the bodies by the change Δp of the pressure (n,) [length]
-    along     tangential displacements of the bodies by the shears Δp in the m directions
-              (m, c, n), with c components [length]
-    unit      displacements by unit shifts in these directions (m, c, n)
-    approach  change of the approach, without springs of a test rig [length]
-    load      change of the normal force [force]
-    limit     change of the friction limit of the whole contact [force]
-    spring    tangential compliance of the test rig [length/force]
+    shear  change of the shear (c, n) [force/length^2]
+    moved  tangential displacement of the points by this change (c, n) [length]
+    shift  shift of the indenter in each direction (m,) [length]
+    free   free motion of each point until its contact (c, n) [length]; 0 at points that were in
+           contact before
     """
 
-    pressure: Vector
-    normal: Vector
-    along: Field
-    unit: Field
+    shear: Field
+    moved: Field
+    shift: Vector
+    free: Field
+
+
+@dataclass(frozen=True)
+class GrowingContact:
+    """Contact that grows in an increment, at n points.
+
+    areas       areas of the points (n,) [length^2], or the area of each
+    start, end  pressure at the start and at the end of the increment (n,) [force/length^2]
+    apart       points with a gap between the undeformed surfaces at first contact (n,)
+    approach    change of the approach [length]
+    springs     compliances of the test rig, normal and tangential [length/force]; displacements of
+                points contain the springs
+    """
+
+    areas: Vector | float
+    start: Vector
+    end: Vector
+    apart: Mask
     approach: float
-    load: float
-    limit: float
-    spring: float = 0.0
+    springs: tuple[float, float]
 
-    def ratio(self, change: Vector, *, by_force: bool) -> tuple[Vector, Vector]:
-        """Compute the ratio k of the growth of shear and pressure, and the shift of the bodies.
+    def without_slip(
+        self,
+        change: Vector,
+        unit: Field,
+        tangential: Callable[[Field], Field],
+        normal: Callable[[Vector], Vector],
+        limit: Callable[[Vector], Vector],
+        *,
+        by_force: bool,
+    ) -> Growth | None:
+        """Compute the shear that grows with the pressure so that nothing slips.
 
-        The ratio is at most that of the growth of the friction limit. The results have the shape
-        (m,).
+        The ratio k is at most that of the growth of the friction limit. None is returned if no
+        point comes into contact, or if the tangential load does not change.
 
-        change    change of the tangential force [force] or, with the spring of a test rig, of the
-                  tangential shift [length]
-        by_force  True for a force
+        change      change of the tangential force [force] or shift [length] in each direction (m,)
+        unit        displacements of the points by unit shifts in these directions (m, c, n)
+        tangential  map from a shear to its tangential displacement, both (c, n)
+        normal      map from a pressure to its normal displacement, both (n,)
+        limit       map from a pressure to the friction limit, both (n,)
+        by_force    True for a force
         """
-        moved = np.einsum("n,icn,jcn->ij", self.pressure, self.unit, self.along)
-        moved *= self.approach / (self.pressure @ self.normal)
+        begins, grown = (self.start == 0) & self.apart, self.end - self.start
+        load = float(np.sum(self.areas * grown))
+        closes = min(load, self.approach) > 0 and np.any(begins & (self.end > 0))
+        if not (closes and np.any(change)):
+            return None
+        down, spring = self.springs
+        moved = np.array([tangential(one * grown) for one in unit])
+        along = moved - spring * load * unit
+        pressure = self.areas * (self.start + self.end)
+        rho = np.einsum("n,icn,jcn->ij", pressure, unit, along)
+        rho *= (self.approach - down * load) / (pressure @ (normal(grown) - down * load))
         if by_force:
-            k = change / self.load
+            k = change / load
         else:
-            k = np.linalg.solve(moved + self.spring * self.load * np.eye(len(moved)), change)
-        most = self.limit / self.load
-        size = float(np.hypot.reduce(k))
-        k = k * min(1.0, most / size) if size > 0 else k
-        return k, moved @ k
+            k = np.linalg.solve(rho + spring * load * np.eye(len(rho)), change)
+        most = float(np.sum(self.areas * (limit(self.end) - limit(self.start)))) / load
+        k = k * min(1.0, most / float(np.hypot.reduce(k)))
+        own = rho @ k
+        free = np.where(begins, np.tensordot(k, along, 1) - np.tensordot(own, unit, 1), 0.0)
+        shear = np.tensordot(k, unit, 1) * grown
+        return Growth(shear, np.tensordot(k, moved, 1), own + spring * load * k, free)
 
 
 def grows_without_slip(scene: Scene, ramp: LoadRamp) -> bool:

@@ -72,19 +72,21 @@ class Solver(Protocol[S, Report]):
     """Interface of a solver of single load increments, which the load stepping calls.
 
     The load stepping is the loop over all increments of the history. An increment that does not
-    converge is bisected.
-
-    most_spent  work above which an increment that does not converge is not bisected any further
+    converge is bisected. A solver that inherits from this class sets no limit of its work.
     """
 
     @property
-    def most_spent(self) -> float: ...
+    def most_spent(self) -> float:
+        """Work above which an increment that does not converge is not bisected any further."""
+        return 0.0
 
     def spent(self) -> float:
         """Return the work of the solver on the load history so far, in a unit of its choice.
 
-        The load stepping does not bisect an increment that has taken too much work.
+        The load stepping does not bisect an increment that has taken too much work. The work is 0
+        if the solver does not count it.
         """
+        return 0.0
 
     def advance(self, ramp: LoadRamp, start: S | None, before: S | None, fraction: float) -> S:
         """Solve for the contact state at a fraction of a load ramp.

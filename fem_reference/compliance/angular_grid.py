@@ -8,13 +8,14 @@ sufficient. The number of harmonics equals the number of unknowns on a ring. Mor
 unique, and fewer make the tangential problem singular.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.fft import dct, dst
 
-from contact_scene.array_types import Field, Matrix, Vector
+from contact_scene.array_types import Field, Indices, Matrix, Vector
 
+R, THETA, Z = range(3)
 Transforms = tuple[Matrix, Matrix, Matrix]
 
 
@@ -73,34 +74,21 @@ class AngularGrid:
         powers = [np.sum(d**2 / self.weights, axis=1) for d in (self.cosines, self.sines)]
         return np.asarray(1 / np.maximum(*powers))
 
-    def amplitudes(self, values: Matrix) -> Matrix:
-        """Transform a vector field at the points of rings to amplitudes of angular harmonics.
+    def amplitudes(self, values: Matrix, components: Sequence[int] = (R, THETA, Z)) -> Matrix:
+        """Transform fields at the points of rings to amplitudes of angular harmonics.
 
         A ring is a circle around the axis on the surface.
 
-        values   components r, θ, z at the points (3, rings, points)
-        returns  amplitudes of the components in each family (families, 3, rings, harmonics)
+        values      fields at the points (fields, rings, points)
+        components  component r, θ or z as which each field is transformed (fields,)
+        returns     amplitudes of the fields in each family (families, fields, rings, harmonics)
         """
         return np.stack(
             [
-                [f @ d.T for f, d in zip(values, transforms, strict=True)]
+                [f @ transforms[c].T for f, c in zip(values, components, strict=True)]
                 for transforms in self.families
             ]
         )
-
-    def evaluate_at_points(self, amplitudes: Matrix) -> Matrix:
-        """Transform amplitudes of angular harmonics to a vector field at the points of rings.
-
-        A ring is a circle around the axis on the surface.
-
-        amplitudes  amplitudes of the components r, θ, z (families, 3, rings, harmonics)
-        returns     components r, θ, z at the points (3, rings, points)
-        """
-        total = np.zeros((*amplitudes.shape[1:3], self.points))
-        for parts, transforms in zip(amplitudes, self.families, strict=True):
-            waves = [d * self.norms[:, None] / self.weights for d in transforms]
-            total += [f @ wave for f, wave in zip(parts, waves, strict=True)]
-        return total
 
     def modes(self, angles: Vector) -> Field:
         """Compute the harmonics at given angles (families, 3, harmonics, angles).
@@ -129,14 +117,7 @@ def end_grid(highest: int) -> AngularGrid:
 
     highest  J, highest angular harmonic
     """
-    J = highest
-    share = np.full(J + 1, 2 * np.pi / J)
-    share[[0, J]] /= 2
-    cosines = dct(np.eye(J + 1), type=1, axis=0) / J
-    cosines[[0, J]] /= 2
-    sines = np.zeros((J + 1, J + 1))
-    sines[1:J, 1:J] = dst(np.eye(J - 1), type=1, axis=0) / J
-    return AngularGrid(np.pi * np.arange(J + 1) / J, share, cosines, sines)
+    return _grid_on_places(2 * np.arange(highest + 1), highest, whole=False)
 
 
 def whole_grid(highest: int) -> AngularGrid:
@@ -147,14 +128,7 @@ def whole_grid(highest: int) -> AngularGrid:
 
     highest  J, highest angular harmonic, at least 2: for J = 1, the grid has no shift across θ = 0
     """
-    J = highest
-    # The angles of cos nθ_j and sin nθ_j are multiples of π/J below 2π.
-    turns = np.outer(np.arange(J + 1), np.arange(2 * J)) % (2 * J)
-    cosines = np.cos(np.pi * turns / J) / J
-    cosines[[0, J]] /= 2
-    sines = np.where(turns % J == 0, 0.0, np.sin(np.pi * turns / J) / J)
-    angles = np.pi * np.arange(2 * J) / J
-    return AngularGrid(angles, np.full(2 * J, np.pi / J), cosines, sines, whole=True)
+    return _grid_on_places(2 * np.arange(2 * highest), highest, whole=True)
 
 
 def mid_grid(highest: int) -> AngularGrid:
@@ -165,11 +139,49 @@ def mid_grid(highest: int) -> AngularGrid:
 
     highest  J, highest angular harmonic and number of points on the half circle
     """
-    J = highest
-    cosines = np.zeros((J + 1, J))
-    cosines[:J] = dct(np.eye(J), type=2, axis=0) / J
-    cosines[0] /= 2
-    sines = np.zeros((J + 1, J))
-    sines[1:] = dst(np.eye(J), type=2, axis=0) / J
-    sines[J] /= 2
-    return AngularGrid(np.pi * (np.arange(J) + 0.5) / J, np.full(J, 2 * np.pi / J), cosines, sines)
+    return _grid_on_places(2 * np.arange(highest) + 1, highest, whole=False)
+
+
+def grid_at(angles: Vector) -> AngularGrid:
+    """Return the angular grid with given angles, as the fields of a result have them.
+
+    angles  θ (points,) [radian]: of `whole_grid`, `end_grid` or `mid_grid`
+    """
+    points = len(angles)
+    if angles[-1] > 1.25 * np.pi:
+        return whole_grid(points // 2)
+    return end_grid(points - 1) if angles[0] == 0 else mid_grid(points)
+
+
+def _grid_on_places(places: Indices, highest: int, *, whole: bool) -> AngularGrid:
+    """Create the angular grid of equidistant angles, given as integers, so that zeros are exact.
+
+    places   angles θ_j in units of π/(2J) (points,)
+    highest  J, highest angular harmonic
+    whole    True for angles of the whole circle
+    """
+    turns = np.outer(np.arange(highest + 1), places)
+    # On the half circle, the points at 0 and π are their own mirror images.
+    alone = whole | (places % (2 * highest) == 0)
+    weights = np.where(alone, np.pi, 2 * np.pi) / highest
+    cosines, sines = (
+        _amplitude_matrix(
+            np.where(at % (2 * highest), np.sin(np.pi / 2 / highest * at), 0), weights
+        )
+        for at in ((turns + highest) % (4 * highest), turns % (4 * highest))
+    )
+    angles = np.pi * places.astype(np.float64) / (2 * highest)
+    return AngularGrid(angles, weights, cosines, sines, whole)
+
+
+def _amplitude_matrix(waves: Matrix, weights: Vector) -> Matrix:
+    """Return the matrix from point values to the amplitudes of orthogonal waves.
+
+    A row is zero if the wave is zero at all points.
+
+    waves    values of each wave at the points (harmonics, points)
+    weights  integration weights of the points (points,)
+    """
+    weighted = waves * weights
+    norms = np.sum(weighted * waves, axis=1, keepdims=True)
+    return np.divide(weighted, norms, out=np.zeros_like(weighted), where=norms > 0)

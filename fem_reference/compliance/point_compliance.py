@@ -77,6 +77,11 @@ class PointCompliance:
         """Indices of the tangential motions that the symmetry of the solve does not exclude."""
         return tuple(np.flatnonzero(np.any(self.motions, axis=(1, 2))).tolist())
 
+    @property
+    def levers(self) -> Vector:
+        """Lever arms of the points in the torque (points,); 0 without twist [length]."""
+        return np.hypot(*self.motions[TWIST])
+
     @cached_property
     def reaches(self) -> Vector:
         """Largest displacement of a point by each unit motion (3,); 1 for an excluded motion."""
@@ -167,14 +172,8 @@ class PointCompliance:
         pressure  pressure at the points (points,) [force/length^2]
         shear     shear at the points (2, points) [force/length^2]
         """
-        tractions = np.stack([*shear, pressure])
-        amplitudes = self.grid.amplitudes(self._spread_over_rings(tractions))
-        weak = np.zeros_like(amplitudes)
-        for n, A in enumerate(self.rings.harmonics[: self.grid.highest + 1]):
-            for family, loads in enumerate(amplitudes):
-                weak[family, ..., n] = np.einsum("aibk,bk->ai", A, loads[..., n])
-        w_u = self._summed_on_axis(self.grid.evaluate_at_points(weak) * self.grid.weights)
-        u = w_u / self.areas + self.springs * tractions
+        tractions = np.concatenate([*shear, pressure])
+        u = (self.matrix @ tractions).reshape(3, -1) / self.areas
         return u[:2] * self.carries_shear, u[2]
 
     def scalar_on_grid(self, values: NDArray[Scalar]) -> NDArray[Scalar]:

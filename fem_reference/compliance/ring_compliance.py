@@ -6,6 +6,7 @@ import numpy as np
 
 from contact_scene.array_types import Field, Matrix, Vector
 from contact_scene.body_pair import coupling
+from fem_reference.compliance.angular_grid import THETA, R, Z
 from fem_reference.compliance.gauss_points import (
     POINTS_PER_EDGE,
     GaussPoints,
@@ -24,8 +25,6 @@ from fem_reference.elasticity.motion import motion as motion_of
 from fem_reference.loads import ALONG, TWIST
 from fem_reference.model import ContactModel
 from fem_reference.plan import TWISTED, UNCOUPLED, Path
-
-R, THETA, Z = range(3)
 
 
 @dataclass(frozen=True)

@@ -28,9 +28,9 @@ def free_motion(
     pressure  pressure at the end (points,) [force/length^2]
     approach  approach at the end [length]
     """
-    compliance, w = contact.compliance, contact.compliance.areas
-    grown, more = pressure - before.pressure, float(w @ (pressure - before.pressure))
-    begins = (before.pressure == 0) & (contact.gap > 0)
+    compliance, nothing = contact.compliance, np.zeros_like(pressure)
+    if contact.rings.path not in (Path.SHEARING, Path.WHOLE_CIRCLE) or compliance.couples:
+        return None
     assert before.motions is not None
     target, by_force = loads.tangential, loads.tangential.loads[ALONG] is not None
     ends, starts = target.motions, before.motions
@@ -39,24 +39,19 @@ def free_motion(
     shifts = [shift for shift in compliance.acting if shift != TWIST]
     changes = {shift: (ends[shift] or 0.0) - starts[shift] for shift in shifts}
     changes = {shift: change for shift, change in changes.items() if change}
-    pushed = contact.rings.path in (Path.SHEARING, Path.WHOLE_CIRCLE) and not compliance.couples
-    if not (pushed and changes and more > 0 and np.any(begins & (pressure > 0))):
-        return None
-    nothing, (down, spring) = np.zeros_like(grown), contact.rig
-    unit = compliance.motions[list(changes)]
-    along = np.stack([compliance.displacement(nothing, one * grown)[0] for one in unit])
-    _, normal = compliance.displacement(grown, np.zeros_like(unit[0]))
-    along = along - (compliance.springs * grown + spring * more) * unit
-    normal = normal - compliance.springs * grown - down * more
-    limit = contact.friction.limit
-    k, moved = GrowingContact(
-        pressure=w * (before.pressure + pressure),
-        normal=normal,
-        along=along,
-        unit=unit,
-        approach=approach - before.approach - down * more,
-        load=more,
-        limit=float(w @ (limit(pressure) - limit(before.pressure))),
-        spring=spring,
-    ).ratio(np.array([*changes.values()]), by_force=by_force)
-    return np.where(begins, np.tensordot(k, along, 1) - np.tensordot(moved, unit, 1), 0.0)
+    growth = GrowingContact(
+        compliance.areas,
+        before.pressure,
+        pressure,
+        contact.gap > 0,
+        approach - before.approach,
+        contact.rig,
+    ).without_slip(
+        np.array([*changes.values()]),
+        compliance.motions[list(changes)],
+        lambda q: compliance.displacement(nothing, q)[0] - compliance.springs * q,
+        lambda p: compliance.displacement(p, np.zeros((2, len(p))))[1] - compliance.springs * p,
+        contact.friction.limit,
+        by_force=by_force,
+    )
+    return None if growth is None else growth.free

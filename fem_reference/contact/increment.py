@@ -17,6 +17,13 @@ from contact_scene.quantities.residuals import (
     ShearResiduals,
 )
 from contact_scene.solver_errors import NotConverged, NothingTouches, motion_undefined
+from contact_solver.residuals import (
+    complementarity,
+    equilibrium,
+    friction_cone,
+    penetration,
+    slip_direction,
+)
 from fem_reference.contact.augmented_lagrangian import repeat_passes
 from fem_reference.contact.free_motion import free_motion
 from fem_reference.contact.friction_limit import contact_status
@@ -25,13 +32,6 @@ from fem_reference.contact.point_problem import PointProblem, PointSolution, sol
 from fem_reference.contact.point_state import PointState
 from fem_reference.loads import TWIST, Loads, Triple
 from fem_reference.plan import Path
-from fem_reference.residuals import (
-    complementarity,
-    friction_cone,
-    over,
-    penetration,
-    slip_direction,
-)
 
 AT_REST: Triple = (0.0, 0.0, 0.0)
 MAX_ATTEMPTS = 4
@@ -351,7 +351,7 @@ class _Increment:
 
         If a residual exceeds the tolerance, the solve is repeated with a smaller tolerance of the
         algorithm. The residuals follow from displacements that are computed again from the final
-        tractions, harmonic by harmonic, without the compliance matrix.
+        tractions.
 
         multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
         start       initial guess of the tractions r, θ, z (3, points)
@@ -503,8 +503,8 @@ class _Increment:
         normal = problem.normal.force
         carried = float(np.sum(w * p))
         pressing = Residuals(
-            complementarity=complementarity(p, w * g, w, approach),
-            penetration=penetration(w * g, w, approach),
+            complementarity=complementarity(w * p, g, approach),
+            penetration=penetration(g, approach),
             normal_equilibrium=None if normal is None else abs(carried - normal) / normal,
         )
         if self.contact.rings.path is Path.PRESSING:
@@ -514,18 +514,34 @@ class _Increment:
             # Displacement by shear alone: under full stick from the start, a rigid motion has no
             # such displacement.
             by_shear, _ = problem.compliance.displacement(np.zeros_like(p), q)
-            moved = np.hypot(*np.concatenate([by_shear, self.before.displacement], axis=1))
-            largest = max(float(np.max(moved)), ROUND_OFF * approach)
-            direction = slip_direction(q, bound, passed, w, largest)
-        pushing, turning = _missing_loads(problem, p, q)
+            moved = np.maximum(np.abs(by_shear), np.abs(self.before.displacement))
+            moved = np.maximum(moved, ROUND_OFF * approach)
+            direction = slip_direction(w * q, w * bound, passed, moved)
+        acting, loads = problem.compliance.acting, problem.tangential.loads
+        pushing, turning = equilibrium(
+            problem.compliance.tangential_loads(q),
+            [load if k in acting else None for k, load in enumerate(loads)],
+            (float(np.sum(w * bound)), float(np.sum(w * problem.compliance.levers * bound))),
+        )
         return pressing.with_shear(
             ShearResiduals(
-                friction_cone=friction_cone(np.hypot(*q), bound),
+                friction_cone=friction_cone(q, bound),
                 slip_direction=direction,
                 tangential_equilibrium=pushing,
                 torque_equilibrium=turning,
             )
         )
+
+
+def over(part: float, whole: float) -> float:
+    """Compute the ratio part / whole of a relative error, also for a zero denominator.
+
+    The ratio is 0 if the numerator `part` is zero, and infinite if only the denominator `whole` is
+    zero.
+    """
+    if not part:
+        return 0.0
+    return part / whole if whole else float("inf")
 
 
 def _prescribed_or_carried(
@@ -542,29 +558,6 @@ def _prescribed_or_carried(
         for k, load in enumerate(prescribed)
     )
     return along, across, torque
-
-
-def _missing_loads(
-    problem: PointProblem, pressure: Vector, shear: Field
-) -> tuple[float | None, float | None]:
-    """Compute the errors of tangential force and torque over the friction limit [1].
-
-    An error is None if no load is prescribed, or without friction at any point.
-
-    problem   compliance, friction and prescribed loads
-    pressure  pressure at the points (points,) [force/length^2]
-    shear     shear at the points (2, points) [force/length^2]
-    """
-    limits = problem.capacities(pressure)
-    carried = problem.compliance.tangential_loads(shear)
-    missing = {
-        k: (carried[k] - load) / limits[k]
-        for k in problem.compliance.acting
-        if (load := problem.tangential.loads[k]) is not None and limits[k] > 0
-    }
-    forces = [error for k, error in missing.items() if k != TWIST]
-    torque = missing.get(TWIST)
-    return hypot(*forces) if forces else None, None if torque is None else abs(float(torque))
 
 
 def touching_share(

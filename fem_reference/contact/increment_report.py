@@ -52,6 +52,7 @@ def report_increment(
         approach=state.approach,
         contact_radius=sqrt(_contact_area(contact, edges) / pi),
         peak_pressure=float(np.max(p)),
+        elastic_energy=_elastic_energy(contact, state),
         residuals=state.residuals,
         iterations=state.solves,
         sweeps=state.outer_iterations,
@@ -104,8 +105,6 @@ def _add_shear(
             for parts in (state.loads, state.motions)
         )
         fields |= {"tangential_force": force, "tangential_shift": shift}
-    if path in (Path.TWISTING_WITH_FRICTION, Path.WHOLE_CIRCLE):
-        fields["elastic_energy"] = _elastic_energy(contact, state)
     return replace(
         pressed,
         status=state.status,

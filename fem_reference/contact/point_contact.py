@@ -21,7 +21,7 @@ from fem_reference.compliance.ring_compliance import (
 from fem_reference.compliance.ring_edge import GaussEdge
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.point_state import PointState
-from fem_reference.memory import matrix_bytes, require_memory
+from fem_reference.memory import matrix_bytes, refuse_if_too_large
 from fem_reference.model import ContactModel
 from fem_reference.plan import ANGULAR, Path
 
@@ -132,7 +132,7 @@ def point_contact(
     rings = ring_compliance(
         model, path, grid.highest, at_gauss_points=bool(penalty) and path not in ANGULAR
     )
-    require_memory(matrix_bytes(len(rings.radii) * grid.points))
+    refuse_if_too_large(matrix_bytes(len(rings.radii) * grid.points))
     springs = 0.0
     if penalty:
         edge = float(model.radii[2] - model.radii[0])

@@ -62,18 +62,6 @@ class PointProblem:
         carrying = np.where(self.compliance.carries_shear, pressure, 0.0)
         return self.friction.limit(carrying)
 
-    def capacities(self, pressure: Vector) -> Vector:
-        """Compute the largest load of each tangential motion that friction can carry alone (3,).
-
-        The loads are the forces along and across the load [force], and the torque [force length].
-        A load is the sum of friction limit times area times lever arm over all points; the lever
-        arm is 1 for a force. Loads of excluded motions are zero.
-
-        pressure  pressure at the points (points,) [force/length^2]
-        """
-        levers = np.hypot(self.compliance.motions[:, 0], self.compliance.motions[:, 1])
-        return np.sum(self.compliance.areas * levers * self.bound(pressure), axis=1)
-
     def limit_ratio(self, pressure: Vector, loads: tuple[float | None, ...] | Vector) -> float:
         """Compute the factor on given tangential loads at which all points slip [1].
 

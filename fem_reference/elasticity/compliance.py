@@ -6,7 +6,6 @@ cached on disk.
 
 import hashlib
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +13,7 @@ import scipy
 import skfem
 from numpy.typing import NDArray
 
-from contact_scene.disk_cache import cached_array
+from contact_scene.disk_cache import cached_array, sources_digest
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import Motion
 from fem_reference.mesh.section_mesh import SectionMesh
@@ -22,6 +21,7 @@ from fem_reference.mesh.section_mesh import SectionMesh
 PACKAGE = Path(__file__).resolve().parents[1]
 # Folders whose source code determines a compliance matrix to the last bit.
 FOLDERS = ("mesh", "elasticity")
+LIBRARIES = (np.__version__, scipy.__version__, skfem.__version__)
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,27 +108,9 @@ def _cache_key(section: SectionMesh, motion: Motion) -> str:
     edges = (outline.zone, outline.box, outline.interfaces, outline.rigid_base)
     far_field = getattr(motion.far_field, "__name__", None)
     moving = (motion.harmonic, motion.components, motion.on_axis, far_field)
-    described = (sources_digest(), moving, materials, edges)
+    sources = sources_digest(PACKAGE, FOLDERS, LIBRARIES)
+    described = (sources, moving, materials, edges)
     identity = hashlib.sha256(repr(described).encode())
     for array in (section.points, section.quads.astype(np.int64)):
         identity.update(np.ascontiguousarray(array).tobytes())
     return identity.hexdigest()
-
-
-@cache
-def sources_digest(package: Path = PACKAGE) -> str:
-    """Compute a digest of the source code that determines a compliance matrix.
-
-    The source code is that of the packages `mesh` and `elasticity`. The versions of NumPy, SciPy
-    and scikit-fem are included. The digest is part of the cache key of a compliance matrix, so that
-    a change of the code invalidates the cache.
-
-    package  folder that contains the subfolders FOLDERS
-    """
-    libraries = (np.__version__, scipy.__version__, skfem.__version__)
-    digest = hashlib.sha256(repr(libraries).encode())
-    for folder in FOLDERS:
-        for source in sorted((package / folder).rglob("*.py")):
-            content = hashlib.sha256(source.read_bytes()).hexdigest()
-            digest.update(f"{source.relative_to(package).as_posix()} {content}\n".encode())
-    return digest.hexdigest()

@@ -11,7 +11,7 @@ from fem_reference.elasticity.motion import Motion
 from fem_reference.elasticity.numbering import Dofs, Numbering, number_unknowns
 from fem_reference.elasticity.section_basis import displacement_basis
 from fem_reference.elasticity.weak_form import dilatation, element_stiffness, volume_strain
-from fem_reference.memory import require_memory, required_bytes
+from fem_reference.memory import refuse_if_too_large, required_bytes
 from fem_reference.mesh.section_mesh import SectionMesh
 
 Indices = NDArray[np.int64]
@@ -45,7 +45,7 @@ class FactoredSection:
         mixed = dilatation(section).mixed & motion.changes_volume
         self._numbering = number_unknowns(section, motion, basis, mixed)
         unknowns, components = self._numbering.order.size, len(motion.components)
-        require_memory(required_bytes(len(mixed), unknowns, components, bool(mixed.any())))
+        refuse_if_too_large(required_bytes(len(mixed), unknowns, components, bool(mixed.any())))
         matrix = _assemble_stiffness(section, motion, basis, self._numbering)
         if mixed.any():
             matrix = _add_pressure_unknowns(matrix, section, motion, basis, self._numbering)

@@ -11,7 +11,7 @@ from contact_scene.array_types import Field
 from fem_reference.compliance.angular_grid import (
     AngularGrid,
     end_grid,
-    mid_grid,
+    grid_at,
     whole_grid,
 )
 from fem_reference.compliance.gauss_points import POINTS_PER_EDGE
@@ -192,10 +192,7 @@ class SurfaceTractions:
         first ray at θ = 0 or half a step away from it, or the whole circle from θ = 0.
         """
         assert self.angles is not None
-        count = len(self.angles)
-        if self.angles[-1] > 1.25 * np.pi:
-            return whole_grid(count // 2)
-        return end_grid(count - 1) if self.angles[0] == 0 else mid_grid(count)
+        return grid_at(self.angles)
 
     @property
     def _per_element(self) -> int:
@@ -276,12 +273,7 @@ class SurfaceTractions:
         """
         if self.angles is None:
             return values[None]
-        return np.stack(
-            [
-                [f @ transforms[c].T for f, c in zip(values, COMPONENTS, strict=True)]
-                for transforms in (grid or self._angular_grid).families
-            ]
-        )
+        return (grid or self._angular_grid).amplitudes(values, COMPONENTS)
 
 
 def _amplitude_of(n: int, tractions: Field, *, turned: bool) -> TractionAmplitude:

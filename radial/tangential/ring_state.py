@@ -30,29 +30,6 @@ class Loads:
     forces: Prescribed
     motions: Prescribed
 
-    @property
-    def drop_shear_loads(self) -> Loads:
-        """Prescribed loads with zero tangential force and zero torque.
-
-        Prescribed motions and the normal load are unchanged. Used to solve the contact whose
-        friction limit determines the limit load of gross slip.
-        """
-        tangential = (None if force is None else 0.0 for force in self.forces[:NORMAL])
-        return Loads((*tangential, self.forces[NORMAL]), self.motions)
-
-    def hold_motion(self, motion: Array) -> Loads:
-        """Return loads that prescribe a rigid motion instead of tangential force and torque.
-
-        Prescribed shifts, a prescribed twist and the normal load are unchanged. Used for an initial
-        guess with the motion at the start of the increment.
-
-        motion  shifts along θ = 0 and across it, and twist [length, radian]; a fourth entry
-                (approach) is ignored
-        """
-        prescribed = zip(self.forces[:NORMAL], self.motions[:NORMAL], motion, strict=False)
-        tangential = (float(was) if force is not None else now for force, now, was in prescribed)
-        return Loads((*(None,) * NORMAL, self.forces[NORMAL]), (*tangential, self.motions[NORMAL]))
-
 
 @dataclass(frozen=True)
 class PointState:

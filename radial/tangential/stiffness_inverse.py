@@ -46,8 +46,8 @@ class StiffnessInverse:
         unknown = np.concatenate([slip, m + slip, apart, m + apart, 2 * m + apart])
         t_x, t_y = zones.tangent[:, :, None]
         d = zones.slip_compliance[:, None]
-        slope = (zones.tangent[1] * zones.friction_slope[0])[:, None]
-        slope -= (zones.tangent[0] * zones.friction_slope[1])[:, None]
+        assert zones.friction_slope is not None
+        slope = np.sum(zones.normal * zones.friction_slope, axis=0)[:, None]
 
         def laws(x: Array, y: Array, z: Array, apart: Array) -> Array:
             """Combine tractions to the shear along the slip less the limit, d times that across."""

@@ -16,7 +16,13 @@ from contact_scene.array_types import Array
 from contact_scene.friction import sliding_friction
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
-from contact_solver.residuals import complementarity, penetration
+from contact_solver.residuals import (
+    complementarity,
+    equilibrium,
+    friction_cone,
+    penetration,
+    slip_direction,
+)
 from radial.angular_grid import RingAngles
 from radial.frictional.contact_growth import (
     contact_fraction,
@@ -24,8 +30,6 @@ from radial.frictional.contact_growth import (
 )
 from radial.tangential.ring_points import ContactPoints
 from radial.tangential.ring_state import (
-    ACROSS,
-    ALONG,
     NORMAL,
     TORSION,
     Loads,
@@ -55,9 +59,8 @@ class TangentialState:
     slip           slip since first contact of the particles (2, N) [length]
     carried        resultants of the tractions: tangential force along θ = 0 and across it, torque,
                    normal force (4,)
-    work           work of the loads since the start of the history [force length]; None after an
+    dissipated     energy dissipated since the start of the history [force length]; None after an
                    increment at the friction limit under force control, where the shift is undefined
-    dissipated     energy dissipated since the start of the history [force length]; None like `work`
     uncertainty    uncertainty of `dissipated` by finite increments [force length]
     """
 
@@ -70,7 +73,6 @@ class TangentialState:
     stick_radius: float | None
     slip: Array
     carried: Array
-    work: float | None
     dissipated: float | None
     uncertainty: float
 
@@ -155,7 +157,6 @@ def tangential_state(
     limits = (friction.limit(last.pressure) if last else nothing), friction.limit(end.pressure)
     rubbing = sliding_friction(start, end.shear, passed, *limits)
     forces, motion = resultant_loads(points, end.tractions), last.motion if last else np.zeros(4)
-    both = forces + (before.carried if before else 0.0)
     stick_through = None
     if end.slides:
         stick_through = 0.0
@@ -171,16 +172,15 @@ def tangential_state(
         stick_radius = extrapolate_stick_radius(
             radius, start_radius, stick_through, before.start_radius, before.stick_through
         )
-    work, dissipated = (before.work, before.dissipated) if before else (0.0, 0.0)
-    if end.slides or work is None or dissipated is None:
-        work = dissipated = None
+    dissipated = before.dissipated if before else 0.0
+    if end.slides or dissipated is None:
+        dissipated = None
     else:
-        work += 0.5 * float(both @ (end.motion - motion))
         dissipated += float(np.sum(rubbing * passed, axis=0) @ areas)
     open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
     return TangentialState(
         end, points.circle, prescribed, radius, start_radius, stick_through, stick_radius,
-        slip - passed, forces, work, dissipated,
+        slip - passed, forces, dissipated,
         (before.uncertainty if before else 0.0) + float(open_ @ areas),
     )  # fmt: skip
 
@@ -199,35 +199,21 @@ def residuals_of(
     end, prescribed = state.end, state.prescribed.forces
     W, force = float(state.carried[NORMAL]), prescribed[NORMAL]
     limit = friction.limit(end.pressure)
-    slip_increment = np.hypot(*end.slip_increment.reshape(2, -1))
-    slips = (slip_increment > REST * end.approach * points.areas) & (end.pressure > 0)
-    most = float(np.sum(limit * slip_increment, where=slips))
-    against = float(
-        np.sum(np.sum(end.shear * end.slip_increment.reshape(2, -1), axis=0), where=slips)
+    slip = -end.slip_increment.reshape(2, -1) / points.areas
+    moving = points.areas * (np.hypot(*slip) > REST * end.approach)
+    pushing, turning = equilibrium(
+        state.carried[:NORMAL],
+        prescribed[:NORMAL],
+        (float(points.areas @ limit), float(points.levers @ limit)),
     )
-    drag = [
-        state.carried[way] - value
-        for way in (ALONG, ACROSS)
-        if (value := prescribed[way]) is not None
-    ]
-    torque = prescribed[TORSION]
     return Residuals(
         complementarity=complementarity(points.areas * end.pressure, end.gap, end.approach),
         penetration=penetration(end.gap, end.approach),
         normal_equilibrium=None if force is None else abs(W / force - 1),
-        friction_cone=_share(
-            max(0.0, float(np.max(np.hypot(*end.shear) - limit))), float(np.max(limit))
-        ),
-        slip_direction=None if end.slides else (most + against) / most if most > 0 else 0.0,
-        tangential_equilibrium=_share(float(np.linalg.norm(drag)), float(points.areas @ limit))
-        if drag
-        else None,
-        torque_equilibrium=None
-        if torque is None
-        else _share(abs(float(state.carried[TORSION]) - torque), float(points.levers @ limit)),
+        friction_cone=friction_cone(end.shear, limit),
+        slip_direction=None
+        if end.slides
+        else slip_direction(moving * end.shear, moving * limit, slip, slip),
+        tangential_equilibrium=pushing,
+        torque_equilibrium=turning,
     )
-
-
-def _share(missing: float, limit: float) -> float:
-    """Return a missing or excess load as a share of the friction limit; 0 if nothing is missing."""
-    return missing / limit if missing else 0.0

@@ -14,6 +14,7 @@ from contact_scene import CoulombFriction, LoadRamp, RadialDiscretisation, Scene
 from contact_scene.array_types import Array
 from contact_scene.body_pair import coupling
 from contact_scene.checks.axisymmetric import ELSEWHERE, friction_at_radii
+from contact_scene.quantities.ring_increment import add_work
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import UnsupportedScene
@@ -258,7 +259,8 @@ class TangentialSteps(StepsOnRings):
             springs = compliances(self.scene.rig)
             growth = growth_without_slip(points, friction, loads, last, end, springs)
             if growth is not None:
-                end = self._solve_at_points(points, loads, last, growth.guess, growth.free)
+                free, guess = growth
+                end = self._solve_at_points(points, loads, last, guess, free)
         resolved = points.is_resolved(end.pressure)
         smooth = None if resolved else self._solve_frictionless(loads).contact.radius
         return tangential_state(points, friction, end, last, slip, loads, before, smooth)
@@ -341,7 +343,7 @@ class TangentialSteps(StepsOnRings):
         do not resolve the slip annulus.
 
         reached  solved state at the end of the increment
-        last     output of the previous increment (not used)
+        last     output of the previous increment, whose work is continued
         """
         state, end = reached.state, reached.state.end
         angular = state.circle is not RingAngles.ONE
@@ -359,7 +361,7 @@ class TangentialSteps(StepsOnRings):
         in_springs = down * state.forces[NORMAL] ** 2 + along * float(np.dot(force, force))
         free = end.slides and state.prescribed.forces[TORSION] is not None
         twist = None if free else state.motions[TORSION]
-        stored, lost, work = end.energy - 0.5 * in_springs, state.dissipated, state.work
+        lost = state.dissipated
         share = np.where(np.isfinite(end.share), end.share, 2.0)
         p, gap = np.maximum(p, 0.0), np.maximum(self._interpolate_scalar(points, gap), 0.0)
         if angular:
@@ -384,9 +386,7 @@ class TangentialSteps(StepsOnRings):
             twist=twist if self.twists else None,
             dissipated_energy=lost,
             dissipation_uncertainty=None if lost is None else state.uncertainty,
-            elastic_energy=stored,
-            input_work=None if lost is None else stored + lost,
-            unresolved_work=None if lost is None or work is None else work - end.energy - lost,
+            elastic_energy=end.energy - 0.5 * in_springs,
             radii=points.radii,
             angles=points.output_angles if angular else None,
             pressure=p,
@@ -397,7 +397,7 @@ class TangentialSteps(StepsOnRings):
             slip_circumferential=s_t if angular or self.twists else None,
             in_stick=(self._interpolate_scalar(points, share) < 1) & (p > 0),
         )
-        return add_contact_displacements(increment, self.scene.rig)
+        return add_work(last, add_contact_displacements(increment, self.scene.rig))
 
     def _refuse_narrow(self, state: TangentialState, step: int) -> None:
         """Raise UnsupportedScene if the slip annulus after normal loading is narrower than a ring.

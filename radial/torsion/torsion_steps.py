@@ -12,6 +12,7 @@ import numpy as np
 from contact_scene import ControlKind, LoadRamp
 from contact_scene.array_types import Array
 from contact_scene.checks.axisymmetric import ELSEWHERE
+from contact_scene.quantities.ring_increment import add_work
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.load_stepping import (
@@ -137,20 +138,15 @@ class TorsionSteps(StepsOnRings):
         made = self.pressing.report(normal_contact, last)
         x = made.radii / state.normal_contact.contact.radius
         shear, slip = self._shear_and_slip(state.path, x, made.pressure)
-        torque, twist = (last.torque or 0.0, last.twist or 0.0) if last else (0.0, 0.0)
-        assert made.trapezoidal_work is not None
         assert made.elastic_energy is not None
-        stick, dissipated, put_in, left_open = state.path.stick, None, None, None
+        stick, dissipated = state.path.stick, None
         if state.twist is None:
             stored = made.elastic_energy + state.path.branches[-1].quantity("elastic_energy")
             if last is not None and last.slip_circumferential is not None:
                 slip = last.slip_circumferential
         else:
-            work = made.trapezoidal_work + 0.5 * (torque + state.torque) * (state.twist - twist)
             dissipated = state.path.dissipated
             stored = made.elastic_energy + state.path.work - dissipated
-            put_in = stored + dissipated
-            left_open = work - put_in
         kind, prescribed = state.prescribed
         largest = self.friction * float(np.max(made.pressure)) or 1.0
         excess = float(np.max(np.abs(shear) - self.friction * made.pressure)) / largest
@@ -169,7 +165,7 @@ class TorsionSteps(StepsOnRings):
             else None,
         )
         residuals.require(self.tolerance, "torsion", state.normal_contact.iterations)
-        return replace(
+        increment = replace(
             made,
             residuals=residuals,
             status=_contact_status(stick),
@@ -178,12 +174,11 @@ class TorsionSteps(StepsOnRings):
             stick_radius=stick * state.normal_contact.contact.radius,
             dissipated_energy=dissipated,
             elastic_energy=stored,
-            input_work=put_in,
-            unresolved_work=left_open,
             shear_circumferential=shear,
             slip_circumferential=slip,
             in_stick=x < stick,
         )
+        return add_work(last, increment)
 
     def _shear_and_slip(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
         """Compute circumferential shear [force/length²] and slip [length] at the output rings (n,).

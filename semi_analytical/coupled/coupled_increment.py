@@ -14,7 +14,6 @@ from contact_solver.shear import ShearSolution
 from semi_analytical.coupled.predictor import predict_tractions
 from semi_analytical.increments.full_slip import (
     force_reaches_limit,
-    frictionless_state,
     gross_slip_state,
     loads_reach_limit,
 )
@@ -33,6 +32,7 @@ from semi_analytical.increments.normal_solve import (
 from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.increments.stick_slip import (
     end_state,
+    frictionless_state,
     shear_residuals,
 )
 from semi_analytical.increments.tangential_solve import (
@@ -198,7 +198,7 @@ def _coupled_problem(
         normal_by_shear=map_of_points(operator.normal_by_shear, shape),
         shear_by_pressure=map_of_points(operator.tangential_by_pressure, shape),
         inverse_on=lambda contact: precondition,
-        inverse_in=shear_inverse_in(operator, shape),
+        inverse_in=shear_inverse_in(operator, shape, model.self_compliance),
         together=map_of_points(operator.together, shape),
         inverse=InverseOnCells(operator.inverse, model.self_compliance, shape),
         gap=points_of(normal.gap(model)[box.slices]),

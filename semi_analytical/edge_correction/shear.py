@@ -245,7 +245,7 @@ class EdgeShearProblem:
         load = TangentialTarget(force=self.force)
         problem = ShearProblem(
             map_of_points(operator.tangential, q.shape[1:]),
-            shear_inverse_in(operator, q.shape[1:]),
+            shear_inverse_in(operator, q.shape[1:], model.self_compliance),
             points_of(domain.restrict(bound)),
             points_of(domain.restrict(self.target - u)),
             load.motions(model),

@@ -1,32 +1,16 @@
 """Free motion of cells until they come into contact in an increment of growing loads."""
 
-from __future__ import annotations
-
-from typing import NamedTuple
-
 import numpy as np
 
 from contact_scene.array_types import Vector, VectorField
+from contact_scene.rig import compliances
 from contact_scene.stepping.growing_contact import GrowingContact
 from contact_solver.conjugate_gradients import Point
 from semi_analytical.increments.normal_solve import NormalState
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import TangentialState
-from semi_analytical.model import ContactModel, everywhere
-
-
-class Growth(NamedTuple):
-    """Shear of a contact that grows without slip in an increment, as the initial guess of a solve.
-
-    point  shear at the end, with its displacement
-    shift  tangential shift at the end (2,) [length]
-    free   free motion of each cell until its contact (2, nx, ny) [length]; 0 in cells that were in
-           contact before
-    """
-
-    point: Point
-    shift: Vector
-    free: VectorField
+from semi_analytical.model import ContactModel
+from semi_analytical.operator.points import map_of_points, points_of
 
 
 def growth_without_slip(
@@ -35,10 +19,12 @@ def growth_without_slip(
     load: TangentialTarget,
     pressing: NormalState | None,
     pressed: NormalState,
-) -> Growth | None:
+) -> tuple[Point, Vector, VectorField] | None:
     """Compute the shear of an increment in which the contact grows without slip.
 
-    None is returned if the contact does not grow, or if the tangential load does not change.
+    The results are shear with displacement and tangential shift (2,) [length], as an initial guess,
+    and the free motion of each cell until its contact (2, nx, ny) [length]. None is returned if the
+    contact does not grow, or if the tangential load does not change.
 
     last      tangential state at the start of the increment
     load      prescribed tangential load at the end of the increment
@@ -49,48 +35,35 @@ def growth_without_slip(
     prescribed = load.force if load.shift is None else load.shift
     assert prescribed is not None
     change = prescribed - (last.force if load.shift is None else last.shift)
-    start = np.zeros_like(pressed.pressure) if pressing is None else pressing.pressure
-    grown = pressed.pressure - start
-    area = model.grid.cell_area
-    more = float(np.sum(grown))
-    approach = pressed.approach - (0.0 if pressing is None else pressing.approach)
-    begins = (start == 0) & (model.gap > 0)
-    if (
-        min(more, approach) <= 0
-        or not np.any(change)
-        or not np.any(begins & (pressed.pressure > 0))
-    ):
-        return None
+    cells = pressed.pressure.shape
+    start, closed, approach = np.zeros(cells), pressed.displacement, pressed.approach
+    if pressing is not None:
+        start = pressing.pressure
+        closed, approach = closed - pressing.displacement, approach - pressing.approach
     # By symmetry the domain may exclude shear in a direction without load.
     axes = np.eye(2)[change != 0]
-    unit = np.array([everywhere(axis) for axis in axes])
-    down, along = model.springs
-    operator = model.operator(grown.shape)
-    displacements = np.array([operator.tangential(one * grown) for one in unit])
-    closed = pressed.displacement - (0.0 if pressing is None else pressing.displacement)
-    bodies = displacements - along * more * unit
-    points = (len(unit), 2, -1)
-    rigid = np.broadcast_to(unit, displacements.shape).reshape(points)
-    growing = GrowingContact(
-        pressure=(start + pressed.pressure).ravel() * area,
-        normal=(closed - down * more).ravel(),
-        along=bodies.reshape(points),
-        unit=rigid,
-        approach=approach - down * more,
-        load=more * area,
-        limit=float(np.sum(model.friction_limit(pressed.pressure) - model.friction_limit(start)))
-        * area,
-        spring=along / area,
+    growth = GrowingContact(
+        model.grid.cell_area,
+        points_of(start),
+        points_of(pressed.pressure),
+        points_of(model.gap > 0),
+        approach,
+        compliances(model.scene.rig),
+    ).without_slip(
+        axes @ change,
+        axes[:, :, None] * np.ones(start.size),
+        map_of_points(model.operator(cells).tangential, cells),
+        lambda grown: points_of(closed),
+        map_of_points(model.friction_limit, cells),
+        by_force=load.shift is None,
     )
-    k, shift = growing.ratio(axes @ change, by_force=load.shift is None)
-    moved = np.einsum("i,icxy->cxy", k, bodies) - everywhere(shift @ axes)
-    ratio = k @ axes
-    point = Point(
-        last.shear + everywhere(ratio) * grown,
-        last.displacement + np.einsum("i,icxy->cxy", k, displacements),
+    if growth is None:
+        return None
+    shear, moved, free = (
+        field.reshape(last.shear.shape) for field in (growth.shear, growth.moved, growth.free)
     )
-    return Growth(
-        point,
-        last.shift + shift @ axes + along * more * ratio,
-        np.where(begins, moved, 0.0),
+    return (
+        Point(last.shear + shear, last.displacement + moved),
+        last.shift + growth.shift @ axes,
+        free,
     )

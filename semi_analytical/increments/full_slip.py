@@ -1,10 +1,10 @@
-"""Tangential states without a solve: at the friction limit under force, or frictionless."""
+"""Friction limit of the whole contact, and the tangential state at this limit under force."""
 
 from dataclasses import replace
 
 import numpy as np
 
-from contact_scene.array_types import Field, Vector, VectorField
+from contact_scene.array_types import Field, Vector
 from contact_scene.friction_limit import reaches_limit, refuse_above_limit
 from contact_scene.quantities.residuals import ShearResiduals
 from contact_scene.quantities.summary import ContactStatus
@@ -14,11 +14,7 @@ from contact_solver.residuals import friction_cone
 from semi_analytical.increments.tangential_solve import TangentialTarget
 from semi_analytical.increments.tangential_state import (
     TangentialState,
-    bulk_strain_displacement,
-    rigid,
     torque_of,
-    torsion_reached,
-    touching_share,
 )
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.points import points_of
@@ -118,56 +114,4 @@ def gross_slip_state(
         twist=twist,
         torque=torque,
         strain=load.strain,
-    )
-
-
-def frictionless_state(
-    model: ContactModel,
-    pressure: Field,
-    displacement: VectorField,
-    last: TangentialState,
-    load: TangentialTarget,
-    motion: Vector,
-) -> TangentialState:
-    """Return the tangential state of a contact that slips everywhere without friction: no shear.
-
-    The slip of the increment follows from rigid motion and displacements.
-
-    pressure      p (nx, ny) [force/length^2]
-    displacement  tangential displacement (2, nx, ny) [length] by the pressure alone
-    last          tangential state of the previous increment
-    load          prescribed tangential load
-    motion        rigid motion of the indenter: shift, and twist under torsion
-    """
-    nothing = np.zeros_like(last.shear)
-    contact_fraction = touching_share(last.pressure, pressure, model.gap)
-    twist, torque = torsion_reached(model, load, motion, nothing)
-    after = replace(
-        last,
-        shear=nothing,
-        pressure=pressure,
-        contact_fraction=contact_fraction,
-        displacement=displacement,
-        shift=motion[:2],
-        in_stick=np.zeros_like(last.in_stick),
-        status=ContactStatus.GROSS_SLIDING,
-        force=np.zeros(2),
-        residuals=ShearResiduals(0.0, 0.0, 0.0),
-        iterations=0,
-        twist=twist,
-        torque=torque,
-        strain=load.strain,
-    )
-    relative_slip = rigid(model, after.motion) - rigid(model, last.motion)
-    relative_slip = (
-        relative_slip
-        + last.displacement
-        - displacement
-        - bulk_strain_displacement(model, load.strain, last.strain)
-    )
-    slipped = np.where((pressure > 0) | (last.pressure > 0), contact_fraction * relative_slip, 0.0)
-    return replace(
-        after,
-        slip=last.slip - slipped,
-        slip_distance=last.slip_distance + np.hypot(*slipped),
     )

@@ -173,13 +173,13 @@ def solve_increment(
     if before is not None and seen is not None and seen.target == normal:
         ahead, behind = further_shear(seen, before.behind, tangential), seen
     last = last or untouched_state(model.grid.cells)
-    growth = None
+    free = None
     if last.shift is not None and not (before is not None and before.target == normal):
         start = before.pressing if before is not None else None
         growth = growth_without_slip(model, last, tangential, start, pressing)
-    if growth is not None:
-        ahead = growth.point, tangential.rigid_motion(growth.shift, last.twist)
-    free = None if growth is None else growth.free
+        if growth is not None:
+            point, shift, free = growth
+            ahead = point, tangential.rigid_motion(shift, last.twist)
     sheared = slip_and_stick(model, pressing.pressure, last, tangential, tolerance, ahead, free)
     return State(normal, normal_force, pressing, sheared, moment, behind=behind)
 

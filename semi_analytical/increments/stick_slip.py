@@ -15,7 +15,6 @@ from contact_solver.conjugate_gradients import Point
 from contact_solver.residuals import friction_cone, slip_direction
 from contact_solver.shear import ShearSolution
 from semi_analytical.increments.full_slip import (
-    frictionless_state,
     gross_slip_state,
     loads_reach_limit,
 )
@@ -108,27 +107,41 @@ def _trivial_state(
     last      tangential state at the start of the increment
     load      prescribed tangential load
     """
-    nothing, here = np.zeros_like(last.shear), load.rigid_motion(last.shift, last.twist)
-    if load.torque is not None:
-        if np.any(bound):
-            return None
-        return frictionless_state(model, pressure, nothing, last, load, here)
-    if load.force is None:
-        assert load.shift is not None
-        return (
-            None
-            if np.any(bound)
-            else frictionless_state(model, pressure, nothing, last, load, load.shift)
-        )
-    moved = last.shear, last.shift, last.displacement
-    changes = load.strain not in (None, last.strain or UNSTRAINED)
-    if not load.twists and not changes and not any(map(np.any, (load.force, *moved))):
-        return replace(
-            last, pressure=pressure, in_stick=bound > 0, iterations=0, strain=load.strain
-        )
+    if load.force is not None and load.torque is None:
+        moved = last.shear, last.shift, last.displacement
+        changes = load.strain not in (None, last.strain or UNSTRAINED)
+        if not load.twists and not changes and not any(map(np.any, (load.force, *moved))):
+            return replace(
+                last, pressure=pressure, in_stick=bound > 0, iterations=0, strain=load.strain
+            )
     if np.any(bound):
         return None
-    return frictionless_state(model, pressure, nothing, last, load, here)
+    motion = load.rigid_motion(last.shift if load.shift is None else load.shift, last.twist)
+    return frictionless_state(model, pressure, np.zeros_like(last.shear), last, load, motion)
+
+
+def frictionless_state(
+    model: ContactModel,
+    pressure: Field,
+    displacement: VectorField,
+    last: TangentialState,
+    load: TangentialTarget,
+    motion: Vector,
+) -> TangentialState:
+    """Return the tangential state of a contact that slips everywhere without friction: no shear.
+
+    pressure      p (nx, ny) [force/length^2]
+    displacement  tangential displacement (2, nx, ny) [length] by the pressure alone
+    last          tangential state of the previous increment
+    load          prescribed tangential load
+    motion        rigid motion of the indenter: shift, and twist under torsion
+    """
+    nothing = np.zeros_like(last.shear)
+    slips = np.ones(pressure.shape, dtype=bool)
+    solution = ShearSolution(nothing, displacement, motion, slips, 0.0, 0)
+    relative_slip = rigid(model, motion) + surface_target(model, last, load) - displacement
+    residuals = ShearResiduals(0.0, 0.0, 0.0)
+    return end_state(model, pressure, nothing[0], last, load, solution, relative_slip, residuals)
 
 
 def shear_residuals(

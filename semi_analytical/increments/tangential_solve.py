@@ -127,7 +127,7 @@ def shear(
     inside = (..., *box.slices)
     problem = ShearProblem(
         map_of_points(operator.tangential, box.shape),
-        shear_inverse_in(operator, box.shape),
+        shear_inverse_in(operator, box.shape, model.self_compliance),
         points_of(bound[box.slices]),
         points_of(target[inside]),
         load.motions(model, box),

@@ -9,8 +9,7 @@ The rule of integration depends on the distance from the loaded cell and is exac
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cache, cached_property, partial
-from hashlib import sha256
+from functools import cached_property, partial
 from math import hypot
 from pathlib import Path
 
@@ -18,6 +17,7 @@ import numpy as np
 import scipy
 
 from contact_scene.array_types import Field
+from contact_scene.disk_cache import sources_digest
 from semi_analytical.frf.stack import Stack
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.coefficients import PARITY
@@ -35,6 +35,7 @@ Remember = Callable[[str, tuple[int, ...], Callable[[], Field]], Field]
 PACKAGE = Path(__file__).resolve().parents[1]
 # Folders whose sources determine the coefficients.
 FOLDERS = ("frf", "influence")
+LIBRARIES = (np.__version__, scipy.__version__)
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,8 @@ class LayeredCoefficients:
         if component not in self._known:
             (dx, dy), (nx, ny) = self.spacing, self.shape
             given = (self.stack.layers, self.stack.base, float(dx), float(dy), int(nx), int(ny))
-            identity = repr((sources_digest(), component, *given))
+            sources = sources_digest(PACKAGE, FOLDERS, LIBRARIES)
+            identity = repr((sources, component, *given))
             compute = partial(self._integrate_component, component)
             self._known[component] = self.remember(identity, (nx, ny), compute)
         return self._known[component]
@@ -103,19 +105,3 @@ class LayeredCoefficients:
             integrals = RectangleIntegrals(*self.spacing, (1, 1))
             result[0, 0] += HalfSpaceCoefficients(integrals, *outer)[component][0, 0]
         return result
-
-
-@cache
-def sources_digest(package: Path = PACKAGE) -> str:
-    """Compute a digest of the source files of the influence coefficients, for cache keys.
-
-    The digest includes the versions of the libraries. Coefficients of other sources are not reused.
-
-    package  folder that contains FOLDERS
-    """
-    digest = sha256(f"numpy {np.__version__}, scipy {scipy.__version__}\n".encode())
-    for folder in FOLDERS:
-        for source in sorted((package / folder).rglob("*.py")):
-            content = sha256(source.read_bytes()).hexdigest()
-            digest.update(f"{source.relative_to(package).as_posix()} {content}\n".encode())
-    return digest.hexdigest()

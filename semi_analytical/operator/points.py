@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -11,7 +10,6 @@ from numpy.typing import NDArray
 from contact_scene.array_types import Field
 from contact_solver.binned_preconditioner import BinnedPreconditioner
 from contact_solver.conjugate_gradients import Map
-from contact_solver.shear_zones import ShearZones
 from contact_solver.zones import Zones
 from semi_analytical.operator.operator import ApproximateInverse, DisplacementOperator
 
@@ -45,18 +43,17 @@ def map_of_points(
 
 
 def shear_inverse_in(
-    operator: DisplacementOperator, shape: tuple[int, ...]
-) -> Callable[[ShearZones], Map]:
+    operator: DisplacementOperator, shape: tuple[int, ...], self_compliance: float
+) -> Callable[[Zones], Map]:
     """Return the approximate inverse of the shear problem as a function of stick and slip zones.
 
-    operator  displacement operator of the cells; its inverse is built on first use
-    shape     number of cells nx, ny
+    operator         displacement operator of the cells; its inverse is built on first use
+    shape            number of cells nx, ny
+    self_compliance  tangential displacement of a cell by its own unit shear [length^3/force]
     """
-
-    def in_zones(zones: ShearZones) -> Map:
-        return partial(zones.precondition, inverse=map_of_points(operator.shear_inverse, shape))
-
-    return in_zones
+    return lambda zones: BinnedPreconditioner(
+        zones, map_of_points(operator.shear_inverse, shape), self_compliance
+    )
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,7 @@ import numpy as np
 
 from contact_scene import Body, Scene
 from contact_scene.array_types import Field, Indices
-from contact_scene.machine import available_bytes
-from contact_scene.solver_errors import ResourceRefused
+from contact_scene.machine import require_memory
 from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import Stack, stack_of
 from semi_analytical.grid import SurfaceGrid
@@ -316,10 +315,8 @@ def refuse_beyond_memory(cells: tuple[int, int], levels: int, numbers: int = 0) 
     numbers  values per point that the caller stores of each depth, fields included; 0 for the
              fields alone
     """
-    required, available = required_bytes(cells, levels, numbers), available_bytes()
-    if required > available:
-        raise ResourceRefused(
-            f"fields at {levels} depths on {cells[0]} x {cells[1]} cells need "
-            f"{required / 2**30:.2g} GiB of memory, {available / 2**30:.2g} GiB are available. "
-            "Use fewer cells or depths, or the section alone"
-        )
+    require_memory(
+        required_bytes(cells, levels, numbers),
+        f"fields at {levels} depths on {cells[0]} x {cells[1]} cells",
+        "Use fewer cells or depths, or the section alone",
+    )

@@ -12,14 +12,15 @@ from typing import Any
 
 import numpy as np
 
-import fem_reference.energy
 from contact_results import cycles, loop
 from contact_scene import CoulombFriction, HeightMap, Scene, bulk_strain, rig
+from contact_scene.quantities import ring_increment
 from contact_scene.stepping.load_path import (
     Control,
     ControlKind,
 )
 from contact_solver import admissible_pressure, admissible_shear, pressure, residuals
+from fem_reference.contact import increment_report
 from fem_reference.elasticity import compliance
 from fem_reference.elasticity.factored_section import FactoredSection
 from fem_reference.elasticity.motion import TORSION
@@ -110,13 +111,12 @@ def _map_transposed(whole: Any, self: Any) -> Any:
     return CoulombFriction.model_validate({"coefficient": turned})
 
 
-@replaces(fem_reference.energy, "elastic_energy")
+@replaces(increment_report, "_elastic_energy")
 def _stored_by_elements(whole: Any, *given: Any) -> Any:
-    energy = whole(*given)
-    return None if energy is None else 1.05 * energy
+    return 1.05 * whole(*given)
 
 
-@replaces(fem_reference.energy, "input_work")
+@replaces(ring_increment, "input_work")
 def _work_on_elements(whole: Any, before: Any, increment: Any) -> Any:
     work, start = whole(before, increment), before.trapezoidal_work if before else 0.0
     return None if work is None else start + 0.8 * (work - start)

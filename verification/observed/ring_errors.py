@@ -228,19 +228,9 @@ def tractions_at(
 
 
 def _grid_of(increment: Increment) -> AngularGrid:
-    from fem_reference.compliance.angular_grid import (
-        axisymmetric_grid,
-        end_grid,
-        mid_grid,
-        whole_grid,
-    )
+    from fem_reference.compliance.angular_grid import axisymmetric_grid, grid_at
 
-    if increment.angles is None:
-        return axisymmetric_grid()
-    points = len(increment.angles)
-    if increment.covers_circle:
-        return whole_grid(points // 2)
-    return end_grid(points - 1) if increment.angles[0] == 0 else mid_grid(points)
+    return axisymmetric_grid() if increment.angles is None else grid_at(increment.angles)
 
 
 DIRECTIONS = 16
