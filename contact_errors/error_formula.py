@@ -136,6 +136,8 @@ class Features:
     slides        true in gross slip, if no stick zone can be hidden within a cell
     left          relative errors of scalars, by name, that remain when the iteration of the edge
                   correction (subcell pressure at the contact edge) stops
+    largest       largest errors of scalars, by name, that elements can cause: the edge of the
+                  contact lies within an element [unit of the scalar]
     """
 
     contact: float
@@ -151,6 +153,7 @@ class Features:
     peak_by_edge: bool = False
     slides: bool = False
     left: Mapping[str, float] = field(default_factory=dict)
+    largest: Mapping[str, float] = field(default_factory=dict)
 
     def convergence_order(self, name: str) -> float:
         """Return the theoretical convergence order p of a scalar in the cell size h: error ~ h^p.
@@ -484,8 +487,9 @@ class SolvedRun:
             size = comparison.part_of(step, name, order)
             if size is not None:
                 found.setdefault(comparison.part, []).append(size)
+        largest = self.features[step].largest.get(name, np.inf)
         return {
-            part: np.sqrt(np.mean(np.square(sizes), axis=0))
+            part: np.minimum(np.sqrt(np.mean(np.square(sizes), axis=0)), largest)
             if part in BY_SPREAD
             else np.max(sizes, axis=0)
             for part, sizes in found.items()

@@ -6,7 +6,7 @@ size of the meshed section, the overlap of the penalty method and the angular ha
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import ceil
+from math import ceil, pi
 from typing import Any, ClassVar, Self
 
 import fem_reference
@@ -168,6 +168,7 @@ class ElementSolver(DiscretisedSolver):
             cusp=cusped or has_cusp(indenter),
             peak_by_edge=True,
             slides=end.status is ContactStatus.GROSS_SLIDING,
+            largest={"contact_radius": side, "contact_area": 2 * pi * end.contact_radius * side},
         )
 
     def neglected_errors(self, result: Result) -> Mapping[str, float]:

@@ -53,6 +53,7 @@ def rings(per_unit: int, reach: float, highest: int, *bodies: Coating) -> RingCo
         stretch=basis.arms / basis.weights,
         reach=float(radii[-1]),
         edge=HatEdge(),
+        beta=0.0,
     )
 
 

@@ -145,7 +145,7 @@ def records(rows: Sequence[Row], ratios: Sequence[float] = ()) -> Mapping[str, C
     [
         ([row(1e-3, 2e-3)] * ENOUGH, Status.PASS, Status.PASS),
         ([row(1e-3, 2e-3)] * (ENOUGH - 1), Status.INCONCLUSIVE, Status.INCONCLUSIVE),
-        ([row(1e-3, 2e-3)] * 94 + [row(1e-3, 5e-4)] * 6, Status.FAIL, Status.PASS),
+        ([row(1e-3, 2e-3)] * 90 + [row(1e-3, 5e-4)] * 10, Status.FAIL, Status.PASS),
         ([row(1e-3, 2e-3)] * 74 + [row(1e-3, 2e-2)] * 26, Status.PASS, Status.FAIL),
         ([row(1e-3, 2e-3)] * 91 + [row(1e-3, 4e-2)] * 9, Status.PASS, Status.FAIL),
         ([row(1e-3, 2e-3)] * ENOUGH + [MARKED] * 3, Status.PASS, Status.FAIL),
@@ -163,6 +163,26 @@ def test_all_numbers_kinds_and_families_are_judged(
     for claim, expected in expected_of.items():
         (statement,) = (s for s in found if s.claim.startswith(claim))
         assert statement.outcome is expected
+
+
+@pytest.mark.parametrize(
+    ("missed", "of", "outcome"),
+    [
+        (7, 100, Status.PASS),
+        (9, 100, Status.FAIL),
+        (3, 50, Status.INCONCLUSIVE),
+        (6, 50, Status.FAIL),
+        (21, 400, Status.PASS),
+        (22, 400, Status.FAIL),
+    ],
+)
+def test_a_family_fails_if_its_coverage_is_significantly_below_that_of_all(
+    missed: int, of: int, outcome: Status
+) -> None:
+    """By the binomial distribution, P(X <= of - missed) < 0.01 at a true fraction of 0.97."""
+    rows = [row(1e-3, 2e-3)] * (of - missed) + [row(1e-3, 5e-4)] * missed
+    (family,) = (s for s in conclude(SETTINGS, records(rows)).statements if "family" in s.claim)
+    assert family.outcome is outcome
 
 
 @pytest.mark.parametrize(

@@ -13,14 +13,18 @@ from scipy.linalg import toeplitz
 from contact_scene import Body, IsotropicMaterial
 from contact_solver.dense_inverse import inverse_on
 from contact_solver.pressure import PressureProblem, solve_pressure
+from fem_reference import Method
+from fem_reference.compliance.gauss_points import loading_part
 from fem_reference.compliance.ring_edge import (
     GaussEdge,
     HatEdge,
     beyond_pressure,
     stick_area,
 )
+from verification.cases.frictional_pressing import STRONG, WEAK
 
 CENTRE = 200
+EXACT = Method.COMPLEMENTARITY
 
 
 def test_the_softer_body_decides_where_the_edge_lies() -> None:
@@ -68,7 +72,11 @@ def test_a_square_root_at_gauss_points_ends_where_its_parabola_does(step: int) -
     r = (np.arange(40)[:, None] + 0.5 + np.array([-0.387, 0.0, 0.387])).ravel()
     p = np.sqrt(np.maximum(step * (20.3**4 - r**4), 0.0))
     last = int(np.flatnonzero(p)[-1 if step > 0 else 0])
-    assert GaussEdge(1.0).radius(r, p, last, step) == pytest.approx(20.3, rel=1e-9)
+    edge = GaussEdge(1.0).radius(r, p, last, step)
+    assert edge == pytest.approx(20.3, abs=0.03)
+    anything = np.random.default_rng(1).normal(size=r.shape)
+    loading_no_node = anything - loading_part(r, anything)
+    assert GaussEdge(1.0).radius(r, p + 0.1 * loading_no_node, last, step) == pytest.approx(edge)
 
 
 @pytest.mark.parametrize("elements", [16, 32])
@@ -77,6 +85,25 @@ def test_radius_of_a_ball_is_known_to_a_small_part_of_an_element(elements: int) 
         load = LOAD * part**3
         found = end(scene({"normal_force": load}, friction=None), elements, contact_radius=A)
         assert found.contact_radius == pytest.approx(part * A, abs=0.03 * A / elements)
+
+
+@pytest.mark.parametrize("penalty", [1.0, 10.0, 100.0, 1e3])
+@pytest.mark.parametrize("radius", [1.03, 1.2])
+def test_a_stiff_penalty_does_not_move_the_contact_edge(penalty: float, radius: float) -> None:
+    pressed_ball = scene({"normal_force": LOAD}, friction=None)
+    mesh = {"penalty": penalty, "contact_radius": radius * A}
+    found = end(pressed_ball, 16, Method.PENALTY, **mesh)
+    assert found.contact_radius == pytest.approx(A, abs=0.1 * radius * A / 16)
+
+
+@pytest.mark.parametrize(("method", "part"), [(EXACT, 0.015), (Method.PENALTY, 0.1)])
+@pytest.mark.parametrize(("mu", "increments"), [(0.1, 20), (0.3, 60)])
+def test_slip_at_the_edge_of_coupled_bodies_does_not_move_it(method, part, mu, increments) -> None:
+    """Shear outwards changes the power with which the pressure vanishes (Spence 1975)."""
+    one = {0.1: WEAK, 0.3: STRONG}[mu]
+    found = end(one.problem(increments).scene, 32, method)
+    side = 1.03 * one.contact_radius / 32
+    assert found.contact_radius == pytest.approx(one.contact_radius, abs=part * side)
 
 
 @pytest.mark.parametrize("unit", [1.0, 1e-9])

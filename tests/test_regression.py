@@ -583,6 +583,24 @@ def test_a_stated_error_that_is_too_small_is_named_and_red(outcome: CaseOutcome)
     assert exit_code_of(compared(good, baselines_of(good, "why"))) == 0
 
 
+@pytest.mark.parametrize(("times", "kind"), [(1.6, ChangeKind.DRIFT), (1.4, ChangeKind.UNCHANGED)])
+def test_a_stated_error_that_grew_by_half_is_a_change(outcome, times, kind) -> None:
+    was, now = (
+        outcome.model_copy(
+            update={
+                "verdicts": tuple(
+                    v.model_copy(update={"stated_error": v.stated_error and part * v.scale})
+                    for v in outcome.verdicts
+                )
+            }
+        )
+        for part in (1e-3, 1e-3 * times)
+    )
+    changes = [v.regression for v in compare(now, was).verdicts if v.stated_error]
+    assert {change.kind for change in changes} == {kind}
+    assert all("stated error" in change.remark for change in changes) == (times > 1.5)
+
+
 @pytest.mark.parametrize(("uncovered", "status"), [(1, Status.PASS), (2, Status.FAIL)])
 def test_a_full_report_needs_95_percent(
     outcome: CaseOutcome, uncovered: int, status: Status

@@ -28,6 +28,7 @@ from contact_scenes import (
 from scene_texts import COARSE, STEEL_BALL_PRESSED
 
 import contact_errors
+import fem_reference
 import slipstick as package
 from contact_errors import coarse_solves
 from contact_errors import stress_errors as stress_errors_module
@@ -90,6 +91,7 @@ from semi_analytical import SurfaceGrid, solve
 from semi_analytical.edge_correction import pressure as pressure_correction
 from semi_analytical.edge_correction.pressure import left_over
 from slipstick import stated_errors
+from verification.cases.frictional_pressing import WEAK
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
 from verification.closed_forms.flat_punch import ConeContact
@@ -838,6 +840,14 @@ def test_nobody_states_the_error_of_what_is_infinite(indenter: Any) -> None:
     (errors,) = stated_errors(package.solve(of)).steps
     assert errors["peak_pressure"].error is None
     assert errors["approach"].error is not None
+
+
+@pytest.mark.parametrize("penalty", [1.0, 1e3])
+def test_elements_leave_the_contact_radius_within_one_of_them(penalty: float) -> None:
+    mesh = FiniteElementDiscretisation(elements_per_radius=16, penalty=penalty)
+    result = fem_reference.solve(WEAK.problem(8).scene, mesh, Method.PENALTY)
+    stated = ElementSolver.stated_errors(result).steps[-1]["contact_radius"]
+    assert stated.parts["elements"] <= result.radius / 16 < stated.parts["elements"] * 5
 
 
 def test_a_contact_up_to_a_rim_has_its_area() -> None:

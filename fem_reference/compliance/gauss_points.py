@@ -54,3 +54,22 @@ def gauss_points(nodes: Field, reach: float = np.inf) -> GaussPoints:
         at = slice(edge * POINTS_PER_EDGE, (edge + 1) * POINTS_PER_EDGE)
         products[2 * edge : 2 * edge + 3, at] = quadratic * weights[at]
     return GaussPoints(radii, products, weights, weights * radii)
+
+
+def loading_part(radii: Field, tractions: Field) -> Field:
+    """Return the part of tractions at Gauss points that loads the surface nodes (n,).
+
+    Three points of an edge load two nodes, as one corner belongs to the adjacent edge. Tractions
+    that load no node do not deform the body. They oscillate from point to point, most of all with a
+    stiff penalty. The other part is the projection on the quadratic functions of the displacements.
+
+    radii      radii of the Gauss points of adjacent edges (n,) [length]
+    tractions  one component of the tractions at the points (n,)
+    """
+    furthest = np.polynomial.legendre.leggauss(POINTS_PER_EDGE)[0][-1]
+    middles = radii[POINTS_PER_EDGE // 2 :: POINTS_PER_EDGE]
+    half = (radii[POINTS_PER_EDGE - 1 :: POINTS_PER_EDGE] - middles) / furthest
+    nodes = np.append(np.ravel([middles - half, middles], order="F"), middles[-1] + half[-1])
+    basis = gauss_points(nodes)
+    traces = (basis.products / basis.weights).T
+    return traces @ np.linalg.solve(basis.products @ traces, basis.products @ tractions)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_scene.array_types import Field, Matrix, Vector
-from contact_scene.body_pair import coupling
+from contact_scene.body_pair import coupling, outermost_beta
 from fem_reference.compliance.angular_grid import THETA, R, Z
 from fem_reference.compliance.gauss_points import (
     POINTS_PER_EDGE,
@@ -49,6 +49,7 @@ class RingCompliance:
     stretch    radius of the rings, the mean weighted with φ (rings,) [length]
     reach      outer end of the last element [length]
     edge       rule that determines the radius of the contact edge between rings
+    beta       Dundurs' constant of the outermost materials [1]
     """
 
     radii: Vector
@@ -60,16 +61,19 @@ class RingCompliance:
     stretch: Vector
     reach: float
     edge: Edge
+    beta: float
 
-    def contact_edge(self, pressure: Vector) -> float:
+    def contact_edge(self, pressure: Vector, shear: Vector | None = None) -> float:
         """Compute the radius of the contact edge from the pressure at the rings [length].
 
         The pressure decreases to zero at the contact edge, which may lie between two rings. A ring
         is a circle around the axis on the surface.
 
         pressure  pressure at the rings (rings,) [force/length^2]
+        shear     outward shear at the rings (rings,) [force/length^2]; None without shear
         """
-        return contact_edge(self.radii, pressure, self.edge, self.reach)
+        coupled = None if shear is None else self.beta * shear
+        return contact_edge(self.radii, pressure, self.edge, self.reach, coupled)
 
 
 def ring_compliance(
@@ -122,5 +126,14 @@ def ring_compliance(
         reach = float(basis.radii[-1])
     gap = basis.integrate(model.gap) / basis.weights
     return RingCompliance(
-        basis.radii, basis.weights, gap, tuple(harmonics), path, motions, stretch, reach, edge
+        basis.radii,
+        basis.weights,
+        gap,
+        tuple(harmonics),
+        path,
+        motions,
+        stretch,
+        reach,
+        edge,
+        outermost_beta(model.scene),
     )

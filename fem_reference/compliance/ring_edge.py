@@ -11,20 +11,24 @@ at the edge deviate from a half-plane by a correction that depends on Poisson's 
 difference between friction limit and shear has the same form at the edge of the stick zone
 (Cattaneo 1938), without this correction.
 
+With shear q p towards the edge, coupled bodies have a pressure proportional to the distance to the
+power ½ + arctan(κ)/π with κ = β q (β: Dundurs' constant; Johnson 1985, section 5.5).
+
 At Gauss points (three per element) the squares of the values are fitted by a parabola in r²,
-without the last element. The values are those of the first penalty pass with a small overlap,
-because the tractions of later passes oscillate at the edge. The error of the radii is below 0.1 h
-(h: element size) for any position of the edge in an element.
+without the last element. The part of the values that loads no node is removed before. The error of
+the radii is below 0.1 h (h: element size) for any position of the edge in an element, and for
+penalties between 1 and 10 000.
 """
 
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import atan, pi, sqrt
 from typing import Protocol
 
 import numpy as np
 
 from contact_scene.array_types import Field, Mask
 from contact_scene.body import Body
+from fem_reference.compliance.gauss_points import POINTS_PER_EDGE, loading_part
 
 Beyond = tuple[float, ...]
 
@@ -44,6 +48,10 @@ BY_ELEMENTS = (
 )
 FURTHEST = 1.05
 
+# Increase of the distance x by shear towards the edge, over κ x². Sliding plane contacts of a
+# parabola on hat functions have 0.49 to 0.63 for 0.05 < |κ| < 0.2 and any position of the edge.
+BY_SHEAR = 0.55
+
 # Values may decrease to zero like the distance to the power 1/2 or 3/2. The ratio of the preceding
 # two values distinguishes the powers: it is at most 0.54 for 3/2 and at least 0.77 for 1/2.
 # For 3/2, the ratio of the last two values is AT_NEXT_RING if the edge is at the next ring.
@@ -54,6 +62,9 @@ AT_NEXT_RING = 0.3
 # positive value, in elements, and least number of points.
 FITTED = (1.2, 5.9)
 FEWEST = 5
+# Elements on both sides of the edge on which tractions that load no node are removed: more than
+# are fitted, because a cut affects the adjacent elements.
+SMOOTHED = 9
 
 
 def beyond_pressure(*bodies: Body) -> Beyond:
@@ -89,16 +100,19 @@ class Edge(Protocol):
         decreases to zero at the edge of the stick zone.
         """
 
-    def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
+    def radius(
+        self, radii: Field, values: Field, last: int, step: int = 1, coupled: float = 0.0
+    ) -> float:
         """Compute the radius between two rings at which a traction decreases to zero [length].
 
         The traction is the pressure, or the difference between friction limit and shear.
 
-        radii   radii of the rings, circles around the axis on the surface (n,) [length]
-        values  traction at the rings (n,), positive at the ring `last` and before it, zero at the
-                next ring
-        last    index of the last ring with a positive value
-        step    +1 if the values decrease outwards, -1 if they decrease inwards
+        radii    radii of the rings, circles around the axis on the surface (n,) [length]
+        values   traction at the rings (n,), positive at the ring `last` and before it, zero at the
+                 next ring
+        last     index of the last ring with a positive value
+        step     +1 if the values decrease outwards, -1 if they decrease inwards
+        coupled  κ: Dundurs' constant times shear towards the edge over pressure at the edge
         """
 
 
@@ -124,17 +138,20 @@ class HatEdge:
         """
         return HatEdge()
 
-    def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
+    def radius(
+        self, radii: Field, values: Field, last: int, step: int = 1, coupled: float = 0.0
+    ) -> float:
         """Compute the radius between two nodes at which a traction decreases to zero [length].
 
         The distance from the last node with a positive value follows from the ratio of the last two
         positive values.
 
-        radii   radii of the corner nodes (n,) [length]
-        values  traction at the nodes (n,), positive at the node `last` and before it, zero at the
-                next one
-        last    index of the last node with a positive value
-        step    +1 if the values decrease outwards, -1 if they decrease inwards
+        radii    radii of the corner nodes (n,) [length]
+        values   traction at the nodes (n,), positive at the node `last` and before it, zero at the
+                 next one
+        last     index of the last node with a positive value
+        step     +1 if the values decrease outwards, -1 if they decrease inwards
+        coupled  κ: Dundurs' constant times shear towards the edge over pressure at the edge
         """
         before, after = last - step, last + step
         width = radii[after] - radii[last]
@@ -148,6 +165,7 @@ class HatEdge:
             beyond = (ratio / AT_NEXT_RING) ** (2 / 3)
         else:
             beyond = float(np.polynomial.polynomial.polyval(ratio, self.beyond))
+            beyond += BY_SHEAR * coupled * beyond**2
         return float(radii[last] + width * min(FURTHEST, beyond))
 
 
@@ -172,35 +190,49 @@ class GaussEdge:
         """
         return self
 
-    def radius(self, radii: Field, values: Field, last: int, step: int = 1) -> float:
+    def radius(
+        self, radii: Field, values: Field, last: int, step: int = 1, coupled: float = 0.0
+    ) -> float:
         """Compute the radius between Gauss points at which a traction decreases to zero [length].
 
-        The squares of the values near the edge are fitted by a parabola in r², whose zero is the
+        Tractions that load no node are removed. The squares of the values near the edge (with
+        shear, their powers 1/(½ + arctan(κ)/π)) are fitted by a parabola in r², whose zero is the
         result. If there are too few values or no zero nearby, the result is the middle between the
         last point and the next.
 
-        radii   radii of the Gauss points (n,) [length]
-        values  traction at the points (n,), positive at the point `last` and before it, zero at the
-                next one
-        last    index of the last point with a positive value
-        step    +1 if the values decrease outwards, -1 if they decrease inwards
+        radii    radii of the Gauss points (n,) [length]
+        values   traction at the points (n,), positive at the point `last` and before it, zero at
+                 the next one
+        last     index of the last point with a positive value
+        step     +1 if the values decrease outwards, -1 if they decrease inwards
+        coupled  κ: Dundurs' constant times shear towards the edge over pressure at the edge
         """
         beyond = last + step
-        middle = radii[last]
+        middle, edge = radii[last], radii[last]
         if 0 <= beyond < len(radii):
             middle = 0.5 * (radii[last] + radii[beyond])
-        behind = step * (radii[last] - radii) / self.element
+        at = last // POINTS_PER_EDGE
+        near = slice(POINTS_PER_EDGE * max(0, at - SMOOTHED), POINTS_PER_EDGE * (at + SMOOTHED + 1))
+        radii, values = radii[near], loading_part(radii[near], values[near])
+        behind = step * (edge - radii) / self.element
         fitted = (behind > FITTED[0]) & (behind < FITTED[1]) & (values > 0)
         if np.count_nonzero(fitted) < FEWEST:
             return float(middle)
-        squares = np.polynomial.Polynomial.fit(radii[fitted] ** 2, values[fitted] ** 2, 2)
-        zeros = squares.roots()
+        power = 1 / (0.5 + atan(coupled) / pi)
+        parabola = np.polynomial.Polynomial.fit(radii[fitted] ** 2, values[fitted] ** power, 2)
+        zeros = parabola.roots()
         real = np.sqrt(np.maximum(zeros.real[np.abs(zeros.imag) == 0], 0.0))
-        near = real[np.abs(real - middle) < self.element]
-        return float(near[np.argmin(np.abs(near - middle))] if len(near) else middle)
+        found = real[np.abs(real - middle) < self.element]
+        return float(found[np.argmin(np.abs(found - middle))] if len(found) else middle)
 
 
-def contact_edge(radii: Field, pressure: Field, edge: Edge, reach: float | None = None) -> float:
+def contact_edge(
+    radii: Field,
+    pressure: Field,
+    edge: Edge,
+    reach: float | None = None,
+    coupled: Field | None = None,
+) -> float:
     """Compute the radius of the contact edge, at which the pressure decreases to zero [length].
 
     If the last ring carries pressure, the result is the outer end of the last element, as for a
@@ -210,6 +242,7 @@ def contact_edge(radii: Field, pressure: Field, edge: Edge, reach: float | None 
     pressure  pressure at the rings (n,), not negative
     edge      rule for the radius between two rings
     reach     outer end of the last element [length]; None for the radius of the last ring
+    coupled   Dundurs' constant times the outward shear at the rings (n,); None without coupling
     """
     carrying = np.flatnonzero(pressure > 0)
     if len(carrying) == 0:
@@ -217,7 +250,8 @@ def contact_edge(radii: Field, pressure: Field, edge: Edge, reach: float | None 
     last = int(carrying[-1])
     if last == len(radii) - 1:
         return float(radii[last] if reach is None else reach)
-    return edge.radius(radii, pressure, last)
+    at_edge = 0.0 if coupled is None else float(coupled[last] / pressure[last])
+    return edge.radius(radii, pressure, last, coupled=at_edge)
 
 
 def stick_area(

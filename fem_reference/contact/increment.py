@@ -37,8 +37,6 @@ AT_REST: Triple = (0.0, 0.0, 0.0)
 MAX_ATTEMPTS = 4
 # Smallest tangential displacement over the approach that is not round-off of uncoupled bodies.
 ROUND_OFF = 1e-6
-# Largest ratio of overlap to approach at which penalty springs do not affect the contact edge.
-AT_EDGE = 5e-3
 # Largest ratio of the radius of the zone of equal elements to the contact radius.
 WIDEST_ZONE = 1.25
 
@@ -291,20 +289,15 @@ class _Increment:
     def end_state(self, passes: list[_Pass]) -> PointState:
         """Create the contact state at the end of the increment from its last penalty pass.
 
-        Slip and dissipated energy are added to those at the start of the increment. At Gauss
-        points, the tractions that determine the contact edge are those of the first pass with a
-        small overlap, because later passes oscillate at the edge.
+        Slip and dissipated energy are added to those at the start of the increment.
 
         passes  solutions of all passes; the exact law has one pass
         """
         contact, before, last = self.contact, self.before, passes[-1]
         compliance, problem, solution = contact.compliance, last.problem, last.solution
         p, q, w = solution.pressure, solution.shear, compliance.areas
-        # At Gauss points augmented tractions oscillate at the edge.
-        for_edges = passes if contact.at_gauss_points else [last]
-        edges = next((one for one in for_edges if one.overlap_share <= AT_EDGE), last).tractions
         in_stick = (problem.friction.limit(p) > 0) & ~solution.in_slip
-        slipped = np.where(in_stick, 0.0, self._touching_share(p, edges[2]) * last.passed)
+        slipped = np.where(in_stick, 0.0, self._touching_share(p) * last.passed)
         energy = None
         if last.motions is not None and before.dissipated_energy is not None:
             bounds = problem.bound(before.pressure), problem.bound(p)
@@ -321,7 +314,6 @@ class _Increment:
             shear=q,
             displacement=last.displacement,
             multiplier=last.multiplier,
-            edge_tractions=edges,
             gap=last.law_gap - last.strain[2],
             slip=before.slip - slipped,
             in_stick=in_stick,
@@ -453,15 +445,14 @@ class _Increment:
             solves,
         )
 
-    def _touching_share(self, p: Vector, at_edges: Vector) -> Vector:
+    def _touching_share(self, p: Vector) -> Vector:
         """Compute the contact fraction of each point: the part of the increment in contact.
 
         The fractions (points,) are between 0 and 1. They follow from the motion of the contact edge
         along the ray of the point. A ray is the set of points at one angle. Used to count slip only
         while the surfaces are in contact.
 
-        p         pressure at the end of the increment (points,)
-        at_edges  pressure from which the contact edge at the end is computed (points,)
+        p  pressure at the end of the increment (points,)
         """
         compliance, before = self.contact.compliance, self.before
         rings = compliance.rings
@@ -471,8 +462,8 @@ class _Increment:
                 for values in (
                     (before.pressure == 0) & (before.gap > 0),
                     p == 0,
-                    before.edge_tractions[2],
-                    at_edges,
+                    before.pressure,
+                    p,
                 )
             ),
             strict=True,

@@ -161,10 +161,11 @@ def _contact_edges(contact: PointContact, state: PointState) -> Field:
     last ring carries pressure, and 0 without contact.
 
     contact  contact problem, which defines the rings and angles of the points
-    state    contact state with the pressure at the points
+    state    contact state with pressure and shear at the points
     """
-    p = contact.compliance.scalar_on_grid(state.edge_tractions[2])
-    return np.array([contact.rings.contact_edge(ray) for ray in p.T])
+    p = contact.compliance.scalar_on_grid(state.pressure)
+    outward = contact.compliance.vector_on_grid(state.shear)[0]
+    return np.array([contact.rings.contact_edge(*ray) for ray in zip(p.T, outward.T, strict=True)])
 
 
 def _contact_area(contact: PointContact, edges: Field) -> float:
@@ -195,12 +196,12 @@ def _stick_area(contact: PointContact, state: PointState, edges: Field) -> float
     if state.status is ContactStatus.FULL_STICK and contact.at_gauss_points:
         return contact_area
     compliance, rings = contact.compliance, contact.rings
-    p = state.edge_tractions[2]
+    p = state.pressure
     bound = contact.friction.limit(p) * compliance.carries_shear
     slips = (p > 0) & ~state.in_stick
     rays = zip(
         compliance.scalar_on_grid(bound).T,
-        compliance.vector_on_grid(state.edge_tractions[:2]).transpose(2, 0, 1),
+        compliance.vector_on_grid(state.shear).transpose(2, 0, 1),
         compliance.scalar_on_grid(slips).T,
         edges,
         strict=True,

@@ -86,7 +86,6 @@ class PointContact:
             shear=nothing[:2],
             displacement=nothing[:2],
             multiplier=nothing,
-            edge_tractions=nothing,
             gap=self.gap,
             slip=nothing[:2],
             in_stick=np.zeros(len(self.gap), dtype=bool),

@@ -25,9 +25,6 @@ class PointState:
                     points) [length]
     multiplier      tractions without the contribution of the penalty springs, r, θ, z (3, points);
                     zero for the exact law
-    edge_tractions  tractions r, θ, z (3, points) from which the edges of contact and stick are
-                    computed. With a penalty at Gauss points, they are those of the first pass with
-                    a small overlap, because later passes oscillate at the edge
     gap             gap between the surfaces (points,), negative for an overlap [length]
     slip            slip of the lower body relative to the indenter, accumulated since the start (2,
                     points) [length]
@@ -54,7 +51,6 @@ class PointState:
     shear: Field
     displacement: Field
     multiplier: Field
-    edge_tractions: Field
     gap: Vector
     slip: Field
     in_stick: Mask

@@ -76,6 +76,8 @@ class RecordedQuantity(Description):
     covered: bool | None = None
     """True if the stated error covered the difference from the reference; None if
     none was stated."""
+    stated_error: float | None = None
+    """Stated error in the unit of the value; None if none was stated or recorded."""
 
     @model_validator(mode="after")
     def _has_an_error(self) -> RecordedQuantity:
@@ -239,6 +241,7 @@ def recording(case: CaseOutcome, provenance: Provenance, reason: str) -> Recordi
                 allowed=v.most_allowed,
                 status=v.status,
                 covered=v.covered,
+                stated_error=v.stated_error,
             )
             for v in case.verdicts
         ),
@@ -590,11 +593,14 @@ def _remarks(verdict: Judged, was: RecordedQuantity) -> Iterator[str]:
     """Yield the differences between a verdict and its recorded quantity other than the value, as
     texts.
 
-    These are coverage by the stated error, status, tolerance, reference and unit.
+    These are a larger or missing stated error, status, tolerance, reference and unit.
     """
+    stated = verdict.stated_error
     if was.covered and not verdict.covered:
-        stated = verdict.stated_error
         yield f"stated error {'not converged' if stated is None else f'{stated:.2e}'}: not covered"
+    wide = math.inf if was.stated_error is None else WORSE_BY * was.stated_error
+    if stated is not None and stated > wide + NOISE * verdict.scale:
+        yield f"stated error {stated:.2e}, was {was.stated_error:.2e}"
     if verdict.status is not was.status:
         lost = was.status is Status.PASS and verdict.status is Status.INCONCLUSIVE
         held = ", held to the recorded tolerance" if lost else ""

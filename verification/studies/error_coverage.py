@@ -14,7 +14,7 @@ from typing import Any
 from zlib import crc32
 
 import numpy as np
-from scipy.special import betaincinv
+from scipy.special import bdtr, betaincinv
 
 import fem_reference
 import semi_analytical
@@ -28,6 +28,7 @@ from contact_scene.quantities.stated_error import ErrorStatus, StatedError, Stat
 from contact_scene.solver_errors import SolverError
 from verification.exhibits.chart import Chart, Look, Table, log_chart, point_curves, table_of
 from verification.judging.case import Level
+from verification.judging.outcome import Status
 from verification.problems.drawn.drawing import (
     CELLS,
     KINDS,
@@ -156,6 +157,7 @@ def _solve_with_errors(known: KnownScene) -> tuple[Any, StatedErrors]:
 
 CONFIDENCE = 0.95
 COVERED, COVERED_IN_ALL = 0.95, 0.97
+SIGNIFICANT = 0.01  # probability of so few covered numbers at a true fraction of COVERED_IN_ALL
 TIMES = 10.0  # limit of stated over true error for a tight stated error
 TOO_WIDE = 30.0  # stated over true error beyond which a stated error is of no use
 # If errors scatter like normal numbers and 0.98 of them are covered, 0.82 are within 10 times and
@@ -476,11 +478,11 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         "false question mark.",
         statements=(
             solved("every scene and request is solved", len(known), len(asked), "cases"),
-            _coverage_statement(total, COVERED_IN_ALL),
+            _coverage_statement(total),
             _width_statement(total),
-            _coverage_statement(by_coarse_solves, COVERED_IN_ALL),
-            *(_coverage_statement(one, COVERED) for one in kinds.values()),
-            *(_coverage_statement(one, COVERED, prefix="family ") for one in families.values()),
+            _coverage_statement(by_coarse_solves),
+            *(_group_statement(one) for one in kinds.values()),
+            *(_group_statement(one, prefix="family ") for one in families.values()),
             _request_statement(requests),
         ),
         tables=(
@@ -533,11 +535,36 @@ def _coverage_table(title: str, groups: Sequence[Coverage]) -> Table:
     )
 
 
-def _coverage_statement(coverage: Coverage, least: float, prefix: str = "") -> Statement:
+def _coverage_statement(coverage: Coverage) -> Statement:
+    covered = coverage.covered
+    good = covered.part >= COVERED_IN_ALL
+    return _statement(
+        coverage,
+        f"{coverage.group}: covered ≥ {COVERED_IN_ALL:g}",
+        judged(good, complete=covered.of >= ENOUGH),
+    )
+
+
+def _group_statement(coverage: Coverage, prefix: str = "") -> Statement:
+    """Judge if the coverage of a kind or a family is significantly below that of all numbers.
+
+    With a true fraction of 0.97, so few covered numbers must have a probability of at least 1 %.
+    """
     covered, group = coverage.covered, coverage.group.replace("_", " ")
+    good = bool(bdtr(covered.count, covered.of, COVERED_IN_ALL) >= SIGNIFICANT)
+    return _statement(
+        coverage,
+        f"{prefix}{group}: covered not significantly below {COVERED_IN_ALL:g} (binomial, "
+        f"{SIGNIFICANT:.0%})",
+        judged(good, complete=covered.of >= ENOUGH or not good),
+    )
+
+
+def _statement(coverage: Coverage, claim: str, outcome: Status) -> Statement:
+    covered = coverage.covered
     return Statement(
-        claim=f"{prefix}{group}: covered ≥ {least:g}",
-        outcome=judged(covered.part >= least, complete=covered.of >= ENOUGH),
+        claim=claim,
+        outcome=outcome,
         measured=f"covered {covered.text}, tight {coverage.tight.text}, of {covered.of} numbers",
         because=f"at least {ENOUGH} numbers decide",
         about=Row(

@@ -56,7 +56,8 @@ def compare(
     - 1: a verdict fails that passed, or a number moved away from its reference by more than the
       tolerance
     - 2: the report contradicts itself, or has chosen cases only, without --chosen
-    - 5: other changes within the tolerance: new, not recorded, much better, fewer iterations
+    - 5: other changes within the tolerance: new, not recorded, much better, fewer iterations, a
+      stated error that grew by 50 %
     - 7: a recorded verdict, finding, run or case is missing, a verdict that passed is inconclusive,
       an error or a tolerance grew by 50 %, a stated error no longer covers the difference from the
       reference, or iterations, convolutions or factorisations grew by 5 %
