@@ -14,6 +14,7 @@ from contact_scene.stepping.checkpoint import (
     Checkpoint,
     ResumePoint,
 )
+from contact_scene.stepping.load_path import push_directions
 from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
@@ -212,7 +213,29 @@ class _Solver:
         ends = reached.place.index == reached.place.increments_in_step
         fits = self.plan.areas == "all" or ends or after.corrected is not None
         increment = _reported_increment(self.model, last, reached, spreads=spreads, fits=fits)
+        if self.plan.stiffness and ends:
+            increment = replace(increment, **self._stiffness(reached))
         return add_contact_displacements(increment, self.model.scene.rig)
+
+    def _stiffness(self, reached: ConvergedIncrement[State]) -> dict[str, Any]:
+        """Compute the contact stiffnesses at the end of a load step, by the names of the results.
+
+        reached  converged state at the end of the step
+        """
+        from semi_analytical.increments.stiffness import contact_stiffness
+
+        ramps, number = self.model.scene.load_path(), reached.place.step - 1
+        load = None
+        if self.plan.shear:
+            load = tangential_target(ramps[number], None, 1.0, self.plan.torsion)
+        return contact_stiffness(
+            self.model,
+            reached.before,
+            reached.state,
+            load,
+            push_directions(ramps)[number],
+            coupled=self.plan.coupling is not Coupling.NONE,
+        )
 
 
 def _reported_increment(

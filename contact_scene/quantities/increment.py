@@ -154,6 +154,34 @@ class State:
             physical=False,
         ),
     ] = None
+    normal_stiffness: Annotated[
+        float | None,
+        Reported(
+            "N/m",
+            "Normal contact stiffness dW/dδ at the end of a step, without springs of a rig; null "
+            "if not requested.",
+            key=True,
+        ),
+    ] = None
+    tangential_stiffness: Annotated[
+        float | None,
+        Reported(
+            "N/m",
+            "Tangential contact stiffness dT/dδ at the end of a step along the change of the "
+            "tangential load, without springs of a rig: slope of further loading. After a load "
+            "reversal it is that of full stick. Null if not requested or without such a load.",
+            key=True,
+        ),
+    ] = None
+    torsional_stiffness: Annotated[
+        float | None,
+        Reported(
+            "N m",
+            "Torsional contact stiffness dM/dφ at the end of a step, per radian; null if not "
+            "requested or without torsion.",
+            key=True,
+        ),
+    ] = None
     elastic_energy: Annotated[
         float | None,
         Reported(

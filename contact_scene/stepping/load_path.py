@@ -190,6 +190,24 @@ def first_direction(ramps: Sequence[LoadRamp]) -> tuple[float, float]:
     return 1.0, 0.0
 
 
+def push_directions(ramps: Sequence[LoadRamp]) -> list[tuple[float, float] | None]:
+    """Return the direction in which the tangential load changes in each load step (x, y).
+
+    A step of constant tangential load has the direction of the last step before that changes it,
+    or else of the first after. Without a tangential load the directions are None.
+
+    ramps  load ramps of the history, one for each load step
+    """
+    found: list[tuple[float, float] | None] = []
+    for ramp in ramps:
+        (x, y), (x_0, y_0) = ramp.tangential.end, ramp.tangential.start or (0.0, 0.0)
+        size = hypot(x - x_0, y - y_0)
+        last = found[-1] if found else None
+        found.append(((x - x_0) / size, (y - y_0) / size) if size else last)
+    first = next((one for one in found if one is not None), None)
+    return [first if one is None else one for one in found]
+
+
 def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
     """Determine if the tangential loads at the ends of all load steps lie on one line.
 

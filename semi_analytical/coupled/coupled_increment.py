@@ -102,7 +102,7 @@ def solve_coupled_increment(
     if before is not None and (seen := before.seen()):
         motion = further_motion(seen, before.behind, tangential)
     for _ in range(MAX_ATTEMPTS):
-        problem = _coupled_problem(model, box, last, normal, tangential)
+        problem = coupled_problem(model, box, last, normal, tangential)
         inside = (..., *box.slices)
         solution = solve_together(
             problem,
@@ -168,7 +168,7 @@ def _initial_guess(
     return start, last.shear, iterations
 
 
-def _coupled_problem(
+def coupled_problem(
     model: ContactModel,
     box: Box,
     last: TangentialState,
