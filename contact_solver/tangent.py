@@ -123,12 +123,13 @@ def coupled_tangent(
 ) -> Matrix:
     """Compute the derivative of the forces by the motions of pressure and shear together (k, k).
 
-    In gross slip under prescribed forces, the contact continues to slide: the shear follows the
-    pressure, and the tangential forces do not depend on the tangential motions.
+    A contact in gross slip under prescribed forces continues to slide: the shear follows the
+    pressure, and the forces do not depend on the tangential motions.
 
     problem    pressure and shear of an increment
     tractions  shear and pressure (q_x, q_y, p) of its solution (3, n)
     motion     tangential rigid motions of the solution; None in gross slip under prescribed forces
+               and without friction
     motions    motions of the derivative, of three components
     raises     NotConverged
     """

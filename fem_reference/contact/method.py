@@ -6,6 +6,7 @@ under tangential loads on one line. One point then represents its whole ring.
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,8 +64,7 @@ class ContactMethod:
             axisymmetric = before is None or before.axisymmetric
             if loads.tangential.pushes or not axisymmetric:
                 contact = self._angular_contact
-                if before is not None and axisymmetric:
-                    before = contact.extend_to_points(before)
+                before = before and self._at_angles(before)
         state = advance(contact, before, loads, tolerance)
         self._refuse_contact_at_edge(contact, state)
         return state
@@ -80,6 +80,34 @@ class ContactMethod:
         """
         contact = self._axisymmetric_contact if state.axisymmetric else self._angular_contact
         return report_increment(contact, state, self.plan, place)
+
+    def stiffness(
+        self,
+        before: PointState | None,
+        state: PointState,
+        loads: Loads,
+        direction: tuple[float, float] | None,
+    ) -> dict[str, Any]:
+        """Compute the contact stiffnesses at the end of an increment, by the names of the results.
+
+        before     state at the start of the increment; None before first contact
+        state      state at its end
+        loads      prescribed loads or motions at its end
+        direction  unit vector (x, y) along which the tangential load changes; None without one
+        """
+        from fem_reference.contact.stiffness import contact_stiffness
+
+        contact = self._axisymmetric_contact
+        if self.plan.path in ANGULAR:
+            contact = self._angular_contact
+            before = before and self._at_angles(before)
+            state = self._at_angles(state)
+        (x, y), (a, b) = self.plan.direction, direction or (0.0, 0.0)
+        return contact_stiffness(contact, before, loads, state, (x * a + y * b, x * b - y * a))
+
+    def _at_angles(self, state: PointState) -> PointState:
+        """Return a contact state at the points of all angles."""
+        return self._angular_contact.extend_to_points(state) if state.axisymmetric else state
 
     def work_on_strain(self, before: PointState | None, state: PointState) -> float:
         """Compute the work of the shear on the imposed strain of the lower body in one increment.

@@ -7,6 +7,7 @@ The points lie at several angles on each ring. Every increment is solved by `sol
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.stepping.load_path import push_directions
 from contact_scene.stepping.load_stepping import ConvergedIncrement
 from radial.angular_grid import RingAngles
 from radial.fields import Increment
@@ -39,6 +41,7 @@ from radial.tangential.free_motion import growth_without_slip
 from radial.tangential.ring_friction import solve_increment
 from radial.tangential.ring_layout import create_points
 from radial.tangential.ring_points import ContactPoints
+from radial.tangential.ring_problem import RingProblem
 from radial.tangential.ring_state import (
     NORMAL,
     TORSION,
@@ -390,7 +393,34 @@ class TangentialSteps(StepsOnRings):
             slip_circumferential=s_t if angular or self.twists else None,
             in_stick=(self._interpolate_scalar(points, share) < 1) & (p > 0),
         )
-        return add_contact_displacements(increment, self.scene.rig)
+        return self.add_stiffness(add_contact_displacements(increment, self.scene.rig), reached)
+
+    def contact_stiffness(self, reached: ConvergedIncrement[TangentialState]) -> dict[str, Any]:
+        """Compute the contact stiffnesses at the end of an increment, by the names of the results.
+
+        reached  solved state at the end of the increment
+        """
+        from radial.tangential.stiffness import contact_stiffness
+
+        points, state, before = self.points, reached.state, reached.before
+        end, last = state.end, before.end if before else None
+        if state.circle is not points.circle:
+            end = end.repeat_angles(points)
+        if last is not None and before is not None and before.circle is not points.circle:
+            last = last.repeat_angles(points)
+        loads, free = _fix_excluded_motions(points, state.prescribed), None
+        if not coupling(self.scene)[0]:
+            growth = growth_without_slip(
+                points, self.friction, loads, last, end, compliances(self.scene.rig)
+            )
+            free = growth.free if growth else None
+        x, y = push_directions(self.scene.load_path())[reached.place.step - 1] or (0.0, 0.0)
+        (a, b), rig = self.direction, compliances(self.scene.rig)
+        problem = RingProblem.of(points, self.friction, loads, last, free)
+        found = contact_stiffness(problem, end, (a * x + b * y, a * y - b * x), rig)
+        if not self.twists:
+            found.pop("torsional_stiffness", None)
+        return found
 
     def _refuse_narrow(self, state: TangentialState, step: int) -> None:
         """Raise UnsupportedScene if the slip annulus after normal loading is narrower than a ring.

@@ -6,6 +6,7 @@ The normal load is constant from the first torsion on.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from contact_scene.stepping.load_stepping import (
     Solver,
 )
 from radial.fields import Increment
+from radial.normal.disc import normal_stiffness
 from radial.normal.pressing import NormalContact
 from radial.output_points import StepsOnRings
 from radial.torsion.torsion import Torsion
@@ -169,7 +171,7 @@ class TorsionSteps(StepsOnRings):
             else None,
         )
         residuals.require(self.tolerance, "torsion", state.normal_contact.iterations)
-        return replace(
+        twisted = replace(
             made,
             residuals=residuals,
             status=_contact_status(stick),
@@ -184,6 +186,24 @@ class TorsionSteps(StepsOnRings):
             slip_circumferential=slip,
             in_stick=x < stick,
         )
+        return self.add_stiffness(twisted, reached)
+
+    def contact_stiffness(self, reached: ConvergedIncrement[TorsionState]) -> dict[str, Any]:
+        """Compute the contact stiffnesses at the end of an increment, by the names of the results.
+
+        Branches before a load reversal are constant. The tangent of a branch of the weight 2 is
+        that of its equivalent first twist.
+
+        reached  solved state at the end of the increment
+        """
+        path = reached.state.path
+        state = path.branches[-1].state if path.branches else None
+        state = path.of.incipient_slip if state is None else state
+        contact = reached.state.normal_contact.contact
+        return {
+            "normal_stiffness": normal_stiffness(contact, self.scene.indenter, self.fineness),
+            "torsional_stiffness": 0.0 if path.slides else state.stiffness,
+        }
 
     def _shear_and_slip(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
         """Compute circumferential shear [force/length²] and slip [length] at the output rings (n,).
