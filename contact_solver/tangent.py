@@ -1,22 +1,22 @@
 """Tangent of a converged increment: change of the forces by the rigid motions of the indenter.
 
-In the zones of contact, stick and slip of the increment, its equations are linear in the changes of
-tractions t and rigid motions m (see `natural_map`). One linear solve for each motion gives the
+In given zones of contact, stick and slip, the equations of an increment are linear in the changes
+of tractions t and rigid motions m (see `natural_map`). One linear solve for each motion gives the
 tractions by its unit value. With the shapes R of the motions, the tangent is
 
     K_kl = ∂F_k/∂m_l = Σ R_k·∂t/∂m_l
 
-The matrix is that of the last Newton step, and K the exact derivative of the forces at the end of
-the increment, whose start is kept. Moving edges of the
-zones do not contribute: pressure, gap and slip vanish there.
+In the zones of the solution the matrix is that of the last Newton step, and K the exact derivative
+of the forces at the end of the increment, whose start is kept: slip continues. With stick in the
+whole contact, K is the slope after a load reversal. Moving edges of the zones do not contribute,
+because pressure, gap and slip vanish there.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 
 import numpy as np
 
-from contact_scene.array_types import Field, Mask, Matrix, Vector
+from contact_scene.array_types import Field, Mask, Matrix, Vector, VectorField
 from contact_scene.solver_errors import NotConverged
 from contact_solver.admissible_shear import magnitude
 from contact_solver.conjugate_gradients import Map, Point, inner, solve_in_zones
@@ -37,11 +37,8 @@ ROOT_REDUCTION = 1e-6
 MAX_ITERATIONS = 1000
 # Vectors of GMRES before a restart.
 MAX_VECTORS = 40
-# Points whose shear is below the friction limit by less than this fraction slip. After an increment
-# of constant loads the shear of slipping points is at the limit up to the tolerance.
-TIE = 1e-7
-# Relative singular value below which prescribed forces leave a motion undetermined.
-UNDETERMINED = 1e-12
+# Relative size of a motion, and of a singular value, that is round-off.
+ROUND_OFF = 1e-12
 
 
 def pressing_tangent(problem: PressureProblem, p: Vector) -> Matrix:
@@ -62,18 +59,14 @@ def pressing_tangent(problem: PressureProblem, p: Vector) -> Matrix:
     )
 
 
-def shearing_tangent(
-    problem: ShearProblem, solution: Point, motion: Vector, motions: RigidMotions
-) -> Matrix:
+def shearing_tangent(problem: ShearProblem, z: VectorField, motions: RigidMotions) -> Matrix:
     """Compute the derivative of the tangential forces by tangential motions (k, k).
 
-    problem   stick and slip at a given friction limit
-    solution  shear of its solution, with the displacement
-    motion    rigid motions of the solution
-    motions   motions of the derivative, which may include those that the target contains
-    raises    NotConverged
+    problem  stick and slip at a given friction limit
+    z        argument of the friction law in its solution (2, n), see `NaturalShear`; 0 for stick
+    motions  motions of the derivative, which may include those that the target contains
+    raises   NotConverged
     """
-    z = (1 + TIE) * problem.natural(solution, motion).z
     zones = ShearZones(z, problem.bound, problem.self_compliance)
     return _symmetric_tangent(
         problem.displace,
@@ -118,28 +111,14 @@ def _symmetric_tangent(
     return np.asarray(forces + forces.T - np.reshape(energies, forces.shape))
 
 
-def coupled_tangent(
-    problem: CoupledProblem, tractions: Field, motion: Vector | None, motions: RigidMotions
-) -> Matrix:
+def coupled_tangent(problem: CoupledProblem, zones: Zones, motions: RigidMotions) -> Matrix:
     """Compute the derivative of the forces by the motions of pressure and shear together (k, k).
 
-    A contact in gross slip under prescribed forces continues to slide: the shear follows the
-    pressure, and the forces do not depend on the tangential motions.
-
-    problem    pressure and shear of an increment
-    tractions  shear and pressure (q_x, q_y, p) of its solution (3, n)
-    motion     tangential rigid motions of the solution; None in gross slip under prescribed forces
-               and without friction
-    motions    motions of the derivative, of three components
-    raises     NotConverged
+    problem  pressure and shear of an increment
+    zones    zones of contact, stick and slip, see `zones_of_solution` and `zones_of_stick`
+    motions  motions of the derivative, of three components
+    raises   NotConverged
     """
-    if motion is None:
-        zones = _zones_of_gross_slip(problem, tractions)
-    else:
-        natural = natural_map(problem, evaluate_point(problem, tractions, motion)[0])
-        z, length = (1 + TIE) * natural.z, (1 + TIE) * natural.length
-        slip = natural.contact & (length > natural.bound)
-        zones = zones_of(replace(natural, z=z, length=length, slip=slip), problem)
     inverse = problem.inverse.in_zones(zones)
 
     def apply_operator(rows: Vector) -> tuple[Vector, Vector, Vector]:
@@ -147,35 +126,53 @@ def coupled_tangent(
         u = problem.together(zones.tractions(free))
         return free, zones.free(u) + zones.slip_terms(free), np.zeros(0)
 
+    slides = not np.any(zones.stick) and np.all(zones.slip_compliance >= _sliding(problem))
     forces = []
     for one in motions.each:
-        if motion is None and np.any(one.shape[:2]):
+        if slides and np.any(one.shape[:2]):
             forces.append(np.zeros(len(motions)))
             continue
-        right = zones.free(np.broadcast_to(one.shape, tractions.shape))
+        right = zones.free(np.broadcast_to(one.shape, (3, zones.contact.size)))
         free = _solve_by_gmres(apply_operator, right)
         forces.append(motions.forces(zones.tractions(free)))
     return np.transpose(forces)
 
 
-def _zones_of_gross_slip(problem: CoupledProblem, tractions: Field) -> Zones:
-    """Return the zones of a contact that slides in the direction of its shear.
+def zones_of_solution(problem: CoupledProblem, tractions: Field, motion: Vector | None) -> Zones:
+    """Return the zones of contact, stick and slip of the solution of an increment.
 
-    The slip is large, so that the shear does not change its direction.
+    In gross slip under prescribed forces all points slide on, in the direction of their shear.
 
-    tractions  shear and pressure (q_x, q_y, p) (3, n)
+    problem    pressure and shear of an increment
+    tractions  shear and pressure (q_x, q_y, p) of its solution (3, n)
+    motion     tangential rigid motions; None in gross slip under prescribed forces, and without
+               friction
     """
+    if motion is not None:
+        natural = natural_map(problem, evaluate_point(problem, tractions, motion)[0])
+        return zones_of(natural, problem)
     q, p = tractions[:2], tractions[2]
     slip = np.flatnonzero((p > 0) & np.any(q, axis=0))
     normal = q[:, slip] / magnitude(q[:, slip])
-    return Zones(
-        contact=p > 0,
-        stick=np.zeros(p.size, dtype=bool),
-        slip=slip,
-        tangent=np.stack([-normal[1], normal[0]]),
-        friction_slope=problem.friction_slope(p)[slip] * normal,
-        slip_compliance=np.full(slip.size, MAX_SLIP_COMPLIANCE * problem.self_compliance),
-    )
+    nothing = np.zeros(p.size, dtype=bool)
+    slope = problem.friction_slope(p)[slip] * normal
+    across = np.stack([-normal[1], normal[0]])
+    return Zones(p > 0, nothing, slip, across, slope, np.full(slip.size, _sliding(problem)))
+
+
+def _sliding(problem: CoupledProblem) -> float:
+    """Return the slip compliance of points whose slip is so large that its direction is fixed."""
+    return MAX_SLIP_COMPLIANCE * problem.self_compliance
+
+
+def zones_of_stick(pressure: Vector, bound: Vector) -> Zones:
+    """Return the zones of a contact whose points stick, unless they carry no shear.
+
+    pressure  p (n,)
+    bound     friction limit (n,)
+    """
+    none = np.zeros((2, 0))
+    return Zones(pressure > 0, bound > 0, np.zeros(0, dtype=np.intp), none, none, none[0])
 
 
 def _solve_by_gmres(
@@ -200,9 +197,10 @@ def _solve_by_gmres(
 
 
 def stiffnesses(
-    tangent: Matrix,
+    tangents: Mapping[bool, Matrix],
     motions: RigidMotions,
     along: Mapping[str, Vector],
+    changes: Mapping[str, bool],
     springs: Mapping[str, float],
 ) -> dict[str, float]:
     """Compute the change of the force along each of several motions by this motion, by name.
@@ -210,13 +208,17 @@ def stiffnesses(
     Other forces that are prescribed do not change, and other motions are fixed. A name without a
     motion has no stiffness.
 
-    tangent  derivative of the forces by the motions (k, k)
-    motions  the motions, with their prescribed forces
-    along    unit vector of each motion (k,), zero for a motion that symmetry excludes
-    springs  compliances of springs in series that the tangent contains and the results do not
+    tangents  derivative of the forces by the motions (k, k) in the zones of the solution, for
+              True, and with stick in the whole contact, for False
+    motions   the motions, with their prescribed forces
+    along     unit vector of each motion (k,), zero for a motion that symmetry excludes
+    changes   key of the tangent of each motion
+    springs   compliances of springs in series that the tangents contain and the results do not
     """
     return {
-        name: _stiffness_along(tangent, motions.is_held, unit, springs.get(name, 0.0))
+        name: _stiffness_along(
+            tangents[changes[name]], motions.is_held, unit, springs.get(name, 0.0)
+        )
         for name, unit in along.items()
         if np.any(unit)
     }
@@ -231,10 +233,11 @@ def _stiffness_along(tangent: Matrix, released: Mask, along: Vector, spring: flo
     """
     others = np.eye(len(along))[released]
     others -= np.outer(others @ along, along)
+    others = others[np.linalg.norm(others, axis=1) > ROUND_OFF]
     inside, by_motion = others @ tangent @ others.T, others @ tangent @ along
     sizes = np.sqrt(np.abs(np.diag(inside)))
     scales = np.divide(1.0, sizes, out=np.zeros_like(sizes), where=sizes > 0)
-    inverse = np.linalg.pinv(inside * np.outer(scales, scales), rcond=UNDETERMINED)
+    inverse = np.linalg.pinv(inside * np.outer(scales, scales), rcond=ROUND_OFF)
     followed = scales * (inverse @ (scales * by_motion))
     stiffness = float(along @ tangent @ along - (along @ tangent @ others.T) @ followed)
     return stiffness / (1 - spring * stiffness)

@@ -18,7 +18,7 @@ from contact_scene.stepping.checkpoint import (
     Checkpoint,
     ResumePoint,
 )
-from contact_scene.stepping.load_path import ScalarControl, push_directions
+from contact_scene.stepping.load_path import ScalarControl, load_changes
 from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
@@ -159,7 +159,7 @@ class _IncrementSolver:
                 reached.before,
                 reached.state,
                 self._loads(ramps[number], None, 1.0),
-                push_directions(ramps)[number],
+                load_changes(ramps)[number],
             )
             increment = replace(increment, **found)
         increment = add_contact_displacements(increment, self.scene.rig)

@@ -14,7 +14,7 @@ from contact_scene.stepping.checkpoint import (
     Checkpoint,
     ResumePoint,
 )
-from contact_scene.stepping.load_path import push_directions
+from contact_scene.stepping.load_path import load_changes
 from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
@@ -233,7 +233,7 @@ class _Solver:
             reached.before,
             reached.state,
             load,
-            push_directions(ramps)[number],
+            load_changes(ramps)[number],
             coupled=self.plan.coupling is not Coupling.NONE,
         )
 

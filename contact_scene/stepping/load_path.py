@@ -1,6 +1,6 @@
 """Load history of a scene as load ramps: linear changes of all controls in each load step."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from math import hypot
@@ -190,22 +190,39 @@ def first_direction(ramps: Sequence[LoadRamp]) -> tuple[float, float]:
     return 1.0, 0.0
 
 
-def push_directions(ramps: Sequence[LoadRamp]) -> list[tuple[float, float] | None]:
-    """Return the direction in which the tangential load changes in each load step (x, y).
+@dataclass(frozen=True)
+class LoadChange:
+    """Loads that a load step changes, which determine its contact stiffnesses.
 
-    A step of constant tangential load has the direction of the last step before that changes it,
-    or else of the first after. Without a tangential load the directions are None.
+    direction  direction in which the tangential load changes (x, y), a unit vector. In a step of
+               constant tangential load it is that of the last step before that changes it, or else
+               of the first after; None without such a step
+    changes    for the name of each stiffness, True if the step changes the load
+    """
+
+    direction: Vector | None
+    changes: Mapping[str, bool]
+
+
+def load_changes(ramps: Sequence[LoadRamp]) -> list[LoadChange]:
+    """Return the loads that each load step changes.
 
     ramps  load ramps of the history, one for each load step
     """
-    found: list[tuple[float, float] | None] = []
+    found: list[LoadChange] = []
+    last: Vector | None = None
     for ramp in ramps:
         (x, y), (x_0, y_0) = ramp.tangential.end, ramp.tangential.start or (0.0, 0.0)
         size = hypot(x - x_0, y - y_0)
-        last = found[-1] if found else None
-        found.append(((x - x_0) / size, (y - y_0) / size) if size else last)
-    first = next((one for one in found if one is not None), None)
-    return [first if one is None else one for one in found]
+        last = ((x - x_0) / size, (y - y_0) / size) if size else last
+        changes = {
+            "normal_stiffness": ramp.normal.start != ramp.normal.end,
+            "tangential_stiffness": ramp.tangential.start != ramp.tangential.end,
+            "torsional_stiffness": ramp.twisting.start != ramp.twisting.end,
+        }
+        found.append(LoadChange(last, changes))
+    first = next((one.direction for one in found if one.direction), None)
+    return [replace(one, direction=one.direction or first) for one in found]
 
 
 def along_one_line(ramps: Sequence[LoadRamp]) -> bool:

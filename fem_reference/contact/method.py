@@ -4,7 +4,7 @@ Fields do not depend on the angle θ before the first tangential load, nor in un
 under tangential loads on one line. One point then represents its whole ring.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import ContactAtZoneEdge
+from contact_scene.stepping.load_path import LoadChange
 from contact_scene.stepping.load_stepping import IncrementPosition
 from fem_reference.compliance.angular_grid import (
     AngularGrid,
@@ -86,14 +87,14 @@ class ContactMethod:
         before: PointState | None,
         state: PointState,
         loads: Loads,
-        direction: tuple[float, float] | None,
+        change: LoadChange,
     ) -> dict[str, Any]:
         """Compute the contact stiffnesses at the end of an increment, by the names of the results.
 
-        before     state at the start of the increment; None before first contact
-        state      state at its end
-        loads      prescribed loads or motions at its end
-        direction  unit vector (x, y) along which the tangential load changes; None without one
+        before  state at the start of the increment; None before first contact
+        state   state at its end
+        loads   prescribed loads or motions at its end
+        change  loads that the load step changes
         """
         from fem_reference.contact.stiffness import contact_stiffness
 
@@ -102,8 +103,10 @@ class ContactMethod:
             contact = self._angular_contact
             before = before and self._at_angles(before)
             state = self._at_angles(state)
-        (x, y), (a, b) = self.plan.direction, direction or (0.0, 0.0)
-        return contact_stiffness(contact, before, loads, state, (x * a + y * b, x * b - y * a))
+        if change.direction:
+            (x, y), (a, b) = self.plan.direction, change.direction
+            change = replace(change, direction=(x * a + y * b, x * b - y * a))
+        return contact_stiffness(contact, before, loads, state, change)
 
     def _at_angles(self, state: PointState) -> PointState:
         """Return a contact state at the points of all angles."""

@@ -2,13 +2,17 @@
 
 import numpy as np
 
-from contact_solver.tangent import coupled_tangent, stiffnesses
+from contact_scene.stepping.load_path import LoadChange
+from contact_solver.tangent import (
+    coupled_tangent,
+    stiffnesses,
+    zones_of_solution,
+    zones_of_stick,
+)
 from fem_reference.contact.increment import solved_problem
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
 from fem_reference.loads import TWIST, Loads
-
-Pair = tuple[float, float]
 
 
 def contact_stiffness(
@@ -16,37 +20,44 @@ def contact_stiffness(
     before: PointState | None,
     loads: Loads,
     state: PointState,
-    direction: Pair,
+    change: LoadChange,
 ) -> dict[str, float]:
     """Compute the contact stiffnesses at the end of an increment, by the names of the results.
 
-    A stiffness is the derivative of the force at the end of the increment by the motion there. The
-    other loads and the state at the start are kept.
-
-    contact    contact problem at the points of the surface, without loads
-    before     state at the start of the increment; None before first contact
-    loads      prescribed loads or motions at the end of the increment
-    state      state at the end
-    direction  unit vector along which the tangential load changes, along and across the first load;
-               zero without a tangential load
-    raises     NotConverged
+    contact  contact problem at the points of the surface, without loads
+    before   state at the start of the increment; None before first contact
+    loads    prescribed loads or motions at the end of the increment
+    state    state at the end
+    change   loads that the load step changes, with the direction along and across the first
+             tangential load
+    raises   NotConverged
     """
     problem = solved_problem(contact, before, loads, state)
     coupled, scale, acting = problem.coupled, problem.scale, list(problem.compliance.acting)
     reaches, motion = problem.compliance.reaches[acting], None
-    if state.motions is not None and np.any(problem.bound(state.pressure)):
+    t = scale.roots * state.tractions
+    bound = coupled.friction_limit(t[2])
+    if state.motions is not None and np.any(bound):
         motion = np.array(state.motions)[acting] * reaches
     motions = coupled.shifting.with_closing(coupled.closing)
-    tangent = coupled_tangent(coupled, scale.roots * state.tractions, motion, motions)
+    sizes = np.append(reaches, 1.0)
+    zones = {
+        key: zones_of_solution(coupled, t, motion) if key else zones_of_stick(t[2], bound)
+        for key in set(change.changes.values())
+    }
     unit = np.eye(4)[[*acting, TWIST + 1]]
     down, along = contact.rig
     return stiffnesses(
-        scale.derivative(tangent, np.append(reaches, 1.0)),
+        {
+            key: scale.derivative(coupled_tangent(coupled, each, motions), sizes)
+            for key, each in zones.items()
+        },
         motions,
         {
             "normal_stiffness": unit[:, TWIST + 1],
-            "tangential_stiffness": unit[:, :TWIST] @ direction,
+            "tangential_stiffness": unit[:, :TWIST] @ (change.direction or (0.0, 0.0)),
             "torsional_stiffness": unit[:, TWIST],
         },
+        change.changes,
         {"normal_stiffness": down, "tangential_stiffness": along},
     )

@@ -4,43 +4,52 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact_solver.tangent import coupled_tangent, stiffnesses
+from contact_scene.stepping.load_path import LoadChange
+from contact_solver.tangent import (
+    coupled_tangent,
+    stiffnesses,
+    zones_of_solution,
+    zones_of_stick,
+)
 from radial.tangential.ring_problem import RingProblem
 from radial.tangential.ring_state import NORMAL, TORSION, PointState
 
-Pair = tuple[float, float]
-
 
 def contact_stiffness(
-    problem: RingProblem, end: PointState, direction: Pair, rig: Pair
+    problem: RingProblem, end: PointState, change: LoadChange, rig: tuple[float, float]
 ) -> dict[str, float]:
     """Compute the contact stiffnesses at the end of an increment, by the names of the results.
 
-    A stiffness is the derivative of the force at the end of the increment by the motion there. The
-    other loads and the state at the start are kept.
-
-    problem    contact problem of the increment
-    end        its solution
-    direction  unit vector along which the tangential load changes, along θ = 0 and across it; zero
-               without a tangential load
-    rig        compliances of the springs of a rig, normal and tangential [length/force]
-    raises     NotConverged
+    problem  contact problem of the increment
+    end      its solution
+    change   loads that the load step changes, with the direction along θ = 0 and across it
+    rig      compliances of the springs of a rig, normal and tangential [length/force]
+    raises   NotConverged
     """
-    coupled, moving = problem.coupled, [*problem.moving, NORMAL]
+    coupled, moving, scale = problem.coupled, [*problem.moving, NORMAL], problem.points.scale
     p, q, motion = problem.start(np.append(end.tractions, end.motion))
-    slides = end.slides or not np.any(coupled.friction_limit(p))
+    bound = coupled.friction_limit(p)
+    slides = end.slides or not np.any(bound)
     motions = coupled.shifting.with_closing(coupled.closing)
-    tangent = coupled_tangent(
-        coupled, np.concatenate([q, p[None]]), None if slides else motion, motions
-    )
+    t = np.concatenate([q, p[None]])
+    zones = {
+        key: zones_of_solution(coupled, t, None if slides else motion)
+        if key
+        else zones_of_stick(p, bound)
+        for key in set(change.changes.values())
+    }
     unit, (down, along) = np.eye(4)[moving], rig
     return stiffnesses(
-        problem.points.scale.derivative(tangent, problem.units[moving]),
+        {
+            key: scale.derivative(coupled_tangent(coupled, each, motions), problem.units[moving])
+            for key, each in zones.items()
+        },
         motions,
         {
             "normal_stiffness": unit[:, NORMAL],
-            "tangential_stiffness": unit[:, :TORSION] @ direction,
+            "tangential_stiffness": unit[:, :TORSION] @ (change.direction or (0.0, 0.0)),
             "torsional_stiffness": unit[:, TORSION],
         },
+        change.changes,
         {"normal_stiffness": down, "tangential_stiffness": along},
     )

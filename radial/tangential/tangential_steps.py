@@ -6,7 +6,7 @@ The points lie at several angles on each ring. Every increment is solved by `sol
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import UnsupportedScene
-from contact_scene.stepping.load_path import push_directions
+from contact_scene.stepping.load_path import load_changes
 from contact_scene.stepping.load_stepping import ConvergedIncrement
 from radial.angular_grid import RingAngles
 from radial.fields import Increment
@@ -414,10 +414,12 @@ class TangentialSteps(StepsOnRings):
                 points, self.friction, loads, last, end, compliances(self.scene.rig)
             )
             free = growth.free if growth else None
-        x, y = push_directions(self.scene.load_path())[reached.place.step - 1] or (0.0, 0.0)
-        (a, b), rig = self.direction, compliances(self.scene.rig)
+        change = load_changes(self.scene.load_path())[reached.place.step - 1]
+        if change.direction:
+            (x, y), (a, b) = self.direction, change.direction
+            change = replace(change, direction=(x * a + y * b, x * b - y * a))
         problem = RingProblem.of(points, self.friction, loads, last, free)
-        found = contact_stiffness(problem, end, (a * x + b * y, a * y - b * x), rig)
+        found = contact_stiffness(problem, end, change, compliances(self.scene.rig))
         if not self.twists:
             found.pop("torsional_stiffness", None)
         return found

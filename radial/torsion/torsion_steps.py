@@ -15,6 +15,7 @@ from contact_scene.array_types import Array
 from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.stepping.load_path import load_changes
 from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     Solver,
@@ -191,18 +192,18 @@ class TorsionSteps(StepsOnRings):
     def contact_stiffness(self, reached: ConvergedIncrement[TorsionState]) -> dict[str, Any]:
         """Compute the contact stiffnesses at the end of an increment, by the names of the results.
 
-        Branches before a load reversal are constant. The tangent of a branch of the weight 2 is
-        that of its equivalent first twist.
+        The derivative in a branch after a load reversal is that of its equivalent first twist.
 
         reached  solved state at the end of the increment
         """
-        path = reached.state.path
+        path, change = reached.state.path, load_changes(self.scene.load_path())
+        sticks = not change[reached.place.step - 1].changes["torsional_stiffness"]
         state = path.branches[-1].state if path.branches else None
-        state = path.of.incipient_slip if state is None else state
+        state = path.of.incipient_slip if sticks or state is None else state
         contact = reached.state.normal_contact.contact
         return {
             "normal_stiffness": normal_stiffness(contact, self.scene.indenter, self.fineness),
-            "torsional_stiffness": 0.0 if path.slides else state.stiffness,
+            "torsional_stiffness": 0.0 if path.slides and not sticks else state.stiffness,
         }
 
     def _shear_and_slip(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
