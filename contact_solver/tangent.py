@@ -13,6 +13,7 @@ because pressure, gap and slip vanish there.
 """
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -194,6 +195,14 @@ def _solve_by_gmres(
         solution, left = solution + found.solution, left - found.image
         iterations += found.iterations
     return solution
+
+
+def null_if_stalled(compute: Callable[[], dict[str, float]]) -> dict[str, Any]:
+    """Return the computed stiffnesses, or none if a linear solve does not converge."""
+    try:
+        return compute()
+    except NotConverged:
+        return {}
 
 
 def stiffnesses(

@@ -23,6 +23,7 @@ from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
 )
+from contact_solver.tangent import null_if_stalled
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
 from fem_reference.energy import add_energies
@@ -153,18 +154,27 @@ class _IncrementSolver:
         """
         increment = self.method.increment(reached.state, reached.place)
         increment = replace(increment, halvings=reached.halvings)
-        number, ramps = reached.place.step - 1, self.scene.load_path()
         if self.method.plan.stiffness and reached.place.index == reached.place.increments_in_step:
-            found = self.method.stiffness(
-                reached.before,
-                reached.state,
-                self._loads(ramps[number], None, 1.0),
-                load_changes(ramps)[number],
-            )
-            increment = replace(increment, **found)
+            increment = replace(increment, **self._stiffness(reached))
         increment = add_contact_displacements(increment, self.scene.rig)
         resisted = self.method.work_on_strain(reached.before, reached.state)
         return add_energies(self.scene, self.method.plan, last, increment, resisted)
+
+    def _stiffness(self, reached: ConvergedIncrement[PointState]) -> dict[str, Any]:
+        """Compute the contact stiffnesses at the end of a load step, by the names of the results.
+
+        reached  solved state at the end of the step
+        """
+        ramps, number, state = self.scene.load_path(), reached.place.step - 1, reached.state
+        loads = self._loads(ramps[number], None, 1.0)
+        # Displacements are those of the solve, which counts them from a separation.
+        motions = zip(loads.tangential.motions, state.motions or STILL.motions, strict=True)
+        solved = tuple(None if one is None else moved for one, moved in motions)
+        loads = replace(
+            loads, tangential=replace(loads.tangential, motions=solved), strain=state.strain
+        )
+        change = load_changes(ramps)[number]
+        return null_if_stalled(lambda: self.method.stiffness(reached.before, state, loads, change))
 
     def _tangential_target(
         self, ramp: LoadRamp, start: PointState | None, fraction: float

@@ -238,7 +238,7 @@ class _FrictionlessSteps(StepsOnRings):
         )
         return self.add_stiffness(add_contact_displacements(increment, self.scene.rig), reached)
 
-    def contact_stiffness(self, reached: ConvergedIncrement[NormalContact]) -> dict[str, Any]:
+    def contact_stiffness(self, reached: ConvergedIncrement[NormalContact]) -> dict[str, float]:
         """Compute the normal contact stiffness at the end of an increment, by its name.
 
         reached  solved contact at the end of the increment

@@ -218,24 +218,39 @@ class _Solver:
         return add_contact_displacements(increment, self.model.scene.rig)
 
     def _stiffness(self, reached: ConvergedIncrement[State]) -> dict[str, Any]:
-        """Compute the contact stiffnesses at the end of a load step, by the names of the results.
+        """Compute the contact stiffnesses at the end of a load step, and count their convolutions.
+
+        The values have the names of the results.
 
         reached  converged state at the end of the step
         """
+        from contact_solver.tangent import null_if_stalled
         from semi_analytical.increments.stiffness import contact_stiffness
 
         ramps, number = self.model.scene.load_path(), reached.place.step - 1
-        load = None
-        if self.plan.shear:
+        load, sheared = None, reached.state.sheared
+        if sheared is not None:
             load = tangential_target(ramps[number], None, 1.0, self.plan.torsion)
-        return contact_stiffness(
-            self.model,
-            reached.before,
-            reached.state,
-            load,
-            load_changes(ramps)[number],
-            coupled=self.plan.coupling is not Coupling.NONE,
+            # Displacements are those of the solve, which counts them from a separation.
+            load = replace(
+                load,
+                shift=None if load.shift is None else sheared.shift,
+                twist=None if load.twist is None else sheared.twist,
+                strain=sheared.strain,
+            )
+        before = self.model.convolutions.count
+        found = null_if_stalled(
+            lambda: contact_stiffness(
+                self.model,
+                reached.before,
+                reached.state,
+                load,
+                load_changes(ramps)[number],
+                coupled=self.plan.coupling is not Coupling.NONE,
+            )
         )
+        spent = reached.spent + self.model.convolutions.count - before
+        return found | {"convolutions": int(np.ceil(spent))}
 
 
 def _reported_increment(

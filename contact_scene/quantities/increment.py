@@ -158,8 +158,9 @@ class State:
         float | None,
         Reported(
             "N/m",
-            "Normal contact stiffness dW/dδ at the end of a step, without springs of a rig; null "
-            "if not requested.",
+            "Normal contact stiffness dW/dδ at the end of a step, without springs of a rig: of "
+            "continued loading if the step changes the normal load, else of full stick. Null if "
+            "not requested, without contact, and if its linear solve does not converge.",
             key=True,
         ),
     ] = None
@@ -167,9 +168,9 @@ class State:
         float | None,
         Reported(
             "N/m",
-            "Tangential contact stiffness dT/dδ at the end of a step along the change of the "
-            "tangential load, without springs of a rig: slope of further loading. After a load "
-            "reversal it is that of full stick. Null if not requested or without such a load.",
+            "Tangential contact stiffness dT/dδ at the end of a step, along the change of the "
+            "tangential load: of continued slip if the step changes this load, else of full stick, "
+            "as after a load reversal. Null as normal_stiffness, and without a tangential load.",
             key=True,
         ),
     ] = None
@@ -177,8 +178,9 @@ class State:
         float | None,
         Reported(
             "N m",
-            "Torsional contact stiffness dM/dφ at the end of a step, per radian; null if not "
-            "requested or without torsion.",
+            "Torsional contact stiffness dM/dφ at the end of a step, per radian: of continued slip "
+            "if the step changes the torsion, else of full stick. Null as normal_stiffness, and "
+            "without torsion.",
             key=True,
         ),
     ] = None
@@ -336,6 +338,7 @@ class ReportedIncrement(Counters, Quality, State, WithFields):
             values[name] = _remove_sign_of_zero(values[name])
 
 
+STIFFNESSES = "normal_stiffness", "tangential_stiffness", "torsional_stiffness"
 SCALARS: Mapping[str, Reported] = {**reported(State), **reported(Quality)}
 COUNTERS: Mapping[str, Reported] = reported(Counters)
 

@@ -6,7 +6,6 @@ under tangential loads on one line. One point then represents its whole ring.
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,8 +87,10 @@ class ContactMethod:
         state: PointState,
         loads: Loads,
         change: LoadChange,
-    ) -> dict[str, Any]:
+    ) -> dict[str, float]:
         """Compute the contact stiffnesses at the end of an increment, by the names of the results.
+
+        Raises NotConverged.
 
         before  state at the start of the increment; None before first contact
         state   state at its end

@@ -7,7 +7,6 @@ The points lie at several angles on each ring. Every increment is solved by `sol
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -395,7 +394,7 @@ class TangentialSteps(StepsOnRings):
         )
         return self.add_stiffness(add_contact_displacements(increment, self.scene.rig), reached)
 
-    def contact_stiffness(self, reached: ConvergedIncrement[TangentialState]) -> dict[str, Any]:
+    def contact_stiffness(self, reached: ConvergedIncrement[TangentialState]) -> dict[str, float]:
         """Compute the contact stiffnesses at the end of an increment, by the names of the results.
 
         reached  solved state at the end of the increment

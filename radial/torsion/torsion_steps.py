@@ -6,7 +6,6 @@ The normal load is constant from the first torsion on.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -189,7 +188,7 @@ class TorsionSteps(StepsOnRings):
         )
         return self.add_stiffness(twisted, reached)
 
-    def contact_stiffness(self, reached: ConvergedIncrement[TorsionState]) -> dict[str, Any]:
+    def contact_stiffness(self, reached: ConvergedIncrement[TorsionState]) -> dict[str, float]:
         """Compute the contact stiffnesses at the end of an increment, by the names of the results.
 
         The derivative in a branch after a load reversal is that of its equivalent first twist.
