@@ -142,7 +142,7 @@ def plan(scene: Scene, *, penalty: bool = False) -> Plan:
         _list_effects(scene, path, (friction, loaded, twists, couples), why)
         + effect.contact_stiffness(scene, SPRINGS if penalty else ""),
         twists,
-        scene.contact_stiffness and not penalty,
+        bool(scene.contact_stiffness) and not penalty,
     )
 
 

@@ -166,7 +166,7 @@ def plan(scene: Scene) -> Plan:
         effects + effect.contact_stiffness(scene, moving),
         first_direction(ramps),
         circle,
-        stiffness=scene.contact_stiffness and not moving,
+        stiffness=bool(scene.contact_stiffness) and not moving,
     )
 
 

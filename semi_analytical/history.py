@@ -225,7 +225,7 @@ class _Solver:
         reached  converged state at the end of the step
         """
         from contact_solver.tangent import null_if_stalled
-        from semi_analytical.increments.stiffness import contact_stiffness
+        from semi_analytical.stiffness import contact_stiffness
 
         ramps, number = self.model.scene.load_path(), reached.place.step - 1
         load, sheared = None, reached.state.sheared

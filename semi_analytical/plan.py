@@ -154,7 +154,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         corrected,
         symmetry,
         couples=coupled,
-        stiffness=scene.contact_stiffness,
+        stiffness=bool(scene.contact_stiffness),
     )
 
 
