@@ -122,22 +122,6 @@ class RigidMotions:
         """Compute the forces (k,) of tractions (c, n), conjugate to the motions."""
         return self.shapes.forces(tractions)
 
-    def with_closing(self, closing: RigidMotions) -> RigidMotions:
-        """Return tangential motions together with those that close the gap, of 3 components.
-
-        The shapes have one row of each component; the uniform motions are the first.
-
-        closing  motions that close the gap
-        """
-
-        def extend(one: RigidMotion, before: int, after: int) -> RigidMotion:
-            return replace(one, shape=np.pad(one.shape, ((before, after), (0, 0))))
-
-        each = [extend(one, 0, 1) for one in self.each] + [
-            extend(one, 2, 0) for one in closing.each
-        ]
-        return RigidMotions(3, tuple(sorted(each, key=lambda one: one.shape.shape[1] > 1)))
-
 
 @dataclass(frozen=True, eq=False)
 class MotionShapes:

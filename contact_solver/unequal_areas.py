@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from contact_scene.array_types import Field, Matrix, Vector, VectorField
+from contact_scene.array_types import Field, Vector, VectorField
 from contact_solver.conjugate_gradients import Map
 from contact_solver.coupled_problem import CoupledProblem, Preconditioner
 from contact_solver.dense_inverse import DenseInverse
@@ -52,14 +52,6 @@ class UnequalAreas:
             return RigidMotion(scaled, force / (self.mean * reach))
         assert value is not None
         return RigidMotion(scaled, value=value * reach)
-
-    def derivative(self, tangent: Matrix, reaches: Vector) -> Matrix:
-        """Convert the derivative of the forces by scaled rigid motions to that of the motions.
-
-        tangent  derivative for points of equal area (k, k)
-        reaches  sizes of the shapes, see `rigid_motion` (k,)
-        """
-        return np.asarray(self.mean * tangent * np.outer(reaches, reaches))
 
     def problem(
         self,

@@ -23,7 +23,6 @@ from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
 )
-from contact_solver.tangent import null_if_stalled
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
 from fem_reference.energy import add_energies
@@ -174,7 +173,7 @@ class _IncrementSolver:
             loads, tangential=replace(loads.tangential, motions=solved), strain=state.strain
         )
         change = load_changes(ramps)[number]
-        return null_if_stalled(lambda: self.method.stiffness(reached.before, state, loads, change))
+        return self.method.stiffness(reached.before, state, loads, change)
 
     def _tangential_target(
         self, ramp: LoadRamp, start: PointState | None, fraction: float

@@ -214,43 +214,14 @@ class _Solver:
         fits = self.plan.areas == "all" or ends or after.corrected is not None
         increment = _reported_increment(self.model, last, reached, spreads=spreads, fits=fits)
         if self.plan.stiffness and ends:
-            increment = replace(increment, **self._stiffness(reached))
+            from semi_analytical.stiffness import contact_stiffness
+
+            path, number = self.model.scene.load_path(), reached.place.step - 1
+            found: dict[str, Any] = contact_stiffness(
+                self.model, before, after, path[number], load_changes(path)[number]
+            )
+            increment = replace(increment, **found)
         return add_contact_displacements(increment, self.model.scene.rig)
-
-    def _stiffness(self, reached: ConvergedIncrement[State]) -> dict[str, Any]:
-        """Compute the contact stiffnesses at the end of a load step, and count their convolutions.
-
-        The values have the names of the results.
-
-        reached  converged state at the end of the step
-        """
-        from contact_solver.tangent import null_if_stalled
-        from semi_analytical.stiffness import contact_stiffness
-
-        ramps, number = self.model.scene.load_path(), reached.place.step - 1
-        load, sheared = None, reached.state.sheared
-        if sheared is not None:
-            load = tangential_target(ramps[number], None, 1.0, self.plan.torsion)
-            # Displacements are those of the solve, which counts them from a separation.
-            load = replace(
-                load,
-                shift=None if load.shift is None else sheared.shift,
-                twist=None if load.twist is None else sheared.twist,
-                strain=sheared.strain,
-            )
-        before = self.model.convolutions.count
-        found = null_if_stalled(
-            lambda: contact_stiffness(
-                self.model,
-                reached.before,
-                reached.state,
-                load,
-                load_changes(ramps)[number],
-                coupled=self.plan.coupling is not Coupling.NONE,
-            )
-        )
-        spent = reached.spent + self.model.convolutions.count - before
-        return found | {"convolutions": int(np.ceil(spent))}
 
 
 def _reported_increment(

@@ -90,8 +90,6 @@ class ContactMethod:
     ) -> dict[str, float]:
         """Compute the contact stiffnesses at the end of an increment, by the names of the results.
 
-        Raises NotConverged.
-
         before  state at the start of the increment; None before first contact
         state   state at its end
         loads   prescribed loads or motions at its end

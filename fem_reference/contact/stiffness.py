@@ -3,12 +3,7 @@
 import numpy as np
 
 from contact_scene.stepping.load_path import LoadChange
-from contact_solver.tangent import (
-    coupled_tangent,
-    stiffnesses,
-    zones_of_solution,
-    zones_of_stick,
-)
+from contact_solver.tangent import contact_stiffnesses
 from fem_reference.contact.increment import solved_problem
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
@@ -30,29 +25,20 @@ def contact_stiffness(
     state    state at the end
     change   loads that the load step changes, with the direction along and across the first
              tangential load
-    raises   NotConverged
     """
     problem = solved_problem(contact, before, loads, state)
     coupled, scale, acting = problem.coupled, problem.scale, list(problem.compliance.acting)
     reaches, motion = problem.compliance.reaches[acting], None
-    t = scale.roots * state.tractions
-    bound = coupled.friction_limit(t[2])
-    if state.motions is not None and np.any(bound):
+    if state.motions is not None and np.any(problem.bound(state.pressure)):
         motion = np.array(state.motions)[acting] * reaches
-    motions = coupled.shifting.with_closing(coupled.closing)
-    sizes = np.append(reaches, 1.0)
-    zones = {
-        key: zones_of_solution(coupled, t, motion) if key else zones_of_stick(t[2], bound)
-        for key in set(change.changes.values())
-    }
     unit = np.eye(4)[[*acting, TWIST + 1]]
     down, along = contact.rig
-    return stiffnesses(
-        {
-            key: scale.derivative(coupled_tangent(coupled, each, motions), sizes)
-            for key, each in zones.items()
-        },
-        motions,
+    return contact_stiffnesses(
+        coupled,
+        scale.roots * state.tractions,
+        motion,
+        coupled.shifting,
+        np.sqrt(scale.mean) * np.append(reaches, 1.0),
         {
             "normal_stiffness": unit[:, TWIST + 1],
             "tangential_stiffness": unit[:, :TWIST] @ (change.direction or (0.0, 0.0)),

@@ -5,12 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from contact_scene.stepping.load_path import LoadChange
-from contact_solver.tangent import (
-    coupled_tangent,
-    stiffnesses,
-    zones_of_solution,
-    zones_of_stick,
-)
+from contact_solver.tangent import contact_stiffnesses
 from radial.tangential.ring_problem import RingProblem
 from radial.tangential.ring_state import NORMAL, TORSION, PointState
 
@@ -24,27 +19,17 @@ def contact_stiffness(
     end      its solution
     change   loads that the load step changes, with the direction along θ = 0 and across it
     rig      compliances of the springs of a rig, normal and tangential [length/force]
-    raises   NotConverged
     """
     coupled, moving, scale = problem.coupled, [*problem.moving, NORMAL], problem.points.scale
     p, q, motion = problem.start(np.append(end.tractions, end.motion))
-    bound = coupled.friction_limit(p)
-    slides = end.slides or not np.any(bound)
-    motions = coupled.shifting.with_closing(coupled.closing)
-    t = np.concatenate([q, p[None]])
-    zones = {
-        key: zones_of_solution(coupled, t, None if slides else motion)
-        if key
-        else zones_of_stick(p, bound)
-        for key in set(change.changes.values())
-    }
+    slides = end.slides or not np.any(coupled.friction_limit(p))
     unit, (down, along) = np.eye(4)[moving], rig
-    return stiffnesses(
-        {
-            key: scale.derivative(coupled_tangent(coupled, each, motions), problem.units[moving])
-            for key, each in zones.items()
-        },
-        motions,
+    return contact_stiffnesses(
+        coupled,
+        np.concatenate([q, p[None]]),
+        None if slides else motion,
+        coupled.shifting,
+        np.sqrt(scale.mean) * problem.units[moving],
         {
             "normal_stiffness": unit[:, NORMAL],
             "tangential_stiffness": unit[:, :TORSION] @ (change.direction or (0.0, 0.0)),

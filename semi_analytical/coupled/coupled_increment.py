@@ -174,6 +174,7 @@ def coupled_problem(
     last: TangentialState,
     normal: NormalTarget,
     tangential: TangentialTarget,
+    free: VectorField | None = None,
 ) -> CoupledProblem:
     """Assemble operators, loads and friction law of a coupled increment in a box of cells.
 
@@ -181,9 +182,10 @@ def coupled_problem(
     box                 box of cells in which the increment is solved
     last                tangential state at the start of the increment
     normal, tangential  prescribed loads at the end of the increment
+    free                free motion of cells before their contact (2, nx, ny) [length]; None without
     """
     shape, operator = box.shape, model.operator(box.shape)
-    target = surface_target(model, last, tangential)
+    target = surface_target(model, last, tangential, free)
 
     def limit(p: Vector) -> Vector:
         return points_of(model.friction_limit(p.reshape(shape), box.first))

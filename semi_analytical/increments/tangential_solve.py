@@ -72,18 +72,6 @@ class TangentialTarget:
             found.append(RigidMotion(turn, self.torque / (area * model.reach)))
         return RigidMotions(2, tuple(found))
 
-    def all_motions(self, model: ContactModel, box: Box) -> RigidMotions:
-        """Return the tangential rigid motions of the indenter, with a prescribed twist.
-
-        model  contact model
-        box    box of cells in which the tangential problem is solved
-        """
-        motions = self.motions(model, box).each
-        if self.twist is not None:
-            turn = points_of(model.rotation[(..., *box.slices)]) / model.reach
-            motions = (*motions, RigidMotion(turn, value=self.twist * model.reach))
-        return RigidMotions(2, motions)
-
     def scaled(self, model: ContactModel, motion: Vector) -> Vector:
         """Convert shift (2,), or shift and twist (3,), to rigid motions in the order of `motions`.
 
@@ -111,29 +99,6 @@ class TangentialTarget:
         return [*model.domain.summed, True], np.array([1.0, 1.0, model.reach])
 
 
-def shear_problem(
-    model: ContactModel, box: Box, bound: Field, target: VectorField, load: TangentialTarget
-) -> ShearProblem:
-    """Return the tangential problem of one increment at a given pressure, in a box of cells.
-
-    model   contact model
-    box     box of cells that contains those with friction
-    bound   friction limit µp (nx, ny)
-    target  relative surface displacement that stick requires (2, nx, ny) [length], without the
-            motion of the load
-    load    prescribed tangential load
-    """
-    operator = model.operator(box.shape)
-    return ShearProblem(
-        map_of_points(operator.tangential, box.shape),
-        shear_inverse_in(operator, box.shape),
-        points_of(bound[box.slices]),
-        points_of(target[(..., *box.slices)]),
-        load.motions(model, box),
-        model.self_compliance,
-    )
-
-
 def shear(
     model: ContactModel,
     bound: Field,
@@ -157,9 +122,18 @@ def shear(
     tolerance      limit of the residuals of friction law and slip direction
     raises         NotConverged
     """
-    box, cells = box_around(bound > 0, 0, model.domain), bound.shape
-    problem = shear_problem(model, box, bound, target, load)
-    guess = Point(*(points_of(field[(..., *box.slices)]) for field in start))
+    box = box_around(bound > 0, 0, model.domain)
+    operator, cells = model.operator(box.shape), bound.shape
+    inside = (..., *box.slices)
+    problem = ShearProblem(
+        map_of_points(operator.tangential, box.shape),
+        shear_inverse_in(operator, box.shape),
+        points_of(bound[box.slices]),
+        points_of(target[inside]),
+        load.motions(model, box),
+        model.self_compliance,
+    )
+    guess = Point(*(points_of(field[inside]) for field in start))
     solution = solve_shear(problem, guess, load.scaled(model, motion), tolerance)
     q = box.embed(solution.shear.reshape(2, *box.shape), cells)
     u = solution.displacement.reshape(2, *box.shape)
