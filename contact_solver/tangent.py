@@ -38,10 +38,9 @@ def contact_stiffnesses(
     tractions: Field,
     motion: Vector | None,
     shifting: RigidMotions,
-    sizes: Vector,
-    along: Mapping[str, Vector],
+    units: Matrix,
     changes: Mapping[str, bool],
-    springs: Mapping[str, float],
+    springs: tuple[float, float],
 ) -> dict[str, float]:
     """Compute the change of the force along each of several motions by this motion, by name.
 
@@ -53,27 +52,27 @@ def contact_stiffnesses(
     motion     tangential rigid motions of the solution; None without friction, and in gross slip
                under prescribed forces
     shifting   tangential motions, which may include some that the target contains; those of the
-               problem that close the gap follow (k,)
-    sizes      roots of the forces by which K is multiplied (k,)
-    along      unit vector of each motion (k,); zero for a motion that symmetry excludes, which has
-               no stiffness
-    changes    True for the derivative in the zones of the solution, False for stick in the contact
-    springs    compliances of springs in series that the problem contains and the results do not
+               problem that close the gap follow
+    units      approach, tangential shift and twist in terms of these motions, times the roots of
+               the force by a unit force of the problem (3, k); zero if symmetry excludes the motion
+    changes    for normal, tangential and torsional stiffness, True for the derivative in the zones
+               of the solution, False for stick in the whole contact
+    springs    compliances of a rig that the problem contains and the results do not, normal and
+               tangential
     """
     released = np.concatenate([shifting.is_held, problem.closing.is_held])
+    wanted = [one for one in zip(changes, units, (*springs, 0.0), strict=True) if np.any(one[1])]
     found: dict[str, float] = {}
     try:
         tangents = {
-            continues: np.outer(sizes, sizes)
-            * _tangent(problem, _zones(problem, tractions, motion, continues), shifting)
-            for continues in {changes[name] for name, unit in along.items() if np.any(unit)}
+            continues: _tangent(problem, _zones(problem, tractions, motion, continues), shifting)
+            for continues in {changes[name] for name, *_ in wanted}
         }
     except NotConverged:
         return found
-    for name, unit in along.items():
-        if np.any(unit):
-            stiffness = _stiffness_along(tangents[changes[name]], released, unit)
-            found[name] = stiffness / (1 - springs.get(name, 0.0) * stiffness)
+    for name, unit, spring in wanted:
+        stiffness = _stiffness_along(tangents[changes[name]], released, unit)
+        found[name] = stiffness / (1 - spring * stiffness)
     return found
 
 
@@ -131,18 +130,16 @@ def _tangent(problem: CoupledProblem, zones: Zones, shifting: RigidMotions) -> M
     return tangent
 
 
-def _stiffness_along(tangent: Matrix, released: Mask, along: Vector) -> float:
+def _stiffness_along(tangent: Matrix, released: Mask, unit: Vector) -> float:
     """Compute the change of the force along a motion by this motion.
 
     released  motions whose force is kept (k,)
-    along     unit vector of the motion (k,)
+    unit      the motion (k,)
     """
+    along = unit / np.linalg.norm(unit)
     others = np.eye(len(along))[released]
     others -= np.outer(others @ along, along)
     others = others[np.linalg.norm(others, axis=1) > ROUND_OFF]
-    inside = others @ tangent @ others.T
-    sizes = np.sqrt(np.abs(np.diag(inside)))
-    others /= np.where(sizes > 0, sizes, 1.0)[:, None]
     inverse = np.linalg.pinv(others @ tangent @ others.T, rcond=ROUND_OFF)
-    followed = others.T @ inverse @ others @ tangent @ along
-    return float(along @ tangent @ (along - followed))
+    followed = others.T @ inverse @ others @ tangent @ unit
+    return float(unit @ tangent @ (unit - followed))

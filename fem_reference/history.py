@@ -18,7 +18,7 @@ from contact_scene.stepping.checkpoint import (
     Checkpoint,
     ResumePoint,
 )
-from contact_scene.stepping.load_path import ScalarControl, load_changes
+from contact_scene.stepping.load_path import ScalarControl
 from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
@@ -115,21 +115,13 @@ class _IncrementSolver:
                   history
         fraction  part of the ramp at the end of the increment, from 0 to 1
         """
-        return self.method.advance(before, self._loads(ramp, start, fraction), self.tolerance)
-
-    def _loads(self, ramp: LoadRamp, start: PointState | None, fraction: float) -> Loads:
-        """Return the loads or motions that a load ramp prescribes at a given fraction.
-
-        ramp      linear change of the loads in the load step
-        start     contact state at the start of the ramp; None at the start of the history
-        fraction  part of the ramp, from 0 to 1
-        """
         normal = (start.normal_force, start.approach) if start else (0.0, 0.0)
-        return Loads(
+        loads = Loads(
             NormalTarget(*ramp.normal.prescribed(fraction, normal)),
             self._tangential_target(ramp, start, fraction),
             (ramp.strain(fraction) or UNSTRAINED)[0],
         )
+        return self.method.advance(before, loads, self.tolerance)
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Field:
         """Return the gap between the undeformed surfaces at the rings of an increment [length].
@@ -154,26 +146,11 @@ class _IncrementSolver:
         increment = self.method.increment(reached.state, reached.place)
         increment = replace(increment, halvings=reached.halvings)
         if self.method.plan.stiffness and reached.place.index == reached.place.increments_in_step:
-            increment = replace(increment, **self._stiffness(reached))
+            found = self.method.stiffness(reached.before, reached.state, reached.place.step)
+            increment = replace(increment, **found)
         increment = add_contact_displacements(increment, self.scene.rig)
         resisted = self.method.work_on_strain(reached.before, reached.state)
         return add_energies(self.scene, self.method.plan, last, increment, resisted)
-
-    def _stiffness(self, reached: ConvergedIncrement[PointState]) -> dict[str, Any]:
-        """Compute the contact stiffnesses at the end of a load step, by the names of the results.
-
-        reached  solved state at the end of the step
-        """
-        ramps, number, state = self.scene.load_path(), reached.place.step - 1, reached.state
-        loads = self._loads(ramps[number], None, 1.0)
-        # Displacements are those of the solve, which counts them from a separation.
-        motions = zip(loads.tangential.motions, state.motions or STILL.motions, strict=True)
-        solved = tuple(None if one is None else moved for one, moved in motions)
-        loads = replace(
-            loads, tangential=replace(loads.tangential, motions=solved), strain=state.strain
-        )
-        change = load_changes(ramps)[number]
-        return self.method.stiffness(reached.before, state, loads, change)
 
     def _tangential_target(
         self, ramp: LoadRamp, start: PointState | None, fraction: float

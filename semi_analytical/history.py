@@ -14,7 +14,6 @@ from contact_scene.stepping.checkpoint import (
     Checkpoint,
     ResumePoint,
 )
-from contact_scene.stepping.load_path import load_changes
 from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     resumable_increments,
@@ -167,6 +166,7 @@ class _Solver:
         residuals_of(self.model, after).require(self.tolerance, "the increment", after.iterations)
         matters = self.plan.path[ramp.step - 1].path_matters
         after = add_energies(self.model, before, after, path_matters=matters)
+        after = replace(after, load=tangential)
         if self.correct is None or (self.plan.edge == "last" and fraction < 1):
             return after
         stepwise = self.plan.edge == "last" and not self.plan.couples
@@ -216,10 +216,7 @@ class _Solver:
         if self.plan.stiffness and ends:
             from semi_analytical.stiffness import contact_stiffness
 
-            path, number = self.model.scene.load_path(), reached.place.step - 1
-            found: dict[str, Any] = contact_stiffness(
-                self.model, before, after, path[number], load_changes(path)[number]
-            )
+            found: dict[str, Any] = contact_stiffness(self.model, before, after, reached.place.step)
             increment = replace(increment, **found)
         return add_contact_displacements(increment, self.model.scene.rig)
 

@@ -1,6 +1,6 @@
 """Load history of a scene as load ramps: linear changes of all controls in each load step."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from math import hypot
@@ -9,6 +9,7 @@ from typing import Any, Generic, TypeVar
 from contact_scene.bulk_strain import UNSTRAINED, Strain, strain_under
 from contact_scene.loading import LoadStep
 from contact_scene.material import Material
+from contact_scene.quantities.increment import STIFFNESSES
 from contact_scene.solver_errors import motion_undefined
 
 Vector = tuple[float, float]
@@ -190,39 +191,26 @@ def first_direction(ramps: Sequence[LoadRamp]) -> tuple[float, float]:
     return 1.0, 0.0
 
 
-@dataclass(frozen=True)
-class LoadChange:
-    """Loads that a load step changes, which determine its contact stiffnesses.
+def load_changes(ramps: Sequence[LoadRamp], step: int) -> tuple[Vector, dict[str, bool]]:
+    """Return the direction in which the tangential load changes in a load step, and its changes.
 
-    direction  direction in which the tangential load changes (x, y), a unit vector. In a step of
-               constant tangential load it is that of the last step before that changes it, or else
-               of the first after; None without such a step
-    changes    for the name of each stiffness, True if the step changes the load
-    """
-
-    direction: Vector | None
-    changes: Mapping[str, bool]
-
-
-def load_changes(ramps: Sequence[LoadRamp]) -> list[LoadChange]:
-    """Return the loads that each load step changes.
+    The direction is a unit vector (x, y). In a step of constant tangential load it is that of the
+    last step before that changes it, or else of the first after; without such a step it is zero.
+    The changes are, for the name of each contact stiffness, True if the step changes the load.
 
     ramps  load ramps of the history, one for each load step
+    step   number of the load step, from 1
     """
-    found: list[LoadChange] = []
-    last: Vector | None = None
+    direction = 0.0, 0.0
     for ramp in ramps:
         (x, y), (x_0, y_0) = ramp.tangential.end, ramp.tangential.start or (0.0, 0.0)
         size = hypot(x - x_0, y - y_0)
-        last = ((x - x_0) / size, (y - y_0) / size) if size else last
-        changes = {
-            "normal_stiffness": ramp.normal.start != ramp.normal.end,
-            "tangential_stiffness": ramp.tangential.start != ramp.tangential.end,
-            "torsional_stiffness": ramp.twisting.start != ramp.twisting.end,
-        }
-        found.append(LoadChange(last, changes))
-    first = next((one.direction for one in found if one.direction), None)
-    return [replace(one, direction=one.direction or first) for one in found]
+        if size and (ramp.step <= step or direction == (0.0, 0.0)):
+            direction = (x - x_0) / size, (y - y_0) / size
+    now = ramps[step - 1]
+    controls = now.normal, now.tangential, now.twisting
+    changes = [control.start != control.end for control in controls]
+    return direction, dict(zip(STIFFNESSES, changes, strict=True))
 
 
 def along_one_line(ramps: Sequence[LoadRamp]) -> bool:

@@ -73,16 +73,16 @@ def advance(
 
 
 def solved_problem(
-    contact: PointContact, before: PointState | None, loads: Loads, state: PointState
+    contact: PointContact, before: PointState | None, state: PointState
 ) -> PointProblem:
     """Return the contact problem of a solved load increment under the exact laws.
 
     contact  contact problem at the points of the surface, without loads
     before   state at the start of the increment; None before first contact
-    loads    prescribed loads or motions at the end of the increment
     state    solved state at the end
     """
-    before, free = before or contact.state_before_contact(), None
+    before, loads, free = before or contact.state_before_contact(), state.prescribed, None
+    assert loads is not None
     if before.motions is not None:
         free = free_motion(contact, before, loads, state.pressure, state.approach)
     increment = _Increment(contact, before, loads, 0.0, 0.0 if free is None else free)
@@ -361,6 +361,7 @@ class _Increment:
             augmentations=len(passes) - 1,
             strain=self.loads.strain,
             algorithm=solution.algorithm,
+            prescribed=self.loads,
         )
 
     def _solve_pass(self, multiplier: Field, start: Field, motions: Triple) -> _Pass:

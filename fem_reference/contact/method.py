@@ -4,14 +4,15 @@ Fields do not depend on the angle θ before the first tangential load, nor in un
 under tangential loads on one line. One point then represents its whole ring.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import ContactAtZoneEdge
-from contact_scene.stepping.load_path import LoadChange
+from contact_scene.stepping.load_path import load_changes
 from contact_scene.stepping.load_stepping import IncrementPosition
 from fem_reference.compliance.angular_grid import (
     AngularGrid,
@@ -81,31 +82,23 @@ class ContactMethod:
         contact = self._axisymmetric_contact if state.axisymmetric else self._angular_contact
         return report_increment(contact, state, self.plan, place)
 
-    def stiffness(
-        self,
-        before: PointState | None,
-        state: PointState,
-        loads: Loads,
-        change: LoadChange,
-    ) -> dict[str, float]:
-        """Compute the contact stiffnesses at the end of an increment, by the names of the results.
+    def stiffness(self, before: PointState | None, state: PointState, step: int) -> dict[str, Any]:
+        """Compute the contact stiffnesses at the end of a load step, by the names of the results.
 
-        before  state at the start of the increment; None before first contact
+        before  state at the start of the last increment; None before first contact
         state   state at its end
-        loads   prescribed loads or motions at its end
-        change  loads that the load step changes
+        step    number of the load step, from 1
         """
         from fem_reference.contact.stiffness import contact_stiffness
 
         contact = self._axisymmetric_contact
         if self.plan.path in ANGULAR:
             contact = self._angular_contact
-            before = before and self._at_angles(before)
-            state = self._at_angles(state)
-        if change.direction:
-            (x, y), (a, b) = self.plan.direction, change.direction
-            change = replace(change, direction=(x * a + y * b, x * b - y * a))
-        return contact_stiffness(contact, before, loads, state, change)
+            before, state = before and self._at_angles(before), self._at_angles(state)
+        direction, changes = load_changes(self.model.scene.load_path(), step)
+        (x, y), (a, b) = self.plan.direction, direction
+        turned = x * a + y * b, x * b - y * a
+        return contact_stiffness(contact, before, state, turned, changes)
 
     def _at_angles(self, state: PointState) -> PointState:
         """Return a contact state at the points of all angles."""

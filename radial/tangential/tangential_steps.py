@@ -6,7 +6,7 @@ The points lie at several angles on each ring. Every increment is solved by `sol
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -413,12 +413,11 @@ class TangentialSteps(StepsOnRings):
                 points, self.friction, loads, last, end, compliances(self.scene.rig)
             )
             free = growth.free if growth else None
-        change = load_changes(self.scene.load_path())[reached.place.step - 1]
-        if change.direction:
-            (x, y), (a, b) = self.direction, change.direction
-            change = replace(change, direction=(x * a + y * b, x * b - y * a))
+        direction, changes = load_changes(self.scene.load_path(), reached.place.step)
+        (x, y), (a, b) = self.direction, direction
+        turned = x * a + y * b, x * b - y * a
         problem = RingProblem.of(points, self.friction, loads, last, free)
-        found = contact_stiffness(problem, end, change, compliances(self.scene.rig))
+        found = contact_stiffness(problem, end, turned, changes, compliances(self.scene.rig))
         if not self.twists:
             found.pop("torsional_stiffness", None)
         return found

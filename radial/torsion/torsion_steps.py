@@ -195,8 +195,9 @@ class TorsionSteps(StepsOnRings):
 
         reached  solved state at the end of the increment
         """
-        path, change = reached.state.path, load_changes(self.scene.load_path())
-        sticks = not change[reached.place.step - 1].changes["torsional_stiffness"]
+        path = reached.state.path
+        _, changes = load_changes(self.scene.load_path(), reached.place.step)
+        sticks = not changes["torsional_stiffness"]
         state = path.branches[-1].state if path.branches else None
         state = path.of.incipient_slip if sticks or state is None else state
         contact = reached.state.normal_contact.contact
