@@ -39,7 +39,7 @@ from contact_scene import LoadRamp, Scene
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.field_metadata import reported
-from contact_scene.quantities.increment import SCALARS, State
+from contact_scene.quantities.increment import SCALARS, STIFFNESSES, State
 from contact_scene.quantities.stated_error import (
     EXACT,
     Amount,
@@ -174,6 +174,7 @@ class Features:
             or (name == PEAK and self.peak_by_edge)
             or (name in CONTACT_EDGE and not self.fitted)
             or (name in STICK_EDGE and not stick_fitted)
+            or name in STIFFNESSES
         )
         return min(self.largest_order, EDGE if first else SMOOTH)
 
@@ -280,6 +281,7 @@ def characteristic_size(name: str, values: Values) -> float:
         "rad": length / radius if radius else 0.0,
         "Pa": sizes["peak_pressure"],
         "J": force * length,
+        "N/m": force / length if length else 0.0,
     }
     return by_unit.get(SCALARS[name].unit, 0.0) if name in SCALARS else 0.0
 

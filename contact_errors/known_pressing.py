@@ -25,6 +25,7 @@ from contact_scene.stepping.load_path import ControlKind
 # Factors on the orders and points of the two radial solves.
 FINENESS = 1.0, 2.0
 PRESSING = "approach", "normal_force", "contact_area", "contact_radius", "peak_pressure"
+STIFFNESS = ("normal_stiffness",)
 # Scalars that are known as long as no shear acts.
 ENERGIES = "elastic_energy", "input_work"
 
@@ -83,7 +84,8 @@ def _pressing_scalars(end: radial.Increment) -> Mapping[str, float]:
     """Return the scalars of a radial solve without friction, by name; none without contact."""
     if not end.contact_area:
         return {}
-    return {name: getattr(end, name) for name in (*PRESSING, *ENERGIES)}
+    names = (*PRESSING, *STIFFNESS, *ENERGIES)
+    return {name: value for name in names if (value := getattr(end, name)) is not None}
 
 
 def _hertz(scene: Scene, indenter: Ellipsoid, ramp: LoadRamp) -> Mapping[str, float]:
@@ -95,6 +97,7 @@ def _hertz(scene: Scene, indenter: Ellipsoid, ramp: LoadRamp) -> Mapping[str, fl
         Ry/Rx = RD(0, k², 1) / RD(0, 1, k²)
         a³ = W Rx RD(0, k², 1) / πE*
         approach = 3W RF(0, k², 1) / 2πE*a
+        dW/d(approach) = 3W / 2 approach
     """
     from scipy.optimize import brentq
     from scipy.special import elliprd, elliprf
@@ -118,8 +121,9 @@ def _hertz(scene: Scene, indenter: Ellipsoid, ramp: LoadRamp) -> Mapping[str, fl
     a, approach = c * np.cbrt(load), d * load ** (2 / 3)
     elastic = load * approach / (1 + 3 / 2)  # integral of the load, which grows as approach^(3/2)
     area = pi * k * a**2
-    sizes = approach, load, area, a * sqrt(k), 3 / 2 * load / area
-    return dict(zip((*PRESSING, *ENERGIES), (*map(float, sizes), elastic, elastic), strict=True))
+    sizes = approach, load, area, a * sqrt(k), 3 / 2 * load / area, 3 / 2 * load / approach
+    names = (*PRESSING, *STIFFNESS, *ENERGIES)
+    return dict(zip(names, (*map(float, sizes), elastic, elastic), strict=True))
 
 
 def _known_values(

@@ -71,7 +71,8 @@ class ElementSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        return self.chosen_plan or fem_reference.plan(self.scene)
+        penalty = self.method is fem_reference.Method.PENALTY
+        return self.chosen_plan or fem_reference.plan(self.scene, penalty=penalty)
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve the scene on a mesh of finite elements.

@@ -97,6 +97,18 @@ def coupled(scene: Scene, on: bool, why: str) -> Effect:
     return Effect(COUPLING, on, why)
 
 
+def contact_stiffness(scene: Scene, refused: str = "") -> tuple[Effect, ...]:
+    """Describe the computation of the contact stiffnesses, if the scene requests it.
+
+    scene    contact problem
+    refused  reason why the solver does not compute them; empty if it does
+    """
+    if not scene.contact_stiffness:
+        return ()
+    why = refused or "contact_stiffness is true: one linear solve per motion at the end of a step"
+    return (Effect("contact stiffness", not refused, why),)
+
+
 def load_history(on: bool) -> Effect:
     """Describe the effect of the load history, for the plan of a solve.
 

@@ -54,6 +54,10 @@ class Scene(Description):
     loading: tuple[LoadStep, ...] = Field(min_length=1, max_length=MAX_STEPS)
     """Load steps in order, each a linear ramp from the end of the preceding step."""
 
+    contact_stiffness: bool | None = None
+    """True to compute the contact stiffnesses dW/dδ, dT/dδ and dM/dφ at the end of each step;
+    absent: not computed."""
+
     @model_validator(mode="after")
     def _is_consistent(self) -> "Scene":
         problems = inconsistencies(dict(self))

@@ -183,7 +183,7 @@ class Zones:
     def admissible_tractions(self, tractions: Field, bound: Field) -> Field:
         """Change tractions so that they match the zones of contact, stick and slip.
 
-        Field become zero outside the contact. The shear of slipping points along the slip
+        Tractions become zero outside the contact. The shear of slipping points along the slip
         direction becomes the friction limit.
 
         tractions  (q_x, q_y, p), shape (3, n)

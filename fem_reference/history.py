@@ -134,6 +134,9 @@ class _IncrementSolver(Solver[PointState, Increment]):
         """
         increment = self.method.increment(reached.state, reached.place)
         increment = replace(increment, halvings=reached.halvings)
+        if self.method.plan.stiffness and reached.place.index == reached.place.increments_in_step:
+            found = self.method.stiffness(reached.before, reached.state, reached.place.step)
+            increment = replace(increment, **found)
         increment = add_contact_displacements(increment, self.scene.rig)
         resisted = self.method.work_on_strain(reached.before, reached.state)
         increment = add_work(last, increment, resisted)

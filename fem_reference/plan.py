@@ -72,6 +72,8 @@ CROSS_SLIP = (
     | dict.fromkeys(ANGULAR, "Coulomb's law is obeyed as a vector law at every point")
 )
 
+SPRINGS = "the springs of the penalty law change the stiffness; use fem-complementarity"
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -84,6 +86,7 @@ class Plan:
     effects       all physical effects, such as friction, with the reasons for or against them, for
                   output
     twists        True if torque and twist are output
+    stiffness     True if the contact stiffnesses are computed at the end of each load step
     """
 
     path: Path
@@ -92,13 +95,16 @@ class Plan:
     path_matters: tuple[bool, ...]
     effects: tuple[Effect, ...]
     twists: bool = False
+    stiffness: bool = False
 
 
-def plan(scene: Scene) -> Plan:
+def plan(scene: Scene, *, penalty: bool = False) -> Plan:
     """Determine the tractions that a scene requires, and the increments of each load step.
 
     Effects that do not occur in the scene, such as friction or torsion, are omitted from the solve.
     Raise UnsupportedScene if the scene is not axisymmetric, or has a tilt.
+
+    penalty  True for the penalty law of contact and friction
     """
     scene = normal_form(scene)
     refuse_equator(scene)
@@ -129,8 +135,10 @@ def plan(scene: Scene) -> Plan:
         first_direction(ramps),
         _increment_counts(scene, path, matters),
         matters,
-        _list_effects(scene, path, (friction, loaded, twists, couples), why),
+        _list_effects(scene, path, (friction, loaded, twists, couples), why)
+        + effect.contact_stiffness(scene, SPRINGS if penalty else ""),
         twists,
+        bool(scene.contact_stiffness) and not penalty,
     )
 
 

@@ -72,7 +72,7 @@ def solve(
         An increment did not reach the tolerance. `last_state` is the last converged increment.
     """
     scene = normal_form(scene)
-    chosen_plan = plan(scene)
+    chosen_plan = plan(scene, penalty=method is Method.PENALTY)
     last = store.last() if store else None
     requested_radius = discretisation.contact_radius
     radius = last.extent if last else meshed_radius(scene, requested_radius)

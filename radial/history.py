@@ -6,7 +6,7 @@ The module also contains the solver of load steps without friction.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -28,6 +28,7 @@ from contact_scene.stepping.load_stepping import (
 )
 from radial.fields import Increment, Result
 from radial.memory import refuse_if_too_large
+from radial.normal.disc import normal_stiffness
 from radial.normal.pressing import (
     NormalContact,
     normal_contact,
@@ -89,7 +90,7 @@ def solve(
     scene = normal_form(scene)
     decided = plan_of(scene) if plan is None else plan
     refuse_if_too_large(scene, decided)
-    solver = _create_solver(scene, discretisation, decided)
+    solver = replace(_create_solver(scene, discretisation, decided), stiffness=decided.stiffness)
     last = store.last() if store else None
     history = resumable_increments(scene, decided.increments, solver, last)
     increments = store_checkpoints(history, last, store, progress, None)
@@ -230,4 +231,13 @@ class _FrictionlessSteps(StepsOnRings):
             pressure=p,
             gap=gap,
         )
-        return add_work(last, add_contact_displacements(increment, self.scene.rig))
+        increment = add_work(last, add_contact_displacements(increment, self.scene.rig))
+        return self.add_stiffness(increment, reached)
+
+    def contact_stiffness(self, reached: ConvergedIncrement[NormalContact]) -> dict[str, float]:
+        """Compute the normal contact stiffness at the end of an increment, by its name.
+
+        reached  solved contact at the end of the increment
+        """
+        contact = reached.state.contact
+        return {"normal_stiffness": normal_stiffness(contact, self.scene.indenter, self.fineness)}

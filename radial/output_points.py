@@ -6,7 +6,7 @@ The solvers of load steps of this package use them.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from math import ceil, log10
 from typing import Any
 
@@ -17,7 +17,7 @@ from contact_scene.array_types import Array
 from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.rig import compliances
 from contact_scene.solver_errors import UnsupportedScene
-from contact_scene.stepping.load_stepping import Solver
+from contact_scene.stepping.load_stepping import ConvergedIncrement, Solver
 from radial.fields import Increment
 from radial.normal.disc import Disc
 from radial.normal.pressing import (
@@ -92,10 +92,29 @@ def output_radii(count: int, largest: Sequence[NormalContact], rim: float | None
 class StepsOnRings(Solver[Any, Increment]):
     """Base class of the solvers of load steps of bodies of revolution.
 
-    scene  the contact problem
+    scene      the contact problem
+    stiffness  true if the contact stiffnesses are computed at the end of each load step
     """
 
     scene: Scene
+    stiffness: bool = field(default=False, kw_only=True)
+
+    def add_stiffness(self, increment: Increment, reached: ConvergedIncrement[Any]) -> Increment:
+        """Add the contact stiffnesses to the output of the last increment of a load step.
+
+        increment  output of the increment
+        reached    its solved state
+        """
+        if not self.stiffness or increment.index < increment.increments_in_step:
+            return increment
+        return replace(increment, **self.contact_stiffness(reached))
+
+    def contact_stiffness(self, reached: ConvergedIncrement[Any]) -> dict[str, Any]:
+        """Compute the contact stiffnesses at the end of an increment, by the names of the results.
+
+        reached  solved state at the end of the increment
+        """
+        raise NotImplementedError
 
     def undeformed_gap(self, last: Increment, tilt: Any) -> Array:
         """Return the gap of the undeformed surfaces at first contact, at output points [length].

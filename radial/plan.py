@@ -44,6 +44,8 @@ LARGEST_SHARE = 0.05
 # an axisymmetric contact at points (torsion).
 RINGS, ANGLES, ROUND_RINGS = 24, 9, 64
 
+EDGE = "the contact edge is an unknown of frictional pressing here; use semi-analytical"
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -61,6 +63,7 @@ class Plan:
     direction   unit vector of the first tangential load in x and y; (1, 0) without one
     circle      angles of a contact at points (rings × angles), whose solve treats contact and
                 friction together; None if no such solve is necessary
+    stiffness   true if the contact stiffnesses are computed at the end of each load step
     fineness    factor on the numbers of polynomials and quadrature points, 1 by default; with
                 friction, factor on the numbers of rings, angles and intermediate solves
     """
@@ -73,6 +76,7 @@ class Plan:
     direction: tuple[float, float] = (1.0, 0.0)
     circle: RingAngles | None = None
     fineness: float = 1.0
+    stiffness: bool = False
 
     @property
     def rings(self) -> int:
@@ -152,7 +156,17 @@ def plan(scene: Scene) -> Plan:
         ramp.increments or max(of_loop, _path_increments(scene, ramp, circle, frictional))
         for ramp, of_loop in zip(ramps, loops, strict=True)
     )
-    return Plan(frictional, twists, pushed, increments, effects, first_direction(ramps), circle)
+    moving = EDGE if frictional and circle is None else ""
+    return Plan(
+        frictional,
+        twists,
+        pushed,
+        increments,
+        effects + effect.contact_stiffness(scene, moving),
+        first_direction(ramps),
+        circle,
+        stiffness=bool(scene.contact_stiffness) and not moving,
+    )
 
 
 def _choose_circle(

@@ -166,6 +166,7 @@ class _Solver:
         residuals_of(self.model, after).require(self.tolerance, "the increment", after.iterations)
         matters = self.plan.path[ramp.step - 1].path_matters
         after = add_energies(self.model, before, after, path_matters=matters)
+        after = replace(after, load=tangential)
         if self.correct is None or (self.plan.edge == "last" and fraction < 1):
             return after
         stepwise = self.plan.edge == "last" and not self.plan.couples
@@ -212,6 +213,11 @@ class _Solver:
         ends = reached.place.index == reached.place.increments_in_step
         fits = self.plan.areas == "all" or ends or after.corrected is not None
         increment = _reported_increment(self.model, last, reached, spreads=spreads, fits=fits)
+        if self.plan.stiffness and ends:
+            from semi_analytical.stiffness import contact_stiffness
+
+            found: dict[str, Any] = contact_stiffness(self.model, before, after, reached.place.step)
+            increment = replace(increment, **found)
         return add_contact_displacements(increment, self.model.scene.rig)
 
 

@@ -66,6 +66,7 @@ class Plan:
     symmetry  symmetry reduction: domain of the solution
     couples   True if the edge correction is that of coupled bodies; False for uncoupled bodies with
               forced coupling
+    stiffness  True if the contact stiffnesses are computed at the end of each load step
     areas     increments at whose end the areas of contact and stick zone are resolved below the
               cell size; "last" increments of the load steps suffice for error estimates
     """
@@ -80,6 +81,7 @@ class Plan:
     symmetry: ReducedDomain = WINDOW
     couples: bool = False
     areas: Literal["all", "last"] = "all"
+    stiffness: bool = False
 
     @property
     def increments(self) -> tuple[int, ...]:
@@ -142,7 +144,18 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     bodies = Bodies(coupled, dundurs_beta(scene), scene.friction or FRICTIONLESS)
     path = path_increments(scene, shear, bodies, path_accuracy)
     corrected = edge if effects[-1].on else "off"
-    return Plan(shear, tilt, torsion, acting, path, effects, corrected, symmetry, couples=coupled)
+    return Plan(
+        shear,
+        tilt,
+        torsion,
+        acting,
+        path,
+        effects + effect.contact_stiffness(scene),
+        corrected,
+        symmetry,
+        couples=coupled,
+        stiffness=bool(scene.contact_stiffness),
+    )
 
 
 def _tangentially_loaded(scene: Scene) -> bool:

@@ -35,6 +35,7 @@ ORDER = (
     "increments",
     "coupled",
     "edge_correction",
+    "stiffness",
     "history",
     "stress",
     "surface_tensile_stress",
@@ -69,6 +70,7 @@ ORDERS = {
         "newton_increment",
         "proximal_point",
         "globalisation",
+        "tangent",
     ),
     "semi_analytical": ORDER,
     "semi_analytical.operator": (
@@ -147,6 +149,7 @@ ORDERS = {
         "free_motion",
         "increment",
         "increment_report",
+        "stiffness",
         "method",
     ),
     "contact_results": (

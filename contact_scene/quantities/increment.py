@@ -154,6 +154,36 @@ class State:
             physical=False,
         ),
     ] = None
+    normal_stiffness: Annotated[
+        float | None,
+        Reported(
+            "N/m",
+            "Normal contact stiffness dW/dδ at the end of a step, without springs of a rig: of "
+            "continued loading if the step changes the normal load, else of full stick. Null if "
+            "not requested, without contact, and if its linear solve does not converge.",
+            key=True,
+        ),
+    ] = None
+    tangential_stiffness: Annotated[
+        float | None,
+        Reported(
+            "N/m",
+            "Tangential contact stiffness dT/dδ at the end of a step, along the change of the "
+            "tangential load: of continued slip if the step changes this load, else of full stick, "
+            "as after a load reversal. Null as normal_stiffness, and without a tangential load.",
+            key=True,
+        ),
+    ] = None
+    torsional_stiffness: Annotated[
+        float | None,
+        Reported(
+            "N m",
+            "Torsional contact stiffness dM/dφ at the end of a step, per radian: of continued slip "
+            "if the step changes the torsion, else of full stick. Null as normal_stiffness, and "
+            "without torsion.",
+            key=True,
+        ),
+    ] = None
     elastic_energy: Annotated[
         float | None,
         Reported(
@@ -308,6 +338,7 @@ class ReportedIncrement(Counters, Quality, State, WithFields):
             values[name] = _remove_sign_of_zero(values[name])
 
 
+STIFFNESSES = "normal_stiffness", "tangential_stiffness", "torsional_stiffness"
 SCALARS: Mapping[str, Reported] = {**reported(State), **reported(Quality)}
 COUNTERS: Mapping[str, Reported] = reported(Counters)
 

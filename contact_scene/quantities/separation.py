@@ -14,6 +14,7 @@ import numpy as np
 from contact_scene.array_types import Field
 from contact_scene.bulk_strain import Strain
 from contact_scene.height_map import lowest_point
+from contact_scene.quantities.increment import STIFFNESSES
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import MOTIONS, plain
@@ -84,6 +85,7 @@ def separated_increment(
     for name, (actuator, _) in MOTIONS.items():
         if getattr(before, actuator) is not None:
             found[actuator] = found[name]
+    found |= dict.fromkeys(STIFFNESSES)
     found |= {"elastic_energy": 0.0, "input_work": None, "unresolved_work": None, **place}
     for name, source in (("slip_before", "slip"), ("dissipation_before", "dissipation")):
         if name in found:

@@ -25,7 +25,7 @@ from contact_scene.reading.description import (
     Description,
 )
 
-SUMMARY_VERSION = 4
+SUMMARY_VERSION = 5
 
 Ratio: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "1"})]
 Metre: TypeAlias = Annotated[float, Field(json_schema_extra={"unit": "m"})]

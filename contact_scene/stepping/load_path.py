@@ -9,6 +9,7 @@ from typing import Any, Generic, TypeVar
 from contact_scene.bulk_strain import UNSTRAINED, Strain, strain_under
 from contact_scene.loading import LoadStep
 from contact_scene.material import Material
+from contact_scene.quantities.increment import STIFFNESSES
 from contact_scene.solver_errors import motion_undefined
 
 Vector = tuple[float, float]
@@ -188,6 +189,28 @@ def first_direction(ramps: Sequence[LoadRamp]) -> tuple[float, float]:
         if x or y:
             return x / hypot(x, y), y / hypot(x, y)
     return 1.0, 0.0
+
+
+def load_changes(ramps: Sequence[LoadRamp], step: int) -> tuple[Vector, dict[str, bool]]:
+    """Return the direction in which the tangential load changes in a load step, and its changes.
+
+    The direction is a unit vector (x, y). In a step of constant tangential load it is that of the
+    last step before that changes it, or else of the first after; without such a step it is zero.
+    The changes are, for the name of each contact stiffness, True if the step changes the load.
+
+    ramps  load ramps of the history, one for each load step
+    step   number of the load step, from 1
+    """
+    direction = 0.0, 0.0
+    for ramp in ramps:
+        (x, y), (x_0, y_0) = ramp.tangential.end, ramp.tangential.start or (0.0, 0.0)
+        size = hypot(x - x_0, y - y_0)
+        if size and (ramp.step <= step or direction == (0.0, 0.0)):
+            direction = (x - x_0) / size, (y - y_0) / size
+    now = ramps[step - 1]
+    controls = now.normal, now.tangential, now.twisting
+    changes = [control.start != control.end for control in controls]
+    return direction, dict(zip(STIFFNESSES, changes, strict=True))
 
 
 def along_one_line(ramps: Sequence[LoadRamp]) -> bool:

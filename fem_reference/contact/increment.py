@@ -70,6 +70,23 @@ def advance(
     return increment.end_state(passes)
 
 
+def solved_problem(
+    contact: PointContact, before: PointState | None, state: PointState
+) -> PointProblem:
+    """Return the contact problem of a solved load increment under the exact laws.
+
+    contact  contact problem at the points of the surface, without loads
+    before   state at the start of the increment; None before first contact
+    state    solved state at the end
+    """
+    before, loads, free = before or contact.state_before_contact(), state.prescribed, None
+    assert loads is not None
+    if before.motions is not None:
+        free = free_motion(contact, before, loads, state.pressure, state.approach)
+    increment = _Increment(contact, before, loads, 0.0, 0.0 if free is None else free)
+    return increment.problem(np.zeros_like(state.tractions))
+
+
 def _is_at_limit(contact: PointContact, loads: Loads) -> bool:
     """Return True if the prescribed tangential force is at the friction limit µW.
 
@@ -336,6 +353,7 @@ class _Increment:
             augmentations=len(passes) - 1,
             strain=self.loads.strain,
             algorithm=solution.algorithm,
+            prescribed=self.loads,
         )
 
     def _solve_pass(self, multiplier: Field, start: Field, motions: Triple) -> _Pass:
@@ -350,23 +368,7 @@ class _Increment:
         motions     initial guess of the shifts and the twist
         raises      NotConverged, GrossSliding
         """
-        contact, before, loads = self.contact, self.before, self.loads
-        compliance = contact.compliance
-        # At Gauss points the strain of the springs at the start is omitted, because the
-        # displacements of the bodies cannot follow it.
-        strained = 0.0 if contact.at_gauss_points else before.shear - before.multiplier[:2]
-        memory = before.displacement + compliance.springs * (multiplier[:2] + strained)
-        problem = PointProblem(
-            compliance,
-            contact.gap - compliance.springs * multiplier[2],
-            contact.friction,
-            memory
-            + self.free
-            - np.tensordot(before.motions or AT_REST, compliance.motions, axes=1)
-            - (loads.strain - before.strain) * compliance.stretch,
-            loads.normal,
-            loads.tangential,
-        )
+        problem = self.problem(multiplier)
         p, q = start[2], start[:2]
         aim, outer_iterations, solves = 0.5 * self.tolerance, 0, 0
         for _ in range(MAX_ATTEMPTS):
@@ -383,6 +385,29 @@ class _Increment:
             motions = solution.motions or motions
             aim *= 0.1
         raise NotConverged("the increment", solves, done.residuals.worst, self.tolerance)
+
+    def problem(self, multiplier: Field) -> PointProblem:
+        """Return the contact problem of the increment for given multipliers of the penalty law.
+
+        multiplier  tractions without the contribution of the penalty springs, r, θ, z (3, points)
+        """
+        contact, before, loads = self.contact, self.before, self.loads
+        compliance = contact.compliance
+        # At Gauss points the strain of the springs at the start is omitted, because the
+        # displacements of the bodies cannot follow it.
+        strained = 0.0 if contact.at_gauss_points else before.shear - before.multiplier[:2]
+        memory = before.displacement + compliance.springs * (multiplier[:2] + strained)
+        return PointProblem(
+            compliance,
+            contact.gap - compliance.springs * multiplier[2],
+            contact.friction,
+            memory
+            + self.free
+            - np.tensordot(before.motions or AT_REST, compliance.motions, axes=1)
+            - (loads.strain - before.strain) * compliance.stretch,
+            loads.normal,
+            loads.tangential,
+        )
 
     @staticmethod
     def _refuse_above_limit(problem: PointProblem, pressure: Vector) -> None:

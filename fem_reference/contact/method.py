@@ -6,11 +6,13 @@ under tangential loads on one line. One point then represents its whole ring.
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_scene.solver_errors import ContactAtZoneEdge
+from contact_scene.stepping.load_path import load_changes
 from contact_scene.stepping.load_stepping import IncrementPosition
 from fem_reference.compliance.angular_grid import (
     AngularGrid,
@@ -63,8 +65,7 @@ class ContactMethod:
             axisymmetric = before is None or before.axisymmetric
             if loads.tangential.pushes or not axisymmetric:
                 contact = self._angular_contact
-                if before is not None and axisymmetric:
-                    before = contact.extend_to_points(before)
+                before = before and self._at_angles(before)
         state = advance(contact, before, loads, tolerance)
         self._refuse_contact_at_edge(contact, state)
         return state
@@ -80,6 +81,28 @@ class ContactMethod:
         """
         contact = self._axisymmetric_contact if state.axisymmetric else self._angular_contact
         return report_increment(contact, state, self.plan, place)
+
+    def stiffness(self, before: PointState | None, state: PointState, step: int) -> dict[str, Any]:
+        """Compute the contact stiffnesses at the end of a load step, by the names of the results.
+
+        before  state at the start of the last increment; None before first contact
+        state   state at its end
+        step    number of the load step, from 1
+        """
+        from fem_reference.contact.stiffness import contact_stiffness
+
+        contact = self._axisymmetric_contact
+        if self.plan.path in ANGULAR:
+            contact = self._angular_contact
+            before, state = before and self._at_angles(before), self._at_angles(state)
+        direction, changes = load_changes(self.model.scene.load_path(), step)
+        (x, y), (a, b) = self.plan.direction, direction
+        turned = x * a + y * b, x * b - y * a
+        return contact_stiffness(contact, before, state, turned, changes)
+
+    def _at_angles(self, state: PointState) -> PointState:
+        """Return a contact state at the points of all angles."""
+        return self._angular_contact.extend_to_points(state) if state.axisymmetric else state
 
     def work_on_strain(self, before: PointState | None, state: PointState) -> float:
         """Compute the work of the shear on the imposed strain of the lower body in one increment.

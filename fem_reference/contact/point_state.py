@@ -7,7 +7,7 @@ import numpy as np
 from contact_scene.array_types import Field, Mask, Vector
 from contact_scene.quantities.residuals import Residuals
 from contact_scene.quantities.summary import ContactStatus
-from fem_reference.loads import Triple
+from fem_reference.loads import Loads, Triple
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,7 @@ class PointState:
     augmentations   number of augmented-Lagrangian updates of the multipliers
     strain          equibiaxial strain imposed on the lower body since first contact [1]
     algorithm       algorithm that solved pressure and shear; None if they are not coupled
+    prescribed      loads and motions that the increment prescribes; None before first contact
     """
 
     axisymmetric: bool
@@ -69,6 +70,7 @@ class PointState:
     augmentations: int = 0
     strain: float = 0.0
     algorithm: str | None = None
+    prescribed: Loads | None = None
 
     @property
     def tractions(self) -> Field:

@@ -283,6 +283,20 @@ def disc(
             raise NotConverged("the contact on a disc", count // 2, made.residual, ROUND_OFF)
 
 
+def normal_stiffness(contact: Disc, indenter: ShapedBody, fineness: int = 1) -> float:
+    """Compute the derivative dW/dδ of the normal force by the approach [force/length].
+
+    It is that of a flat punch of the contact radius, because the pressure vanishes at a moving
+    edge. At a constant radius the force is linear in the approach.
+
+    contact   contact at a smooth edge or over the whole face of the indenter
+    indenter  shape of the indenter
+    fineness  factor on the numbers of points and polynomials, 1 by default
+    """
+    deeper = disc(contact.bodies, indenter, contact.radius, 2 * contact.approach, fineness)
+    return (deeper.load - contact.load) / contact.approach
+
+
 def polynomial_count(thickness: float, apex: bool) -> int:
     """Return the number of Legendre polynomials for the contribution of layers to the pressure.
 

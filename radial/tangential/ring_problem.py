@@ -74,12 +74,12 @@ class RingProblem:
         return cls(points, friction, loads, before.moved + moved, before.motion)
 
     @cached_property
-    def _units(self) -> Array:
+    def units(self) -> Array:
         """Displacement of the last ring by the unit shifts, twist and approach (4,)."""
         return np.array([1.0, 1.0, self.points.radii[-1], 1.0])
 
     @cached_property
-    def _moving(self) -> list[int]:
+    def moving(self) -> list[int]:
         """Numbers of the tangential motions that symmetry does not exclude."""
         return [k for k, one in enumerate(self.points.rigid_motions) if np.any(one)]
 
@@ -94,7 +94,7 @@ class RingProblem:
 
         def rigid(number: int, shape: Array) -> RigidMotion:
             return points.scale.rigid_motion(
-                shape, self._units[number], loads.forces[number], loads.motions[number]
+                shape, self.units[number], loads.forces[number], loads.motions[number]
             )
 
         return points.scale.problem(
@@ -107,7 +107,7 @@ class RingProblem:
             friction_slope=self.friction.slope,
             target=target,
             closing=rigid(NORMAL, np.ones((1, n))),
-            shifting=tuple(rigid(k, shapes[k]) for k in self._moving),
+            shifting=tuple(rigid(k, shapes[k]) for k in self.moving),
         )
 
     def start(self, x: Array) -> tuple[Array, Array, Array]:
@@ -116,7 +116,7 @@ class RingProblem:
         x  tractions q_r, q_θ, p and rigid motion (3 N + 4,)
         """
         t = self.points.scale.roots * np.reshape(x[:-4], (3, -1))
-        return t[2], t[:2], (x[-4:] * self._units)[self._moving]
+        return t[2], t[:2], (x[-4:] * self.units)[self.moving]
 
     def reached(self, found: CoupledSolution) -> Array:
         """Convert a solution to tractions q_r, q_θ, p and rigid motion (3 N + 4,).
@@ -124,7 +124,7 @@ class RingProblem:
         found  solution for points of equal area
         """
         motion = np.array([value or 0.0 for value in self.loads.motions])
-        motion[self._moving] = found.motion / self._units[self._moving]
+        motion[self.moving] = found.motion / self.units[self.moving]
         motion[NORMAL] = found.closing[0]
         t = np.concatenate([found.shear, found.pressure[None]]) / self.points.scale.roots
         return np.append(t, motion)

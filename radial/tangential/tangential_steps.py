@@ -18,6 +18,7 @@ from contact_scene.quantities.ring_increment import add_work
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements, compliances
 from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.stepping.load_path import load_changes
 from contact_scene.stepping.load_stepping import ConvergedIncrement
 from radial.angular_grid import RingAngles
 from radial.fields import Increment
@@ -40,6 +41,7 @@ from radial.tangential.free_motion import growth_without_slip
 from radial.tangential.ring_friction import solve_increment
 from radial.tangential.ring_layout import create_points
 from radial.tangential.ring_points import ContactPoints
+from radial.tangential.ring_problem import RingProblem
 from radial.tangential.ring_state import (
     NORMAL,
     TORSION,
@@ -397,7 +399,36 @@ class TangentialSteps(StepsOnRings):
             slip_circumferential=s_t if angular or self.twists else None,
             in_stick=(self._interpolate_scalar(points, share) < 1) & (p > 0),
         )
-        return add_work(last, add_contact_displacements(increment, self.scene.rig))
+        increment = add_work(last, add_contact_displacements(increment, self.scene.rig))
+        return self.add_stiffness(increment, reached)
+
+    def contact_stiffness(self, reached: ConvergedIncrement[TangentialState]) -> dict[str, float]:
+        """Compute the contact stiffnesses at the end of an increment, by the names of the results.
+
+        reached  solved state at the end of the increment
+        """
+        from radial.tangential.stiffness import contact_stiffness
+
+        points, state, before = self.points, reached.state, reached.before
+        friction = self._friction_at(points)
+        end, last = state.end, before.end if before else None
+        if state.circle is not points.circle:
+            end = end.repeat_angles(points)
+        if last is not None and before is not None and before.circle is not points.circle:
+            last = last.repeat_angles(points)
+        loads, free = _fix_excluded_motions(points, state.prescribed), None
+        if not coupling(self.scene)[0]:
+            springs = compliances(self.scene.rig)
+            growth = growth_without_slip(points, friction, loads, last, end, springs)
+            free = growth[0] if growth else None
+        direction, changes = load_changes(self.scene.load_path(), reached.place.step)
+        (x, y), (a, b) = self.direction, direction
+        turned = x * a + y * b, x * b - y * a
+        problem = RingProblem.of(points, friction, loads, last, free)
+        found = contact_stiffness(problem, end, turned, changes, compliances(self.scene.rig))
+        if not self.twists:
+            found.pop("torsional_stiffness", None)
+        return found
 
     def _refuse_narrow(self, state: TangentialState, step: int) -> None:
         """Raise UnsupportedScene if the slip annulus after normal loading is narrower than a ring.

@@ -16,7 +16,7 @@ continuous; this condition gives the twist φ.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil, log2, pi
 from typing import NamedTuple
@@ -155,7 +155,7 @@ class Torsion:
         """
         panels = self._annulus_panels(max(stick, AXIS))
         if stick == 0:
-            return PartialSlip(self, 0.0, np.inf, np.zeros(1), panels)
+            return PartialSlip(self, 0.0, np.inf, np.zeros(1), np.zeros(1), panels)
         places, wave_weights = self.waves
         count = 1
         if len(places):
@@ -176,7 +176,7 @@ class Torsion:
         edge = stick * float(self.friction_limit.evaluate_transform(np.array([stick]))[0])
         twist = (edge + np.sum(alone)) / (4 / pi * stick - np.sum(by_twist))
         layers = twist * by_twist + alone
-        return PartialSlip(self, stick, float(twist), layers, panels)
+        return PartialSlip(self, stick, float(twist), layers, by_twist, panels)
 
     def _annulus_panels(self, stick: float) -> list[Panel]:
         """Return intervals that cover the slip annulus, with the transform N of the shear.
@@ -238,6 +238,7 @@ class PartialSlip:
     stick   stick radius over the contact radius, c/a
     twist   twist φ of the indenter [radian]
     layers  Legendre coefficients of D in the stick disc, of odd orders
+    by_twist  derivative of these coefficients by the twist at constant stick radius
     panels  intervals of the slip annulus, with N of the shear at the friction limit
     """
 
@@ -245,6 +246,7 @@ class PartialSlip:
     stick: float
     twist: float
     layers: Array
+    by_twist: Array
     panels: Sequence[Panel]
 
     def stick_transform(self, t: Array) -> Array:
@@ -313,6 +315,15 @@ class PartialSlip:
         by_layers = float(np.sum(wave_weights * self.transform**2)) if len(wave_weights) else 0.0
         scale = pi * self.of.modulus * self.of.contact.radius**3
         return scale * (pi / 2 * squares + by_layers)
+
+    @cached_property
+    def stiffness(self) -> float:
+        """Derivative dM/dφ of the torque by the twist [force length].
+
+        It is that at constant stick radius, because the shear is continuous at the stick radius.
+        """
+        unit = replace(self, twist=1.0, layers=self.by_twist, panels=[])
+        return unit.torque if self.stick else 0.0
 
     @property
     def work(self) -> float:

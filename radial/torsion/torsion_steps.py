@@ -15,11 +15,13 @@ from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.quantities.ring_increment import add_work
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import UnsupportedScene
+from contact_scene.stepping.load_path import load_changes
 from contact_scene.stepping.load_stepping import (
     ConvergedIncrement,
     Solver,
 )
 from radial.fields import Increment
+from radial.normal.disc import normal_stiffness
 from radial.normal.pressing import NormalContact
 from radial.output_points import StepsOnRings
 from radial.torsion.torsion import Torsion
@@ -178,7 +180,25 @@ class TorsionSteps(StepsOnRings):
             slip_circumferential=slip,
             in_stick=x < stick,
         )
-        return add_work(last, increment)
+        return self.add_stiffness(add_work(last, increment), reached)
+
+    def contact_stiffness(self, reached: ConvergedIncrement[TorsionState]) -> dict[str, float]:
+        """Compute the contact stiffnesses at the end of an increment, by the names of the results.
+
+        The derivative in a branch after a load reversal is that of its equivalent first twist.
+
+        reached  solved state at the end of the increment
+        """
+        path = reached.state.path
+        _, changes = load_changes(self.scene.load_path(), reached.place.step)
+        sticks = not changes["torsional_stiffness"]
+        state = path.branches[-1].state if path.branches else None
+        state = path.of.incipient_slip if sticks or state is None else state
+        contact = reached.state.normal_contact.contact
+        return {
+            "normal_stiffness": normal_stiffness(contact, self.scene.indenter, self.fineness),
+            "torsional_stiffness": 0.0 if path.slides and not sticks else state.stiffness,
+        }
 
     def _shear_and_slip(self, path: TwistPath, x: Array, pressure: Array) -> tuple[Array, Array]:
         """Compute circumferential shear [force/length²] and slip [length] at the output rings (n,).

@@ -102,7 +102,7 @@ def solve_coupled_increment(
     if before is not None and (seen := before.seen()):
         motion = further_motion(seen, before.behind, tangential)
     for _ in range(MAX_ATTEMPTS):
-        problem = _coupled_problem(model, box, last, normal, tangential)
+        problem = coupled_problem(model, box, last, normal, tangential)
         inside = (..., *box.slices)
         solution = solve_together(
             problem,
@@ -168,12 +168,13 @@ def _initial_guess(
     return start, last.shear, iterations
 
 
-def _coupled_problem(
+def coupled_problem(
     model: ContactModel,
     box: Box,
     last: TangentialState,
     normal: NormalTarget,
     tangential: TangentialTarget,
+    free: VectorField | None = None,
 ) -> CoupledProblem:
     """Assemble operators, loads and friction law of a coupled increment in a box of cells.
 
@@ -181,9 +182,10 @@ def _coupled_problem(
     box                 box of cells in which the increment is solved
     last                tangential state at the start of the increment
     normal, tangential  prescribed loads at the end of the increment
+    free                free motion of cells before their contact (2, nx, ny) [length]; None without
     """
     shape, operator = box.shape, model.operator(box.shape)
-    target = surface_target(model, last, tangential)
+    target = surface_target(model, last, tangential, free)
 
     def limit(p: Vector) -> Vector:
         return points_of(model.friction_limit(p.reshape(shape), box.first))

@@ -44,6 +44,7 @@ class State:
                   was not requested or not possible
     edge_report   outcome of the edge correction; None where it was not attempted
     behind        data of the previous increment for the predictor
+    load          prescribed tangential load; None without shear
     """
 
     target: NormalTarget
@@ -56,6 +57,7 @@ class State:
     corrected: Corrected | None = None
     edge_report: EdgeReport | None = None
     behind: PreviousIncrement | None = None
+    load: TangentialTarget | None = None
 
     def seen(self) -> PreviousIncrement | None:
         """Return the data of this state that the predictor of the next increments extrapolates.

@@ -37,7 +37,7 @@ class OnElements(Solver):
     discretisation = FiniteElementDiscretisation
 
     def plan(self, scene: Scene, fineness: FiniteElementDiscretisation) -> Plan:
-        return fem_reference.plan(scene)
+        return fem_reference.plan(scene, penalty=self.method is Method.PENALTY)
 
     def solve(
         self,

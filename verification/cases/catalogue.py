@@ -37,6 +37,7 @@ CASES = (
     "eccentric_contact",
     "strained_ball",
     "torsion",
+    "contact_stiffness",
     "sheared_cone",
     "near_sliding",
     "load_paths",

@@ -99,6 +99,13 @@ class PartialSlip:
         return copysign(self.sliding_shift * fraction, self.tangential_force)
 
     @property
+    def tangential_stiffness(self) -> float:
+        """Derivative 2G*c of the tangential force by the shift, c the stick radius (Mindlin 1949)
+        [force/length].
+        """
+        return 2 * self.tangential_modulus * self.stick_radius
+
+    @property
     def dissipated_energy(self) -> float:
         """Energy dissipated by friction since the tangential force was zero [force*length].
 

@@ -99,6 +99,13 @@ class PointContact:
         return self.contact_radius**2 / self.radius
 
     @property
+    def normal_stiffness(self) -> float:
+        """Derivative 2E*a of the normal load by the approach (Johnson 1985, ch. 4)
+        [force/length].
+        """
+        return 2 * self.contact_modulus * self.contact_radius
+
+    @property
     def peak_pressure(self) -> float:
         """Pressure at the centre of the Hertz contact, 3W/2πa² = 2E*a/πR [force/length²]."""
         return 2 * self.contact_modulus * self.contact_radius / (pi * self.radius)

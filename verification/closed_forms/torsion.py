@@ -141,6 +141,15 @@ class TorsionalPartialSlip:
         )
 
     @property
+    def torsional_stiffness(self) -> float:
+        """Derivative (16/3) G c³ of the torque by the twist, c the stick radius [force*length].
+
+        It is that of a punch of the stick radius (Reissner and Sagoci 1944), because the shear is
+        continuous at the stick radius.
+        """
+        return 16 / 3 * self.torsional_modulus * self.stick_radius**3
+
+    @property
     def sliding_moment(self) -> float:
         """Torque at gross slip, (3π/16) µWa = (π²/8) µ p0 a³ [force*length].
 

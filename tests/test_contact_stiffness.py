@@ -1,0 +1,200 @@
+"""Contact stiffnesses: derivatives of solved increments, closed forms, stated errors, requests."""
+
+import numpy as np
+import pytest
+
+import slipstick
+from contact_scene import Body, Layer, Scene
+from contact_scene.rig import Rig
+from contact_solver import tangent
+from semi_analytical import stiffness as stiffness_on_cells
+from tests.contact_scenes import LIMIT, LOAD, MU, NU, YOUNG, A, push, scene, steel
+from verification.closed_forms.hertz import contact_modulus, tangential_modulus
+
+BODY = YOUNG, NU
+NORMAL = 2 * contact_modulus(BODY, BODY) * A
+STICK = 2 * tangential_modulus(BODY, BODY) * A
+TWIST = 16 / 3 * YOUNG / (4 * (1 + NU)) * A**3
+NAMES = "normal_stiffness", "tangential_stiffness", "torsional_stiffness"
+FILM = Layer(thickness=A / 2, material=steel())
+BODIES = {
+    "alike": Body(material=steel()),
+    "coated": Body(material=steel(0.2, YOUNG / 4), layers=[FILM]),
+}
+# Above the contact radius, by less than the change that another mesh would follow.
+EDGES = {"alike": 1.1 * A, "coated": 1.4 * A}
+SOLVERS = "semi-analytical", "fem-complementarity", "radial"
+PRESS = {"normal_force": LOAD, "increments": 1}
+TORQUE = 0.3 * LIMIT * A
+
+
+def settings(solver, edge):
+    if solver == "radial":
+        return slipstick.RadialDiscretisation(tolerance=1e-11)
+    if solver == "semi-analytical":
+        window = (3 * edge, 3 * edge)
+        return slipstick.SurfaceDiscretisation(
+            cells=(24, 24), window=window, tolerance=1e-11, edge="off"
+        )
+    return slipstick.FiniteElementDiscretisation(
+        elements_per_radius=6, contact_radius=edge, harmonics=6, tolerance=1e-10
+    )
+
+
+def requested(*steps, body="alike", rig=None, friction=MU) -> Scene:
+    """Loading steps of one increment each, by their tables, with contact stiffnesses."""
+    made = scene(*({"increments": 1} | step for step in steps), friction=friction)
+    change = {"body": BODIES[body], "rig": rig, "contact_stiffness": True}
+    return Scene.model_validate(dict(made) | change)
+
+
+def ends(solver, *steps, body="alike", **kind):
+    asked = requested(*steps, body=body, **kind)
+    return slipstick.solve(asked, solver, settings(solver, EDGES[body])).steps
+
+
+def first(value) -> float:
+    return float(np.ravel(value)[0])
+
+
+def difference(solver, last, names, *before, **kind) -> float:
+    """Central difference of the force over the motion, by a changed load of the last step."""
+    (key, value), change = next(iter(last.items())), 3e-6
+    found = []
+    for factor in (1 + change, 1 - change):
+        end = ends(
+            solver,
+            *before,
+            {key: tuple(np.multiply(value, factor))} if np.ndim(value) else {key: value * factor},
+            **kind,
+        )[-1]
+        found.append([first(getattr(end, name)) for name in names])
+    (force, motion), (less, shorter) = found
+    return (force - less) / (motion - shorter)
+
+
+PUSHED = "tangential_force", "tangential_shift"
+TURNED = "torque", "twist"
+PRESSED = "normal_force", "approach"
+SPRINGS = Rig(normal_stiffness=NORMAL / 2, tangential_stiffness=STICK / 3)
+SHIFT = {"tangential_shift": (0.5 * LIMIT / STICK, 0.0)}
+CASES = {
+    "normal force": (PRESSED, [{"normal_force": 0.9 * LOAD}], {}),
+    "normal force after a push": (PRESSED, [PRESS, push(0.4), {"normal_force": LOAD * 1.1}], {}),
+    "tangential force": (PUSHED, [PRESS, push(0.7)], {}),
+    "tangential shift": (PUSHED, [PRESS, SHIFT], {}),
+    "shift of an actuator": (PUSHED, [PRESS, SHIFT], {"rig": SPRINGS}),
+    "reversed force": (PUSHED, [PRESS, push(0.7), push(-0.2)], {}),
+    "gross slip": (PUSHED, [PRESS, {"tangential_shift": (3 * LIMIT / STICK, 0.0)}], {}),
+    "torque": (TURNED, [PRESS, {"torque": TORQUE}], {}),
+    "twist": (TURNED, [PRESS, {"twist": TORQUE / TWIST}], {}),
+    "force beside a twist": (PUSHED, [PRESS, {"twist": TORQUE / TWIST} | push(0.2), push(0.5)], {}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("body", BODIES)
+def test_stiffness_is_the_derivative_of_the_solved_increment(body, solver, name) -> None:
+    names, steps, kind = CASES[name]
+    if solver == "radial" and names == PRESSED and (body == "coated" or len(steps) > 1):
+        pytest.skip("its rings follow the normal load; a moving edge has no tangent")
+    *before, last = steps
+    end = ends(solver, *steps, body=body, **kind)[-1]
+    exact = difference(solver, last, names, *before, body=body, **kind)
+    kept = NAMES[(PRESSED, PUSHED, TURNED).index(names)]
+    assert getattr(end, kept) == pytest.approx(exact, rel=1e-7, abs=1e-9 * STICK)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_stiffnesses_have_closed_forms_within_their_stated_errors(solver) -> None:
+    """Hertz 2E*a, Mindlin 2G*a and 16/3 G a³, (1 - T/µW)^⅓ of it in partial slip, 0 in gross slip.
+
+    1/G* is the sum of (2 - ν)/4G of both bodies, so that 2 G* a is 8 G* a for the sum of (2 - ν)/G.
+    """
+    slope = STICK * 0.4 ** (1 / 3)
+    for steps, name, known in (
+        ([PRESS, push(0.6), push(-0.6), push(-1.0)], NAMES[1], [STICK, slope, slope, 0.0]),
+        ([PRESS, {"torque": 1e-3 * TORQUE}], NAMES[2], [TWIST, TWIST]),
+    ):
+        result = slipstick.solve(requested(*steps), solver)
+        errors = slipstick.stated_errors(result).steps
+        for end, stated, exact in zip(result.steps, errors, known, strict=True):
+            for one, value in ((NAMES[0], NORMAL), (name, exact)):
+                error = float(np.max(stated[one].error))
+                # Mindlin neglects slip across the force, and the torque slips at the edge.
+                other = (
+                    0.0 if one == NAMES[0] else 5e-4 * STICK if name == NAMES[1] else 3e-3 * TWIST
+                )
+                assert abs(getattr(end, one) - value) <= error + other + 1e-6 * value
+                assert error <= 0.1 * value or value == 0
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("body", BODIES)
+def test_a_kept_load_has_the_stiffness_of_full_stick(solver, body) -> None:
+    slipped, held, reversed_ = ends(solver, PRESS, push(0.6), PRESS, push(0.599), body=body)[1:]
+    assert held.tangential_stiffness == pytest.approx(reversed_.tangential_stiffness, rel=1e-3)
+    assert slipped.tangential_stiffness < 0.9 * held.tangential_stiffness
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_springs_of_a_rig_are_no_part_of_the_contact_stiffness(solver) -> None:
+    plain, sprung = (ends(solver, PRESS, push(0.6), rig=rig)[-1] for rig in (None, SPRINGS))
+    for name in NAMES[:2]:
+        assert getattr(sprung, name) == pytest.approx(getattr(plain, name), rel=1e-6)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_contact_after_separation_has_the_stiffness_of_the_first(solver) -> None:
+    loop = [PRESS, SHIFT, {"normal_force": 0.0}, PRESS]
+    twice = {"tangential_shift": (2 * SHIFT["tangential_shift"][0], 0.0)}
+    _, once, apart, _, again = ends(solver, *loop, twice)
+    assert apart.normal_stiffness is apart.tangential_stiffness is None
+    for name in NAMES[:2]:
+        assert getattr(again, name) == pytest.approx(getattr(once, name), rel=1e-6)
+
+
+def test_turned_loads_have_the_stiffness_along_their_change() -> None:
+    along_x, along_y = ends("semi-analytical", PRESS, push(0.5), push(0.5, 0.3))[1:]
+    (x,), (y,) = [
+        [first(end.tangential_stiffness)]
+        for end in (ends("semi-analytical", PRESS, push(0.0, 0.5))[1], along_y)
+    ]
+    assert x == pytest.approx(along_x.tangential_stiffness, rel=1e-9)
+    assert y > along_x.tangential_stiffness
+
+
+def test_without_request_there_is_no_stiffness_and_no_call(monkeypatch) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr(stiffness_on_cells, "contact_stiffness", refuse)
+    asked = requested(PRESS, push(0.5)).replace({"contact_stiffness": None})
+    end = slipstick.solve(asked, "semi-analytical", settings("semi-analytical", A)).steps[-1]
+    assert [getattr(end, name) for name in NAMES] == [None] * 3
+
+
+def test_a_stalled_linear_solve_leaves_the_result(monkeypatch) -> None:
+    monkeypatch.setattr(tangent, "MAX_ITERATIONS", 1)
+    for body in BODIES:
+        end = ends("semi-analytical", PRESS, push(0.5), body=body)[-1]
+        assert end.tangential_stiffness is None
+        assert end.tangential_force is not None
+
+
+@pytest.mark.parametrize(
+    ("solver", "body", "reason"),
+    [
+        ("fem", "alike", "springs of the penalty"),
+        ("radial", "coated", "contact edge is an unknown"),
+    ],
+)
+def test_a_solver_without_stiffness_states_the_reason(solver, body, reason) -> None:
+    asked = requested(PRESS, body=body)
+    effect = slipstick.plan(asked, solver).effects[-1]
+    assert effect.name == "contact stiffness"
+    assert not effect.on
+    assert reason in effect.why
+    end = slipstick.solve(asked, solver).steps[-1]
+    assert end.normal_stiffness is None
