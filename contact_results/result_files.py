@@ -21,6 +21,7 @@ from contact_results.files.tables import write_tables
 from contact_results.key_numbers import SHOWN, cycle_columns
 from contact_results.number_text import doubt_texts
 from contact_results.omitted_parts import OmittedParts
+from contact_results.radial_method import radial_advice
 from contact_results.result_warnings import warnings_of
 from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
 from contact_scene.quantities.summary import RunSummary
@@ -120,12 +121,12 @@ def write_computed(
             lambda: write_figures(result, cycles, directory, of_last, everything=everything),
         )
         told = warnings + omitted.warnings
+        doubts = doubt_texts(stated or (), SHOWN)
+        doubts += radial_advice(result.scene, result.solver, doubted=bool(doubts))
         omitted.write(
             "the page",
             [directory / PAGE],
-            lambda: write_page(
-                result, directory, of_last, shown, told, doubt_texts(stated or (), SHOWN)
-            ),
+            lambda: write_page(result, directory, of_last, shown, told, doubts),
         )
     warnings += omitted.warnings
     # The summary is last: it has the digest of the fields and the list of omitted parts.

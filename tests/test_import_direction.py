@@ -155,6 +155,7 @@ ORDERS = {
     "contact_results": (
         "blas_threads",
         "number_text",
+        "radial_method",
         "omitted_parts",
         "directory",
         "surface",

@@ -1048,6 +1048,31 @@ def test_question_marks_have_their_reasons_below_the_table() -> None:
     ]
 
 
+@pytest.mark.parametrize(
+    ("solver", "eccentric", "advised"),
+    [
+        ("semi-analytical", False, True),
+        ("radial", False, False),
+        ("semi-analytical", True, False),
+    ],
+)
+def test_a_question_mark_advises_the_radial_solver_where_it_can_solve_the_scene(
+    solver: str, eccentric: bool, advised: bool, tmp_path: Path
+) -> None:
+    """The peak pressure of a cone is infinite. The radial solver solves no eccentric contact."""
+    ball = 'shape = "sphere"\nradius = "18 mm"'
+    scene_text = STEEL_BALL_PRESSED.replace(ball, 'shape = "cone"\nslope_angle = 0.05')
+    if eccentric:
+        scene_text += 'moment = ["0.01 N m", "0 N m"]\n'
+    scene_text += "[semi_analytical]\ncells = [32, 32]\n"
+    (tmp_path / "scene.toml").write_text(scene_text)
+    run = outcome("run", "scene.toml", "-o", "out", "--solver", solver, cwd=tmp_path)
+    assert run.returncode == 0
+    assert "the exact value is infinite" in run.stdout
+    for text in (run.stdout, (tmp_path / "out/index.html").read_text()):
+        assert ("--solver radial can solve this: normal load" in text) is advised
+
+
 def test_components_of_a_vector_share_one_size() -> None:
     steps = [{"tangential_shift": np.array(shift)} for shift in ((3.0, 1e-12), (2.0, -1.0))]
     sizes = [found["tangential_shift"] for found in largest_so_far(steps)]

@@ -3,11 +3,12 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated
 
-from contact_scene import Scene, SceneFile, read_scene_file
+from contact_results.radial_method import radial_method
+from contact_scene import SceneFile, read_scene_file
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.disk_cache import without_cache
 from contact_scene.reading.scene_file import read_accuracy
-from contact_scene.solver_errors import AccuracyOutOfReach, UnsupportedScene
+from contact_scene.solver_errors import AccuracyOutOfReach
 from slipstick.cli.options import (
     SceneArgument,
     SetOption,
@@ -62,27 +63,6 @@ def plan(
         print_pairs([("radial", f"--solver radial can solve this: {how}")])
     if requests:
         _print_prices(requests, chosen, contents)
-
-
-def radial_method(scene: Scene) -> str | None:
-    """Describe in words by which solution method the radial solver can solve a scene.
-
-    The result is None for a scene that the radial solver does not support.
-    """
-    from radial.angular_grid import RingAngles
-    from radial.plan import plan
-
-    how = {
-        None: "normal load, or torsion at constant load, nearly exact",
-        RingAngles.ONE: "normal load and torsion together, on rings",
-        RingAngles.HALF: "tangential load along one line, on rings and angles",
-        RingAngles.WHOLE: "tangential load with changing direction or torsion, on rings and angles",
-    }
-    try:
-        decided = plan(scene)
-    except UnsupportedScene:
-        return None
-    return how[decided.circle]
 
 
 def _print_prices(

@@ -200,6 +200,7 @@ def _print_outcome(
     """
     from contact_results.key_numbers import SHOWN, outcome_columns
     from contact_results.number_text import doubt_texts
+    from contact_results.radial_method import radial_advice
     from slipstick.cli.progress import accuracy_lines, error_lines, solve_lines
     from slipstick.cli.terminal import print_pairs, print_table
 
@@ -210,5 +211,7 @@ def _print_outcome(
     columns = outcome_columns(result.steps, stated.steps if stated else None)
     for table in (columns, *([cycles] if cycles else ())):
         print_table(table, zip(*table.values(), strict=True), numbers=True)
-    for text in doubt_texts(stated.steps, SHOWN) if stated else ():
+    doubts = doubt_texts(stated.steps, SHOWN) if stated else []
+    doubted = bool(doubts) or (reached is not None and not reached.met)
+    for text in [*doubts, *radial_advice(result.scene, result.solver, doubted=doubted)]:
         typer.echo(f"  {text}")

@@ -14,6 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from contact_errors.stress_errors import stress_at, stress_errors
 from contact_results.directory.run_directory import refuse_files_above
+from contact_results.radial_method import radial_advice
 from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import (
     LoadedBodies,
@@ -255,8 +256,13 @@ def stress(
         print_pairs(accuracy_lines(reached))
     columns = maxima_columns(found, errors)
     print_table(columns, list(zip(*columns.values(), strict=True)), numbers=True)
-    for text in stress_doubts(found, errors):
+    doubts = stress_doubts(found, errors)
+    for text in doubts:
         typer.echo(f"  {text}")
+    if contents is not None:
+        doubted = bool(doubts) or (reached is not None and not reached.met)
+        for text in radial_advice(contents.scene, chosen, doubted=doubted):
+            typer.echo(f"  {text}")
     edge: Any = field.how.get("edge")
     if edge is not None and not edge["fitted"]:
         typer.echo(f"  no correction of the stress near the contact edge: {edge['because']}")

@@ -14,8 +14,8 @@ import typer
 from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.run_lock import in_sole_use
 from contact_results.number_text import Uncertainty, number_text
+from contact_results.radial_method import radial_method
 from contact_scene import read_scene_file
-from slipstick.cli.commands.plan import radial_method
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.expect_option import ExpectOption, SaveExpectedOption, read_expectation
 from slipstick.cli.options import (
