@@ -472,7 +472,7 @@ class SolvedRun:
         size = np.maximum(largest, characteristic_size(name, self.values[step]))
         parts["tolerance"] = PER_TOLERANCE * self.tolerance[step] * size
         if left := features.left.get(name):
-            parts["tolerance"] = parts["tolerance"] + left * largest
+            parts["tolerance"] += left * largest
         if share := self.neglected.get(name):
             parts["neglected"] = share * largest
         return parts

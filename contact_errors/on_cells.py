@@ -253,8 +253,7 @@ def _may_hide_stick(end: Increment) -> bool:
         return False
     slip = np.hypot(*np.asarray(end.slip_increment)) * end.in_contact
     # The edge correction may add cells to the contact in which no slip was solved.
-    slips = slip > 0
-    i, j = np.unravel_index(np.argmin(np.where(slips, slip, np.inf)), slip.shape)
+    i, j = np.unravel_index(np.argmin(np.where(slip > 0, slip, np.inf)), slip.shape)
     around = slip[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]
     return bool(2 * slip[i, j] <= np.max(around))
 

@@ -16,6 +16,7 @@ from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
     Refinement,
+    Share,
     slip_zone,
 )
 from contact_errors.cost_estimate import RING_OVERHEAD, Work
@@ -54,7 +55,7 @@ class RingSolver(DiscretisedSolver):
     cells: ClassVar[str] = "rings"
     most: ClassVar[float] = MAX_FINENESS
     # If half of the rings are too few to solve, two thirds may suffice.
-    shares: ClassVar[Sequence[tuple[str, float, int]]] = (
+    shares: ClassVar[Sequence[Share]] = (
         ("half the {}", 1 / 2, 0),
         ("two thirds of the {}", 2 / 3, 0),
     )

@@ -177,10 +177,13 @@ class GaussEdge:
     near the edge are fitted by a parabola in r², the square of the radius. The zero of the parabola
     is the edge.
 
-    element  length of an element edge on the surface [length]
+    element         length of an element edge on the surface [length]
+    whole_elements  True if the rings are all points of adjacent edges, so that tractions that load
+                    no node can be removed
     """
 
     element: float
+    whole_elements: bool = True
 
     @property
     def stick_rule(self) -> "GaussEdge":
@@ -213,7 +216,9 @@ class GaussEdge:
             middle = 0.5 * (radii[last] + radii[beyond])
         at = last // POINTS_PER_EDGE
         near = slice(POINTS_PER_EDGE * max(0, at - SMOOTHED), POINTS_PER_EDGE * (at + SMOOTHED + 1))
-        radii, values = radii[near], loading_part(radii[near], values[near])
+        radii, values = radii[near], values[near]
+        if self.whole_elements:
+            values = loading_part(radii, values)
         behind = step * (edge - radii) / self.element
         fitted = (behind > FITTED[0]) & (behind < FITTED[1]) & (values > 0)
         if np.count_nonzero(fitted) < FEWEST:

@@ -211,7 +211,9 @@ class SurfaceTractions:
         """
         edge: Edge = HatEdge(self.edge)
         if self._per_element > 1:
-            edge = GaussEdge(float(self.radii[POINTS_PER_EDGE] - self.radii[0]))
+            element = float(self.radii[POINTS_PER_EDGE] - self.radii[0])
+            # The rings end beyond the edge, and may be every second one.
+            edge = GaussEdge(element, whole_elements=False)
         return np.array([contact_edge(self.radii, ray, edge) for ray in self._ray_pressures.T])
 
     def _interpolate_linearly(self, radii: Field, rays: Field) -> Field:
