@@ -114,9 +114,6 @@ class JudgedQuantity(RecordedQuantity):
     order: tuple[float, float] | None = None
     """Observed order of convergence and half-width of its 95 % interval; null if unknown."""
 
-    stated_error: float | None = None
-    """Null, because the claims of a solver are verdicts of their own."""
-
     @property
     def scale(self) -> float:
         """Scale of the value, which is 1, because errors are relative."""
@@ -595,12 +592,12 @@ def _remarks(verdict: Judged, was: RecordedQuantity) -> Iterator[str]:
 
     These are a larger or missing stated error, status, tolerance, reference and unit.
     """
-    stated = verdict.stated_error
+    stated, recorded = verdict.stated_error, was.stated_error
     if was.covered and not verdict.covered:
         yield f"stated error {'not converged' if stated is None else f'{stated:.2e}'}: not covered"
-    wide = math.inf if was.stated_error is None else WORSE_BY * was.stated_error
-    if stated is not None and stated > wide + NOISE * verdict.scale:
-        yield f"stated error {stated:.2e}, was {was.stated_error:.2e}"
+    if stated is not None and recorded is not None:
+        if has_grown(recorded, stated, WORSE_BY, NOISE * verdict.scale):
+            yield f"stated error {stated:.2e}, was {recorded:.2e}"
     if verdict.status is not was.status:
         lost = was.status is Status.PASS and verdict.status is Status.INCONCLUSIVE
         held = ", held to the recorded tolerance" if lost else ""
