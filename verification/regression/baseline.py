@@ -595,9 +595,12 @@ def _remarks(verdict: Judged, was: RecordedQuantity) -> Iterator[str]:
     stated, recorded = verdict.stated_error, was.stated_error
     if was.covered and not verdict.covered:
         yield f"stated error {'not converged' if stated is None else f'{stated:.2e}'}: not covered"
-    if stated is not None and recorded is not None:
-        if has_grown(recorded, stated, WORSE_BY, NOISE * verdict.scale):
-            yield f"stated error {stated:.2e}, was {recorded:.2e}"
+    if (
+        stated is not None
+        and recorded is not None
+        and has_grown(recorded, stated, WORSE_BY, NOISE * verdict.scale)
+    ):
+        yield f"stated error {stated:.2e}, was {recorded:.2e}"
     if verdict.status is not was.status:
         lost = was.status is Status.PASS and verdict.status is Status.INCONCLUSIVE
         held = ", held to the recorded tolerance" if lost else ""
