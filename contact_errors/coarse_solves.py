@@ -300,6 +300,15 @@ class DiscretisedSolver(ABC):
     # ---- refinement
 
     @abstractmethod
+    def of_run(self) -> Fineness:
+        """Return the discretisation of a run with the settings of the scene file."""
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """Parts of the error that `refine_space` reduces, the part of the cells first."""
+        return (self.part,)
+
+    @abstractmethod
     def first_space(self) -> Any:
         """Return the grid, mesh or ring factor of the first level of an adaptive refinement.
 

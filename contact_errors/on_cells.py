@@ -187,6 +187,12 @@ class CellSolver(DiscretisedSolver):
             left={} if report is None else _remaining_edge_errors(report),
         )
 
+    def of_run(self) -> Fineness:
+        asked = self.discretisation
+        plan = semi_analytical.plan(self.scene, asked.path_accuracy, asked.edge)
+        grid = semi_analytical.discretise(self.scene, asked)
+        return Fineness(grid, plan.increments, asked.tolerance)
+
     def first_space(self) -> SurfaceGrid:
         grid = semi_analytical.discretise(self.scene, self.discretisation)
         return SurfaceGrid(scale_cells(grid.cells, FIRST_CELLS / min(grid.cells)), grid.window)

@@ -188,6 +188,16 @@ class ElementSolver(DiscretisedSolver):
         nu = 0.5 if any(body.layers for body in bodies) else max(ratios)
         return dict.fromkeys(ACROSS, (nu / (4 - 2 * nu)) ** 2 / 2)
 
+    def of_run(self) -> Fineness:
+        asked = self.discretisation
+        return Fineness(asked, self.plan.increments, asked.tolerance)
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        penalty: tuple[Part, ...] = ("penalty",) if self.method is Method.PENALTY else ()
+        harmonics: tuple[Part, ...] = ("harmonics",) if self.plan.path in ANGULAR else ()
+        return (self.part, *penalty, "section", *harmonics)
+
     def first_space(self) -> FiniteElementDiscretisation:
         return change_settings(self.discretisation, elements_per_radius=FIRST_ELEMENTS)
 

@@ -148,6 +148,9 @@ class RingSolver(DiscretisedSolver):
             slides=end.status is ContactStatus.GROSS_SLIDING,
         )
 
+    def of_run(self) -> Fineness:
+        return Fineness(self.plan.fineness, self.plan.increments, self.discretisation.tolerance)
+
     def first_space(self) -> float:
         return FIRST_FINENESS if self.depends_on_rings else 1.0
 

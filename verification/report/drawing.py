@@ -10,6 +10,7 @@ import hashlib
 import io
 import re
 from html import escape
+from pathlib import Path
 from typing import Any
 
 import matplotlib
@@ -17,6 +18,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
 from verification.exhibits.chart import Chart, Curve, Look, Panel, plain
 
@@ -181,6 +183,14 @@ def _legend_below(ax: Any, longest: int) -> None:
     ax.figure.legend(
         handles, labels, loc="outside lower left", ncols=columns, handlelength=2.4, labelcolor=INK
     )
+
+
+def write_picture(chart: Chart, path: Path) -> None:
+    """Draw a chart of a report on white, and write it as a PNG file."""
+    with style.figure_style(), atomic_file(path) as temporary:
+        figure = draw(chart)
+        figure.patch.set_visible(True)
+        style.save(figure, temporary)
 
 
 # Colours of a diagram become variables of the page, which has a light and a dark value of each.
