@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from contact_scene import read_scene_file
 from slipstick.cli.commands.study import compute_study, option_words, print_statements
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import (
@@ -15,7 +16,7 @@ from slipstick.cli.options import (
     SolverOption,
     directory,
     optional,
-    refuse_unknown,
+    print_input_warnings,
 )
 from slipstick.cli.terminal import print_table
 from slipstick.solvers.names import SolverName
@@ -23,7 +24,7 @@ from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.report.files import PAGE
 from verification.running.study import Settings
-from verification.studies.refinement.levels import FEWEST_LEVELS, NAMES, CannotRefine, StudiedScene
+from verification.studies.refinement.levels import FEWEST_LEVELS, StudiedScene
 from verification.studies.refinement.study import scene_study
 
 MAX_LEVELS = 10
@@ -48,15 +49,6 @@ def convergence(
             '"approach 0.01%, peak_pressure 1%". Default: the table [accuracy] of the scene.',
         ),
     ] = None,
-    refine: Annotated[
-        list[str] | None,
-        optional(
-            "--refine",
-            metavar="NAME",
-            help=f"Parameter to refine: {', '.join(NAMES)}. The option may be repeated. Default: "
-            "all that the scene and the solver have.",
-        ),
-    ] = None,
     levels: Annotated[
         int | None,
         optional(
@@ -64,7 +56,7 @@ def convergence(
             metavar="N",
             min=FEWEST_LEVELS,
             max=MAX_LEVELS,
-            help="Levels of each parameter. Default: 5 of the mesh, 4 or more of the others.",
+            help="Levels of each parameter. Default: 4 to 6.",
         ),
     ] = None,
     step: Annotated[
@@ -99,23 +91,23 @@ def convergence(
     Exit code 1 if the setting of the scene does not meet --require, and 6 if the levels cannot
     decide it.
     """
-    refuse_unknown("parameter", refine or (), NAMES, "slipstick convergence --help")
+    contents = read_scene_file(scene, overrides or ())
+    print_input_warnings(contents)
+    steps = len(contents.loading)
+    if step is not None and step > steps:
+        raise typer.BadParameter(f"step {step} was asked for, and the scene has {steps}")
+    studied = StudiedScene(contents, step or steps, solver.value)
+    study = scene_study(studied, levels, require, most_seconds)
     words = ["slipstick", "convergence", str(scene), "--solver", solver.value]
-    options: dict[str, Sequence[object]] = {"--set": overrides or (), "--refine": refine or ()}
-    options |= {"--require": [require], "--levels": [levels], "--step": [step]}
+    options: dict[str, Sequence[object]] = {"--set": overrides or (), "--require": [require]}
+    options |= {"--levels": [levels], "--step": [step]}
     target = output or Path("out") / f"convergence-{scene.stem}-{solver.value}"
-    try:
-        studied = StudiedScene.of(scene, overrides or (), step, solver.value)
-        study = scene_study(studied, refine or (), levels, require, most_seconds)
-        study.cases(SETTINGS)
-    except CannotRefine as error:
-        raise typer.BadParameter(str(error)) from None
     command = shlex.join([*words, *option_words(options)])
     record = compute_study(study, SETTINGS, command, target, workers, picture=PICTURE)
-    limits = record.conclusion.tables[0]
-    if limits.rows:
-        print_table(limits.columns, limits.rows, numbers=True)
-    print_statements(s for s in record.conclusion.statements if s.about is None or s.outcome)
+    limits, orders, _ = record.conclusion.tables
+    print_table(limits.columns, limits.rows, numbers=True)
+    print_table(orders.columns[:-1], [row[:-1] for row in orders.rows], numbers=True)
+    print_statements(record.conclusion.statements)
     typer.echo(f"picture: {target / PICTURE}")
     typer.echo(f"page: {target / PAGE}")
     if record.status is Status.FAIL:

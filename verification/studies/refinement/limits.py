@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
 
-from contact_errors.error_formula import BELIEVED
+from contact_errors.error_formula import BELIEVED, ORDERS
 from verification.convergence.observed_order import (
     ORDER_WIDTH,
     ObservedOrder,
@@ -116,6 +116,11 @@ class Estimate:
         return (abs(value - effect.limit) + effect.bound) / self.largest
 
     @property
+    def worst(self) -> Kind:
+        """Kind of refinement that reduces the error of the setting of a run most."""
+        return max(self.effects, key=lambda effect: self.share(effect, self.own)).kind
+
+    @property
     def open(self) -> str:
         """Reason why the uncertainty is no more than an order of magnitude; empty without one."""
         if self.small:
@@ -145,39 +150,29 @@ def _estimate(
     """Estimate limit and error of one scalar; None for one that is left out."""
     name, of = str(part.parameters["quantity"]), str(part.parameters["of"])
     measures = finite_measures(part.measures)
-    if of == run.words.get("infinite") or measures[LARGEST] <= VANISHES * measures[NATURAL]:
+    largest, finest = measures[LARGEST], part
+    if of == run.words.get("infinite") or largest <= VANISHES * measures[NATURAL]:
         return None
-    effects, floor, small = [], measures[FLOOR], part.words["small"]
+    effects = []
     for ladder in ladders:
-        solved = solved_levels(ladder, records, name)
-        if not solved:
-            continue
-        finest = next(p for p in solved[-1][1].parts if p.parameters["quantity"] == name)
-        floor = max(floor, finite_measures(finest.measures)[FLOOR])
-        if not ladder.sizes:
-            small = finest.words["small"]
-        effect = _effect(ladder, name, solved, finest, floor * measures[LARGEST])
-        effects.append(effect)
+        solved = {
+            size: record
+            for size, level in ladder.levels.items()
+            if (record := records.get(level.name)) and record.measures.get(name) is not None
+        }
+        rows = [p for record in solved.values() for p in record.parts]
+        last = [p for p in rows if p.parameters["quantity"] == name][-1:]
+        if ladder is ladders[0]:
+            finest = next(iter(last), part)
+        effects.append(_effect(ladder, name, solved, finest))
     if all(len(set(effect.values)) == 1 for effect in effects):
         return None
     unrefined = measures.get(UNREFINED, inf)
+    floor = max(measures[FLOOR], finite_measures(finest.measures)[FLOOR])
     return Estimate(
-        name, of, run.units[name], finite_measures(run.measures)[name], measures[LARGEST],
-        tuple(effects), floor * measures[LARGEST], unrefined, small,
+        name, of, run.units[name], finite_measures(run.measures)[name], largest, tuple(effects),
+        floor * largest, unrefined * largest, finest.words["small"],
     )  # fmt: skip
-
-
-def solved_levels(
-    ladder: Ladder, records: Mapping[str, CaseRecord], name: str
-) -> list[tuple[float, CaseRecord]]:
-    """Return sizes and records of the levels of a ladder that have a value of a result."""
-    found = []
-    for number, level in enumerate(ladder.levels):
-        record = records.get(level.name)
-        if record is not None and record.measures.get(name) is not None:
-            side = float(record.parameters["side"] or 0.0)
-            found.append((ladder.sizes[number] if ladder.sizes else side, record))
-    return found
 
 
 def finite_measures(measures: Mapping[str, float | None]) -> dict[str, float]:
@@ -185,26 +180,24 @@ def finite_measures(measures: Mapping[str, float | None]) -> dict[str, float]:
     return {name: value for name, value in measures.items() if value is not None}
 
 
-def _effect(
-    ladder: Ladder,
-    name: str,
-    solved: Sequence[tuple[float, CaseRecord]],
-    finest: Row,
-    floor: float,
-) -> Effect:
+def _effect(ladder: Ladder, name: str, solved: Mapping[float, CaseRecord], finest: Row) -> Effect:
     """Extrapolate the effect of one refined parameter on a result.
 
     If the values follow one power of the size, the limit is that of the observed order. Otherwise
     it is the finest value, and its bound follows from the finest levels and the theoretical order.
 
     name    name of the result
-    solved  sizes and records of the levels that have the result, coarse to fine
-    finest  row of the result on the finest level
-    floor   error of the result by the tolerance of the solves
+    solved  records of the levels that have the result, by size, coarse to fine
+    finest  row of the result on the finest mesh
     """
-    sizes = tuple(size for size, _ in solved)
-    values = tuple(finite_measures(record.measures)[name] for _, record in solved)
-    p = ladder.order() or finite_measures(finest.measures)[ORDER]
+    measures, mesh = finite_measures(finest.measures), ladder.part not in ORDERS
+    p = measures[ORDER] if mesh else ORDERS[ladder.part]
+    floor = measures[FLOOR] * measures[LARGEST]
+    values = tuple(finite_measures(record.measures)[name] for record in solved.values())
+    sizes = tuple(
+        float(record.parameters["side"] or size) if mesh else size
+        for size, record in solved.items()
+    )
     if len(set(values)) == 1:
         return Effect(ladder.kind, sizes, values, p, None, values[-1], 0.0, "")
     if len(sizes) < FEWEST_LEVELS:
@@ -215,7 +208,7 @@ def _effect(
     near = [(r, v) for n, (r, v) in enumerate(finest_first) if n and (n < 3 or r < NEAR)]
     bound = max(abs(values[-1] - v) / (r ** (BELIEVED * p) - 1) for r, v in near)
     fit = refined_value(sizes, values, p)
-    limit, why = values[-1], ""
+    limit, why = values[-1], "the two finest levels agree within the tolerance of the solves"
     if bound > floor:
         why = _reason_not_asymptotic(fit, ladder.kind)
         if fit.observed is not None and not why:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import isfinite
+from typing import TypeAlias
 
-from contact_scene.accuracy import AccuracyRequest
 from contact_scene.reading.scene_file import read_accuracy
 from verification.exhibits.chart import (
     Chart,
@@ -34,16 +34,19 @@ from verification.running.study import (
 )
 from verification.studies.refinement.levels import (
     AccuracyLevel,
-    Plan,
     StudiedScene,
     plan_of,
 )
-from verification.studies.refinement.limits import Estimate, estimates
+from verification.studies.refinement.limits import Effect, Estimate, estimates
 
+# Names of the curves of the picture, and the records of their levels: the run, the kinds of
+# refinement, and the setting of a requested accuracy.
+Levels: TypeAlias = Sequence[tuple[str, Sequence[CaseRecord]]]
 # Accuracy whose cost is shown beside that of the scene, if the user requires none.
 USUAL = "0.1%"
-MOST_PANELS = 6
-PANEL_HEIGHT = 1.5
+SCENE = "this scene"
+MOST_PANELS = 4
+PANEL_HEIGHT = 1.3
 REMARKS = (
     "One parameter is refined at a time; the others stay as in a run of the scene. The limit of a "
     "number is its value in the run, changed by the effects of all parameters.",
@@ -54,60 +57,58 @@ REMARKS = (
 
 
 def scene_study(
-    scene: StudiedScene,
-    names: Sequence[str],
-    count: int | None,
-    requirement: str | None,
-    most_seconds: float,
+    scene: StudiedScene, count: int | None, requirement: str | None, most_seconds: float
 ) -> Study:
     """Create the convergence study of a scene file.
 
     scene         scene file, solver and load step
-    names         names of the kinds of refinement; empty for all
-    count         number of levels of every kind; None for the defaults
+    count         number of levels of every kind of refinement; None for the defaults
     requirement   text of the accuracy that the setting of the scene has to meet; None for the table
                   [accuracy] of the scene, if there is one
     most_seconds  limit of the time to find the setting of a requested accuracy [s]
 
-    Raises SceneError for a mistake in the requirement.
+    Raises SceneError for a mistake in the requirement, and the errors of a solve.
     """
-    asked = scene.read().accuracy
+    asked = scene.contents.accuracy
     if requirement is not None:
         asked = read_accuracy(requirement, "--require")
     chosen = AccuracyLevel(scene, requirement or USUAL, most_seconds)
+    # The setting of a scene with a table [accuracy] is the one that its request chooses.
     of_request = (chosen,) if requirement or asked is None else ()
 
-    def plan() -> Plan:
-        return plan_of(scene, tuple(names), count)
+    plan = plan_of(scene, count)
+    curves: list[tuple[str, Sequence[StudyCase]]] = [
+        *((one.kind.noun, tuple(one.levels.values())) for one in plan.ladders),
+        (SCENE, (plan.run,)),
+        *((f"--accuracy {one.request}", (one,)) for one in of_request),
+    ]
 
     def cases(settings: Settings) -> tuple[StudyCase, ...]:
-        return (*plan().cases, *of_request)
+        return (*plan.cases, *of_request)
 
     def conclude(settings: Settings, records: Records) -> Conclusion:
-        of = estimates(plan(), records)
-        chosen_level = [records[one.name] for one in of_request if one.name in records]
-        shown = _shown(of, asked)
+        of = estimates(plan, records)
+        levels = [
+            (name, [records[case.name] for case in of_curve if case.name in records])
+            for name, of_curve in curves
+        ]
+        shares = asked.shares() if asked else {}
         return Conclusion(
             statements=(
-                *_refusals(plan(), records),
-                *(_requirements(asked, of) if asked else ()),
-                *map(_limit_statement, of),
+                *_refusals(records.values()),
+                *_requirements(shares, of, asked.named_quantities if asked else ()),
                 *_infinite_limits(records.values()),
-                *_accuracy_statements(chosen_level),
+                *(_cost_statement(records[x.name]) for x in of_request if x.name in records),
             ),
-            tables=(
-                _limit_table(of),
-                _order_table(of),
-                _level_table(plan(), records, chosen_level, of),
-            ),
-            charts=(_work_chart(plan(), records, chosen_level, shown, asked),) if shown else (),
-            rows=tuple(map(row_of, of)),
+            tables=(_limit_table(of), _order_table(of), _level_table(levels, of)),
+            charts=tuple(_work_charts(of, levels, shares)),
+            rows=tuple(row_of(one, effect) for one in of for effect in one.effects),
             remarks=REMARKS,
         )
 
     return Study(
         "convergence",
-        f"Convergence of {scene.title}",
+        f"Convergence of {scene.contents.title or 'the scene'}",
         f"What error has each number at the end of step {scene.step}, by which parameter of the "
         "discretisation, and what does a smaller error cost?",
         cases,
@@ -130,78 +131,49 @@ def error_text(share: float) -> str:
     return f"{plain(100 * share, 2)} %" if isfinite(share) else "unknown"
 
 
-def _size_text(value: float, unit: str) -> str:
-    return value_text(value, unit, 2) if isfinite(value) else "unknown"
-
-
-def _requirements(asked: AccuracyRequest, of: Sequence[Estimate]) -> Iterator[Statement]:
-    """Judge the errors of the setting of a run against the required accuracy."""
-    found = {one.of for one in of}
-    for name in asked.named_quantities:
-        if name not in found:
-            yield Statement(
-                claim=f"required accuracy of the {label(name)}",
-                outcome=Status.INCONCLUSIVE,
-                measured="it does not change under refinement, or the results of this scene do not "
-                "contain it",
-            )
-    shares = asked.shares()
-    for one in of:
-        if one.of in shares:
-            yield _requirement(one, shares[one.of])
-
-
-def _requirement(one: Estimate, share: float) -> Statement:
-    """Judge the error of a result in a run against the required accuracy.
+def _requirements(
+    shares: Mapping[str, float], of: Sequence[Estimate], named: Sequence[str]
+) -> Iterator[Statement]:
+    """Judge the errors of the setting of a run against the required relative errors.
 
     The verdict is PASS if the bound of the error at 95 % meets the requirement, FAIL if the error
     exceeds it even with the uncertainty of the limit deducted, and INCONCLUSIVE otherwise.
 
-    one    limit and errors of the result
-    share  required error, relative to the largest value in the load history
+    shares  required errors by name
+    of      limits and errors of the results
+    named   names that the requirement contains
     """
-    error = one.error(one.own)
-    least = one.distance(one.own) - one.uncertainty / one.largest
-    outcome = Status.FAIL if least > share else Status.INCONCLUSIVE
-    if error <= share and not one.small:
-        outcome = Status.PASS
-    worst = max(one.effects, key=lambda effect: one.share(effect, one.own))
-    why = f"; {one.open}" if one.open else ""
-    return Statement(
-        claim=f"required accuracy of the {label(one.name)}",
-        outcome=outcome,
-        measured=f"error of the scene's setting {error_text(error)}, required {error_text(share)}",
-        because=f"largest part by {worst.kind.noun}: {worst.kind.remedy}{why}",
-        about=row_of(one),
-    )
-
-
-def _limit_statement(one: Estimate) -> Statement:
-    orders = "; ".join(
-        f"{effect.kind.noun}: order {effect.order_text}, theoretical {effect.order:g}"
-        for effect in one.effects
-    )
-    return Statement(
-        claim=f"limit of the {label(one.name)}",
-        outcome=None,
-        measured=f"{value_text(one.limit, one.unit, 7)} ± {_size_text(one.uncertainty, one.unit)}; "
-        f"error of the scene's setting {error_text(one.error(one.own))}",
-        because=orders + (f"; {one.open}" if one.open else ""),
-        about=row_of(one),
-    )
-
-
-def _refusals(plan: Plan, records: Records) -> Iterator[Statement]:
-    """State that a level, and above all the scene itself, was refused by the solver."""
-    for level in plan.cases:
-        words = records[level.name].words if level.name in records else {}
-        if "refused" in words:
+    for one in of:
+        if one.of in shares:
+            error, share = one.error(one.own), shares[one.of]
+            known = 2 * one.distance(one.own) - error  # the uncertainty deducted
+            outcome = Status.FAIL if known > share else Status.INCONCLUSIVE
+            if error <= share and not one.small:
+                outcome = Status.PASS
             yield Statement(
-                claim=f"{level.level} can be solved"
-                + (", the setting of the scene" if level == plan.run else ""),
-                outcome=Status.INCONCLUSIVE,
-                measured=words["refused"],
+                claim=f"required accuracy of the {label(one.name)}",
+                outcome=outcome,
+                measured=f"error of the scene's setting {error_text(error)}, required "
+                f"{error_text(share)}",
+                because=f"largest part by {one.worst.noun}: {one.worst.remedy}"
+                + (f"; {one.open}" if one.open else ""),
             )
+    for name in sorted(set(named) - {one.of for one in of}):
+        yield Statement(
+            claim=f"required accuracy of the {label(name)}",
+            outcome=Status.INCONCLUSIVE,
+            measured="the results do not contain it, or it is the same on every level",
+        )
+
+
+def _refusals(records: Iterable[CaseRecord]) -> Iterator[Statement]:
+    refused = [record for record in records if "refused" in record.words]
+    if refused:
+        yield Statement(
+            claim="every level has a result",
+            outcome=Status.INCONCLUSIVE,
+            measured=f"{len(refused)} have none: {refused[0].words['refused']}",
+        )
 
 
 def _infinite_limits(records: Iterable[CaseRecord]) -> list[Statement]:
@@ -218,33 +190,31 @@ def _infinite_limits(records: Iterable[CaseRecord]) -> list[Statement]:
     ]
 
 
-def _accuracy_statements(chosen: Sequence[CaseRecord]) -> Iterator[Statement]:
-    for record in chosen:
-        refused = record.words.get("refused") or record.words.get("stopped")
-        yield Statement(
-            claim="cost of a requested accuracy",
-            outcome=None,
-            measured=f"{record.parameters['level']}"
-            + (f": not met, {refused}" if refused else f"; {record.seconds:.2g} CPU s"),
-        )
+def _cost_statement(chosen: CaseRecord) -> Statement:
+    stopped = chosen.words.get("stopped")
+    return Statement(
+        claim=f"cost of {chosen.parameters['level']}",
+        outcome=None,
+        measured=f"not met, {stopped}" if stopped else f"{chosen.seconds:.2g} CPU s",
+    )
 
 
-def row_of(one: Estimate) -> Row:
-    """Return the limit, the uncertainty, the errors and the orders of a result as a study row."""
-    known = {"limit": one.limit, "uncertainty": one.uncertainty, "own": one.own}
-    measures = {name: finite(value) for name, value in known.items()}
-    measures |= {"unrefined": finite(one.unrefined), "error": finite(one.error(one.own))}
-    for effect in one.effects:
-        observed, noun = effect.observed, effect.kind.noun
-        measures[f"error by {noun}"] = finite(one.share(effect, one.own))
-        measures[f"error of the finest {noun}"] = finite(one.share(effect, effect.values[-1]))
-        measures[f"order in {noun}"] = None if observed is None else observed.order
-        measures[f"half width in {noun}"] = None if observed is None else observed.half_width
+def row_of(one: Estimate, effect: Effect) -> Row:
+    """Return the limit of a result, and the order and errors by one parameter, as a study row."""
+    of_result = {"own": one.own, "limit": one.limit, "uncertainty": one.uncertainty}
+    observed = effect.observed
     return Row(
-        parameters={"quantity": one.name, "unit": one.unit or "1"},
-        measures=measures,
-        units=dict.fromkeys((*known, "unrefined"), "its unit"),
-        words={effect.kind.noun: effect.open for effect in one.effects if effect.open},
+        parameters={"quantity": one.name, "unit": one.unit or "1", "refined": effect.kind.noun},
+        measures={
+            **{name: finite(value) for name, value in of_result.items()},
+            "error": finite(one.error(one.own)),
+            "error by it": finite(one.share(effect, one.own)),
+            "error of the finest by it": finite(one.share(effect, effect.values[-1])),
+            "order": None if observed is None else observed.order,
+            "half_width": None if observed is None else observed.half_width,
+        },
+        units=dict.fromkeys(of_result, "its unit"),
+        words={"open": effect.open} if effect.open else {},
     )
 
 
@@ -252,158 +222,120 @@ def row_of(one: Estimate) -> Row:
 
 
 def _limit_table(of: Sequence[Estimate]) -> Table:
-    kinds = {effect.kind.noun: None for one in of for effect in one.effects}
     return table_of(
         "Limits, and errors of the scene's setting",
         {
             "quantity": lambda one: label(one.name),
             "scene": lambda one: value_text(one.own, one.unit, 7),
             "limit": lambda one: value_text(one.limit, one.unit, 7),
-            "uncertainty": lambda one: _size_text(one.uncertainty, one.unit),
+            "uncertainty": lambda one: (
+                value_text(one.uncertainty, one.unit, 2) if isfinite(one.uncertainty) else "unknown"
+            ),
             "error": lambda one: error_text(one.error(one.own)),
-            **{f"by {noun}": _share_column(noun) for noun in kinds},
+            "largest part": lambda one: f"by {one.worst.noun}",
         },
         of,
-        "The error is relative to the largest value in the history. It contains the uncertainty of "
-        "the limit, and so do its parts.",
+        "The error contains the uncertainty of the limit. It is relative to the largest value in "
+        "the history.",
     )
 
 
-def _share_column(noun: str) -> Callable[[Estimate], str]:
-    def text(one: Estimate) -> str:
-        found = [effect for effect in one.effects if effect.kind.noun == noun]
-        return error_text(one.share(found[0], one.own)) if found else "–"
-
-    return text
-
-
 def _order_table(of: Sequence[Estimate]) -> Table:
-    rows = [(one, effect) for one in of for effect in one.effects]
     return table_of(
-        "Orders of convergence",
+        "Errors and orders by parameter",
         {
             "quantity": lambda row: label(row[0].name),
             "refined": lambda row: row[1].kind.noun,
-            "levels": lambda row: str(len(row[1].values)),
-            "error of the finest": lambda row: error_text(row[0].share(row[1], row[1].values[-1])),
-            "observed order": lambda row: row[1].order_text,
-            "theoretical": lambda row: f"{row[1].order:g}",
+            "error": lambda row: error_text(row[0].share(row[1], row[0].own)),
+            "of the finest": lambda row: error_text(row[0].share(row[1], row[1].values[-1])),
+            "order": lambda row: row[1].order_text,
+            "theory": lambda row: f"{row[1].order:g}",
             "why not asymptotic": lambda row: row[1].open or "–",
         },
-        rows,
+        [(one, effect) for one in of for effect in one.effects],
         "Without an order the limit is the finest value, and its uncertainty follows from the "
         "theoretical order.",
     )
 
 
-def _level_table(
-    plan: Plan, records: Records, chosen: Sequence[CaseRecord], of: Sequence[Estimate]
-) -> Table:
-    """Build the table of all levels: work, and values with their errors.
+def _level_table(levels: Levels, of: Sequence[Estimate]) -> Table:
+    """Build the table of all levels: work, and values.
 
     A level that the solver refused has the message of the solver instead.
     """
-    rows = [("the scene", plan.run.level, records.get(plan.run.name))]
-    for ladder in plan.ladders:
-        for level in ladder.levels:
-            rows.append((ladder.kind.noun, level.level, records.get(level.name)))
-    rows += [("requested", str(record.parameters["level"]), record) for record in chosen]
-    found = [(what, level, record) for what, level, record in rows if record is not None]
 
-    def value(one: Estimate) -> Callable[[tuple[str, str, CaseRecord]], str]:
-        def text(row: tuple[str, str, CaseRecord]) -> str:
-            value = row[2].measures.get(one.name)
-            if value is None:
-                return "–"
-            return f"{value_text(value, one.unit)} ({error_text(one.error(value))})"
-
-        return text
+    def value(one: Estimate) -> Callable[[tuple[str, CaseRecord]], str]:
+        return lambda row: (
+            value_text(row[1].measures[one.name], one.unit) if one.name in row[1].measures else "–"
+        )
 
     return table_of(
         "Levels",
         {
-            "level": lambda row: row[1],
+            "level": lambda row: str(row[1].parameters["level"]),
             "refined": lambda row: row[0],
-            "CPU time": lambda row: f"{row[2].seconds:.2g} s" if row[2].measures else "–",
-            "unknowns": lambda row: str(row[2].counters.get("unknowns", "–")),
-            "increments": lambda row: str(row[2].counters.get("increments", "–")),
+            "CPU time": lambda row: f"{row[1].seconds:.2g} s",
+            "unknowns": lambda row: str(row[1].counters.get("unknowns", "–")),
+            "increments": lambda row: str(row[1].counters.get("increments", "–")),
             **{label(one.name): value(one) for one in of},
             "largest residual": lambda row: (
-                row[2].words.get("refused") or plain(row[2].number(RESIDUAL), 2)
+                row[1].words.get("refused") or plain(row[1].number(RESIDUAL), 2)
             ),
         },
-        found,
-        "In brackets: error of the value, relative to the largest value in the history.",
+        [(what, record) for what, records in levels for record in records],
     )
 
 
 # ---- picture
 
 
-def _shown(of: Sequence[Estimate], asked: AccuracyRequest | None) -> Sequence[Estimate]:
-    """Choose the results of the picture: the required ones first, then those of largest error."""
-    required = {} if asked is None else asked.shares()
+def _work_charts(
+    of: Sequence[Estimate], levels: Levels, shares: Mapping[str, float]
+) -> Iterator[Chart]:
+    """Draw the error of every level over its CPU time, one panel for each result.
+
+    The required results come first, then those of the largest error. Only the first panel has
+    labels, because all have the same curves.
+
+    levels  names of the curves, and records of their levels
+    shares  required errors by name
+    """
     known = [one for one in of if isfinite(one.uncertainty)]
-    ranked = sorted(known, key=lambda one: (one.of not in required, -one.error(one.own)))
-    return [one for one in known if one in ranked[:MOST_PANELS]]
-
-
-def _work_chart(
-    plan: Plan,
-    records: Records,
-    chosen: Sequence[CaseRecord],
-    of: Sequence[Estimate],
-    asked: AccuracyRequest | None,
-) -> Chart:
-    """Draw the error of every level over its CPU time, one panel for each result."""
-    shares = {} if asked is None else asked.shares()
+    known.sort(key=lambda one: (one.of not in shares, -one.error(one.own)))
     panels = [
         Panel(
-            x_label="CPU time of a solve / s" if number == len(of) - 1 else "",
+            x_label="",
             y_label="relative error",
             title=label(one.name),
-            curves=tuple(_work_curves(one, plan, records, chosen, shares.get(one.of))),
+            curves=tuple(_work_curves(one, levels, shares.get(one.of), named=one is known[0])),
             logarithmic=True,
             height=PANEL_HEIGHT,
         )
-        for number, one in enumerate(of)
+        for one in known[:MOST_PANELS]
     ]
-    return stacked(
-        "work", "What accuracy costs",
-        "Error bound of each level over its CPU time, relative to the largest value in the "
-        "history. A curve refines one parameter; it levels off at the errors of the others.",
-        *panels,
-    )  # fmt: skip
+    if panels:
+        panels[-1] = panels[-1].model_copy(update={"x_label": "CPU time of a solve / s"})
+        yield stacked(
+            "work", "What accuracy costs",
+            "Error bound of each level over its CPU time, relative to the largest value in the "
+            "history. A curve refines one parameter; it levels off at the errors of the others.",
+            *panels,
+        )  # fmt: skip
 
 
 def _work_curves(
-    one: Estimate,
-    plan: Plan,
-    records: Records,
-    chosen: Sequence[CaseRecord],
-    share: float | None,
+    one: Estimate, levels: Levels, share: float | None, *, named: bool
 ) -> Iterator[Curve]:
-    def point(record: CaseRecord) -> tuple[float | None, float | None]:
-        value = record.measures.get(one.name)
-        return record.seconds, None if value is None else one.error(value)
-
-    def points(found: Sequence[CaseRecord]) -> tuple[list[float], list[float]]:
-        kept = drawable(map(point, found))
-        return [x for x, _ in kept], [y for _, y in kept]
-
-    def records_of(names: Sequence[str]) -> list[CaseRecord]:
-        return [records[name] for name in names if name in records]
-
-    everything = []
-    for series, ladder in enumerate(plan.ladders):
-        levels = records_of([level.name for level in ladder.levels])
-        everything += levels
-        yield curve(ladder.kind.noun, *points(levels), Look.POINTS, series)
-    if share is not None:
-        times = points([*everything, *chosen])[0]
-        yield curve("required", [min(times), max(times)], [share, share], Look.BOUND)
-    yield curve("this scene", *points(records_of([plan.run.name])), Look.MARKS)
-    for record in chosen:
-        if points([record])[0]:
-            text = str(record.parameters["level"]).partition(":")[0]
-            yield curve(text, *points([record]), Look.TILES, len(plan.ladders))
+    times: list[float] = []
+    for series, (name, records) in enumerate(levels):
+        values = [(r.seconds, r.measures.get(one.name)) for r in records]
+        points = drawable((x, one.error(value)) for x, value in values if value is not None)
+        if points:
+            x, y = zip(*points, strict=True)
+            times += x
+            look = Look.TILES if name.startswith("--") else Look.POINTS
+            look = Look.MARKS if name == SCENE else look
+            yield curve(name if named else "", x, y, look, series)
+    if share is not None and times:
+        ends = min(times), max(times)
+        yield curve("required" if named else "", ends, (share, share), Look.BOUND)
