@@ -183,7 +183,8 @@ def finite_measures(measures: Mapping[str, float | None]) -> dict[str, float]:
 def _effect(ladder: Ladder, name: str, solved: Mapping[float, CaseRecord], finest: Row) -> Effect:
     """Extrapolate the effect of one refined parameter on a result.
 
-    If the values follow one power of the size, the limit is that of the observed order. Otherwise
+    If the values follow one power of the size, the limit is that of the observed order. Its bound
+    contains the limit of the theoretical order, which the error may have on finer levels. Otherwise
     it is the finest value, and its bound follows from the finest levels and the theoretical order.
 
     name    name of the result
@@ -215,6 +216,7 @@ def _effect(ladder: Ladder, name: str, solved: Mapping[float, CaseRecord], fines
             followed = refined_value(sizes, values, fit.observed.order)
             limit = followed.limit
             bound = COVERAGE * followed.uncertainty + _reach_of_order(sizes, values, fit.observed)
+            bound += abs(limit - fit.limit)
     return Effect(ladder.kind, sizes, values, p, fit.observed, limit, bound, why)
 
 

@@ -44,7 +44,7 @@ from verification.studies.refinement.limits import Effect, Estimate, estimates
 Levels: TypeAlias = Sequence[tuple[str, Sequence[CaseRecord]]]
 # Accuracy whose cost is shown beside that of the scene, if the user requires none.
 USUAL = "0.1%"
-SCENE = "this scene"
+SCENE, CHOSEN = "this scene", "setting of --accuracy"
 MOST_PANELS = 4
 PANEL_HEIGHT = 1.3
 REMARKS = (
@@ -80,7 +80,7 @@ def scene_study(
     curves: list[tuple[str, Sequence[StudyCase]]] = [
         *((one.kind.noun, tuple(one.levels.values())) for one in plan.ladders),
         (SCENE, (plan.run,)),
-        *((f"--accuracy {one.request}", (one,)) for one in of_request),
+        *((CHOSEN, (one,)) for one in of_request),
     ]
 
     def cases(settings: Settings) -> tuple[StudyCase, ...]:
@@ -333,7 +333,7 @@ def _work_curves(
         if points:
             x, y = zip(*points, strict=True)
             times += x
-            look = Look.TILES if name.startswith("--") else Look.POINTS
+            look = Look.TILES if name == CHOSEN else Look.POINTS
             look = Look.MARKS if name == SCENE else look
             yield curve(name if named else "", x, y, look, series)
     if share is not None and times:
