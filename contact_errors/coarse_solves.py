@@ -235,6 +235,10 @@ class DiscretisedSolver(ABC):
         """
 
     @abstractmethod
+    def unknowns(self, result: Any) -> int:
+        """Count the unknowns of a solve: tractions of cells or rings, displacements of elements."""
+
+    @abstractmethod
     def record_entry(self, space: Any) -> Mapping[str, Any]:
         """Return the key and the value of a grid or mesh in records such as summary.json.
 

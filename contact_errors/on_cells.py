@@ -149,6 +149,10 @@ class CellSolver(DiscretisedSolver):
     def cell_sides(self, result: Result) -> tuple[float, ...]:
         return result.grid.spacing
 
+    def unknowns(self, result: Result) -> int:
+        nx, ny = result.grid.cells
+        return nx * ny * (3 if result.plan.shear else 1)
+
     def record_entry(self, space: SurfaceGrid) -> Mapping[str, Any]:
         return {"cells": space.cells}
 

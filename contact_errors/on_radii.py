@@ -111,6 +111,10 @@ class RingSolver(DiscretisedSolver):
     def cell_sides(self, result: Result) -> tuple[float, ...]:
         return (1 / result.plan.fineness,)
 
+    def unknowns(self, result: Result) -> int:
+        """Count the tractions at points on rings, or the rings of a solve without these points."""
+        return max(1, 3 * result.plan.angles) * result.plan.rings
+
     def record_entry(self, space: float) -> Mapping[str, Any]:
         return {"ring_factor": space}
 

@@ -247,13 +247,22 @@ def test_the_setting_of_the_scene_is_that_of_a_run(solver: str, tmp_path: Path) 
         assert level.measures[name] in np.atleast_1d(end[of])
 
 
-def test_an_infinite_pressure_and_a_refused_level_are_told(tmp_path: Path) -> None:
+@pytest.mark.usefixtures("one_process")
+@pytest.mark.parametrize(
+    ("scene", "mesh", "text", "exit_code"),
+    [
+        ("cusp of a cone", "cells = [32, 32]", "the exact value is infinite", 0),
+        ("smooth Hertz", "window = [3e-4, 3e-4]", "6 have none: ContactAtWindowEdge", 6),
+    ],
+)
+def test_what_has_no_limit_is_told(
+    scene: str, mesh: str, text: str, exit_code: int, tmp_path: Path
+) -> None:
     path = tmp_path / "scene.toml"
-    window = "\n[semi_analytical]\nwindow = [3e-2, 3e-2]\ncells = [64, 64]"
-    path.write_text(SCENES["cusp of a cone"].text + window)
+    path.write_text(f"{SCENES[scene].text}\n[semi_analytical]\n{mesh}")
     ended = outcome("convergence", path, "--workers", 1, "-o", "out", cwd=tmp_path)
-    assert "the exact value is infinite" in ended.stdout
-    assert "ContactNotResolved" in ended.stdout
+    assert text in ended.stdout
+    assert ended.returncode == exit_code
 
 
 @pytest.mark.usefixtures("one_process")

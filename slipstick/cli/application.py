@@ -168,7 +168,7 @@ application = typer.Typer(
     rich_markup_mode="markdown",
     epilog="Exit codes: 0 success; 1 accuracy verdict failed; 2 invalid scene or output; "
     "3 not converged or resolved; 4 too little memory, disk or time; 5 baseline drift; "
-    "6 inconclusive (judge --strict, convergence --require); 7 worse than the baseline; "
+    "6 inconclusive (judge --strict, convergence); 7 worse than the baseline; "
     "70 internal error; 141 output closed.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )

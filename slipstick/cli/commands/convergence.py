@@ -89,7 +89,7 @@ def convergence(
     the same command computes the missing ones.
 
     Exit code 1 if the setting of the scene does not meet --require, and 6 if the levels cannot
-    decide it.
+    decide it or the solver refuses a level.
     """
     contents = read_scene_file(scene, overrides or ())
     print_input_warnings(contents)
@@ -112,5 +112,5 @@ def convergence(
     typer.echo(f"page: {target / PAGE}")
     if record.status is Status.FAIL:
         raise typer.Exit(ExitCode.ACCURACY)
-    if record.status is Status.INCONCLUSIVE and require is not None:
+    if record.status is Status.INCONCLUSIVE:
         raise typer.Exit(ExitCode.INCONCLUSIVE)

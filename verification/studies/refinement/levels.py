@@ -43,7 +43,6 @@ from contact_scene.reading.scene_file import read_accuracy
 from contact_scene.solver_errors import SolverError
 from contact_scene.stepping.increment_error import has_increment_error
 from fem_reference import Method
-from fem_reference.memory import NODES_PER_ELEMENT
 from verification.judging.outcome import finite
 from verification.quantities import largest_residual
 from verification.running.study import RESIDUAL, CaseRecord, Row
@@ -247,7 +246,7 @@ def level_record(level: SceneLevel, result: Any, seconds: float) -> CaseRecord:
     solver, at = level.scene.discretised().of(result), level.scene.step - 1
     steps, features = values_of(result), solver.features(result)[at]
     sizes = {stem: float(np.max(size)) for stem, size in largest_so_far(steps)[-1].items()}
-    ends, counts = list(_key_scalars(steps[at])), unknowns(result)
+    ends, counts = list(_key_scalars(steps[at])), solver.unknowns(result)
     unrefined = dict(solver.neglected_errors(result))
     if level.is_run and solver.with_half_the_points() is not None:
         for stem, stated in solver.stated_errors(result).steps[at].items():
@@ -257,7 +256,7 @@ def level_record(level: SceneLevel, result: Any, seconds: float) -> CaseRecord:
         parameters={"level": level.level, "side": max(solver.cell_sides(result))},
         measures={**{name: value for name, _, value in ends}, RESIDUAL: largest_residual(result)},
         units={name: KEYS[stem].unit for name, stem, _ in ends},
-        counters={"increments": len(result.increments)} | counts,
+        counters={"increments": len(result.increments), "unknowns": counts},
         words={"infinite": PEAK} if features.infinite else {},
         seconds=seconds,
         parts=tuple(
@@ -275,24 +274,6 @@ def level_record(level: SceneLevel, result: Any, seconds: float) -> CaseRecord:
             for name, stem, _ in ends
         ),
     )
-
-
-def unknowns(result: Any) -> dict[str, int]:
-    """Count the unknowns of a solve: tractions of cells or rings, displacements of elements.
-
-    Those of elements are about the number of their degrees of freedom. The dictionary is empty for
-    a solve without rings.
-    """
-    plan = result.plan
-    if hasattr(result, "grid"):
-        nx, ny = result.grid.cells
-        count = nx * ny * (3 if plan.shear else 1)
-    elif hasattr(result, "sections"):
-        elements = sum(each.quads.shape[1] for each in result.sections if each is not None)
-        count = 2 * NODES_PER_ELEMENT * elements
-    else:
-        count = 3 * plan.rings * plan.angles
-    return {"unknowns": int(count)} if count else {}
 
 
 def _key_scalars(values: Values) -> Iterator[tuple[str, str, float]]:

@@ -12,11 +12,8 @@ from math import inf, isfinite
 
 from contact_errors.error_formula import BELIEVED, ORDERS
 from verification.convergence.observed_order import (
-    ORDER_WIDTH,
     ObservedOrder,
-    RefinedValue,
     refined_value,
-    triplets_agree,
 )
 from verification.running.study import CaseRecord, Row
 from verification.studies.refinement.levels import (
@@ -183,9 +180,9 @@ def finite_measures(measures: Mapping[str, float | None]) -> dict[str, float]:
 def _effect(ladder: Ladder, name: str, solved: Mapping[float, CaseRecord], finest: Row) -> Effect:
     """Extrapolate the effect of one refined parameter on a result.
 
-    If the values follow one power of the size, the limit is that of the observed order. Its bound
-    contains the limit of the theoretical order, which the error may have on finer levels. Otherwise
-    it is the finest value, and its bound follows from the finest levels and the theoretical order.
+    If the observed order keeps the theoretical one, as `verify` judges orders, the limit is that of
+    the observed order. Otherwise it is the finest value, and its bound follows from the finest
+    levels and the theoretical order.
 
     name    name of the result
     solved  records of the levels that have the result, by size, coarse to fine
@@ -211,12 +208,11 @@ def _effect(ladder: Ladder, name: str, solved: Mapping[float, CaseRecord], fines
     fit = refined_value(sizes, values, p)
     limit, why = values[-1], "the two finest levels agree within the tolerance of the solves"
     if bound > floor:
-        why = _reason_not_asymptotic(fit, ladder.kind)
+        why = _reason_not_asymptotic(fit.observed, p, ladder.kind)
         if fit.observed is not None and not why:
             followed = refined_value(sizes, values, fit.observed.order)
             limit = followed.limit
             bound = COVERAGE * followed.uncertainty + _reach_of_order(sizes, values, fit.observed)
-            bound += abs(limit - fit.limit)
     return Effect(ladder.kind, sizes, values, p, fit.observed, limit, bound, why)
 
 
@@ -237,26 +233,23 @@ def _reach_of_order(
     return max(abs(low - limit), abs(high - limit))
 
 
-def _reason_not_asymptotic(fit: RefinedValue, kind: Kind) -> str:
-    """Return the reason why the values of a result follow no power of the size, with a remedy.
+def _reason_not_asymptotic(observed: ObservedOrder | None, order: float, kind: Kind) -> str:
+    """Return the reason why the values of a result do not keep the theoretical order, with a
+    remedy.
 
-    The text is empty if they do.
+    The text is empty if they keep it.
 
-    fit   orders of the values
-    kind  kind of refinement
+    observed  observed convergence order; None if no power fits
+    order     theoretical convergence order
+    kind      kind of refinement
     """
-    observed = fit.observed
     if observed is None:
         return f"no power of the size explains the levels: {kind.cause}; {kind.remedy}"
-    if observed.half_width > ORDER_WIDTH:
+    kept = observed.keeps(order)
+    if kept is None:
         return (
             f"the order is known to ± {observed.half_width:.2g} alone: {kind.cause}; "
             f"{kind.remedy}, or more --levels"
         )
-    if not triplets_agree(fit.triplets):
-        shown = " and ".join("none" if t is None else f"{t:.2f}" for t in fit.triplets)
-        return (
-            f"the order by the finest levels and by coarser ones differs ({shown}): the coarse "
-            f"levels are not asymptotic; {kind.remedy}"
-        )
-    return ""
+    different = f"the levels do not have the theoretical order: {kind.cause}; {kind.remedy}"
+    return "" if kept else different
