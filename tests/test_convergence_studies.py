@@ -38,6 +38,12 @@ BALL = 'shape = "paraboloid"\nradius = "18 mm"'
 FRICTION = "\n[friction]\ncoefficient = 0.1"
 
 
+@pytest.fixture(autouse=True)
+def solve_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No test judges the CPU time, for which short solves are repeated."""
+    monkeypatch.setattr("verification.running.cold_cache.MAX_REPEATS", 1)
+
+
 def text(shape: str, indenter: str, body: str, *steps: str, more: str = "") -> str:
     loading = "".join(f"\n[[loading]]\n{step}" for step in ('normal_force = "1 kN"', *steps))
     return f"[indenter]\n{shape}\n{indenter}\n[body]\n{body}{more}{loading}\n"

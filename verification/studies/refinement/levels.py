@@ -6,7 +6,6 @@ Each discretisation parameter is refined in turn, while the others stay as in a 
 from __future__ import annotations
 
 import hashlib
-import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -35,7 +34,6 @@ from contact_errors.on_elements import (
 )
 from contact_errors.on_radii import RingSolver
 from contact_scene import SceneFile
-from contact_scene.disk_cache import without_cache
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.stated_error import Part
 from contact_scene.quantities.summary import OF_CYCLES
@@ -45,6 +43,7 @@ from contact_scene.stepping.increment_error import has_increment_error
 from fem_reference import Method
 from verification.judging.outcome import finite
 from verification.quantities import largest_residual
+from verification.running.cold_cache import cold_cache, timed
 from verification.running.study import RESIDUAL, CaseRecord, Row
 
 # Table of the scene file and class of every solver, by the name on the command line.
@@ -64,8 +63,6 @@ FEWEST_INCREMENTS = 4
 ROOT = 2**0.5
 # Steps of refinement from the discretisation of a run that are tried, until there are enough.
 STEPS = (0, 1, *range(-1, -13, -1), *range(2, 9))
-# A shorter solve is repeated, because the first one of a process imports its packages.
-SHORT_SECONDS = 2.0
 
 
 @dataclass(frozen=True)
@@ -176,23 +173,13 @@ class SceneLevel:
 
         If the solver refuses the scene, the name and text of the error are recorded instead.
         """
+        solver = self.scene.discretised()
         try:
-            result, seconds = self._timed_solve()
+            result, seconds, _ = timed(lambda: solver.solve(self.fineness))
         except SolverError as error:
             words = {"refused": f"{type(error).__name__}: {error}"}
             return CaseRecord(parameters={"level": self.level}, words=words)
         return level_record(self, result, seconds)
-
-    def _timed_solve(self) -> tuple[Any, float]:
-        """Solve the level; return the result, and the CPU time without stored operators [s]."""
-        solver = self.scene.discretised()
-        seconds: list[float] = []
-        with without_cache():
-            while len(seconds) < 1 or (len(seconds) < 2 and seconds[0] < SHORT_SECONDS):
-                began = time.process_time()
-                result = solver.solve(self.fineness)
-                seconds.append(time.process_time() - began)
-        return result, min(seconds)
 
 
 @dataclass(frozen=True)
@@ -223,7 +210,7 @@ class AccuracyLevel:
         request = read_accuracy(self.request, "--accuracy")
         solver = self.scene.discretised()
         try:
-            with without_cache():
+            with cold_cache():
                 found = refine(Levels(solver), request, self.most_seconds)
         except SolverError as error:
             return CaseRecord(parameters={"level": level}, words={"stopped": str(error)})
