@@ -246,6 +246,10 @@ class DiscretisedSolver(ABC):
         """
 
     @abstractmethod
+    def unknowns(self, result: Any) -> int:
+        """Count the unknowns of a solve: tractions of cells or rings, displacements of elements."""
+
+    @abstractmethod
     def record_entry(self, space: Any) -> Mapping[str, Any]:
         """Return the key and the value of a grid or mesh in records such as summary.json.
 
@@ -312,6 +316,15 @@ class DiscretisedSolver(ABC):
         return replace(self, scene=self.scene.model_copy(update={"indenter": half}))
 
     # ---- refinement
+
+    @abstractmethod
+    def of_run(self) -> Fineness:
+        """Return the discretisation of a run with the settings of the scene file."""
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """Parts of the error that `refine_space` reduces, the part of the cells first."""
+        return (self.part,)
 
     @abstractmethod
     def first_space(self) -> Any:

@@ -149,6 +149,10 @@ class CellSolver(DiscretisedSolver):
     def cell_sides(self, result: Result) -> tuple[float, ...]:
         return result.grid.spacing
 
+    def unknowns(self, result: Result) -> int:
+        nx, ny = result.grid.cells
+        return nx * ny * (3 if result.plan.shear else 1)
+
     def record_entry(self, space: SurfaceGrid) -> Mapping[str, Any]:
         return {"cells": space.cells}
 
@@ -186,6 +190,12 @@ class CellSolver(DiscretisedSolver):
             slides=sliding and not hides,
             left={} if report is None else _remaining_edge_errors(report),
         )
+
+    def of_run(self) -> Fineness:
+        asked = self.discretisation
+        plan = semi_analytical.plan(self.scene, asked.path_accuracy, asked.edge)
+        grid = semi_analytical.discretise(self.scene, asked)
+        return Fineness(grid, plan.increments, asked.tolerance)
 
     def first_space(self) -> SurfaceGrid:
         grid = semi_analytical.discretise(self.scene, self.discretisation)

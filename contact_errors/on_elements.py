@@ -32,7 +32,7 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import SurfacesOverlap
 from fem_reference import Increment, Method, Path, Plan, Result
 from fem_reference.expected_radius import count_points, sections_of
-from fem_reference.memory import largest_bytes, matrix_bytes
+from fem_reference.memory import NODES_PER_ELEMENT, largest_bytes, matrix_bytes
 from fem_reference.plan import ANGULAR
 
 # Solution paths in which friction changes the pressure, so that the pressure has a cusp on the
@@ -141,6 +141,11 @@ class ElementSolver(DiscretisedSolver):
     def cell_sides(self, result: Result) -> tuple[float, ...]:
         return (result.radius / result.discretisation.elements_per_radius,)
 
+    def unknowns(self, result: Result) -> int:
+        """Estimate the number of displacements at the nodes of both sections, for one harmonic."""
+        elements = sum(each.quads.shape[1] for each in result.sections if each is not None)
+        return 2 * NODES_PER_ELEMENT * int(elements)
+
     def record_entry(self, space: FiniteElementDiscretisation) -> Mapping[str, Any]:
         return {"elements_per_radius": space.elements_per_radius}
 
@@ -190,6 +195,16 @@ class ElementSolver(DiscretisedSolver):
         nu = 0.5 if any(body.layers for body in bodies) else max(ratios)
         across = (nu / (4 - 2 * nu)) ** 2 / 2
         return {name: across + by_map.get(name, 0.0) for name in TANGENTIAL}
+
+    def of_run(self) -> Fineness:
+        asked = self.discretisation
+        return Fineness(asked, self.plan.increments, asked.tolerance)
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        penalty: tuple[Part, ...] = ("penalty",) if self.method is Method.PENALTY else ()
+        harmonics: tuple[Part, ...] = ("harmonics",) if self.plan.path in ANGULAR else ()
+        return (self.part, *penalty, "section", *harmonics)
 
     def first_space(self) -> FiniteElementDiscretisation:
         return change_settings(self.discretisation, elements_per_radius=FIRST_ELEMENTS)

@@ -112,6 +112,10 @@ class RingSolver(DiscretisedSolver):
     def cell_sides(self, result: Result) -> tuple[float, ...]:
         return (1 / result.plan.fineness,)
 
+    def unknowns(self, result: Result) -> int:
+        """Count the tractions at points on rings, or the rings of a solve without these points."""
+        return max(1, 3 * result.plan.angles) * result.plan.rings
+
     def record_entry(self, space: float) -> Mapping[str, Any]:
         return {"ring_factor": space}
 
@@ -148,6 +152,9 @@ class RingSolver(DiscretisedSolver):
             cusp=plan.coupled,
             slides=end.status is ContactStatus.GROSS_SLIDING,
         )
+
+    def of_run(self) -> Fineness:
+        return Fineness(self.plan.fineness, self.plan.increments, self.discretisation.tolerance)
 
     def first_space(self) -> float:
         return FIRST_FINENESS if self.depends_on_rings else 1.0

@@ -21,8 +21,8 @@ radius). Measured on 64 x 64 and 128 x 128 cells against 64 to 160 increments:
     later change ΔW of the normal load                   0.15 ΔW/W/n, and as above for T;
         0.6 ΔW/W/n for coupled bodies. W down to 1/5 or up to fivefold, with and without T
 
-Outside of these ranges the rules are extrapolated. `slipstick maintain study increments` repeats
-the measurement.
+Outside of these ranges the rules are extrapolated. `slipstick convergence` measures the
+error of the increments of a scene.
 """
 
 from __future__ import annotations

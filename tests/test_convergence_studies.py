@@ -1,27 +1,28 @@
-"""Tests of convergence studies: they find the known limits of textbook scenes."""
+"""Tests of `slipstick convergence`: it finds the known limits of textbook scenes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from command import outcome
+from PIL import Image
+from test_documentation import ROOT, calls
 
 import radial
-from contact_errors.error_formula import PER_TOLERANCE
-from contact_scene import read_scene_file
+from contact_errors.error_formula import values_of
+from contact_scene import SceneFile, read_scene_file
 from contact_scene.quantities.increment import numbers
-from semi_analytical.edge_correction.pressure import SETTLED
+from slipstick import solve
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
 from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
 from verification.closed_forms.hertz import EllipticalContact, PointContact, tangential_modulus
 from verification.closed_forms.torsion import TorsionalPartialSlip
-from verification.judging.case import Level
-from verification.judging.outcome import Status
 from verification.references import load_reference
-from verification.running.study import Conclusion, Settings
-from verification.studies.refinement import FLOOR, SceneStudyOf, increments_study, mesh_study
+from verification.studies.refinement.levels import StudiedScene, plan_of
+from verification.studies.refinement.limits import Estimate, estimates
 
 R, W, MU = 18e-3, 1e3, 0.1
 E = 210e9 / 0.91  # contact modulus of a rigid body on steel, or of two bodies of twice the modulus
@@ -35,6 +36,12 @@ PLAIN = f"material = {{ young_modulus = {2 * E}, poisson_ratio = 0 }}"
 RIGID = 'material = "rigid"'
 BALL = 'shape = "paraboloid"\nradius = "18 mm"'
 FRICTION = "\n[friction]\ncoefficient = 0.1"
+
+
+@pytest.fixture(autouse=True)
+def solve_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No test judges the CPU time, for which short solves are repeated."""
+    monkeypatch.setattr("verification.running.cold_cache.MAX_REPEATS", 1)
 
 
 def text(shape: str, indenter: str, body: str, *steps: str, more: str = "") -> str:
@@ -73,10 +80,13 @@ def pushed(part: float) -> PartialSlip:
     return PartialSlip(W, A, MU, modulus, part * MU * W)
 
 
-def by_radial(tmp_path: Path, scene: str) -> Mapping[str, Any]:
-    path = tmp_path / "radial.toml"
-    path.write_text(scene)
-    contents = read_scene_file(path)
+def read(text: str, folder: Path) -> SceneFile:
+    path = folder / "scene.toml"
+    path.write_text(text)
+    return read_scene_file(path)
+
+
+def by_radial(contents: SceneFile) -> Mapping[str, Any]:
     found = numbers(radial.solve(contents.scene, contents.radial).steps[-1])
     return {name: value for name, value in found.items() if name != "peak_pressure"}  # of a ring
 
@@ -85,21 +95,26 @@ def by_radial(tmp_path: Path, scene: str) -> Mapping[str, Any]:
 class Scene:
     """A scene file with limits that are known otherwise.
 
-    u       relative error of the known limits
     most    largest uncertainty of the first limit by the levels, relative
-    reason  words of a reason why the levels are not asymptotic
-    levels  number of levels; None for the default
+    mesh    cells along a side, or elements over the radius
+    u       relative error of the known limits
+    reason  words of a reason why the limits are uncertain
     """
 
     text: str
     known: Mapping[str, float] | None
     most: float
-    cells: int | None = 48
-    study: SceneStudyOf = mesh_study
+    mesh: int = 32
     solver: str = CELLS
     u: float = 1e-9
     reason: str = ""
-    levels: int | None = None
+
+    def estimates(self, folder: Path) -> tuple[Estimate, ...]:
+        n = self.mesh
+        mesh = f"[semi_analytical]\ncells = [{n}, {n}]\n[fem_reference]\nelements_per_radius = {n}"
+        contents = read(f"{self.text}{mesh}", folder)
+        plan = plan_of(StudiedScene(contents, len(contents.loading), self.solver), None)
+        return estimates(plan, {level.name: level.compute() for level in plan.cases})
 
 
 def loop_end() -> TangentialHistory:
@@ -126,6 +141,8 @@ CATTANEO = text(BALL, ALIKE, ALIKE, 'tangential_force = ["60 N", 0]', more=FRICT
 ROUGH_FRICTION = "\n[friction]\ncoefficient = 0.3"
 INDENTED = text(BALL, RIGID, STEEL, more=ROUGH_FRICTION)
 DRAGGED = 'tangential_shift = ["12 um", 0]\nincrements = 4'
+STATED = "[semi_analytical]\ncells = [32, 32]"
+COARSE = ("--solver", FEM, "--set", "fem_reference.elements_per_radius=8")
 SMOOTH = {"approach": HERTZ.approach, "contact_radius": A, "peak_pressure": HERTZ.peak_pressure}
 PRESSED = text(BALL, RIGID, STEEL)
 ALUMINIUM = """
@@ -147,12 +164,10 @@ ON_ALUMINIUM = {
 
 SCENES = {
     "smooth Hertz": Scene(PRESSED, SMOOTH, 1e-5),
-    "smooth Hertz on elements": Scene(PRESSED, SMOOTH, 3e-5, None, solver=FEM),
-    # Few levels hardly determine the order, and the end of the section is not refined.
-    "steel on aluminium": Scene(ALUMINIUM, ON_ALUMINIUM, 1e-4, None, solver=FEM, levels=4),
-    "steel on aluminium, fine": Scene(ALUMINIUM, ON_ALUMINIUM, 3e-6, 96, solver=FEM, levels=4),
-    "steel on aluminium, penalty": Scene(ALUMINIUM, ON_ALUMINIUM, 3e-5, 48, solver="fem", levels=4),
-    "steel on aluminium, cells": Scene(ALUMINIUM, ON_ALUMINIUM, 3e-6, 96, levels=4),
+    "smooth Hertz on rings": Scene(PRESSED, SMOOTH, 1e-9, solver="radial", u=1e-8),
+    "steel on aluminium": Scene(ALUMINIUM, ON_ALUMINIUM, 1e-5, solver=FEM),
+    "steel on aluminium, penalty": Scene(ALUMINIUM, ON_ALUMINIUM, 1e-4, 16, solver="fem"),
+    "steel on aluminium, cells": Scene(ALUMINIUM, ON_ALUMINIUM, 3e-6, 64),
     "edge-singular flat punch": Scene(
         text('shape = "flat_punch"\nradius = "0.4 mm"', RIGID, STEEL),
         # The order is between ½ and 1 by the place of the rim in its cells. The radius is that of
@@ -163,8 +178,8 @@ SCENES = {
         text('shape = "cone"\nslope_angle = 0.02', RIGID, STEEL),
         {"approach": CONE.approach, "contact_radius": CONE.contact_radius}, 5e-4,
     ),
-    "pre-asymptotic film": Scene(
-        text(BALL, RIGID, STEEL, more=coating(10, 0.02 * A)), None, 1e-5, 32,
+    "unresolved film": Scene(
+        text(BALL, RIGID, STEEL, more=coating(10, 0.02 * A)), None, 1e-4, 16,
         reason="the thickness of a layer is",
     ),
     "thin film": Scene(
@@ -172,13 +187,14 @@ SCENES = {
     ),
     "coated ball": Scene(text(BALL, RIGID, STEEL, more=coating(2, A)), coated_row(2, 1), 2e-5),
     "gross slip": Scene(
-        text(BALL, ALIKE, ALIKE, DRAGGED, more=FRICTION), {"tangential_force_x": MU * W}, 1e-6
-    ),
-    "increments of gross slip": Scene(
-        text(BALL, ALIKE, ALIKE, DRAGGED, more=FRICTION), {"tangential_force_x": MU * W}, 1e-6,
-        24, increments_study,
+        text(BALL, ALIKE, ALIKE, DRAGGED, more=FRICTION), {"tangential_force_x": MU * W}, 1e-6, 24
     ),
     "Cattaneo-Mindlin, ν = 0.3": Scene(CATTANEO, None, 1e-5, u=1e-5),
+    "Cattaneo-Mindlin on rings": Scene(
+        text(BALL, PLAIN, PLAIN, LOOP[0], more=FRICTION),
+        {"tangential_shift_x": pushed(0.9).shift, "stick_radius": pushed(0.9).stick_radius},
+        0.05, solver="radial",
+    ),
     "fretting loop": Scene(
         text(BALL, PLAIN, PLAIN, *LOOP, more=FRICTION),
         {"tangential_shift_x": loop_end().shift, "stick_radius": pushed(0.9).stick_radius,
@@ -193,107 +209,95 @@ SCENES = {
         text(BALL, ALIKE, ALIKE, f"torque = {TORQUE}", more=FRICTION),
         {"twist": twisted(TORQUE).twist, "stick_radius": twisted(TORQUE).stick_radius}, 2e-3,
     ),
-    "frictional indentation": Scene(INDENTED, spence(0.3, 0.3), 3e-5),
-    "increments of an indentation": Scene(
-        INDENTED, {"approach": spence(0.3, 0.3)["approach"]}, 3e-5, 24, increments_study
-    ),
+    "frictional indentation": Scene(INDENTED, spence(0.3, 0.3), 5e-5),
 }  # fmt: skip
 
 
-def concluded(scene: Scene, tmp_path: Path) -> tuple[Conclusion, dict[str, float]]:
-    """And the relative errors that the tolerance and the edge correction leave at the finest level,
-    by quantity."""
-    path = tmp_path / "scene.toml"
-    path.write_text(scene.text)
-    study = scene.study(path, [], None, scene.solver)
-    settings = Settings(Level.QUICK, scene.cells, scene.levels)
-    records = {run.name: run.compute() for run in study.cases(settings)}
-    parts = list(records.values())[-1].parts
-    floors = {str(part.parameters["quantity"]): part.measures[FLOOR] for part in parts}
-    return study.conclude(settings, records), floors
-
-
 @pytest.mark.parametrize("name", SCENES)
-def test_limit_and_remaining_error_cover_the_known_value(name: str, tmp_path: Path) -> None:
+def test_limit_and_error_cover_the_known_value(name: str, tmp_path: Path) -> None:
     scene = SCENES[name]
-    study, floors = concluded(scene, tmp_path)
-    found = {str(row.parameters["quantity"]): row.measures for row in study.rows}
-    known = by_radial(tmp_path, scene.text) if scene.known is None else scene.known
+    found = {one.name: one for one in scene.estimates(tmp_path)}
+    known = by_radial(read(scene.text, tmp_path)) if scene.known is None else scene.known
     judged = [quantity for quantity in known if quantity in found]
-    assert len(judged) >= min(len(known), 2) or scene.study is not mesh_study
+    assert len(judged) >= min(len(known), 2)
     for quantity in judged:
-        finest, limit, uncertainty = (
-            found[quantity][part] for part in ("finest", "limit", "uncertainty")
-        )
-        exact, unrefined = known[quantity], scene.u * abs(known[quantity])
-        assert abs(limit - exact) <= uncertainty + unrefined, quantity
-        assert abs(finest - exact) <= abs(finest - limit) + uncertainty + unrefined, quantity
+        one, exact, u = found[quantity], known[quantity], scene.u * abs(known[quantity])
+        assert abs(one.limit - exact) <= one.uncertainty + u, quantity
+        assert abs(one.own - exact) <= one.error(one.own) * one.largest + u, quantity
     first = found[judged[0]]
-    floor = floors[judged[0]]
-    assert floor <= SETTLED + PER_TOLERANCE * 1e-7
-    by_levels = first["uncertainty"] - first["unrefined"]
-    assert by_levels <= (scene.most + floor) * abs(first["limit"])
-    # Without a request all are findings; a level that is not asymptotic says why.
-    assert {one.outcome for one in study.statements} == {None}
-    reasons = [row.words.get("open", "") for row in study.rows]
-    assert any(scene.reason in reason for reason in reasons)
-    assert all("use more --cells" in reason.lower() for reason in reasons if reason)
+    assert sum(effect.bound for effect in first.effects) <= scene.most * abs(first.limit)
+    assert any(scene.reason in one.open for one in found.values())
+    # A reason names the refined parameter of this solver, and only a mesh has cells to cut.
+    for effect in (effect for one in found.values() for effect in one.effects):
+        assert effect.kind.key in effect.open or "tolerance" in effect.open or not effect.open
+        mesh = effect.kind.noun in ("cells", "elements", "rings")
+        assert mesh or "cut" not in effect.open
 
 
-@pytest.mark.parametrize("name", ["edge-singular flat punch", "cusp of a cone"])
-def test_an_infinite_pressure_has_no_limit(name: str, tmp_path: Path) -> None:
-    found, _ = concluded(SCENES[name], tmp_path)
-    assert "peak_pressure" not in [row.parameters["quantity"] for row in found.rows]
-    assert any("the exact value is infinite" in one.measured for one in found.statements)
+def test_the_increment_levels_of_a_coupled_push_begin_at_four(tmp_path: Path) -> None:
+    contents = read(
+        INDENTED + "[[loading]]\ntangential_force = ['60 N', 0]\nincrements = 16", tmp_path
+    )
+    *_, ladder = plan_of(StudiedScene(contents, 2, CELLS), 10).ladders
+    first, *_ = [level.fineness.increments for level in ladder.levels.values()]
+    assert first == (4, 4)
+
+
+@pytest.mark.parametrize("solver", [CELLS, FEM, "radial"])
+def test_the_setting_of_the_scene_is_that_of_a_run(solver: str, tmp_path: Path) -> None:
+    contents = read(CATTANEO + "[fem_reference]\nelements_per_radius = 8", tmp_path)
+    level = plan_of(StudiedScene(contents, 2, solver), None).run.compute()
+    end = values_of(solve(contents, solver))[-1]
+    for part in level.parts:
+        name, of = part.parameters["quantity"], part.parameters["of"]
+        assert level.measures[name] in np.atleast_1d(end[of])
 
 
 @pytest.mark.usefixtures("one_process")
 @pytest.mark.parametrize(
-    ("share", "cells", "exit_code"), [(1e-4, (48,), 0), (1e-7, (48,), 1), (1e-3, (), 0)]
-)
-def test_a_request_decides(
-    share: float, cells: tuple[int, ...], exit_code: int, tmp_path: Path
-) -> None:
-    """Without --cells the levels end at those that meet the request."""
-    path = tmp_path / "scene.toml"
-    path.write_text(f"{PRESSED}\n[accuracy]\napproach = {share}")
-    options = ("--cells", *cells) if cells else ()
-    command = ["maintain", "study", "mesh", path, *options, "--workers", 1, "-o", "out"]
-    assert outcome(*command, cwd=tmp_path).returncode == exit_code
-
-
-def test_a_refused_level_is_shown_with_its_reason(tmp_path: Path) -> None:
-    path = tmp_path / "scene.toml"
-    path.write_text(f"{PRESSED}\n[semi_analytical]\nwindow = [3e-2, 3e-2]")
-    study, settings = mesh_study(path, [], None, CELLS), Settings(Level.QUICK, 64)
-    found = study.conclude(settings, {run.name: run.compute() for run in study.cases(settings)})
-    assert found.statements[0].outcome is Status.INCONCLUSIVE
-    assert any("ContactNotResolved" in cell for row in found.tables[1].rows for cell in row)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
+    ("scene", "mesh", "text", "exit_code"),
     [
-        (["mesh", "SCENE", "--cells", "16"], "more --cells or fewer levels"),
-        (["mesh", "SCENE", "--step", "2"], "step 2 was asked for, and the scene has 1"),
-        (["mesh", "SCENE", "--solver", "radial"], "for study mesh"),
-        (["mesh"], "needs a scene file"),
+        ("cusp of a cone", "cells = [32, 32]", "the exact value is infinite", 0),
+        ("smooth Hertz", "window = [3e-4, 3e-4]", "6 have none: ContactAtWindowEdge", 6),
     ],
 )
-def test_what_cannot_be_refined_is_refused(
-    arguments: list[str], message: str, tmp_path: Path
+def test_what_has_no_limit_is_told(
+    scene: str, mesh: str, text: str, exit_code: int, tmp_path: Path
 ) -> None:
-    (tmp_path / "SCENE").write_text(PRESSED)
-    ended = outcome("maintain", "study", *arguments, cwd=tmp_path)
-    assert ended.returncode == 2
-    assert message in " ".join(ended.stderr.replace("│", " ").split())
-
-
-def test_increments_without_an_error_are_not_studied(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
-    path.write_text(PRESSED)
-    study = increments_study(path, [], None, CELLS)
-    assert study.cases(Settings(Level.QUICK)) == ()
-    assert (
-        "nothing was computed" in study.conclude(Settings(Level.QUICK), {}).statements[0].measured
-    )
+    path.write_text(f"{SCENES[scene].text}\n[semi_analytical]\n{mesh}")
+    ended = outcome("convergence", path, "--workers", 1, "-o", "out", cwd=tmp_path)
+    assert text in ended.stdout
+    assert ended.returncode == exit_code
+
+
+@pytest.mark.usefixtures("one_process")
+@pytest.mark.parametrize(
+    ("more", "options", "exit_code"),
+    [
+        (STATED, ["--require", "approach 0.01%"], 0),
+        (STATED, [*COARSE, "--require", "approach 0.01%"], 1),
+        (STATED, ["--require", "tangential_shift 1%"], 6),
+        (STATED, ["--require", "aproach 1%"], 2),
+        (STATED, ["--step", 2], 2),
+        ("[accuracy]\napproach = 1e-3", [], 0),
+    ],
+)
+def test_a_requirement_decides(
+    more: str, options: list[object], exit_code: int, tmp_path: Path
+) -> None:
+    (tmp_path / "scene.toml").write_text(f"{PRESSED}\n{more}")
+    command = ["convergence", "scene.toml", *options, "--workers", 1, "-o", "out"]
+    assert outcome(*command, cwd=tmp_path).returncode == exit_code
+    assert exit_code == 2 or Image.open(tmp_path / "out/work.png").size[0] > 900
+
+
+@pytest.mark.usefixtures("one_process")
+def test_the_commands_of_the_page_run(tmp_path: Path) -> None:
+    (tmp_path / "scenes").symlink_to(ROOT / "scenes")
+    commands = [
+        words for words in calls(ROOT / "docs/howto/convergence.md") if "SCENE" not in words
+    ]
+    assert commands
+    for words in commands:
+        assert outcome(*words, cwd=tmp_path).returncode == 0

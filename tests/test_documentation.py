@@ -14,7 +14,7 @@ from command import slipstick
 
 from slipstick.cli.application import ALL_COMMANDS, MAINTAIN
 from verification.cases.catalogue import CASES
-from verification.studies.catalogue import SCENE_STUDIES, STUDIES
+from verification.studies.catalogue import STUDIES
 
 ROOT = Path(__file__).resolve().parents[1]
 README = ROOT / "README.md"
@@ -54,7 +54,7 @@ def test_commands_of_the_pages_are_known(page: Path, words: list[str]) -> None:
         if re.fullmatch(r"[\w/]+\.toml", word):
             assert (ROOT / word).is_file()
     if rest and name == "study" and not rest[0].startswith("-"):
-        assert PLACEHOLDER.search(rest[0]) or rest[0] in {*STUDIES, *SCENE_STUDIES}
+        assert PLACEHOLDER.search(rest[0]) or rest[0] in STUDIES
     if rest and name == "verify" and not rest[0].startswith("-"):
         assert PLACEHOLDER.search(rest[0]) or rest[0] in CASES
 

@@ -19,7 +19,7 @@ from study_cases import Dying, Killed, Number, Refusing, Square, Timed
 
 from contact_results.blas_threads import VARIABLES
 from slipstick.cli import progress
-from slipstick.cli.commands.study import _compute_study
+from slipstick.cli.commands.study import compute_study
 from verification.judging.case import Level
 from verification.report.files import set_aside, write_study
 from verification.report.summary_text import stored_records
@@ -267,7 +267,7 @@ def test_a_study_that_is_stopped_leaves_no_record_of_an_earlier_one(
     monkeypatch.setattr("verification.running.case_pool.run_cases", stopped)
     chosen = STUDIES["coated-tractions"]
     with pytest.raises(KeyboardInterrupt):
-        _compute_study(chosen, Settings(Level.QUICK, 16), "slipstick maintain study", directory, 1)
+        compute_study(chosen, Settings(Level.QUICK, 16), "slipstick maintain study", directory, 1)
     set_aside(directory)  # finds what the stopped study has left
     assert stored_studies(tmp_path) == ()
     assert not (directory / "index.html").exists()

@@ -113,6 +113,7 @@ COMMANDS = _lazy_commands(
         "run": "Solve a scene and write its results, tables and pictures.",
         "stress": "Compute displacement and stress below the surface.",
         "sweep": "Solve a scene for values of its keys; write a table and a chart.",
+        "convergence": "Refine a scene; state the error and the cost of its setting.",
         "against": "Compare a run with a measured loop or profile.",
         "export": "Write the surface of a run for ParaView.",
         "table": "Print a table of reference numbers with their uncertainty.",
@@ -167,8 +168,8 @@ application = typer.Typer(
     rich_markup_mode="markdown",
     epilog="Exit codes: 0 success; 1 accuracy verdict failed; 2 invalid scene or output; "
     "3 not converged or resolved; 4 too little memory, disk or time; 5 baseline drift; "
-    "6 inconclusive (judge --strict); 7 worse than the baseline; 70 internal error; "
-    "141 output closed.",
+    "6 inconclusive (judge --strict, convergence); 7 worse than the baseline; "
+    "70 internal error; 141 output closed.",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 

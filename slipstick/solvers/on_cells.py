@@ -66,7 +66,7 @@ class OnCells(Solver):
         if any(step.path_matters for step in plan.path):
             accuracy = f"{fineness.path_accuracy:.3g}, for load steps without prescribed increments"
             yield "path accuracy", accuracy
-        yield self.time(scene, fineness, grid, plan)
+        yield self.time(scene, fineness)
         yield "memory", f"about {estimated_bytes(grid, plan) / 2**20:.0f} MiB"
 
     def reasons(self, plan: Plan) -> Sequence[tuple[str, str, str]]:

@@ -71,7 +71,7 @@ class OnElements(Solver):
         motions = _count_harmonics(plan, fineness)
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
         yield "factorisations", f"{motions * len(sections)}, {text}"
-        yield self.time(scene, fineness, fineness, plan)
+        yield self.time(scene, fineness)
         largest = largest_bytes(max(each.quads.shape[1] for each in sections), motions > 1)
         points = count_points(sections, plan.path, fineness.harmonics)
         needed = run_bytes(largest, points)

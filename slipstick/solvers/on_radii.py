@@ -50,7 +50,7 @@ class OnRadii(Solver):
         yield "rings", _rings_text(fineness, plan)
         yield "tolerance", f"{fineness.tolerance:.3g}"
         yield "increments", increments_text(plan.increments)
-        yield self.time(scene, fineness, plan.fineness, plan)
+        yield self.time(scene, fineness)
         yield "memory", f"about {estimated_bytes(scene, plan) / 2**20:.0f} MiB"
 
     def layout(self, result: Result) -> Pairs:

@@ -106,23 +106,20 @@ class Solver(ABC):
         stress_at = (step or len(scene.loading)) if stress else None
         return Levels(self.refined(scene, fineness, stress), stress_at, *hooks)
 
-    def time(self, scene: Scene, fineness: Any, space: Any, plan: Any) -> tuple[str, str]:
+    def time(self, scene: Scene, fineness: Any) -> tuple[str, str]:
         """Estimate the CPU time of a run with its error estimate by a trial solve.
 
         Returns the word "time" and the text of the estimate, or the reason why there is none.
         Raises ContactNotResolved if no coarse discretisation resolves the contact.
 
         fineness  discretisation settings
-        space     grid, mesh or ring factor of the run
-        plan      increments of the run
         """
-        from contact_errors.coarse_solves import Fineness
         from contact_errors.trial_solve import estimate_seconds
 
-        run = Fineness(space, plan.increments, fineness.tolerance)
+        solver = self.refined(scene, fineness)
         try:
             with without_cache():
-                seconds = estimate_seconds(self.refined(scene, fineness), run)
+                seconds = estimate_seconds(solver, solver.of_run())
         except ContactNotResolved:
             raise
         except SolverError as error:

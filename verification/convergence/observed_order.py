@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import minimize_scalar
 from scipy.special import stdtrit
 
 CONFIDENCE = 0.95
@@ -20,8 +20,6 @@ CONFIDENCE = 0.95
 ORDER_WIDTH = 0.25
 # Allowed difference from a theoretical order: a fit over few levels includes the next error term.
 ORDER_OFF = 0.1
-# Orders of the two finest triplets differ by no more than this where the values are asymptotic.
-TRIPLETS_AGREE = 0.2
 # Half-width of an interval that contains two consecutive integer orders: none can be determined.
 ILLEGIBLE = 0.5
 ORDERS = (0.05, 6.0)
@@ -29,7 +27,6 @@ COARSE_STEPS = 60
 ROUNDING = 1e-20
 
 Vector = NDArray[np.float64]
-Triplets = tuple[float | None, float | None]
 
 
 @dataclass(frozen=True)
@@ -77,15 +74,12 @@ class RefinedValue:
     The value f is known at several discretisation sizes h.
 
     observed     order p of f(h) = f0 + C h^p by least squares; None if no p explains the values
-    triplets     orders p through two triplets of levels, the finer triplet first; with enough
-                 levels the sizes in a triplet differ by factors of about 2
     limit        f0, extrapolated with the theoretical order
     uncertainty  standard uncertainty of the limit: scatter of the fit, and the differences from the
                  limits by the two finest levels and by the observed order
     """
 
     observed: ObservedOrder | None
-    triplets: Triplets
     limit: float
     uncertainty: float
 
@@ -108,18 +102,6 @@ def order_is_kept(above: float, allowed: float, half_width: float, margin: float
     if above < -off - margin or above > allowed:
         return False
     return True if above >= margin - off else None
-
-
-def triplets_agree(orders: Triplets) -> bool:
-    """Determine if the convergence orders through two triplets of levels exist and differ by 0.2 at
-    most.
-
-    If they do, the levels are in the asymptotic range.
-
-    orders  orders through the finer and the coarser triplet; None if a triplet has no order
-    """
-    last, before = orders
-    return last is not None and before is not None and abs(last - before) <= TRIPLETS_AGREE
 
 
 def observed_order(sizes: Sequence[float], errors: Sequence[float]) -> ObservedOrder:
@@ -152,24 +134,7 @@ def refined_value(sizes: Sequence[float], values: Sequence[float], expected: flo
     if observed is not None:
         other = _line(h, f, observed.order, expected).limit
         uncertainty = float(np.hypot(uncertainty, limit - other))
-    stride = _triplet_stride(h, reach=2)
-    finest, before = (slice(k, k + 2 * stride + 1, stride) for k in (0, 1))
-    triplets = _triplet_order(h[finest], f[finest]), _triplet_order(h[before], f[before])
-    return RefinedValue(observed, triplets, limit, uncertainty)
-
-
-def _triplet_stride(h: Vector, reach: int) -> int:
-    """Return the distance, in levels, between the members of a triplet whose sizes differ by about
-    2.
-
-    A convergence order follows from three values; sizes that are too close have much scatter. The
-    distance is reduced so that two triplets fit into the levels.
-
-    h      discretisation sizes of the levels, finest first
-    reach  number of strides that a triplet spans
-    """
-    wanted = max(1, round(float(np.log(2) / np.log(h[1] / h[0]))))
-    return min(wanted, (len(h) - 2) // reach)
+    return RefinedValue(observed, limit, uncertainty)
 
 
 def numerical_uncertainty(sizes: Sequence[float], values: Sequence[float], order: float) -> float:
@@ -284,27 +249,6 @@ def _fit_order(h: Vector, f: Vector, expected: float) -> ObservedOrder | None:
         return None
     freedom = len(h) - 3
     return _known_to(order, float(np.sqrt(fit.squares / freedom / lever)), freedom)
-
-
-def _triplet_order(h: Vector, f: Vector) -> float | None:
-    """Compute the convergence order p of f(h) = f0 + C h^p through the values of three levels.
-
-    The result is None if the differences change sign, or if no p from 0.05 to 6 fits.
-
-    h, f  discretisation sizes and values of the levels, finest first
-    """
-    fine, coarse = f[1] - f[0], f[2] - f[1]
-    if fine == 0 or coarse / fine <= 0:
-        return None
-
-    def mismatch(order: float) -> float:
-        powers = h**order
-        return float((powers[2] - powers[1]) / (powers[1] - powers[0]) - coarse / fine)
-
-    low, high = ORDERS
-    if mismatch(low) * mismatch(high) > 0:
-        return None
-    return float(brentq(mismatch, low, high))
 
 
 def _known_to(order: float, deviation: float, freedom: int) -> ObservedOrder:

@@ -10,6 +10,7 @@ import hashlib
 import io
 import re
 from html import escape
+from pathlib import Path
 from typing import Any
 
 import matplotlib
@@ -17,6 +18,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from contact_results.directory.atomic_file import atomic_file
 from contact_results.figures import style
 from verification.exhibits.chart import Chart, Curve, Look, Panel, plain
 
@@ -34,6 +36,7 @@ LONGEST_OF_TWO = 45  # and of two side by side below it
 LEGEND_LINE = 0.19  # inches
 MARKERS = ("o", "s", "^", "D", "v", "P")
 MAX_TICKS, FEW_TICKS = 8, 6  # the latter beside long names
+DECADE = 10.0
 FEW_DECADES = 2.5  # with labels between powers of ten
 MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
 
@@ -96,7 +99,8 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
 def _label_decades(ax: Any, most: int) -> None:
     """Print labels on the logarithmic axes of a panel at powers of ten.
 
-    A short axis has labels also at 2 and 5 times the powers.
+    A short axis has labels also at 2 and 5 times the powers. The y axis spans a decade at least, so
+    that equal errors do not look different.
 
     ax    axes of matplotlib
     most  largest number of labels per axis
@@ -104,6 +108,10 @@ def _label_decades(ax: Any, most: int) -> None:
     for axis in (ax.xaxis, ax.yaxis):
         if axis.get_scale() == "log":
             low, high = axis.get_view_interval()
+            if axis is ax.yaxis and high < DECADE * low:
+                middle = np.sqrt(low * high)
+                low, high = middle / np.sqrt(DECADE), middle * np.sqrt(DECADE)
+                ax.set_ylim(low, high)
             parts = (1.0, 2.0, 5.0) if np.log10(high / low) < FEW_DECADES else (1.0,)
             axis.set_major_locator(LogLocator(subs=parts, numticks=most))
             axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
@@ -181,6 +189,14 @@ def _legend_below(ax: Any, longest: int) -> None:
     ax.figure.legend(
         handles, labels, loc="outside lower left", ncols=columns, handlelength=2.4, labelcolor=INK
     )
+
+
+def write_picture(chart: Chart, path: Path) -> None:
+    """Draw a chart of a report on white, and write it as a PNG file."""
+    with style.figure_style(), atomic_file(path) as temporary:
+        figure = draw(chart)
+        figure.patch.set_visible(True)
+        style.save(figure, temporary)
 
 
 # Colours of a diagram become variables of the page, which has a light and a dark value of each.

@@ -113,7 +113,7 @@ def content_hash(case: StudyCase, code: bytes | None = None) -> str:
     """
     kind = type(case)
     asked: Any = asdict(case)  # type: ignore[call-overload]
-    text = json.dumps([kind.__module__, kind.__qualname__, asked], sort_keys=True)
+    text = json.dumps([kind.__module__, kind.__qualname__, asked], sort_keys=True, default=repr)
     return hashlib.sha256(text.encode() + (code or code_digest())).hexdigest()[:DIGITS]
 
 

@@ -1,9 +1,8 @@
-"""Tables of all studies: those of `slipstick maintain study`, and those of a user's scene file."""
+"""Table of the studies of `slipstick maintain study`."""
 
 from verification.running.study import Study
 from verification.studies.coated_tractions import STUDY as COATED_TRACTIONS
 from verification.studies.error_coverage import STUDY as ERROR_COVERAGE
-from verification.studies.refinement import SceneStudyOf, increments_study, mesh_study
 from verification.studies.scoreboard import STUDY as SCOREBOARD
 from verification.studies.seeded_defects import STUDY as SEEDED_DEFECTS
 from verification.studies.stability.study import STUDY as STABILITY
@@ -19,9 +18,4 @@ STUDIES: dict[str, Study] = {
         ERROR_COVERAGE,
         SCOREBOARD,
     )
-}
-# Studies of any scene file: title for lists, and function that makes the study of a file.
-SCENE_STUDIES: dict[str, tuple[str, SceneStudyOf]] = {
-    "mesh": ("Error of finite cells or elements in SCENE", mesh_study),
-    "increments": ("Error of finite increments in SCENE", increments_study),
 }

@@ -1,0 +1,1 @@
+"""Convergence of a user's scene under refinement of every discretisation parameter."""
