@@ -80,6 +80,11 @@ class ShapedBody(Body):
         return False
 
     @property
+    def is_line(self) -> bool:
+        """True if the gap depends on x only: a line contact in plane strain, loaded per length."""
+        return False
+
+    @property
     def is_even(self) -> bool:
         """True if the gap of the indenter is equal at (x, y), (-x, y) and (x, -y)."""
         return self.is_of_revolution
@@ -133,6 +138,12 @@ class ShapedBody(Body):
         """
         return None
 
+    @property
+    def load_exponent(self) -> float | None:
+        """Exponent of the normal force as a power of the contact radius; None without a law."""
+        k = self.gap_exponent
+        return k if k is None or self.is_line else k + 1
+
     def with_half_the_points(self) -> "ShapedBody | None":
         """Return the shape with every second of its measured points left out.
 
@@ -140,8 +151,8 @@ class ShapedBody(Body):
         """
         return None
 
-    # Estimates to an order of magnitude, for grids and meshes. Callers take the root of degree k or
-    # k + 1.
+    # Estimates to an order of magnitude, for grids and meshes. Callers take the root of the degree
+    # `gap_exponent` or `load_exponent`.
 
     def contact_at(self, approach: float) -> Pair | None:
         """Estimate the size of the contact at a given approach of the indenter.
@@ -161,8 +172,8 @@ class ShapedBody(Body):
 
         force    normal force [force]
         modulus  contact modulus E* [force/length^2]
-        returns  a^(k+1) along x and along y [length^(k+1)], with the half width a of the contact
-                 and the exponent k of the gap as a power of the distance; None without an estimate
+        returns  a^n along x and along y [length^n], with the half width a of the contact and the
+                 `load_exponent` n; None without an estimate
         """
         return None
 
@@ -642,6 +653,80 @@ def _interpolated_profile(
     return Profile(radius_unit * radii[order], sign * height_unit * heights[order])
 
 
+class LineShape(ShapedBody):
+    """Cylindrical body along y, whose gap depends on x only. Its loads are per unit length.
+
+    Far from a line load the displacement grows like the logarithm of the distance. Approach, shift
+    and elastic energy therefore depend on a distance at which the surface does not move.
+    """
+
+    reference_length: PositiveLength | None = None
+    """Distance from the centre of the contact, on both sides, at which the surface does not move
+    [length]; absent: approach, tangential shift, elastic energy and work are not stated."""
+
+    @property
+    def is_line(self) -> bool:
+        """True: the gap depends on x only."""
+        return True
+
+    def _contact_width(self, force: float, modulus: float) -> float:
+        """Compute a^n under a normal force per length, with the `load_exponent` n [length^n].
+
+        force    W, normal force per length [force/length]
+        modulus  E*, contact modulus [force/length^2]
+        """
+        raise NotImplementedError
+
+    def contact_under(self, force: float, modulus: float) -> Pair:
+        """Compute the power a^n of the half width under a normal force per length, along x and y.
+
+        force    W, normal force per length [force/length]
+        modulus  E*, contact modulus [force/length^2]
+        """
+        power = self._contact_width(force, modulus)
+        return power, power
+
+
+class Cylinder(LineShape):
+    """Parabolic cylinder with the gap x^2 / 2R, the shape of Hertz theory for line contacts."""
+
+    shape: Literal["cylinder"] = "cylinder"
+    radius: PositiveLength
+    """Radius of curvature R at the apex [length]."""
+
+    @property
+    def is_even(self) -> bool:
+        """True: the gap is equal at x and -x."""
+        return True
+
+    @property
+    def gap_exponent(self) -> float:
+        """Exponent of the gap as a power of the distance from the apex: 2."""
+        return 2
+
+    def _contact_width(self, force: float, modulus: float) -> float:
+        """Compute a^2 = 4 W R / pi E* (Johnson 1985, eq. 4.43) [length^2].
+
+        force    W, normal force per length [force/length]
+        modulus  E*, contact modulus [force/length^2]
+        """
+        return 4.0 * force * self.radius / (np.pi * modulus)
+
+    def contact_at(self, approach: float) -> Pair:
+        """Estimate a^2 = R delta, to an order of magnitude, at an approach delta [length^2].
+
+        approach  delta, approach of the bodies [length]
+        """
+        return self.radius * approach, self.radius * approach
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
+        """Compute the undeformed gap x^2 / 2R at first contact [length].
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
+        return np.asarray((np.square(x) + np.zeros_like(y)) / (2.0 * self.radius))
+
+
 SHAPES: dict[str, type[ShapedBody]] = {
     "sphere": Sphere,
     "paraboloid": Paraboloid,
@@ -650,6 +735,7 @@ SHAPES: dict[str, type[ShapedBody]] = {
     "flat_punch": FlatPunch,
     "height_map": HeightMap,
     "revolved_profile": RevolvedProfile,
+    "cylinder": Cylinder,
 }
 
 
@@ -686,6 +772,7 @@ Indenter = Annotated[
     | Annotated[Cone, Tag("<cone>")]
     | Annotated[FlatPunch, Tag("<flat_punch>")]
     | Annotated[HeightMap, Tag("<height_map>")]
-    | Annotated[RevolvedProfile, Tag("<revolved_profile>")],
+    | Annotated[RevolvedProfile, Tag("<revolved_profile>")]
+    | Annotated[Cylinder, Tag("<cylinder>")],
     Discriminator(_indenter_tag),
 ]

@@ -8,6 +8,8 @@ import numpy as np
 
 from contact_scene import LoadRamp
 from contact_scene.array_types import Field
+from contact_scene.checks.line_contact import lacks_reference
+from contact_scene.quantities.per_length import OF_REFERENCE
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements
 from contact_scene.stepping.checkpoint import (
@@ -212,7 +214,10 @@ class _Solver:
         ends = reached.place.index == reached.place.increments_in_step
         fits = self.plan.areas == "all" or ends or after.corrected is not None
         increment = _reported_increment(self.model, last, reached, spreads=spreads, fits=fits)
-        return add_contact_displacements(increment, self.model.scene.rig)
+        scene = self.model.scene
+        if lacks_reference(scene.indenter, scene.body):
+            return replace(increment, **dict.fromkeys(OF_REFERENCE))
+        return add_contact_displacements(increment, scene.rig)
 
 
 def _reported_increment(
@@ -349,7 +354,7 @@ def _apply_edge_correction(
         tilt=None if tilt is None else np.array(tilt),
         peak_pressure=corrected.peak,
         edge_change=corrected.change,
-        elastic_energy=increment.elastic_energy + gained,
+        elastic_energy=state.energy.elastic + gained,
         input_work=None if work is None else work + gained,
         unresolved_work=None if open_work is None else open_work - gained,
     )

@@ -183,6 +183,8 @@ def _choose_symmetry(
     """
     if tilt:
         return WINDOW, "the indenter tilts"
+    if scene.indenter.is_line:
+        return WINDOW, "strips of a line contact are solved on the full window"
     if not scene.indenter.is_even:
         return WINDOW, "the indenter does not declare symmetry about x = 0 and y = 0"
     even = "symmetric about x = 0 and y = 0, with even numbers of cells: "
@@ -219,6 +221,8 @@ def _decide_edge_correction(
     """
     if asked == "off":
         return False, "not requested: tractions are constant on every cell"
+    if scene.indenter.is_line:
+        return False, "not needed: widths are fitted, and other errors are of second order"
     if scene.indenter.rim is not None:
         return False, "the pressure of a flat punch is singular at its rim"
     if torsion:

@@ -93,7 +93,8 @@ def sweep(
     valid = next(point for point in made if not point.invalid)
     first = read_scene_file(scene, valid.overrides).scene
     listing = "slipstick maintain schema summary"
-    refuse_unknown("quantity", names, quantities(first.body), listing)
+    known = quantities(first.body, line=first.indenter.is_line)
+    refuse_unknown("quantity", names, known, listing)
     print_pairs([("points", str(len(made))), ("solver", solver.value)])
     if solver is not SolverName.RADIAL and (how := radial_method(first)):
         print_pairs([("radial", f"--solver radial can solve this: {how}")])
