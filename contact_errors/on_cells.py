@@ -33,6 +33,7 @@ from contact_scene.quantities.stated_error import (
 )
 from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import Increment, Plan, Result, SurfaceGrid, memory
+from semi_analytical.default_grid import align_to_edges
 from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.edge.film import film_law
 from semi_analytical.edge.fit import WIDE
@@ -130,7 +131,7 @@ class CellSolver(DiscretisedSolver):
         more    number of cells added along each side
         """
         nx, ny = (2 * ceil(share * n / 2) + more if n > 1 else 1 for n in result.grid.cells)
-        return SurfaceGrid((nx, ny), result.grid.window)
+        return align_to_edges(self.scene, SurfaceGrid((nx, ny), result.grid.window))
 
     def few(self, coarse: Fineness, result: Result) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.
@@ -191,10 +192,12 @@ class CellSolver(DiscretisedSolver):
     def first_space(self) -> SurfaceGrid:
         grid = semi_analytical.discretise(self.scene, self.discretisation)
         least = grid.cells[0] if grid.of_strips else min(grid.cells)
-        return SurfaceGrid(scale_cells(grid.cells, FIRST_CELLS / least), grid.window)
+        cells = scale_cells(grid.cells, FIRST_CELLS / least)
+        return align_to_edges(self.scene, SurfaceGrid(cells, grid.window))
 
     def refine_space(self, space: SurfaceGrid, by: Refinement) -> SurfaceGrid:
-        return SurfaceGrid(scale_cells(space.cells, by.get(self.part, 1.0)), space.window)
+        cells = scale_cells(space.cells, by.get(self.part, 1.0))
+        return align_to_edges(self.scene, SurfaceGrid(cells, space.window))
 
     def work(self, fineness: Fineness) -> Work:
         nx, ny = fineness.space.cells

@@ -157,14 +157,14 @@ def _quantity_columns(
         if not mark.key or not known:
             continue
         shown, unit = shown_name(name, line=line), shown_unit(mark.unit, line=line)
-        first, _, rest = shown.partition("_")
+        first, *rest = shown.split("_")
         for axis, values in zip("xy", found, strict=False):
             vector = mark.kind is Kind.VECTOR
             least = ROUND_OFF * max(known) if vector else 0.0
             least = max(least, ROUND_OFF * natural_size(history, mark.unit))
             cut = [_without_round_off(value, least) for value in values]
             if axis == "x" or any(cut):
-                heading = f"{first}\n{rest}{f' {axis}' if vector else ''}"
+                heading = f"{first}\n{' '.join(rest)}{f' {axis}' if vector else ''}"
                 errors = [uncertainty(of_step.get(name), axis) for _, of_step in steps]
                 like = unit_group(f"{shown} {axis}" if vector else shown)
                 yield _Column(heading, like, unit, list(zip(cut, errors, strict=True)))

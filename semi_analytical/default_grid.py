@@ -37,6 +37,10 @@ MAX_DEFAULT_CELLS = 512**2
 # Window in contact diameters; with 10 % the edge of the contact lies within it.
 MARGIN = 1.1
 ROUND_OFF = 1e-9  # of the number of values of a map in a window
+# Uniform tractions on strips, with their centres as collocation points, solve the problem of a
+# punch that ends this part of a strip inside the border of the outermost one: measured, the error
+# of pressure and tilt is then of second order, and otherwise of first order.
+EDGE_INSET = 0.175
 SCOUT_CELLS = 64
 SCOUT_TOLERANCE = 1e-3
 MAX_ENLARGEMENTS = 40
@@ -94,7 +98,7 @@ def _grid_on_window(scene: Scene, asked: SurfaceDiscretisation, window: Pair) ->
     if scene.indenter.is_line:
         strips = DEFAULT_STRIPS if asked.cells is None else asked.cells
         assert isinstance(strips, int)
-        return SurfaceGrid((strips, 1), window)
+        return align_to_edges(scene, SurfaceGrid((strips, 1), window))
     if asked.cells is not None:
         assert not isinstance(asked.cells, int)
         return SurfaceGrid(asked.cells, window)
@@ -109,6 +113,22 @@ def _grid_on_window(scene: Scene, asked: SurfaceDiscretisation, window: Pair) ->
             1, usual, *(int(np.max(-(-other // points[0]))) for other in points)
         )
     return SurfaceGrid((int(cells[0]), int(cells[1])), window)
+
+
+def align_to_edges(scene: Scene, grid: SurfaceGrid) -> SurfaceGrid:
+    """Change the window of strips so that sharp edges of the indenter have their best position.
+
+    Other indenters and grids are returned unchanged.
+
+    scene  scene with the indenter
+    grid   grid with the numbers of cells and about the window
+    """
+    rim = scene.indenter.rim
+    if rim is None or not grid.of_strips:
+        return grid
+    inside = max(1, round(rim / grid.spacing[0] + EDGE_INSET))
+    width = rim / (inside - EDGE_INSET)
+    return SurfaceGrid(grid.cells, (grid.cells[0] * width, grid.window[1]))
 
 
 def _scene_maps(scene: Scene) -> list[HeightMap | FrictionMap]:
@@ -138,7 +158,7 @@ def fit_window(scene: Scene) -> Pair:
     raises  ContactAtWindowEdge if no window contains the contact; UnsupportedScene for a shape
             without a law for the contact size
     """
-    if scene.indenter.extent is not None:
+    if scene.indenter.extent is not None and not scene.indenter.is_line:
         return scene.indenter.extent
     decided = plan(scene)
     loads = _largest_loads(scene, decided.tilt)

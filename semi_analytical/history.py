@@ -313,7 +313,8 @@ def _contact_cells(model: ContactModel, state: State) -> float:
         return state.corrected.contact_cells
     p, domain, rim = state.pressing.pressure, model.domain, model.scene.indenter.rim
     if rim is not None and np.array_equal(p > 0, np.isfinite(model.gap)):
-        return float(np.pi * rim**2 / model.window.cell_area)
+        area = 2 * rim if model.window.of_strips else np.pi * rim**2
+        return float(area / model.window.cell_area)
     return domain.images * covered_cells(p, p > 0, domain)
 
 

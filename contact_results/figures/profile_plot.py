@@ -66,7 +66,7 @@ def profile_plot(result: Result, surface: Surface) -> Figure:
 
 def _friction_limit(friction: CoulombFriction, end: Increment, surface: Surface) -> Field:
     """Compute the friction limit µp on the surface at the end of a load step [force/length^2]."""
-    if isinstance(surface, Cells):
+    if isinstance(surface, Cells) and not surface.of_strips:
         x, y = surface.x, surface.y
         friction = friction.on_grid((len(x), len(y)), (float(x[1] - x[0]), float(y[1] - y[0])))
     return friction.limit(_pressure_field(end, surface))

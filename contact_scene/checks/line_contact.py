@@ -123,7 +123,7 @@ def friction_map_on_line(
     indenter: Indenter, friction: CoulombFriction | None
 ) -> Iterator[Problem]:
     """Find a map of the coefficient of friction on a line contact."""
-    if indenter.is_line and friction is not None and friction.coefficient_map is not None:
+    if indenter.is_line and friction is not None and friction.extent is not None:
         yield Problem(
             ("friction", "coefficient"),
             "the coefficient of friction of a line contact is a map",
