@@ -818,8 +818,8 @@ class LineProfile(LineShape):
 
     shape: Literal["line_profile"] = "line_profile"
     file: TableKey
-    """Name of a `.csv`, `.txt` or `.npy` file with two columns: x, ascending through 0, and heights.
-    Between the points the profile is a cubic that does not dip below flats."""
+    """Name of a `.csv`, `.txt` or `.npy` file with two columns, x on both sides of 0 and
+    heights. Between the points the profile is a cubic that does not dip below flats."""
 
     x_unit: HeightUnit = 1.0
     """Unit of x, such as "um"; absent: metres."""
@@ -842,10 +842,10 @@ class LineProfile(LineShape):
         return 2
 
     @property
-    def extent(self) -> Pair:
-        """Length about x = 0 that the profile covers, infinite along y [length]."""
+    def known_radius(self) -> float:
+        """Distance from x = 0 to the nearer end of the profile [length]."""
         x = self.profile.radii
-        return 2.0 * float(min(-x[0], x[-1])), math.inf
+        return float(min(-x[0], x[-1]))
 
     @property
     def profile(self) -> PlaneProfile:
@@ -901,7 +901,8 @@ def _interpolated_plane_profile(
     flip         True if the heights are positive towards the body
     """
     x, z = file.values if file.shape[0] == 2 else file.values.T
-    return PlaneProfile(x_unit * x, (-1.0 if flip else 1.0) * height_unit * z)
+    order, sign = slice(None, None, -1 if x[0] > x[-1] else 1), -1.0 if flip else 1.0
+    return PlaneProfile(x_unit * x[order], sign * height_unit * z[order])
 
 
 SHAPES: dict[str, type[ShapedBody]] = {

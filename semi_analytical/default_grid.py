@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from contact_scene import FrictionMap, HeightMap, Scene, SurfaceDiscretisation
 from contact_scene.body_pair import contact_modulus
+from contact_scene.checks.line_contact import wrong_dimension
 from contact_scene.normal_form import normal_form
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import (
@@ -62,6 +63,8 @@ def discretise(scene: Scene, asked: SurfaceDiscretisation) -> SurfaceGrid:
     asked  settings of the scene file, with prescribed cells and window if any
     """
     scene = normal_form(scene)
+    for problem in wrong_dimension(scene.indenter, asked):
+        raise UnsupportedScene(str(problem))
     window = asked.window or _within_maps(scene, fit_window(scene))
     if isinstance(window, float):
         window = window, STRIP_LENGTH
@@ -140,11 +143,14 @@ def _scene_maps(scene: Scene) -> list[HeightMap | FrictionMap]:
 def _within_maps(scene: Scene, window: Pair) -> Pair:
     """Reduce the sides of a window to the extent of the maps of a scene [length].
 
-    These are the height map of the indenter and the map of the coefficient of friction.
+    These are the height map of the indenter, the profile of a line contact, and the map of the
+    coefficient of friction.
 
     window  sides of the window along x and y [length]
     """
-    known = (scene.indenter.extent, scene.friction.extent if scene.friction else None)
+    known = [scene.indenter.extent, scene.friction.extent if scene.friction else None]
+    if scene.indenter.is_line:
+        known.append((2 * scene.indenter.known_radius, np.inf))
     L_x, L_y = np.min([window, *filter(None, known)], axis=0)
     return float(L_x), float(L_y)
 
@@ -158,7 +164,7 @@ def fit_window(scene: Scene) -> Pair:
     raises  ContactAtWindowEdge if no window contains the contact; UnsupportedScene for a shape
             without a law for the contact size
     """
-    if scene.indenter.extent is not None and not scene.indenter.is_line:
+    if scene.indenter.extent is not None:
         return scene.indenter.extent
     decided = plan(scene)
     loads = _largest_loads(scene, decided.tilt)

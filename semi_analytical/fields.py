@@ -80,7 +80,9 @@ class Increment(ReportedIncrement):
 
     def __post_init__(self) -> None:
         for name, area in (("contact", self.contact_area), ("stick", self.stick_area)):
-            radius = None if area is None else area / 2 if self.is_line else float(np.sqrt(area / np.pi))
+            radius = None
+            if area is not None:
+                radius = area / 2 if self.is_line else float(np.sqrt(area / np.pi))
             object.__setattr__(self, f"{name}_radius", radius)
         super().__post_init__()
 

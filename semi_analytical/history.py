@@ -216,7 +216,8 @@ class _Solver:
         increment = _reported_increment(self.model, last, reached, spreads=spreads, fits=fits)
         scene = self.model.scene
         if lacks_reference(scene.indenter, scene.body):
-            return replace(increment, **dict.fromkeys(OF_REFERENCE))
+            unknown: dict[str, Any] = dict.fromkeys(OF_REFERENCE)
+            return replace(increment, **unknown)
         return add_contact_displacements(increment, scene.rig)
 
 

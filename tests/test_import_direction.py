@@ -84,6 +84,7 @@ ORDERS = {
         "clipped_power_means",
         "quadratic",
         "fit",
+        "half_width",
         "contact_area",
         "shape",
         "edge_geometry",

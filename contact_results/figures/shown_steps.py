@@ -49,7 +49,8 @@ def scale_for_axis(
     """
     si = shown_unit(SCALARS[name].unit, line=line)
     unit = engineering_unit(float(np.max(np.abs(values))), si)
-    return values / unit.size, unit.labelled(f"{shown_name(name, line=line).replace('_', ' ')} {which}".rstrip())
+    words = shown_name(name, line=line).replace("_", " ")
+    return values / unit.size, unit.labelled(f"{words} {which}".rstrip())
 
 
 def step_title(step: Increment) -> str:

@@ -140,7 +140,8 @@ def _write_scalars(group: h5py.Group, increments: Sequence[Increment], *, line: 
         values = [getattr(i, attribute) for i in increments]
         _write_dataset(group, name, values, Reported("", meaning), PER_INCREMENT)
     for name, given in columns(increments, SCALARS).items():
-        mark, nothing = shown_mark(name, SCALARS[name], line=line), np.full(len(components(name)), np.nan)
+        mark = shown_mark(name, SCALARS[name], line=line)
+        nothing = np.full(len(components(name)), np.nan)
         found = np.array([nothing if value is None else np.ravel(value) for value in given])
         if np.all(np.isnan(found)):
             continue

@@ -44,11 +44,12 @@ def inconsistencies(tables: Mapping[str, Any]) -> tuple[Problem, ...]:
     """Find the contradictions between the tables of a scene file, each of which is valid alone.
 
     A check runs if all tables that its parameters name are valid. The parameter `ramps` contains
-    the load steps, resolved into load ramps (linear changes of all loads).
+    the load steps, resolved into load ramps (linear changes of all loads), `unit` that of forces.
 
     tables  valid tables of the scene file by their keys
     """
     known, loading = dict(tables), tables.get("loading")
+    known["unit"] = "N/m" if getattr(tables.get("indenter"), "is_line", False) else "N"
     if loading and loading[0].prescribes_normal:
         known["ramps"] = load_path(loading)
     found: list[Problem] = []
@@ -122,10 +123,10 @@ def _shear_without_friction(
 
 
 def _gross_sliding(
-    indenter: Indenter,
     friction: CoulombFriction | None,
     loading: Sequence[LoadStep],
     ramps: Sequence[LoadRamp],
+    unit: str,
 ) -> Iterator[Problem]:
     """Find load steps whose prescribed tangential force exceeds the friction limit mu W.
 
@@ -134,12 +135,11 @@ def _gross_sliding(
     coefficient mu and the normal force W, is convex along a ramp. The ends of the ramps therefore
     suffice.
 
-    indenter  indenter, whose line contact has forces per length
     friction  friction law of the scene; None without friction
     loading   load steps as written in the scene
     ramps     load ramps of all load steps
+    unit      unit of the forces
     """
-    unit = "N/m" if indenter.is_line else "N"
     for index, ramp in enumerate(ramps):
         limit = limit_of_step(friction, ramp)
         if limit is None or not ramp.normal.end:

@@ -229,7 +229,7 @@ def _estimate_strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
             yield pressure / material, f"{where} of {name}" if where else name
     if not any(isinstance(body.material, IsotropicMaterial) for body in bodies.values()):
         layers = sum(layer.thickness for body in bodies.values() for layer in body.layers)
-        yield end.approach / layers, "the layers"
+        yield (end.approach or 0.0) / layers, "the layers"
 
 
 def _moduli_below_contact(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:

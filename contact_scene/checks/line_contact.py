@@ -30,6 +30,11 @@ _OUT_OF_PLANE: Mapping[str, tuple[int, ...]] = {
     "bulk_strain": (0,),
     "bulk_stress": (0,),
 }
+# Examples along x, and along x and y.
+_DIMENSIONS: Mapping[str, tuple[str, str]] = {
+    "cells": ("1024", "[128, 128]"),
+    "window": ('"2 mm"', "[2e-3, 2e-3]"),
+}
 _NEED_REFERENCE = ("approach", "tangential_shift")
 
 
@@ -104,24 +109,33 @@ def undefined_motions(
 
 
 def wrong_dimension(
-    indenter: Indenter, semi_analytical: SurfaceDiscretisation
+    indenter: ShapedBody, semi_analytical: SurfaceDiscretisation
 ) -> Iterator[Problem]:
-    """Find cells and windows along x and y on a line contact, or along x alone on another one."""
-    for name, examples in (("cells", ("1024", "[128, 128]")), ("window", ('"2 mm"', '[2e-3, 2e-3]'))):
+    """Find cells and windows along x and y on a line contact, or along x alone on another one.
+
+    The window of a profile must not extend beyond its points.
+    """
+    line = indenter.is_line
+    for name, examples in _DIMENSIONS.items():
         value = getattr(semi_analytical, name)
-        if value is not None and isinstance(value, tuple) is indenter.is_line:
-            wanted = "one number, along x" if indenter.is_line else "an array of 2, for x and y"
-            shown = list(value) if isinstance(value, tuple) else value
+        if value is not None and isinstance(value, tuple) is line:
+            wanted = "one number, along x" if line else "an array of 2, for x and y"
             yield Problem(
                 ("semi_analytical", name),
-                f"got {shown} for a {indenter.shape.replace('_', ' ')}",
-                f"{wanted}, such as {examples[not indenter.is_line]}",
+                f"got {list(value) if line else value} for a "
+                f"{'line contact' if line else 'contact that is no line contact'}",
+                f"{wanted}, such as {examples[not line]}",
+            )
+        elif name == "window" and line and value and value > 2 * indenter.known_radius:
+            yield Problem(
+                ("semi_analytical", name),
+                f"the window is {value:.6g} m long, and the profile is known on both sides of 0 "
+                f"to {indenter.known_radius:.6g} m",
+                f"at most {2 * indenter.known_radius:.6g} m",
             )
 
 
-def friction_map_on_line(
-    indenter: Indenter, friction: CoulombFriction | None
-) -> Iterator[Problem]:
+def friction_map_on_line(indenter: Indenter, friction: CoulombFriction | None) -> Iterator[Problem]:
     """Find a map of the coefficient of friction on a line contact."""
     if indenter.is_line and friction is not None and friction.extent is not None:
         yield Problem(

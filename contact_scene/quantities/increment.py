@@ -38,7 +38,8 @@ class State:
 
     normal_force: Annotated[float, Reported("N", "Normal force.", key=True)]
     approach: Annotated[
-        float | None, Reported("m", "Approach of the bodies, measured from first contact.", key=True)
+        float | None,
+        Reported("m", "Approach of the bodies, measured from first contact.", key=True),
     ]
     contact_area: Annotated[float, Reported("m^2", "Area in contact, with sub-cell accuracy.")]
     contact_radius: Annotated[

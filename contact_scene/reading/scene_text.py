@@ -76,9 +76,7 @@ def _key_texts(model: BaseModel, *, line: bool = False) -> Iterator[Line]:
         yield name, _value_text(getattr(model, name), unit)
 
 
-def _table_text(
-    model: BaseModel, left_out: Container[str] = (), *, line: bool = False
-) -> str:
+def _table_text(model: BaseModel, left_out: Container[str] = (), *, line: bool = False) -> str:
     """Write a table of the scene as one text of keys and values, for the description of a scene.
 
     The shape of an indenter comes first, without its key. Keys without a value are left out.
@@ -87,7 +85,9 @@ def _table_text(
     left_out  names of other keys to leave out
     line      True for a line contact, whose loads are per length
     """
-    texts = {name: text for name, text in _key_texts(model, line=line) if text and name not in left_out}
+    texts = {
+        name: text for name, text in _key_texts(model, line=line) if text and name not in left_out
+    }
     shape = [texts.pop("shape").replace("_", " ")] if "shape" in texts else []
     own = sorted(texts, key=lambda name: name in Body.model_fields)
     return ", ".join([*shape, *(f"{name.replace('_', ' ')} {texts[name]}" for name in own)])

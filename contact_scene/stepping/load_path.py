@@ -226,7 +226,9 @@ def _bulk_strain_of_step(
     if last.stretch is None:
         return None
     start = last.stretch[1]
-    by_stress = strain_under(step.bulk_stress, base, line=line) if step.bulk_stress and base else None
+    by_stress = (
+        strain_under(step.bulk_stress, base, line=line) if step.bulk_stress and base else None
+    )
     return start, step.bulk_strain or by_stress or start
 
 

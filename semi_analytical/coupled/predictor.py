@@ -163,8 +163,10 @@ def _predict_by_dilation(
     now, behind  data of the last converged state and of the state before
     normal       prescribed normal load at the end of the increment
     """
-    exponent, degree = model.scene.indenter.gap_exponent, model.scene.indenter.load_exponent
-    if exponent is None or degree is None or normal.moment is not None or normal.tilt != now.target.tilt:
+    indenter = model.scene.indenter
+    exponent, degree = indenter.gap_exponent, indenter.load_exponent
+    tilts = normal.moment is not None or normal.tilt != now.target.tilt
+    if exponent is None or degree is None or tilts:
         return None
     if normal.force is not None:
         load, loads = normal.force, [state.normal_force for state in (now, behind) if state]

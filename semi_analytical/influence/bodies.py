@@ -31,18 +31,14 @@ def influence_coefficients(
                   line contact [length]; None for cells
     """
     down, along = (spacing[0] * spacing[1] * c for c in compliances(rig))
-    bodies: list[tuple[InfluenceCoefficients, ...]]
-    if reference_length is None:
-        integrals = RectangleIntegrals(*spacing, offsets)
-        bodies = [_body_coefficients(body, spacing, integrals, offsets) for body in (lower, upper)]
-    else:
-        bodies = [
-            (StripCoefficients(stack_of(body), spacing[0], offsets, reference_length),)
-            if body.deforms
-            else ()
-            for body in (lower, upper)
-        ]
-    return Composite(*bodies, along, down)
+    integrals = RectangleIntegrals(*spacing, offsets)
+
+    def of_body(body: Body) -> tuple[InfluenceCoefficients, ...]:
+        if reference_length is None or not body.deforms:
+            return _body_coefficients(body, spacing, integrals, offsets)
+        return (StripCoefficients(stack_of(body), spacing[0], offsets, reference_length),)
+
+    return Composite(of_body(lower), of_body(upper), along, down)
 
 
 def _body_coefficients(

@@ -1,4 +1,4 @@
-"""Influence coefficients of strips: uniform tractions on strips of infinite length, in plane strain.
+"""Influence coefficients of strips of infinite length with uniform tractions, in plane strain.
 
 A line load along y has the surface response of the wave vectors (m, 0) alone. Per unit load,
 
@@ -62,12 +62,13 @@ class StripCoefficients:
         if component not in SCALARS:
             return found
         own = SCALARS[component]
-        outer, base = (_long_waves(material)[own] for material in (self.stack.outer, self.stack.base))
-        borders = np.arange(self.shape[0] + 1) - 0.5
+        stack = self.stack
+        outer, base = _long_waves(stack.outer)[own], _long_waves(stack.base)[own]
+        borders: Array = np.arange(self.shape[0] + 1, dtype=np.float64) - 0.5
         closed = _odd_part if component == ODD else self._even_part
         total = outer * closed(borders, 0.0)
-        if self.stack.layers:
-            depth = 2 * self.stack.layers[0].thickness
+        if stack.layers:
+            depth = 2 * stack.layers[0].thickness
             total += (base - outer) * closed(borders, depth / self.width)
             # The integral over x of an even response is odd, and that of an odd response even.
             rest = self._rest_table(np.abs(borders) * self.width)[own] / self.width
