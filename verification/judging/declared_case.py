@@ -18,6 +18,7 @@ from contact_scene.quantities.increment import (
     components,
 )
 from semi_analytical import SurfaceGrid, plan
+from semi_analytical.default_grid import STRIP_LENGTH, align_to_edges
 from verification.exhibits.chart import Chart
 from verification.judging import field_errors
 from verification.judging.case import (
@@ -79,6 +80,11 @@ CELLS = {
     "between": "0.1 to 0.95",
     "but": "two cells around the stick edge apart, ",
 }
+STRIPS = CELLS | {
+    "point": "strip",
+    "edge": "half of the contact width, fitted below the strip width",
+    "stick": "half of the width of the stick zone",
+}
 HATS = {
     "point": "ring",
     "edge": "where the pressure ends, from its last two values",
@@ -126,7 +132,7 @@ class SizedRun:
         "ring".
         """
         if isinstance(self.run, Run):
-            return CELLS
+            return STRIPS if self.run.grid.of_strips else CELLS
         if isinstance(self.run, RadiiRun):
             return RINGS
         hats = self.run.method is not Method.PENALTY
@@ -227,6 +233,33 @@ def on_cells(
     corrected = plan(problem.scene, edge=BY_DEFAULT).edge != "off"
     followed = map(_without_edge_correction, rungs) if corrected and len(rungs) > 1 else rungs
     return ladder(problem, rungs, tuple(followed))
+
+
+def on_strips(
+    problem: Problem, counts: Sequence[int], window: float = 2.5, of: str = ""
+) -> RefinementLevels:
+    """Create refinement levels of a line contact on strips, for the semi-analytical solver.
+
+    problem  problem with its known answer
+    counts   numbers of strips, coarse to fine
+    window   length of the grid over the half width of the contact
+    of       name of the problem within its case, with which the labels begin
+    """
+    name = f"{of}, " if of else ""
+    grids = [SurfaceGrid((n, 1), (window * problem.radius, STRIP_LENGTH)) for n in counts]
+    return ladder(
+        problem,
+        [
+            SizedRun(
+                Run(
+                    f"{name}{grid.cells[0]} strips", problem.scene,
+                    align_to_edges(problem.scene, grid), problem=of,
+                ),
+                grid.cells[0], window,
+            )
+            for grid in grids
+        ],
+    )  # fmt: skip
 
 
 def _without_edge_correction(rung: SizedRun) -> SizedRun:
