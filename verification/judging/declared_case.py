@@ -52,6 +52,7 @@ from verification.quantities import unit_of
 from verification.solver import Method
 
 PER_OCTAVE = 5
+STRIPS_WINDOW = 2.5  # over the half width of the contact
 
 
 def refinement(coarsest: int, finest: int) -> tuple[int, ...]:
@@ -235,31 +236,20 @@ def on_cells(
     return ladder(problem, rungs, tuple(followed))
 
 
-def on_strips(
-    problem: Problem, counts: Sequence[int], window: float = 2.5, of: str = ""
-) -> RefinementLevels:
-    """Create refinement levels of a line contact on strips, for the semi-analytical solver.
+def on_strips(problem: Problem, count: int, of: str = "") -> RefinementLevels:
+    """Create the run of a line contact on strips, for the semi-analytical solver.
+
+    The window is 2.5 half widths of the contact long.
 
     problem  problem with its known answer
-    counts   numbers of strips, coarse to fine
-    window   length of the grid over the half width of the contact
-    of       name of the problem within its case, with which the labels begin
+    count    number of strips
+    of       name of the problem within its case, with which the label begins
     """
-    name = f"{of}, " if of else ""
-    grids = [SurfaceGrid((n, 1), (window * problem.radius, STRIP_LENGTH)) for n in counts]
-    return ladder(
-        problem,
-        [
-            SizedRun(
-                Run(
-                    f"{name}{grid.cells[0]} strips", problem.scene,
-                    align_to_edges(problem.scene, grid), problem=of,
-                ),
-                grid.cells[0], window,
-            )
-            for grid in grids
-        ],
-    )  # fmt: skip
+    grid = SurfaceGrid((count, 1), (STRIPS_WINDOW * problem.radius, STRIP_LENGTH))
+    grid = align_to_edges(problem.scene, grid)
+    label = f"{of}, {count} strips".removeprefix(", ")
+    run = Run(label, problem.scene, grid, problem=of)
+    return ladder(problem, [SizedRun(run, count, STRIPS_WINDOW)])
 
 
 def _without_edge_correction(rung: SizedRun) -> SizedRun:
