@@ -272,7 +272,8 @@ def characteristic_size(name: str, values: Values) -> float:
     values  all scalars at the end of a load step, by name
     """
     sizes = {key: float(np.max(np.abs(value))) for key, value in values.items()}
-    length, force, radius = (sizes[key] for key in ("approach", "normal_force", "contact_radius"))
+    force, radius = (sizes[key] for key in ("normal_force", "contact_radius"))
+    length = sizes.get("approach", 0.0)
     by_unit = {
         "m": length,
         "m^2": sizes["contact_area"],

@@ -33,6 +33,7 @@ from contact_scene.quantities.stated_error import (
 )
 from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import Increment, Plan, Result, SurfaceGrid, memory
+from semi_analytical.default_grid import align_to_edges
 from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.edge.film import film_law
 from semi_analytical.edge.fit import WIDE
@@ -114,7 +115,7 @@ class CellSolver(DiscretisedSolver):
         fitted = self.discretisation.window is None and self.scene.indenter.extent is None
         for _ in range(MAX_ENLARGEMENTS if fitted else 0):
             cells, (hx, hy) = scale_cells(grids[-1].cells, ROOM), grids[-1].spacing
-            grids.append(SurfaceGrid(cells, (cells[0] * hx, cells[1] * hy)))
+            grids.append(SurfaceGrid(cells, (cells[0] * hx, cells[1] * hy)))  # strips keep hy
         return solve_within(self.scene, grids, fineness.tolerance, progress, plan, store)
 
     def space_of(self, result: Result) -> SurfaceGrid:
@@ -129,8 +130,8 @@ class CellSolver(DiscretisedSolver):
         share   fraction of the cells of the result along a side
         more    number of cells added along each side
         """
-        nx, ny = (2 * ceil(share * n / 2) + more for n in result.grid.cells)
-        return SurfaceGrid((nx, ny), result.grid.window)
+        nx, ny = (2 * ceil(share * n / 2) + more if n > 1 else 1 for n in result.grid.cells)
+        return align_to_edges(self.scene, SurfaceGrid((nx, ny), result.grid.window))
 
     def few(self, coarse: Fineness, result: Result) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.
@@ -147,7 +148,8 @@ class CellSolver(DiscretisedSolver):
         return replace(coarse, space=few, edges=False)
 
     def cell_sides(self, result: Result) -> tuple[float, ...]:
-        return result.grid.spacing
+        grid = result.grid
+        return grid.spacing[:1] if grid.of_strips else grid.spacing
 
     def unknowns(self, result: Result) -> int:
         nx, ny = result.grid.cells
@@ -199,10 +201,13 @@ class CellSolver(DiscretisedSolver):
 
     def first_space(self) -> SurfaceGrid:
         grid = semi_analytical.discretise(self.scene, self.discretisation)
-        return SurfaceGrid(scale_cells(grid.cells, FIRST_CELLS / min(grid.cells)), grid.window)
+        least = grid.cells[0] if grid.of_strips else min(grid.cells)
+        cells = scale_cells(grid.cells, FIRST_CELLS / least)
+        return align_to_edges(self.scene, SurfaceGrid(cells, grid.window))
 
     def refine_space(self, space: SurfaceGrid, by: Refinement) -> SurfaceGrid:
-        return SurfaceGrid(scale_cells(space.cells, by.get(self.part, 1.0)), space.window)
+        cells = scale_cells(space.cells, by.get(self.part, 1.0))
+        return align_to_edges(self.scene, SurfaceGrid(cells, space.window))
 
     def work(self, fineness: Fineness) -> Work:
         nx, ny = fineness.space.cells
@@ -272,10 +277,11 @@ def scale_cells(cells: tuple[int, int], factor: float) -> tuple[int, int]:
     """Multiply the numbers of cells of a grid along x and y by a factor.
 
     Used for finer grids and for larger windows. The products are increased to even numbers whose
-    halves have no prime factor above 5. Fourier transforms of such numbers of cells are fast.
+    halves have no prime factor above 5. Fourier transforms of such numbers of cells are fast. One
+    row of strips remains one row.
 
     cells   numbers of cells along x and y
     factor  factor of both numbers
     """
-    nx, ny = (2 * fast_length(ceil(round(factor * n, 6) / 2)) for n in cells)
+    nx, ny = (2 * fast_length(ceil(round(factor * n, 6) / 2)) if n > 1 else 1 for n in cells)
     return nx, ny

@@ -97,7 +97,7 @@ class CycleEdge:
 
         They lie within the reach of the fits around the largest value of all cells.
         """
-        small = np.count_nonzero(self.pressure) < LEAST_CONTACT
+        small = np.count_nonzero(self.pressure) < LEAST_CONTACT or self.pressure.shape[-1] == 1
         if small or not self.corrected or not isinstance(self.surface, Cells):
             return []
         largest = np.unravel_index(np.argmax(values), values.shape)

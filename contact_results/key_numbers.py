@@ -18,6 +18,7 @@ from contact_scene.quantities.increment import (
     components,
     numbers,
 )
+from contact_scene.quantities.per_length import shown_name, shown_unit
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.reading.engineering_units import EngineeringUnit, engineering_unit
@@ -44,7 +45,7 @@ def natural_size(ends: Sequence[State], unit: str) -> float:
     unit  SI unit of the quantity
     """
     force, radius, approach = (
-        max((abs(getattr(end, name)) for end in ends), default=0.0)
+        max((abs(getattr(end, name) or 0.0) for end in ends), default=0.0)
         for name in ("normal_force", "contact_radius", "approach")
     )
     sizes = {"N": force, "N m": force * radius, "m": approach, "J": force * approach}
@@ -148,23 +149,25 @@ def _quantity_columns(
     history  states at the ends of all load steps, which determine the limit of round-off
     """
     rows = [numbers(step) for step, _ in steps]
+    line = bool(history) and history[0].is_line
     for name, mark in SCALARS.items():
         parts = components(name)
         found = [[row[part] for row in rows] for part in parts]
         known = [abs(value) for values in found for value in values if value is not None]
         if not mark.key or not known:
             continue
-        first, _, rest = name.partition("_")
+        shown, unit = shown_name(name, line=line), shown_unit(mark.unit, line=line)
+        first, *rest = shown.split("_")
         for axis, values in zip("xy", found, strict=False):
             vector = mark.kind is Kind.VECTOR
             least = ROUND_OFF * max(known) if vector else 0.0
             least = max(least, ROUND_OFF * natural_size(history, mark.unit))
             cut = [_without_round_off(value, least) for value in values]
             if axis == "x" or any(cut):
-                heading = f"{first}\n{rest}{f' {axis}' if vector else ''}"
+                heading = f"{first}\n{' '.join(rest)}{f' {axis}' if vector else ''}"
                 errors = [uncertainty(of_step.get(name), axis) for _, of_step in steps]
-                like = unit_group(f"{name} {axis}" if vector else name)
-                yield _Column(heading, like, mark.unit, list(zip(cut, errors, strict=True)))
+                like = unit_group(f"{shown} {axis}" if vector else shown)
+                yield _Column(heading, like, unit, list(zip(cut, errors, strict=True)))
 
 
 def _without_round_off(value: float | None, negligible: float) -> float | None:
@@ -190,13 +193,17 @@ PRODUCTS = {
 
 
 def cycle_columns(
-    cycles: Sequence[FrettingCycle], errors: Sequence[Errors] | None = None
+    cycles: Sequence[FrettingCycle],
+    errors: Sequence[Errors] | None = None,
+    *,
+    line: bool = False,
 ) -> dict[str, list[str]]:
     """Return the table of closed load cycles with one row per cycle, as columns by heading.
 
     A long history shows its first and last cycles.
 
     errors  stated errors of the scalars of every load step, by name; None if they were not computed
+    line    True for a line contact, whose energies and forces are per length
     """
     shown, gap = _select_rows(cycles)
     rows = [cycle.numbers for cycle in shown]
@@ -218,5 +225,6 @@ def cycle_columns(
                 continue
             bars = [uncertainty(of_step.get(name), axis) for of_step in stated]
             heading = f"{symbol} {axis}".strip()
-            columns.append(_Column(heading, heading, mark.unit, [*zip(values, bars, strict=True)]))
+            unit = shown_unit(mark.unit, line=line)
+            columns.append(_Column(heading, heading, unit, [*zip(values, bars, strict=True)]))
     return _column_texts(first, columns, gap)

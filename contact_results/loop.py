@@ -58,7 +58,7 @@ def loop_numbers(
     furthest = changes[np.argmax(np.hypot(*changes.T))]
     size = float(np.hypot(*furthest))
     normal, approach = (
-        max(abs(getattr(i, name)) for i in path) for name in ("normal_force", "approach")
+        max(abs(getattr(i, name) or 0.0) for i in path) for name in ("normal_force", "approach")
     )
     along = furthest / (size or 1.0)
     shifts = _components_along(path, "tangential_shift", along)

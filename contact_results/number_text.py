@@ -100,6 +100,6 @@ def doubt_texts(errors: Sequence[Mapping[str, StatedError]], names: Collection[s
 def unit_group(name: str) -> str:
     """Return the name of the group of quantities that share a unit in a table.
 
-    All names that end in `_radius` form the group "radius". Other names form a group each.
+    All names that end in `_radius` or `half_width` form a group. Other names form a group each.
     """
-    return "radius" if name.endswith("_radius") else name
+    return next((of for of in ("radius", "half_width") if name.endswith(of)), name)

@@ -102,7 +102,7 @@ def write_computed(
     stated = errors.steps if errors else None
     shown: dict[str, list[str]] = omitted.compute(
         "the table of load cycles",
-        lambda: cycle_columns(cycles, stated) if cycles else {},
+        lambda: cycle_columns(cycles, stated, line=result.scene.indenter.is_line) if cycles else {},
         {},
     )
     omitted.write(

@@ -62,7 +62,10 @@ def _warn_of_gross_slip(result: Result) -> Iterator[str]:
     """
     near, last = near_gross_slip(result.scene), result.steps[-1]
     pushes, twists = last.tangential_force is not None, last.torque is not None
-    if (pushes and last.tangential_shift is None) or (twists and last.twist is None):
+    slips = last.tangential_shift is None
+    if last.is_line:  # without a reference length no shift is stated
+        slips = slips and last.dissipated_energy is None
+    if (pushes and slips) or (twists and last.twist is None):
         remedy = "tangential_shift" if pushes and np.any(last.tangential_force) else "twist"
         yield undefined_motion_warning(last.step, remedy)
     elif any(near):

@@ -87,7 +87,12 @@ class Cells:
     @property
     def profile_line(self) -> ProfileLine:
         """ProfileLine on which profiles of the fields are drawn: all cell centres x, at y = 0."""
-        return ProfileLine(self.x, "x at y = 0", ("x", "y"))
+        return ProfileLine(self.x, "x" if self.of_strips else "x at y = 0", ("x", "y"))
+
+    @property
+    def of_strips(self) -> bool:
+        """True for the strips of a line contact: one row of cells, 1 m long."""
+        return len(self.y) == 1
 
     @property
     def direction(self) -> tuple[float, float]:
@@ -332,6 +337,8 @@ def surface_on(axes: Mapping[str, Field], direction: tuple[float, float]) -> Sur
     if "radii" in axes:
         return Rings(axes["radii"], axes.get("angles"), direction, polar=False)
     x, y = axes["x"], axes["y"]
+    if len(y) == 1:
+        return Cells(x, y, float(x[-1] - x[0]) / (len(x) - 1))
     return Cells(x, y, float((x[-1] - x[0]) * (y[-1] - y[0])) / ((len(x) - 1) * (len(y) - 1)))
 
 

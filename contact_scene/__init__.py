@@ -13,12 +13,16 @@ from contact_scene.discretisation import (
 from contact_scene.friction import CoulombFriction, FrictionMap
 from contact_scene.geometry import (
     Cone,
+    Cylinder,
     Ellipsoid,
     FlatPunch,
     HeightMap,
+    LineProfile,
     Paraboloid,
     RevolvedProfile,
     Sphere,
+    Strip,
+    Wedge,
 )
 from contact_scene.loading import LoadStep
 from contact_scene.material import RIGID, IsotropicMaterial, Rigid
@@ -73,6 +77,10 @@ __all__ = [
     "Sphere",
     "SurfaceDiscretisation",
     "VectorControl",
+    "Cylinder",
+    "LineProfile",
+    "Strip",
+    "Wedge",
     "load_scene",
     "read_scene_file",
     "scene_schema",

@@ -23,15 +23,18 @@ UNSTRAINED: Strain = (0.0, 0.0, 0.0)
 ROUND_OFF = 1e-12
 
 
-def strain_under(stress: Sequence[float], material: Material) -> Strain:
+def strain_under(stress: Sequence[float], material: Material, *, line: bool = False) -> Strain:
     """Compute the strain (εxx, εyy, εxy) of an elastic material under a plane stress.
 
     Used for a bulk stress that a load step prescribes.
 
     stress    (σxx, σyy, σxy) [force/length^2]
     material  isotropic elastic material
+    line      True for plane strain under σxx alone, with εyy = 0
     """
     assert isinstance(material, IsotropicMaterial)
+    if line:
+        return stress[0] / material.plane_strain_modulus, 0.0, 0.0
     E, nu = material.young_modulus, material.poisson_ratio
     xx, yy, xy = stress
     return (xx - nu * yy) / E, (yy - nu * xx) / E, (1 + nu) * xy / E

@@ -1,7 +1,9 @@
 """Discretisation settings of each solver: the tables `[semi_analytical]`, `[fem_reference]` and
 `[radial]` of a scene file."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Tag
 
 from contact_scene.reading.description import Description
 from contact_scene.reading.quantity import (
@@ -37,15 +39,31 @@ PathAccuracy = Annotated[
 EdgeCorrection = Literal["off", "last", "all"]
 
 
+def _dimension(value: Any) -> str:
+    return "<along x>" if isinstance(value, int | float | str) else "<along x and y>"
+
+
+SurfaceCells = Annotated[
+    Annotated[tuple[Cells, Cells], Tag("<along x and y>")] | Annotated[Cells, Tag("<along x>")],
+    Discriminator(_dimension),
+]
+Window = Annotated[
+    Annotated[tuple[PositiveLength, PositiveLength], Tag("<along x and y>")]
+    | Annotated[PositiveLength, Tag("<along x>")],
+    Discriminator(_dimension),
+]
+
+
 class SurfaceDiscretisation(Description):
     """Grid of surface cells, increments and tolerance of the semi-analytical solver."""
 
-    cells: tuple[Cells, Cells] | None = None
+    cells: SurfaceCells | None = None
     """Number of cells along x and y; absent: chosen. The solver refuses numbers that exceed the
-    available memory."""
+    available memory. Line contacts: one number, of strips along x."""
 
-    window: tuple[PositiveLength, PositiveLength] | None = None
-    """Side lengths of the window along x and y [length], centred on the origin; absent: chosen."""
+    window: Window | None = None
+    """Side lengths of the window along x and y [length], centred on the origin; absent: chosen.
+    Line contacts: one length, along x."""
 
     tolerance: Tolerance = 1e-8
     """Limit of every dimensionless residual at the end of an increment."""

@@ -2,6 +2,7 @@
 
 import math
 from abc import abstractmethod
+from collections.abc import Callable
 from difflib import get_close_matches
 from functools import lru_cache
 from typing import Annotated, Any, Literal
@@ -19,7 +20,7 @@ from contact_scene.height_map import (
     leave_out_every_second,
     lowest_point,
 )
-from contact_scene.profile import Profile
+from contact_scene.profile import PlaneProfile, Profile
 from contact_scene.reading.array_file import (
     ArrayFile,
     FileKey,
@@ -28,6 +29,7 @@ from contact_scene.reading.array_file import (
 )
 from contact_scene.reading.quantity import (
     PositiveLength,
+    PressingLength,
     SlopeAngle,
 )
 from contact_scene.reading.scene_error import refusal
@@ -41,6 +43,15 @@ _LEAST_POINTS = 4
 # Largest fraction of points of a height map without a height. The corners around a circular field
 # of view are 1 - π/4 = 0.21 of a square, and more on few points.
 _MAX_UNMEASURED = 1 / 3
+
+
+# Quadrature points of the normal force of a line contact, and relative half distance of the points
+# between which a slope is taken.
+_ANGLES, _NEAR = 64, 1e-6
+# Half widths between which the contact of a line contact is searched [length], and bisections of
+# their logarithm, to round-off.
+_HALF_WIDTHS = 1e-15, 1e9
+_BISECTIONS = 60
 
 
 class ShapedBody(Body):
@@ -77,6 +88,11 @@ class ShapedBody(Body):
     @property
     def is_of_revolution(self) -> bool:
         """True if the gap of the indenter depends on the distance from the origin only."""
+        return False
+
+    @property
+    def is_line(self) -> bool:
+        """True if the gap depends on x only: a line contact in plane strain, loaded per length."""
         return False
 
     @property
@@ -133,6 +149,12 @@ class ShapedBody(Body):
         """
         return None
 
+    @property
+    def load_exponent(self) -> float | None:
+        """Exponent of the normal force as a power of the contact radius; None without a law."""
+        k = self.gap_exponent
+        return k if k is None or self.is_line else k + 1
+
     def with_half_the_points(self) -> "ShapedBody | None":
         """Return the shape with every second of its measured points left out.
 
@@ -140,8 +162,8 @@ class ShapedBody(Body):
         """
         return None
 
-    # Estimates to an order of magnitude, for grids and meshes. Callers take the root of degree k or
-    # k + 1.
+    # Estimates to an order of magnitude, for grids and meshes. Callers take the root of the degree
+    # `gap_exponent` or `load_exponent`.
 
     def contact_at(self, approach: float) -> Pair | None:
         """Estimate the size of the contact at a given approach of the indenter.
@@ -161,8 +183,8 @@ class ShapedBody(Body):
 
         force    normal force [force]
         modulus  contact modulus E* [force/length^2]
-        returns  a^(k+1) along x and along y [length^(k+1)], with the half width a of the contact
-                 and the exponent k of the gap as a power of the distance; None without an estimate
+        returns  a^n along x and along y [length^n], with the half width a of the contact and the
+                 `load_exponent` n; None without an estimate
         """
         return None
 
@@ -642,6 +664,247 @@ def _interpolated_profile(
     return Profile(radius_unit * radii[order], sign * height_unit * heights[order])
 
 
+class LineShape(ShapedBody):
+    """Cylindrical body along y, whose gap depends on x only. Its loads are per unit length.
+
+    Far from a line load the displacement grows like the logarithm of the distance. Approach, shift
+    and elastic energy therefore depend on a distance at which the surface does not move.
+    """
+
+    reference_length: PositiveLength | None = None
+    """Distance from the centre of the contact, on both sides, at which the surface does not move
+    [length]; absent: approach, tangential shift, elastic energy and work are not stated."""
+
+    @property
+    def is_line(self) -> bool:
+        """True: the gap depends on x only."""
+        return True
+
+    @property
+    def is_even(self) -> bool:
+        """True: the gap is equal at x and -x."""
+        return True
+
+    def _force_ratio(self, a: float) -> float:
+        """Compute W/E* of a contact of half width a on half-spaces [length].
+
+        W = E* a ∫₀^(π/2) sin φ f'(a sin φ) dφ with the slope f' (Johnson 1985, section 2.7). The
+        shape is taken as symmetric about x = 0.
+
+        a  half width of the contact [length]
+        """
+        points, weights = np.polynomial.legendre.leggauss(_ANGLES)
+        t = a * (sine := np.sin(math.pi / 4 * (1.0 + points)))
+        rise = self.initial_gap(t * (1.0 + _NEAR), 0.0) - self.initial_gap(t * (1.0 - _NEAR), 0.0)
+        return float(math.pi / 4 * a * weights @ (sine * rise / (2.0 * _NEAR * t)))
+
+    def _half_width(self, load: Callable[[float], float], value: float) -> float:
+        """Find the half width of the contact at which a load has a value, by bisection [length].
+
+        load   load as a function of the half width
+        value  value of the load
+        """
+        low, high = _HALF_WIDTHS
+        for _ in range(_BISECTIONS):
+            middle = math.sqrt(low * high)
+            low, high = (middle, high) if load(middle) < value else (low, middle)
+        return high
+
+    def contact_under(self, force: float, modulus: float) -> Pair | None:
+        """Compute a^n under a normal force per length, with the half width a, for x and y.
+
+        n is the `load_exponent`. The value is None for a shape whose edges bound the contact.
+
+        force    normal force per length [force/length]
+        modulus  contact modulus E* [force/length^2]
+        """
+        if self.load_exponent is None:
+            return None
+        return (self._half_width(self._force_ratio, force / modulus) ** self.load_exponent,) * 2
+
+    def contact_at(self, approach: float) -> Pair | None:
+        """Estimate a^k at an approach, with the half width a and the `gap_exponent` k, for x and y.
+
+        The approach is that of a parabolic cylinder, W (1 + 2 ln(2L/a)) / πE* (Johnson 1985, eq.
+        5.57 gives it for another reference), with the reference length L. The value is None for a
+        shape whose edges bound the contact.
+
+        approach  approach of the bodies [length]
+        """
+        if self.gap_exponent is None:
+            return None
+        far = self.reference_length or 1.0
+
+        def moved(a: float) -> float:
+            return self._force_ratio(a) * (1.0 + 2.0 * math.log(max(2.0 * far / a, 1.0))) / math.pi
+
+        return (self._half_width(moved, approach) ** self.gap_exponent,) * 2
+
+
+class Cylinder(LineShape):
+    """Parabolic cylinder with the gap x^2 / 2R, the shape of Hertz theory for line contacts."""
+
+    shape: Literal["cylinder"] = "cylinder"
+    radius: PositiveLength
+    """Radius of curvature R at the apex [length]."""
+
+    @property
+    def gap_exponent(self) -> float:
+        """Exponent of the gap as a power of the distance from the apex: 2."""
+        return 2
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
+        """Compute the undeformed gap x^2 / 2R at first contact [length].
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
+        return np.asarray((np.square(x) + np.zeros_like(y)) / (2.0 * self.radius))
+
+
+class Strip(LineShape):
+    """Flat punch of infinite length along y, with sharp or rounded edges."""
+
+    shape: Literal["strip"] = "strip"
+    half_width: PositiveLength
+    """Half width of the flat part [length]."""
+
+    edge_radius: PressingLength = 0.0
+    """Radius of curvature of the edges beside the flat part [length]; 0: sharp edges, which bound
+    the contact."""
+
+    @property
+    def gap_exponent(self) -> float | None:
+        """Exponent of the gap beside the flat part as a power of the distance: 2, or None."""
+        return 2 if self.edge_radius else None
+
+    @property
+    def rim(self) -> float | None:
+        """Half width of the contact if the edges are sharp [length]."""
+        return None if self.edge_radius else self.half_width
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
+        """Compute the undeformed gap: 0 at the flat part, beside it parabolic or infinite [length].
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
+        beside = np.maximum(np.abs(x) - self.half_width, 0.0) + np.zeros_like(y)
+        if self.edge_radius:
+            return np.asarray(np.square(beside) / (2.0 * self.edge_radius))
+        return np.where(beside > 0.0, np.inf, 0.0)
+
+
+class Wedge(LineShape):
+    """Wedge with its edge along y and the gap |x| tan(slope)."""
+
+    shape: Literal["wedge"] = "wedge"
+    slope_angle: SlopeAngle
+    """Angle between the flanks and the contact plane."""
+
+    @property
+    def gap_exponent(self) -> float:
+        """Exponent of the gap as a power of the distance from the edge: 1."""
+        return 1
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
+        """Compute the undeformed gap |x| tan(slope) at first contact [length].
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
+        return np.asarray((np.abs(x) + np.zeros_like(y)) * np.tan(self.slope_angle))
+
+
+class LineProfile(LineShape):
+    """Cylindrical body with a measured or computed profile: a table of x and heights."""
+
+    shape: Literal["line_profile"] = "line_profile"
+    file: TableKey
+    """Name of a `.csv`, `.txt` or `.npy` file with two columns, x on both sides of 0 and
+    heights. Between the points the profile is a cubic that does not dip below flats."""
+
+    x_unit: HeightUnit = 1.0
+    """Unit of x, such as "um"; absent: metres."""
+
+    height_unit: HeightUnit = 1.0
+    """Unit of the heights, such as "um"; absent: metres."""
+
+    flip: StrictBool = False
+    """True if heights are positive towards the body; absent: positive away from the body."""
+
+    @property
+    def is_even(self) -> bool:
+        """True if the table is symmetric about x = 0, bit for bit."""
+        x, z = self.profile.radii, self.profile.heights
+        return np.array_equal(x, -x[::-1]) and np.array_equal(z, z[::-1])
+
+    @property
+    def gap_exponent(self) -> float:
+        """Exponent of the gap as a power of the distance from first contact: 2."""
+        return 2
+
+    @property
+    def known_radius(self) -> float:
+        """Distance from x = 0 to the nearer end of the profile [length]."""
+        x = self.profile.radii
+        return float(min(-x[0], x[-1]))
+
+    @property
+    def profile(self) -> PlaneProfile:
+        """Profile of the body: coordinates and heights of its points, and their interpolation."""
+        return _interpolated_plane_profile(self.file, self.x_unit, self.height_unit, self.flip)
+
+    @model_validator(mode="after")
+    def _is_profile(self) -> "LineProfile":
+        refuse_missing(self.file)
+        if 2 not in self.file.values.shape or max(self.file.values.shape) < _LEAST_POINTS:
+            raise refusal(
+                f"the table {self.file} has shape {self.file.values.shape}",
+                f"two columns, x and height, of at least {_LEAST_POINTS} values",
+            )
+        x = self.profile.radii
+        if x[0] >= 0 or x[-1] <= 0 or np.any(np.diff(x) <= 0):
+            raise refusal(
+                f"the first column of {self.file} runs from {x[0]:g} m to {x[-1]:g} m",
+                "ascending x on both sides of 0",
+            )
+        return self
+
+    def with_half_the_points(self) -> "LineProfile":
+        """Return the profile with every second point replaced by an interpolated one.
+
+        The ends are kept. Used to estimate the error of the profile between the points.
+        """
+        x, z = self.profile.radii, self.profile.heights
+        kept = np.union1d(np.arange(0, len(x), 2), len(x) - 1)
+        table = np.stack([x, PlaneProfile(x[kept], z[kept]).height(x)])
+        changed = {"file": table, "x_unit": 1.0, "height_unit": 1.0, "flip": False}
+        return type(self).model_validate({**dict(self), **changed})
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Gap:
+        """Compute the undeformed gap: the height above the lowest point of the profile [length].
+
+        Beyond the last points the profile continues along lines.
+
+        x, y  coordinates in the plane of contact [length], broadcast together
+        """
+        return np.asarray(self.profile.height(x) + np.zeros_like(y))
+
+
+@lru_cache(maxsize=4)
+def _interpolated_plane_profile(
+    file: ArrayFile, x_unit: float, height_unit: float, flip: bool
+) -> PlaneProfile:
+    """Create the profile of a line contact from its table, with its columns along either index.
+
+    file         table of coordinates and heights
+    x_unit       factor of the coordinates to SI [length]
+    height_unit  factor of the heights to SI [length]
+    flip         True if the heights are positive towards the body
+    """
+    x, z = file.values if file.shape[0] == 2 else file.values.T
+    order, sign = slice(None, None, -1 if x[0] > x[-1] else 1), -1.0 if flip else 1.0
+    return PlaneProfile(x_unit * x[order], sign * height_unit * z[order])
+
+
 SHAPES: dict[str, type[ShapedBody]] = {
     "sphere": Sphere,
     "paraboloid": Paraboloid,
@@ -650,6 +913,10 @@ SHAPES: dict[str, type[ShapedBody]] = {
     "flat_punch": FlatPunch,
     "height_map": HeightMap,
     "revolved_profile": RevolvedProfile,
+    "cylinder": Cylinder,
+    "strip": Strip,
+    "wedge": Wedge,
+    "line_profile": LineProfile,
 }
 
 
@@ -686,6 +953,10 @@ Indenter = Annotated[
     | Annotated[Cone, Tag("<cone>")]
     | Annotated[FlatPunch, Tag("<flat_punch>")]
     | Annotated[HeightMap, Tag("<height_map>")]
-    | Annotated[RevolvedProfile, Tag("<revolved_profile>")],
+    | Annotated[RevolvedProfile, Tag("<revolved_profile>")]
+    | Annotated[Cylinder, Tag("<cylinder>")]
+    | Annotated[Strip, Tag("<strip>")]
+    | Annotated[Wedge, Tag("<wedge>")]
+    | Annotated[LineProfile, Tag("<line_profile>")],
     Discriminator(_indenter_tag),
 ]

@@ -14,6 +14,7 @@ from contact_scene.reading.quantity import (
     PressingLength,
     Rotation,
     Stress,
+    Torque,
     WholeNumber,
 )
 from contact_scene.reading.scene_error import refusal
@@ -40,7 +41,8 @@ class LoadStep(Description):
     """
 
     normal_force: PressingForce | None = None
-    """Normal force at the end of the step [force]; 0 separates the bodies."""
+    """Normal force at the end of the step [force]; 0 separates the bodies. All forces and moments
+    of a line contact are per length, such as "100 N/mm"; plain numbers are N/m."""
 
     approach: PressingLength | None = None
     """Approach at the end of the step, measured from first contact [length]; 0 separates the
@@ -53,7 +55,7 @@ class LoadStep(Description):
     """Tangential shift (x, y) at the end of the step [length]. With a tangential spring in [rig],
     the shift of the actuator."""
 
-    torque: Moment | None = None
+    torque: Torque | None = None
     """Torque about z at the end of the step [force length]."""
 
     twist: Rotation | None = None
@@ -73,7 +75,7 @@ class LoadStep(Description):
 
     bulk_stress: tuple[Stress, Stress, Stress] | None = None
     """Bulk strain, given by the stress (sxx, syy, sxy) of the substrate in plane stress
-    [force/length^2]."""
+    [force/length^2]. Line contacts: (sxx, 0, 0) in plane strain."""
 
     increments: Increments | None = None
     """Number of increments of the step; absent: chosen by the solver."""

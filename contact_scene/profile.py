@@ -49,14 +49,15 @@ class Profile:
     @cached_property
     def _lowest(self) -> tuple[float, float]:
         """Lowest height above the first point [length], and its radius, 0 on the axis [length]."""
-        r = np.concatenate([[0.0], self.radii, self._turning_radii()])
+        turning = self._turning_places()
+        r = np.concatenate([[0.0], self.radii, turning[turning > 0]])
         heights = self._height_above_first(r)
         at = int(np.argmin(heights))
         on_axis = heights[0] - heights[at] <= _ROUND_OFF * np.ptp(self.heights)
         return float(heights[at]), 0.0 if on_axis else float(r[at])
 
-    def _turning_radii(self) -> Values:
-        """Find the radii at which the slope of the profile is zero between two points [length]."""
+    def _turning_places(self) -> Values:
+        """Find the places at which the slope of the profile is zero between two points [length]."""
         r, z, slopes = self._points
         step = np.diff(r)
         mean, start, end = np.diff(z) / step, slopes[:-1], slopes[1:]
@@ -66,7 +67,7 @@ class Profile:
             q = -0.5 * (b + np.copysign(np.sqrt(b * b - 4.0 * a * start), b))
             found = (r[:-1] + step * np.array([q / a, start / q])).ravel()
             inside = np.array([q / a, start / q]).ravel()
-        return np.asarray(found[(inside >= 0) & (inside <= 1) & (found > 0)])
+        return np.asarray(found[(inside >= 0) & (inside <= 1)])
 
     def _interval(self, radius: Values) -> tuple[Any, Values, Values]:
         """Return indices of intervals, their widths [length], and the fractions at given radii."""
@@ -142,6 +143,39 @@ class Profile:
             short = weights @ integrand(middle, sine) < load
             low, high = (middle, high) if short else (low, middle)
         return high
+
+
+@dataclass(frozen=True)
+class PlaneProfile(Profile):
+    """Profile of a cylindrical body through measured points, for line contacts.
+
+    radii    coordinates x of the points, ascending through 0 (n,) [length]
+    heights  heights of the points, positive away from the body (n,) [length]
+    """
+
+    @cached_property
+    def _points(self) -> tuple[Values, Values, Values]:
+        """Coordinates of the points, heights above the first point, slopes."""
+        z = self.heights - self.heights[0]
+        return self.radii, z, limited_slopes(self.radii, z)
+
+    @cached_property
+    def _lowest(self) -> tuple[float, float]:
+        """Lowest height above the first point [length], and its coordinate [length]."""
+        x = np.concatenate([self.radii, self._turning_places()])
+        heights = self._height_above_first(x)
+        at = int(np.argmin(heights))
+        return float(heights[at]), float(x[at])
+
+    def height(self, radius: ArrayLike) -> Values:
+        """Compute the height above the lowest height; beyond the points along lines [length].
+
+        radius  coordinate x [length]
+        """
+        at, (x, _, slopes) = np.asarray(radius, dtype=float), self._points
+        within = np.clip(at, x[0], x[-1])
+        known = self._height_above_first(within) - self._lowest[0]
+        return np.asarray(known + (at - within) * np.where(at < x[0], slopes[0], slopes[-1]))
 
 
 def limited_slopes(x: Values, z: Values) -> Values:

@@ -109,7 +109,7 @@ class Scene(Description):
         There is one ramp per load step, with the prescribed force or displacement of every
         coordinate. A coordinate that a load step does not prescribe keeps its last value.
         """
-        return load_path(self.loading, self.body.material)
+        return load_path(self.loading, self.body.material, line=self.indenter.is_line)
 
 
 class SceneFile(Scene):

@@ -47,7 +47,7 @@ class Increment(ReportedIncrement):
     status: ContactStatus = ContactStatus.FRICTIONLESS
     contact_radius: float = field(init=False)
     stick_radius: float | None = field(init=False)
-    elastic_energy: float
+    elastic_energy: float | None
     convolutions: int
     rounds: int = 0
     tangential_force: Vector | None = None
@@ -79,10 +79,17 @@ class Increment(ReportedIncrement):
     dissipation_before: Field | None = None
 
     def __post_init__(self) -> None:
-        stuck = None if self.stick_area is None else float(np.sqrt(self.stick_area / np.pi))
-        object.__setattr__(self, "contact_radius", float(np.sqrt(self.contact_area / np.pi)))
-        object.__setattr__(self, "stick_radius", stuck)
+        for name, area in (("contact", self.contact_area), ("stick", self.stick_area)):
+            radius = None
+            if area is not None:
+                radius = area / 2 if self.is_line else float(np.sqrt(area / np.pi))
+            object.__setattr__(self, f"{name}_radius", radius)
         super().__post_init__()
+
+    @property
+    def is_line(self) -> bool:
+        """True for a line contact, on one row of strips."""
+        return self.pressure.shape[1] == 1
 
     @property
     def in_contact(self) -> Annotated[Mask, Reported("", "Whether the cell carries pressure.", F)]:

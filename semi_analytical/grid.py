@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 class SurfaceGrid:
     """Grid of rectangular cells on a window centred at the origin of the contact plane.
 
-    cells   number of cells along x and y, at least 2 each
+    A grid of one row contains strips: the cells of a line contact, per unit length along y.
+
+    cells   number of cells along x and y, at least 2 each, or 1 along y
     window  side lengths of the window [length], positive
 
     Raises ValueError for other values.
@@ -20,15 +22,25 @@ class SurfaceGrid:
     window: tuple[float, float]
 
     def __post_init__(self) -> None:
-        if min(self.cells) < 2:
+        if self.cells[0] < 2 or self.cells[1] < 1:
             raise ValueError(f"cells is {self.cells}: use at least 2 along each side")
         if not all(0 < side < np.inf for side in self.window):
             raise ValueError(f"window is {self.window}: use two positive lengths")
 
     @property
+    def of_strips(self) -> bool:
+        """True if the grid has one row of cells, which are the strips of a line contact."""
+        return self.cells[1] == 1
+
+    @property
     def spacing(self) -> tuple[float, float]:
         """Side lengths of a cell along x and y [length]."""
         return self.window[0] / self.cells[0], self.window[1] / self.cells[1]
+
+    @property
+    def cell_side(self) -> float:
+        """Larger side of a cell; of a strip its width [length]."""
+        return self.spacing[0] if self.of_strips else max(self.spacing)
 
     @property
     def cell_area(self) -> float:
@@ -65,9 +77,10 @@ class SurfaceGrid:
     def refined(self, factor: int = 2) -> "SurfaceGrid":
         """Return a finer grid on an equal window, with the numbers of cells multiplied by a factor.
 
-        factor  factor of the numbers of cells along x and y
+        factor  factor of the numbers of cells along x and y; one row of strips remains one row
         """
-        return SurfaceGrid((self.cells[0] * factor, self.cells[1] * factor), self.window)
+        rows = 1 if self.of_strips else self.cells[1] * factor
+        return SurfaceGrid((self.cells[0] * factor, rows), self.window)
 
     def coarsened(self) -> "SurfaceGrid":
         """Return a coarser grid on an equal window, with half the cells per side.

@@ -8,6 +8,8 @@ import numpy as np
 
 from contact_scene import LoadRamp
 from contact_scene.array_types import Field
+from contact_scene.checks.line_contact import lacks_reference
+from contact_scene.quantities.per_length import OF_REFERENCE
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.rig import add_contact_displacements
 from contact_scene.stepping.checkpoint import (
@@ -218,7 +220,11 @@ class _Solver:
 
             found: dict[str, Any] = contact_stiffness(self.model, before, after, reached.place.step)
             increment = replace(increment, **found)
-        return add_contact_displacements(increment, self.model.scene.rig)
+        scene = self.model.scene
+        if lacks_reference(scene.indenter, scene.body):
+            unknown: dict[str, Any] = dict.fromkeys(OF_REFERENCE)
+            return replace(increment, **unknown)
+        return add_contact_displacements(increment, scene.rig)
 
 
 def _reported_increment(
@@ -314,7 +320,8 @@ def _contact_cells(model: ContactModel, state: State) -> float:
         return state.corrected.contact_cells
     p, domain, rim = state.pressing.pressure, model.domain, model.scene.indenter.rim
     if rim is not None and np.array_equal(p > 0, np.isfinite(model.gap)):
-        return float(np.pi * rim**2 / model.window.cell_area)
+        area = 2 * rim if model.window.of_strips else np.pi * rim**2
+        return float(area / model.window.cell_area)
     return domain.images * covered_cells(p, p > 0, domain)
 
 
@@ -355,7 +362,7 @@ def _apply_edge_correction(
         tilt=None if tilt is None else np.array(tilt),
         peak_pressure=corrected.peak,
         edge_change=corrected.change,
-        elastic_energy=increment.elastic_energy + gained,
+        elastic_energy=state.energy.elastic + gained,
         input_work=None if work is None else work + gained,
         unresolved_work=None if open_work is None else open_work - gained,
     )

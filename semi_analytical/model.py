@@ -8,6 +8,7 @@ import numpy as np
 from contact_scene import CoulombFriction, Scene
 from contact_scene.array_types import Field, Vector, VectorField
 from contact_scene.friction import FRICTIONLESS
+from contact_scene.geometry import LineShape
 from contact_scene.rig import compliances
 from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.grid import SurfaceGrid
@@ -111,8 +112,11 @@ class ContactModel:
         """
         offsets = offsets_for(self.window.cells)
         scene = self.scene
+        indenter, reference = scene.indenter, None
+        if isinstance(indenter, LineShape):  # without a reference, motions are not stated
+            reference = indenter.reference_length or 1.0
         return influence_coefficients(
-            scene.body, scene.indenter, self.grid.spacing, offsets, scene.rig
+            scene.body, indenter, self.grid.spacing, offsets, scene.rig, reference
         )
 
     @property

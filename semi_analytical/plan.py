@@ -36,6 +36,8 @@ EDGES = "edge correction"
 # Cost of the edge correction, on 64² to 256² cells.
 EDGE_COST = "10 to 100 convolutions each time"
 
+# Reason why contact stiffnesses are not computed.
+ON_LINE = "the approach of a line contact depends on the reference length"
 # Names of the effects that can also be computed if they vanish.
 COMPUTED = ("tangential load", "tilt", "torsion", COUPLING)
 
@@ -119,6 +121,7 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
     )
     friction = scene.friction is not None
     loaded = _tangentially_loaded(scene)
+    line = scene.indenter.is_line
     couples, why = coupling(scene)
     coupled = scene.friction is not None and scene.friction.largest > 0 and couples
     strained = any(ramp.stretch for ramp in scene.load_path())
@@ -150,11 +153,11 @@ def plan(scene: Scene, path_accuracy: float = PATH_ACCURACY, edge: EdgeCorrectio
         torsion,
         acting,
         path,
-        effects + effect.contact_stiffness(scene),
+        effects + effect.contact_stiffness(scene, ON_LINE if line else ""),
         corrected,
         symmetry,
         couples=coupled,
-        stiffness=bool(scene.contact_stiffness),
+        stiffness=bool(scene.contact_stiffness) and not line,
     )
 
 
@@ -196,6 +199,8 @@ def _choose_symmetry(
     """
     if tilt:
         return WINDOW, "the indenter tilts"
+    if scene.indenter.is_line:
+        return WINDOW, "strips of a line contact are solved on the full window"
     if not scene.indenter.is_even:
         return WINDOW, "the indenter does not declare symmetry about x = 0 and y = 0"
     even = "symmetric about x = 0 and y = 0, with even numbers of cells: "
@@ -232,6 +237,8 @@ def _decide_edge_correction(
     """
     if asked == "off":
         return False, "not requested: tractions are constant on every cell"
+    if scene.indenter.is_line:
+        return False, "not needed: widths are fitted, and other errors are of second order"
     if scene.indenter.rim is not None:
         return False, "the pressure of a flat punch is singular at its rim"
     if torsion:

@@ -103,17 +103,20 @@ def _remedy_text(result: Result, found: float) -> str:
     """
     (nx, ny), (L_x, L_y) = result.grid.cells, result.grid.window
     more = int(np.ceil(ENOUGH / max(found, 0.5)))
-    cells = f"--set semi_analytical.cells=[{more * nx},{more * ny}]"
+    line = result.grid.of_strips
+    wanted = f"{more * nx}" if line else f"[{more * nx},{more * ny}]"
+    cells = f"--set semi_analytical.cells={wanted}"
     if isinstance(result.scene.indenter, HeightMap):
         return f"Use {cells} and a map of this spacing (heights in between are interpolated)"
     try:
         window = fit_window(result.scene)
     except SolverError:
         window = L_x / more, L_y / more
-    if max(window[0] / L_x, window[1] / L_y) > 0.5:
+    if max(window[0] / L_x, 0.0 if line else window[1] / L_y) > 0.5:
         return f"Use {cells}"
     sides = ",".join(f"{1.005 * side:.3g}" for side in window)
-    return f"Use --set semi_analytical.window=[{sides}], or omit the window to have it chosen"
+    sides = f"{1.005 * window[0]:.3g}" if line else f"[{sides}]"
+    return f"Use --set semi_analytical.window={sides}, or omit the window to have it chosen"
 
 
 def _semi_axis(marked: Mask, load: Field, area: float) -> float:
@@ -121,7 +124,7 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
 
     The result is a mean over the patches, weighted by their loads. Each patch is replaced by the
     ellipse of equal area and equal ratio of second moments. Patches without interior cell count
-    half.
+    half. On strips the semi-axis is half the width.
 
     marked  cells of the patches (nx, ny)
     load    load of each cell (nx, ny)
@@ -132,6 +135,9 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
     i, j = np.nonzero(marked)
     of = _patches(marked)
     count = np.bincount(of)
+    weights = np.bincount(of, load[i, j])
+    if marked.shape[1] == 1:
+        return float(np.average(count * area / np.sum(count) / 2, weights=weights))
     x, y = (at - (np.bincount(of, at) / count)[of] for at in (i, j))
     # 1/12 is the second moment of a cell.
     xx, yy = (np.bincount(of, at**2) / count + 1 / 12 for at in (x, y))
@@ -142,7 +148,7 @@ def _semi_axis(marked: Mask, load: Field, area: float) -> float:
     rim = free[:-2, 1:-1] | free[2:, 1:-1] | free[1:-1, :-2] | free[1:-1, 2:]
     inner = np.bincount(of, ~rim[i, j]) > 0
     axes = np.where(inner, axes, axes / 2)
-    return float(np.average(axes, weights=np.bincount(of, load[i, j])))
+    return float(np.average(axes, weights=weights))
 
 
 def _patches(marked: Mask) -> Indices:
@@ -173,12 +179,12 @@ def _patches(marked: Mask) -> Indices:
 
 
 def _layer_cells(result: Result) -> float | None:
-    """Compute the thickness of the thinnest layer of both bodies, over the larger cell side.
+    """Compute the thickness of the thinnest layer of both bodies, over the cell side.
 
     The result is None without layers.
     """
     thinnest = min(result.scene.body.thinnest, result.scene.indenter.thinnest)
-    return thinnest / max(result.grid.spacing) if np.isfinite(thinnest) else None
+    return thinnest / result.grid.cell_side if np.isfinite(thinnest) else None
 
 
 def _wavelength_cells(result: Result, touched: Mask) -> float | None:

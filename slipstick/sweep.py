@@ -31,6 +31,7 @@ from contact_scene.quantities.field_metadata import (
     Kind,
     reported,
 )
+from contact_scene.quantities.per_length import shown_name, shown_unit
 from contact_scene.quantities.summary import StepSummary
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from slipstick.solving import solve, stated_errors
@@ -107,12 +108,16 @@ class Variation:
         return f"{self.key}={value:.{DIGITS}g} {self.unit}".strip()
 
 
-def quantities(body: Body) -> tuple[str, ...]:
+def quantities(body: Body, *, line: bool = False) -> tuple[str, ...]:
     """Return the names of all quantities that a sweep can write for a scene.
 
     The quantities are the scalars of summary.json, with vectors by component, and the largest
-    stresses of the body as MEASURE@REGION.
+    stresses of the body as MEASURE@REGION, which line contacts do not have.
+
+    line  True for a line contact
     """
+    if line:
+        return tuple(shown_name(name, line=True) for name in SCALARS)
     layers = len(body.layers)
     interfaces = [str(number) for number, side, _, _ in interface_sides(body) if side == "above"]
     regions = ["body"]
@@ -207,11 +212,14 @@ class SweepPoint:
         """
         stated = stated_errors(result) if self.with_error else None
         end = summary_of(result, fretting_cycles(result), stated).steps[-1]
-        for name, (stem, axis, unit) in SCALARS.items():
+        line = result.scene.indenter.is_line
+        for name, (stem, axis, si) in SCALARS.items():
+            unit = shown_unit(si, line=line)
             value = getattr(end, stem)
             if axis and value is not None:
                 value = value["xy".index(axis)]
-            yield name, (value, (end.errors or {}).get(stem), axis, unit)
+            shown = shown_name(name, line=line)
+            yield shown, (value, (end.errors or {}).get(stem), axis, unit)
         wanted = {name for name in self.wanted if "@" in name}
         if wanted and not result.scene.body.deforms:
             raise UnsupportedScene("the body is rigid and has no stress; omit the stresses")

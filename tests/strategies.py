@@ -28,7 +28,12 @@ def rounded_tip(seed: int) -> Any:
     return np.stack([radii, radii**2 * rng.uniform(0.45, 0.55, 9)], axis=1)
 
 
-_SIZES = {
+def mirrored(table: Any) -> Any:
+    """A table of radii and heights with its mirror image."""
+    return np.concatenate([table[:0:-1] * [-1.0, 1.0], table])
+
+
+_SIZES: dict[str, dict[str, Any]] = {
     "sphere": {"radius": LENGTHS},
     "paraboloid": {"radius": LENGTHS},
     "ellipsoid": {"radii": st.tuples(LENGTHS, LENGTHS).map(list)},
@@ -44,6 +49,17 @@ _SIZES = {
         "height_unit": LENGTHS,
     },
 }
+_SLOPE = _SIZES["cone"]["slope_angle"]
+_LINE_SIZES = {
+    "cylinder": {"radius": LENGTHS},
+    "strip": {"half_width": LENGTHS, "edge_radius": st.just(0.0) | LENGTHS},
+    "wedge": {"slope_angle": _SLOPE},
+    "line_profile": {
+        "file": st.integers(0, 99).map(lambda seed: mirrored(rounded_tip(seed))),
+        "x_unit": LENGTHS,
+        "height_unit": LENGTHS,
+    },
+}
 # A text names the file of a height map or profile, which is not there.
 INDENTERS = st.sampled_from(sorted(_SIZES.keys() - {"height_map", "revolved_profile"})).flatmap(
     lambda shape: st.fixed_dictionaries(
@@ -53,7 +69,7 @@ INDENTERS = st.sampled_from(sorted(_SIZES.keys() - {"height_map", "revolved_prof
 )
 # A shape that is added to SHAPES needs its sizes here: laws over all shapes then hold for it.
 SHAPED = st.sampled_from(sorted(SHAPES)).flatmap(
-    lambda shape: st.fixed_dictionaries({"material": ELASTIC, **_SIZES[shape]}).map(
+    lambda shape: st.fixed_dictionaries({"material": ELASTIC, **(_SIZES | _LINE_SIZES)[shape]}).map(
         SHAPES[shape].model_validate
     )
 )

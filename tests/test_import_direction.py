@@ -85,6 +85,7 @@ ORDERS = {
         "clipped_power_means",
         "quadratic",
         "fit",
+        "half_width",
         "contact_area",
         "shape",
         "edge_geometry",

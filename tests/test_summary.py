@@ -63,7 +63,7 @@ FRETTING = step(
 @pytest.mark.parametrize("bad", [math.nan, math.inf, "x", None])
 def test_nothing_but_finite_numbers_gets_into_a_summary(bad: Any) -> None:
     with pytest.raises(ValidationError):
-        step(approach=bad)
+        step(peak_pressure=bad)
     with pytest.raises(ValidationError):
         step(tangential_force=(0.0, bad))
     with pytest.raises(ValidationError):

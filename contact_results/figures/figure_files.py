@@ -56,7 +56,7 @@ def _draw_figures(
 ) -> Iterator[tuple[str, Figure]]:
     """Yield file name and figure of each figure of a result, with the overview first.
 
-    Figures of fields that are zero or missing are omitted.
+    Figures of fields that are zero or missing are omitted. A line contact has no maps.
 
     cycles  closed load cycles of the result
     errors  stated errors of the last load step, for the numbers of the overview
@@ -65,6 +65,8 @@ def _draw_figures(
     above = seen_from_above(result)
     yield OVERVIEW_FIGURE, overview(result, above, errors)
     yield "profiles.png", profile_plot(result, surface)
+    if isinstance(surface, Cells) and surface.of_strips:
+        return
     for field in FIELDS:
         if (figure := field_map(result, above, field)) is not None:
             yield f"{field}.png", figure

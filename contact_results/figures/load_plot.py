@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from contact_results.figures import style
 from contact_results.figures.shown_steps import scale_for_axis
+from contact_scene.quantities.per_length import shown_unit
 from contact_scene.reading.engineering_units import quantity
 
 if TYPE_CHECKING:
@@ -75,8 +76,9 @@ def draw_loop(ax: Any, loop: Loop) -> None:
     actuator = [i.actuator_shift for i in loop.path]
     if loop.along is not None and all(shift is not None for shift in actuator):
         motions.append(np.array(actuator) @ loop.along)
-    (x, *of_actuator), across = scale_for_axis(loop.motion, np.array(motions), words)
-    y, upward = scale_for_axis(loop.force, loop.forces, words)
+    line = loop.path[0].is_line
+    (x, *of_actuator), across = scale_for_axis(loop.motion, np.array(motions), words, line=line)
+    y, upward = scale_for_axis(loop.force, loop.forces, words, line=line)
     ax.axhline(0.0, color=style.GREY, linewidth=0.5)
     ax.axvline(0.0, color=style.GREY, linewidth=0.5)
     ax.plot(x, y, color=style.LINE_COLOURS[0], marker=".", markersize=3.5, linewidth=1.2)
@@ -90,7 +92,7 @@ def draw_loop(ax: Any, loop: Loop) -> None:
     ax.set_ylabel(upward)
     energy = loop.path[-1].dissipated_energy
     if energy is not None:
-        ax.plot([], [], " ", label=f"dissipated: {quantity(energy, 'J')}")
+        ax.plot([], [], " ", label=f"dissipated: {quantity(energy, shown_unit('J', line=line))}")
     style.legend_above(ax)
 
 
@@ -117,12 +119,17 @@ def _direction_name(direction: Values) -> str:
 def draw_loading(ax: Any, result: Result) -> None:
     """Draw normal force over approach at the end of every increment, from the first contact.
 
+    Without an approach the contact radius takes its place.
+
     ax  axes of matplotlib
     """
-    path = [(0.0, 0.0), *((i.approach, i.normal_force) for i in result.increments)]
-    approach, force = np.array(path).T
-    x, along = scale_for_axis("approach", approach)
-    y, upward = scale_for_axis("normal_force", force, "W")
+    end, given = result.increments[-1], "approach"
+    if end.approach is None:
+        given = "contact_radius"
+    path = [(0.0, 0.0), *((getattr(i, given) or 0.0, i.normal_force) for i in result.increments)]
+    motion, force = np.array(path).T
+    x, along = scale_for_axis(given, motion, line=end.is_line)
+    y, upward = scale_for_axis("normal_force", force, "W", line=end.is_line)
     # With one or two increments, a line between the points would not show the load history.
     line = "-" if len(path) > 3 else ""
     ax.plot(x, y, color=style.LINE_COLOURS[0], linestyle=line, marker="o", markersize=3.5)

@@ -14,7 +14,7 @@ from contact_results.figures import style
 from contact_results.figures.load_plot import draw_loading, draw_loop, load_loop
 from contact_results.figures.map_panels import Above, MapFrame
 from contact_results.figures.maps import draw_panel, draw_zones, zone_patches
-from contact_results.figures.profile_plot import draw_end
+from contact_results.figures.profile_plot import draw_end, draw_slip
 from contact_results.figures.section_panel import draw_section, stretches
 from contact_results.figures.stress_plot import draw_depth, draw_surface
 from contact_results.key_numbers import key_numbers
@@ -104,6 +104,8 @@ def section_stress(result: Result) -> StressField | None:
     """
     if not result.scene.body.deforms or not result.steps[-1].contact_area:
         return None
+    if result.scene.indenter.is_line:
+        return None
     state = state_of_result(result, None)
     if state.pressed is not None:
         if len(state.tractions) > 1:
@@ -153,9 +155,14 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
 def _draw_surface_map(figure: Figure, ax: Any, result: Result, above: Above) -> None:
     """Draw the map of the overview: stick and slip zones, or the pressure without friction.
 
+    A line contact has the profile of the slip instead.
+
     ax     axes of matplotlib
     above  surface grid of the map
     """
+    if isinstance(above, Cells) and above.of_strips:
+        draw_slip(ax, result, above)
+        return
     end, frame = result.steps[-1], MapFrame.around_contact(result, above)
     frame.show(ax)
     ax.set_xlabel(frame.unit.labelled("x"))

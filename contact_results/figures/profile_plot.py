@@ -68,6 +68,8 @@ def _friction_limit(friction: CoulombFriction, end: Increment, surface: Surface)
     """Compute the friction limit µp on the surface at the end of a load step [force/length^2]."""
     p = _pressure_field(end, surface)
     if isinstance(surface, Cells):
+        if surface.of_strips:  # without a map
+            return friction.limit(p)
         x, y = surface.x, surface.y
         return friction.on_grid(p.shape, (float(x[1] - x[0]), float(y[1] - y[0]))).limit(p)
     return friction.at_radii(surface.radii.reshape(-1, *(1,) * (p.ndim - 1))).limit(p)
@@ -94,6 +96,34 @@ def draw_end(ax: Any, result: Result, surface: Surface) -> None:
             ax.plot(x, scaled, label=name, **style.line_style(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
     ax.set_ylabel(unit.labelled("traction"))
+    style.legend_above(ax)
+
+
+def draw_slip(ax: Any, result: Result, surface: Surface) -> None:
+    """Draw the slip of the surfaces since the start at the ends of load steps, or the gap.
+
+    The gap is drawn without slip.
+
+    ax  axes of matplotlib
+    """
+    length = _line_axis(ax, result, surface)
+    x, lines, name = surface.profile_line.places / length.size, {}, "slip"
+    for step in select_steps([*result.steps]):
+        vector = surface.vector(step, "slip")
+        if vector is not None and np.any(vector):
+            axis = int(np.argmax(np.max(np.abs(vector.reshape(2, -1)), axis=1)))
+            lines[step.step] = surface.along(vector[axis])
+            name = f"slip s{surface.profile_line.components[axis]}"
+    if not lines:
+        end, name = result.steps[-1], "gap"
+        gap, touched = surface.scalar(end, "gap"), _pressure_field(end, surface) > 0
+        assert gap is not None
+        lines[end.step] = surface.along(np.where(touched, 0.0, gap))
+    unit = engineering_unit(float(np.max([np.max(np.abs(v)) for v in lines.values()])), "m")
+    for number, (step, values) in enumerate(lines.items()):
+        ax.plot(x, values / unit.size, label=f"step {step}", **style.line_style(number))
+    ax.axhline(0.0, color="black", linewidth=0.5)
+    ax.set_ylabel(unit.labelled(name))
     style.legend_above(ax)
 
 

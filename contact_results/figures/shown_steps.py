@@ -9,6 +9,7 @@ import numpy as np
 
 from contact_scene.array_types import Field
 from contact_scene.quantities.increment import SCALARS
+from contact_scene.quantities.per_length import shown_name, shown_unit
 from contact_scene.reading.engineering_units import (
     engineering_unit,
     quantity,
@@ -34,7 +35,9 @@ def select_steps(steps: Sequence[Step]) -> list[Step]:
     return [steps[position] for position in positions]
 
 
-def scale_for_axis(name: str, values: Field, which: str = "") -> tuple[Field, str]:
+def scale_for_axis(
+    name: str, values: Field, which: str = "", *, line: bool = False
+) -> tuple[Field, str]:
     """Return the values of a scalar for the axis of a figure, and the label of this axis.
 
     The values are in a suitable unit, which the label names.
@@ -42,9 +45,12 @@ def scale_for_axis(name: str, values: Field, which: str = "") -> tuple[Field, st
     name    name of the scalar
     values  values in the SI unit
     which   further text for the label
+    line    True for a line contact, whose forces are per length
     """
-    unit = engineering_unit(float(np.max(np.abs(values))), SCALARS[name].unit)
-    return values / unit.size, unit.labelled(f"{name.replace('_', ' ')} {which}".rstrip())
+    si = shown_unit(SCALARS[name].unit, line=line)
+    unit = engineering_unit(float(np.max(np.abs(values))), si)
+    words = shown_name(name, line=line).replace("_", " ")
+    return values / unit.size, unit.labelled(f"{words} {which}".rstrip())
 
 
 def step_title(step: Increment) -> str:

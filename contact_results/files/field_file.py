@@ -25,6 +25,7 @@ from contact_scene.quantities.increment import (
     columns,
     components,
 )
+from contact_scene.quantities.per_length import shown_mark, shown_name
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
@@ -81,7 +82,7 @@ def write_fields(result: Result, directory: Path, *, all_fields: bool = False) -
         for name, mark in reported(type(increments[0])).items():
             if mark.kind is Kind.FIELD:
                 _write_field(group, name, mark, surface, shown, counted)
-        _write_scalars(group, increments)
+        _write_scalars(group, increments, line=result.scene.indenter.is_line)
 
 
 def add_cycle_fields(result: Result, cycle: FrettingCycle, directory: Path) -> None:
@@ -128,22 +129,25 @@ def _fields_file(path: Path, mode: Literal["w", "r+"]) -> Iterator[h5py.File]:
                 raise disk.full
 
 
-def _write_scalars(group: h5py.Group, increments: Sequence[Increment]) -> None:
+def _write_scalars(group: h5py.Group, increments: Sequence[Increment], *, line: bool) -> None:
     """Write the scalars of all increments to a group of an HDF5 file.
 
-    An increment without a value gets NaN. A scalar without any value has no dataset.
+    An increment without a value gets NaN. A scalar without any value has no dataset. The scalars of
+    a line contact have other names and units.
     """
     for name, meaning in PLACES.items():
         attribute = "index" if name == "increment" else name
         values = [getattr(i, attribute) for i in increments]
         _write_dataset(group, name, values, Reported("", meaning), PER_INCREMENT)
     for name, given in columns(increments, SCALARS).items():
-        mark, nothing = SCALARS[name], np.full(len(components(name)), np.nan)
+        mark = shown_mark(name, SCALARS[name], line=line)
+        nothing = np.full(len(components(name)), np.nan)
         found = np.array([nothing if value is None else np.ravel(value) for value in given])
         if np.all(np.isnan(found)):
             continue
         found = found if mark.kind is Kind.VECTOR else found[:, 0]
-        _write_dataset(group, name, found, mark, (*PER_INCREMENT, *COMPONENT)[: found.ndim])
+        shown = shown_name(name, line=line)
+        _write_dataset(group, shown, found, mark, (*PER_INCREMENT, *COMPONENT)[: found.ndim])
 
 
 def _write_field(

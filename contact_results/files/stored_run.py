@@ -31,6 +31,7 @@ from contact_results.files.stored_values import (
 from contact_results.surface import SURFACE_FIELDS, Surface, surface_on
 from contact_scene import FiniteElementDiscretisation, Scene
 from contact_scene.quantities.increment import SCALARS
+from contact_scene.quantities.per_length import ATTRIBUTES
 from contact_scene.quantities.summary import (
     RunSummary,
     load_summary,
@@ -164,7 +165,8 @@ class StoredRun:
             if name in SURFACE_FIELDS and value.shape not in (shape, (2, *shape)):
                 raise ValueError(f"{name} has shape {value.shape}, expected {shape}")
             known = name in SURFACE_FIELDS or not np.any(np.isnan(value))
-            found["index" if name == "increment" else name] = value if known else None
+            attribute = "index" if name == "increment" else ATTRIBUTES.get(name, name)
+            found[attribute] = value if known else None
         return SimpleNamespace(**found)
 
 

@@ -67,7 +67,12 @@ def _cell_mesh(cells: Surface) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
 
 
 def _cell_boundaries(centres: Places) -> Places:
-    """Return the boundaries of cells along one axis (n + 1,) from the centres (n,) [length]."""
+    """Return the boundaries of cells along one axis (n + 1,) from the centres (n,) [length].
+
+    A single cell is a strip of a line contact, 1 m long.
+    """
+    if len(centres) == 1:
+        return np.array([centres[0] - 0.5, centres[0] + 0.5])
     half = (centres[-1] - centres[0]) / (len(centres) - 1) / 2
     return np.append(centres - half, centres[-1] + half)
 

@@ -25,6 +25,7 @@ from contact_scene.quantities.increment import (
     components,
     numbers,
 )
+from contact_scene.quantities.per_length import shown_mark, shown_name
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.quantities.summary import OF_CYCLES, ClosedCycle
 
@@ -108,11 +109,20 @@ def _column_cells(values: Any, size: int) -> list[float | None]:
     return [v + 0.0 if np.isfinite(v) else None for v in values.tolist()]
 
 
-INCREMENT_COLUMNS = (
-    STEP,
-    Column("increment", None, "Increment within the step, from 1."),
-    *(reported_column(part, mark) for name, mark in SCALARS.items() for part in components(name)),
-)
+def increment_columns(*, line: bool) -> tuple[Column, ...]:
+    """Return the columns of `increments.csv`: all scalars of an increment.
+
+    line  True for a line contact, with other names and units
+    """
+    return (
+        STEP,
+        Column("increment", None, "Increment within the step, from 1."),
+        *(
+            reported_column(shown_name(part, line=line), shown_mark(name, mark, line=line))
+            for name, mark in SCALARS.items()
+            for part in components(name)
+        ),
+    )
 
 
 def write_increments(result: Result, directory: Path) -> None:
@@ -121,11 +131,12 @@ def write_increments(result: Result, directory: Path) -> None:
     Missing values are empty cells.
     """
     rows = ((i.step, i.index, *numbers(i).values()) for i in result.increments)
-    write_table(directory / INCREMENTS, INCREMENT_COLUMNS, rows)
+    line = result.scene.indenter.is_line
+    write_table(directory / INCREMENTS, increment_columns(line=line), rows)
 
 
 def _cycle_cells(
-    cycle: FrettingCycle, surface: Surface, errors: Mapping[str, StatedError]
+    cycle: FrettingCycle, surface: Surface, errors: Mapping[str, StatedError], *, line: bool
 ) -> Iterator[tuple[Column, str | int | float | None]]:
     """Yield column and value of each cell of one row of `cycles.csv`.
 
@@ -134,20 +145,23 @@ def _cycle_cells(
 
     surface  surface grid of the fields
     errors   stated errors at the load step that closes the cycle, by name; empty if not computed
+    line     True for a line contact, whose energies and forces are per length
     """
     fields, words, values = reported(FrettingCycle), reported(ClosedCycle), cycle.numbers
     yield Column("start_step", None, "Step at whose end the cycle begins."), cycle.cycle.start
     yield Column("end_step", None, "Step at whose end the cycle closes."), cycle.cycle.end
     yield Column("regime", None, words["regime"].meaning), values["regime"].value
     yield reported_column("from_virgin", words["from_virgin"]), int(values["from_virgin"])
-    yield reported_column("input_work", fields["input_work"]), cycle.input_work
+    work = shown_mark("input_work", fields["input_work"], line=line)
+    yield reported_column("input_work", work), cycle.input_work
     for name, field in (
         ("largest_dissipation", "dissipation"),
         ("surface_tension", "surface_tension"),
     ):
         largest, *_ = _largest_with_place(getattr(cycle, field), surface)
         yield reported_column(name, fields[field], "Largest value on the surface: "), largest
-    for name, mark in OF_CYCLES.items():
+    for name, any_mark in OF_CYCLES.items():
+        mark = shown_mark(name, any_mark, line=line)
         vector = mark.kind is Kind.VECTOR
         stated = errors.get(name)
         means = f"Stated error of {name}; empty where nothing can be said."
@@ -189,14 +203,16 @@ def write_tables(
     errors     stated errors of the scalars of every load step, by name; None if they were not
                computed
     """
-    tables = {PROFILES: PROFILE_COLUMNS, INCREMENTS: INCREMENT_COLUMNS}
+    line = result.scene.indenter.is_line
+    tables = {PROFILES: PROFILE_COLUMNS, INCREMENTS: increment_columns(line=line)}
     write_profiles(result, directory)
     write_increments(result, directory)
     if cycles:
         surface = surface_of(result)
         rows = [
-            list(_cycle_cells(cycle, surface, errors[cycle.cycle.end - 1] if errors else {}))
+            list(_cycle_cells(cycle, surface, of_step, line=line))
             for cycle in cycles
+            for of_step in [errors[cycle.cycle.end - 1] if errors else {}]
         ]
         tables[CYCLES] = tuple(column for column, _ in rows[0])
         write_table(directory / CYCLES, tables[CYCLES], ([cell for _, cell in r] for r in rows))

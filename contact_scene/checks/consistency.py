@@ -9,6 +9,13 @@ from inspect import signature
 from typing import Any
 
 from contact_scene.body import Body
+from contact_scene.checks.line_contact import (
+    friction_map_on_line,
+    loads_out_of_plane,
+    undefined_motions,
+    wrong_dimension,
+    wrong_units,
+)
 from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.friction import CoulombFriction
 from contact_scene.friction_limit import exceeds_limit, limit_of_step, reaches_limit
@@ -37,11 +44,12 @@ def inconsistencies(tables: Mapping[str, Any]) -> tuple[Problem, ...]:
     """Find the contradictions between the tables of a scene file, each of which is valid alone.
 
     A check runs if all tables that its parameters name are valid. The parameter `ramps` contains
-    the load steps, resolved into load ramps (linear changes of all loads).
+    the load steps, resolved into load ramps (linear changes of all loads), `unit` that of forces.
 
     tables  valid tables of the scene file by their keys
     """
     known, loading = dict(tables), tables.get("loading")
+    known["unit"] = "N/m" if getattr(tables.get("indenter"), "is_line", False) else "N"
     if loading and loading[0].prescribes_normal:
         known["ramps"] = load_path(loading)
     found: list[Problem] = []
@@ -115,7 +123,10 @@ def _shear_without_friction(
 
 
 def _gross_sliding(
-    friction: CoulombFriction | None, loading: Sequence[LoadStep], ramps: Sequence[LoadRamp]
+    friction: CoulombFriction | None,
+    loading: Sequence[LoadStep],
+    ramps: Sequence[LoadRamp],
+    unit: str,
 ) -> Iterator[Problem]:
     """Find load steps whose prescribed tangential force exceeds the friction limit mu W.
 
@@ -127,24 +138,25 @@ def _gross_sliding(
     friction  friction law of the scene; None without friction
     loading   load steps as written in the scene
     ramps     load ramps of all load steps
+    unit      unit of the forces
     """
     for index, ramp in enumerate(ramps):
         limit = limit_of_step(friction, ramp)
         if limit is None or not ramp.normal.end:
             continue
         force = math.hypot(*ramp.tangential.end)
-        product = f"{limit / ramp.normal.end:.6g} * {ramp.normal.end:.6g} N"
-        named_limit = f"the friction limit {limit:.6g} N (= {product})"
+        product = f"{limit / ramp.normal.end:.6g} * {ramp.normal.end:.6g} {unit}"
+        named_limit = f"the friction limit {limit:.6g} {unit} (= {product})"
         if exceeds_limit(force, limit):
             yield Problem(
                 _key_of_shear(index, loading[index]),
-                f"tangential force {force:.6g} N exceeds {named_limit}: gross sliding",
+                f"tangential force {force:.6g} {unit} exceeds {named_limit}: gross sliding",
                 hint="prescribe tangential_shift instead",
             )
         elif limit and reaches_limit(force, limit) and index + 1 < len(ramps):
             yield Problem(
                 _key_of_shear(index, loading[index]),
-                f"tangential force {force:.6g} N is at {named_limit}, where the shift is "
+                f"tangential force {force:.6g} {unit} is at {named_limit}, where the shift is "
                 "undefined, and a further step follows",
                 hint="stay below the limit, or prescribe tangential_shift instead",
             )
@@ -203,7 +215,8 @@ def _window_beyond_a_map(
     }
     for name, extent in extents.items():
         for index, known in enumerate(extent or ()):
-            length = semi_analytical.window[index] if semi_analytical.window else 0.0
+            window = semi_analytical.window
+            length = window[index] if isinstance(window, tuple) else 0.0
             if length > known * (1.0 + 1e-9):
                 yield Problem(
                     ("semi_analytical", "window", index),
@@ -232,4 +245,9 @@ _CHECKS: tuple[Callable[..., Iterator[Problem]], ...] = (
     _moment_beyond_the_contact,
     _window_beyond_a_map,
     _rigid_base_strained,
+    wrong_units,
+    loads_out_of_plane,
+    undefined_motions,
+    wrong_dimension,
+    friction_map_on_line,
 )

@@ -89,14 +89,14 @@ def contact_approach(scene: Scene, approach: float, modulus: float) -> float:
     """
     down, indenter = compliances(scene.rig)[0], scene.indenter
     at, under = indenter.contact_at(1.0), indenter.contact_under(1.0, modulus)
-    k = indenter.gap_exponent
-    if not down or at is None or under is None or k is None:
+    k, n = indenter.gap_exponent, indenter.load_exponent
+    if not down or at is None or under is None or k is None or n is None:
         return approach
-    stiffness = math.prod(at) ** ((k + 1) / (2 * k)) / math.sqrt(math.prod(under))
+    stiffness = math.prod(at) ** (n / (2 * k)) / math.sqrt(math.prod(under))
     low, high = 0.0, approach
     for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
-        beyond = middle + down * stiffness * middle ** ((k + 1) / k) > approach
+        beyond = middle + down * stiffness * middle ** (n / k) > approach
         low, high = (low, middle) if beyond else (middle, high)
     return high
 
@@ -134,8 +134,9 @@ def estimate_contacts(scene: Scene) -> Iterator[ExpectedContact]:
 
     scene  bodies, indenter shape and load steps
     """
-    k, outermost = scene.indenter.gap_exponent, contact_modulus(scene)
-    if k is None:
+    indenter, outermost = scene.indenter, contact_modulus(scene)
+    k, n = indenter.gap_exponent, indenter.load_exponent
+    if k is None or n is None:
         return
     for ramp in scene.load_path():
         by_force, end = ramp.normal.kind is ControlKind.FORCE, ramp.normal.end
@@ -150,16 +151,18 @@ def estimate_contacts(scene: Scene) -> Iterator[ExpectedContact]:
             end       normal force or approach at the end of the load step
             """
             power = (
-                scene.indenter.contact_under(end, modulus)
+                indenter.contact_under(end, modulus)
                 if by_force
-                else scene.indenter.contact_at(contact_approach(scene, end, modulus))
+                else indenter.contact_at(contact_approach(scene, end, modulus))
             )
-            return math.nan if power is None else math.prod(power) ** (0.5 / (k + by_force))
+            degree = n if by_force else k
+            return math.nan if power is None else math.prod(power) ** (0.5 / degree)
 
         modulus = _modulus_within(scene, radius(outermost)) or outermost
         if (a := radius(modulus)) > 0:
-            force = end if by_force else modulus * a * contact_approach(scene, end, modulus)
-            strain = force / (math.pi * a**2) / modulus
+            width, area = (1.0, 2.0 * a) if indenter.is_line else (a, math.pi * a**2)
+            force = end if by_force else modulus * width * contact_approach(scene, end, modulus)
+            strain = force / area / modulus
             # Strains below a cone do not depend on the load.
             yield ExpectedContact(ramp, modulus, a, 0.0 if k == 1 else strain)
 
@@ -226,7 +229,7 @@ def _estimate_strains(scene: Scene, end: State) -> Iterator[tuple[float, str]]:
             yield pressure / material, f"{where} of {name}" if where else name
     if not any(isinstance(body.material, IsotropicMaterial) for body in bodies.values()):
         layers = sum(layer.thickness for body in bodies.values() for layer in body.layers)
-        yield end.approach / layers, "the layers"
+        yield (end.approach or 0.0) / layers, "the layers"
 
 
 def _moduli_below_contact(body: Body, contact_radius: float) -> Iterator[tuple[float, str]]:

@@ -288,7 +288,7 @@ def _size_warnings(
     window = getattr(fineness.get("semi_analytical"), "window", None)
     radius = getattr(fineness.get("fem_reference"), "contact_radius", None)
     for key, size, reach in (
-        ("semi_analytical.window", window and min(window), 2 * a),
+        ("semi_analytical.window", np.min(window) if window else None, 2 * a),
         ("fem_reference.contact_radius", radius, a),
     ):
         if size is not None and size < reach:

@@ -38,7 +38,8 @@ class State:
 
     normal_force: Annotated[float, Reported("N", "Normal force.", key=True)]
     approach: Annotated[
-        float, Reported("m", "Approach of the bodies, measured from first contact.", key=True)
+        float | None,
+        Reported("m", "Approach of the bodies, measured from first contact.", key=True),
     ]
     contact_area: Annotated[float, Reported("m^2", "Area in contact, with sub-cell accuracy.")]
     contact_radius: Annotated[
@@ -241,6 +242,11 @@ class State:
             "m", "Largest overlap in the penalty method; null without a penalty.", physical=False
         ),
     ] = None
+
+    @property
+    def is_line(self) -> bool:
+        """True for a line contact, whose forces, areas and energies are per unit length."""
+        return False
 
     @property
     def trapezoidal_work(self) -> float | None:

@@ -40,6 +40,7 @@ class RingIncrement(ReportedIncrement):
         Reported("m", "Distance of the deformed surfaces, inf outside of the indenter.", F),
     ]
     status: ContactStatus = ContactStatus.FRICTIONLESS
+    approach: float
     contact_area: float = field(init=False)
     stick_area: float | None = field(init=False)
     tangential_force: Pair | None = None

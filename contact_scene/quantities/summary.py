@@ -1,6 +1,7 @@
 """Summary of a run, stored as `summary.json`, with equal keys for all solvers."""
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Annotated, Any, TypeAlias
@@ -13,6 +14,13 @@ from contact_scene.quantities.field_metadata import CONVENTION, Kind, Reported, 
 from contact_scene.quantities.increment import (
     Quality,
     State,
+)
+from contact_scene.quantities.per_length import (
+    ATTRIBUTES,
+    SHOWN_NAMES,
+    rename_keys,
+    shown_mark,
+    shown_name,
 )
 from contact_scene.quantities.stated_error import (
     AccuracyReached,
@@ -250,12 +258,28 @@ class RunSummary(Description):
         return version
 
 
+def _rename_steps(record: dict[str, Any], names: Mapping[str, str]) -> None:
+    """Rename the scalars of the load steps in the record of a line contact, and their errors.
+
+    record  content of `summary.json`, changed in place
+    names   new names by old names
+    """
+    if not record.get("cells") or record["cells"][1] != 1:
+        return
+    for number, step in enumerate(record["steps"]):
+        renamed = rename_keys(step, names)
+        if step.get("errors"):
+            renamed["errors"] = rename_keys(step["errors"], names)
+        record["steps"][number] = renamed
+
+
 def dump_summary(summary: RunSummary) -> str:
     """Convert the summary of a run to JSON text, the content of `summary.json`.
 
-    A key without a value is null.
+    A key without a value is null. The steps of a line contact have the names of `per_length`.
     """
     record = summary.model_dump(mode="json")
+    _rename_steps(record, SHOWN_NAMES)
     return json.dumps(record, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
@@ -265,7 +289,11 @@ def load_summary(text: str) -> RunSummary:
     Raises ValueError with the first mistake in the text.
     """
     try:
-        return RunSummary.model_validate_json(text)
+        if '"half_width"' not in text:
+            return RunSummary.model_validate_json(text)
+        record = json.loads(text)
+        _rename_steps(record, ATTRIBUTES)
+        return RunSummary.model_validate_json(json.dumps(record))
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         key, message = ".".join(map(str, first["loc"])), first["msg"].removeprefix("Value error, ")
@@ -275,4 +303,21 @@ def load_summary(text: str) -> RunSummary:
 def summary_schema() -> dict[str, Any]:
     """Create the JSON Schema of `summary.json`, with the meaning and unit of every key."""
     schema = RunSummary.model_json_schema(mode="serialization", schema_generator=DescribedSchema)
+    step = schema["$defs"]["StepSummary"]
+    marks = {**reported(State), **reported(Quality), **OF_CYCLES}
+    properties = dict(step["properties"])
+    for name in properties.keys() & marks:
+        mark = shown_mark(name, marks[name], line=True)
+        texts = {"description": mark.meaning, "unit": mark.unit or "1"}
+        properties[name] = {**properties[name], **texts}
+    required = [shown_name(name, line=True) for name in step["required"]]
+    line = {"properties": rename_keys(properties, SHOWN_NAMES), "required": required}
+    schema["$defs"]["LineStepSummary"] = {
+        **step,
+        **line,
+        "title": "LineStepSummary",
+        "description": "State of a line contact at the end of one `[[loading]]` table.",
+    }
+    either = [{"$ref": f"#/$defs/{name}"} for name in ("StepSummary", "LineStepSummary")]
+    schema["properties"]["steps"]["items"] = {"anyOf": either}
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

@@ -19,13 +19,16 @@ from contact_scene.reading.scene_error import (
 from contact_scene.reading.units import (
     ANGLE,
     FORCE,
+    FORCE_PER_LENGTH,
     LENGTH,
     MOMENT,
+    MOMENT_PER_LENGTH,
     PRESSURE,
     PURE_NUMBER,
     ROTATION,
     SHARE,
     STIFFNESS,
+    STIFFNESS_PER_LENGTH,
     Kind,
     equal_unit,
 )
@@ -52,6 +55,10 @@ class WithUnit(float):
         return float, (float(self),)
 
 
+class PerLength(WithUnit):
+    """Number in SI that the user wrote with the unit per length of a line contact."""
+
+
 @dataclass(frozen=True)
 class Quantity:
     """Validator of numbers of one physical quantity within limits, for use in `Annotated[float,
@@ -61,6 +68,8 @@ class Quantity:
     above, at_least  lower limit, exclusive or inclusive [SI unit of the kind]
     below, at_most   upper limit, exclusive or inclusive [SI unit of the kind]
     wanted           expected value in words, such as "a positive length"
+    per_length       the same quantity per length of a line contact, with its units; None if it has
+                     none
     """
 
     kind: Kind = field(repr=False)  # with a long table
@@ -69,6 +78,7 @@ class Quantity:
     at_least: float | None = None
     below: float | None = None
     at_most: float | None = None
+    per_length: Kind | None = field(default=None, repr=False)
 
     @property
     def expected(self) -> str:
@@ -133,6 +143,8 @@ class Quantity:
         number, unit = match.groups()
         if (factor := self.kind.units.get(unit)) is not None:
             return WithUnit(_EXACT.multiply(Decimal(number), factor))
+        if self.per_length and (factor := self.per_length.units.get(unit)) is not None:
+            return PerLength(_EXACT.multiply(Decimal(number), factor))
         near = equal_unit(unit, self.kind)
         hint = (
             f'did you mean "{number} {near}"?'
@@ -233,9 +245,12 @@ def has_unit(value: Any) -> bool:
 Length = Annotated[float, Quantity(LENGTH, "a length")]
 PositiveLength = Annotated[float, Quantity(LENGTH, "a positive length", above=0.0)]
 PressingLength = Annotated[float, Quantity(LENGTH, "a length not below 0", at_least=0.0)]
-Force = Annotated[float, Quantity(FORCE, "a force")]
-PressingForce = Annotated[float, Quantity(FORCE, "a force not below 0", at_least=0.0)]
-Moment = Annotated[float, Quantity(MOMENT, "a moment")]
+Force = Annotated[float, Quantity(FORCE, "a force", per_length=FORCE_PER_LENGTH)]
+PressingForce = Annotated[
+    float, Quantity(FORCE, "a force not below 0", at_least=0.0, per_length=FORCE_PER_LENGTH)
+]
+Torque = Annotated[float, Quantity(MOMENT, "a moment")]
+Moment = Annotated[float, Quantity(MOMENT, "a moment", per_length=MOMENT_PER_LENGTH)]
 # "60 deg" rounds up.
 _MAX_ROTATION = math.nextafter(math.pi / 3, math.inf)
 Rotation = Annotated[
@@ -251,7 +266,10 @@ BulkStrain = Annotated[
     float, Quantity(PURE_NUMBER, "a strain from -0.1 to 0.1", at_least=-0.1, at_most=0.1)
 ]
 Stress = Annotated[float, Quantity(PRESSURE, "a stress")]
-PositiveStiffness = Annotated[float, Quantity(STIFFNESS, "a positive stiffness", above=0.0)]
+PositiveStiffness = Annotated[
+    float,
+    Quantity(STIFFNESS, "a positive stiffness", above=0.0, per_length=STIFFNESS_PER_LENGTH),
+]
 PositivePressure = Annotated[float, Quantity(PRESSURE, "a positive pressure", above=0.0)]
 SlopeAngle = Annotated[
     float,

@@ -10,6 +10,7 @@ from pydantic.fields import FieldInfo
 from contact_scene.body import Body
 from contact_scene.discretisation import FiniteElementDiscretisation, SurfaceDiscretisation
 from contact_scene.material import Rigid
+from contact_scene.quantities.per_length import shown_unit
 from contact_scene.reading.array_file import ArrayFile
 from contact_scene.reading.engineering_units import quantity
 from contact_scene.reading.quantity import Quantity
@@ -38,10 +39,11 @@ def describe(
     yield "indenter", _table_text(scene.indenter)
     yield "body", _table_text(scene.body)
     yield "friction", "none" if scene.friction is None else _table_text(scene.friction)
+    line = scene.indenter.is_line
     if scene.rig is not None:
-        yield "rig", _table_text(scene.rig)
+        yield "rig", _table_text(scene.rig, line=line)
     for number, step in enumerate(scene.loading[:MAX_STEPS_SHOWN], 1):
-        yield f"step {number}", _table_text(step)
+        yield f"step {number}", _table_text(step, line=line)
     if len(scene.loading) > MAX_STEPS_SHOWN:
         yield "…", f"{len(scene.loading) - MAX_STEPS_SHOWN} more steps"
     for name, text in _key_texts(discretisation):
@@ -61,26 +63,31 @@ def shape_text(indenter: Body) -> str:
     return _table_text(indenter, Body.model_fields)
 
 
-def _key_texts(model: BaseModel) -> Iterator[Line]:
+def _key_texts(model: BaseModel, *, line: bool = False) -> Iterator[Line]:
     """Yield the name of each key of a table of the scene, with its value in a readable unit.
 
     Used for the description of a scene. The text of the value is empty for a key without a value.
 
     model  table of the scene, such as a load step
+    line   True for a line contact, whose loads are per length
     """
     for name, field in type(model).model_fields.items():
-        yield name, _value_text(getattr(model, name), _unit_of_field(field))
+        unit = shown_unit(_unit_of_field(field), line=line)
+        yield name, _value_text(getattr(model, name), unit)
 
 
-def _table_text(model: BaseModel, left_out: Container[str] = ()) -> str:
+def _table_text(model: BaseModel, left_out: Container[str] = (), *, line: bool = False) -> str:
     """Write a table of the scene as one text of keys and values, for the description of a scene.
 
     The shape of an indenter comes first, without its key. Keys without a value are left out.
 
     model     table of the scene
     left_out  names of other keys to leave out
+    line      True for a line contact, whose loads are per length
     """
-    texts = {name: text for name, text in _key_texts(model) if text and name not in left_out}
+    texts = {
+        name: text for name, text in _key_texts(model, line=line) if text and name not in left_out
+    }
     shape = [texts.pop("shape").replace("_", " ")] if "shape" in texts else []
     own = sorted(texts, key=lambda name: name in Body.model_fields)
     return ", ".join([*shape, *(f"{name.replace('_', ' ')} {texts[name]}" for name in own)])

@@ -48,6 +48,13 @@ LENGTH = Kind(
 FORCE = Kind(
     "N", '"1 kN"', unit_factors(N="1", uN="1e-6", mN="1e-3", kN="1e3", MN="1e6", lbf=_POUND)
 )
+FORCE_PER_LENGTH = Kind(
+    "N/m",
+    '"100 N/mm"',
+    unit_factors(
+        **{"N/m": "1", "N/mm": "1e3", "mN/mm": "1", "N/um": "1e6", "kN/m": "1e3", "kN/mm": "1e6"}
+    ),
+)
 MOMENT = Kind(
     "N m",
     '"2 N m"',
@@ -60,6 +67,11 @@ STIFFNESS = Kind(
     "N/m",
     '"50 N/um"',
     unit_factors(**{"N/m": "1", "N/mm": "1e3", "mN/um": "1e3", "N/um": "1e6", "kN/mm": "1e6"}),
+)
+# A moment N m and a stiffness N/m, per metre of a line contact.
+MOMENT_PER_LENGTH = Kind("N", '"20 N"', FORCE.units)
+STIFFNESS_PER_LENGTH = Kind(
+    "N/m^2", '"50 N/mm^2"', unit_factors(**{"N/m^2": "1", "N/mm^2": "1e6", "kN/mm^2": "1e9"})
 )
 PRESSURE = Kind(
     "Pa",

@@ -117,7 +117,7 @@ def grows_without_slip(scene: Scene, ramp: LoadRamp) -> bool:
 
     The bodies are uncoupled and have no layers. k is constant and below µ: both loads are
     prescribed as forces or, without springs of a test rig, both as displacements. The contact is a
-    circle or an ellipse, or Poisson's ratio is 0. One increment is then exact.
+    circle, an ellipse or a strip, or Poisson's ratio is 0. One increment is then exact.
 
     scene  bodies and friction
     ramp   load ramp of the load step
@@ -131,7 +131,8 @@ def grows_without_slip(scene: Scene, ramp: LoadRamp) -> bool:
     if ramp.twisting.start != ramp.twisting.end or ramp.tilting.start != ramp.tilting.end:
         return False
     # A tilt moves the contact off the axis of the indenter.
-    simple = isinstance(scene.indenter, SmoothTip | Cone | FlatPunch) and not any(ramp.tilting.end)
+    known = scene.indenter.is_line or isinstance(scene.indenter, SmoothTip | Cone | FlatPunch)
+    simple = known and not any(ramp.tilting.end)
     materials = [*scene.body.elastic_materials, *scene.indenter.elastic_materials]
     if not simple and any(one.poisson_ratio for one in materials):
         return False

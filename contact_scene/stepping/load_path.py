@@ -140,7 +140,9 @@ _AT_REST = LoadRamp(
 )
 
 
-def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tuple[LoadRamp, ...]:
+def load_path(
+    loading: Sequence[LoadStep], base: Material | None = None, *, line: bool = False
+) -> tuple[LoadRamp, ...]:
     """Resolve the load steps of a scene into load ramps: linear changes of all loads.
 
     Each coordinate of the indenter has a prescribed force or displacement in each ramp. A
@@ -150,6 +152,7 @@ def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tupl
     loading  load steps in order; the first must prescribe a normal load
     base     material of the substrate, for bulk stresses; without a material, bulk stresses are
              ignored
+    line     True for a line contact, in which the bulk strain is plane
 
     Raises ValueError if the first load step prescribes no normal load.
     """
@@ -171,7 +174,7 @@ def load_path(loading: Sequence[LoadStep], base: Material | None = None) -> tupl
             _next_control(step.torque, step.twist, last.twisting, last is at_rest),
             _next_control(step.moment, step.tilt, last.tilting, last is at_rest),
             step.increments,
-            _bulk_strain_of_step(step, last, base),
+            _bulk_strain_of_step(step, last, base, line=line),
         )
         ramps.append(last)
     return tuple(ramps)
@@ -230,7 +233,7 @@ def along_one_line(ramps: Sequence[LoadRamp]) -> bool:
 
 
 def _bulk_strain_of_step(
-    step: LoadStep, last: LoadRamp, base: Material | None
+    step: LoadStep, last: LoadRamp, base: Material | None, *, line: bool
 ) -> tuple[Strain, Strain] | None:
     """Determine the bulk strain of the lower body at the start and end of a load step.
 
@@ -240,12 +243,15 @@ def _bulk_strain_of_step(
     step     load step as written in the scene
     last     ramp of the preceding load step
     base     material of the substrate, for a bulk stress
+    line     True for plane strain
     returns  both strains (εxx, εyy, εxy); None without a bulk strain in the history
     """
     if last.stretch is None:
         return None
     start = last.stretch[1]
-    by_stress = strain_under(step.bulk_stress, base) if step.bulk_stress and base else None
+    by_stress = (
+        strain_under(step.bulk_stress, base, line=line) if step.bulk_stress and base else None
+    )
     return start, step.bulk_strain or by_stress or start
 
 

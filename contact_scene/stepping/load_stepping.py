@@ -30,6 +30,9 @@ from contact_scene.stepping.load_path import (
 )
 
 MAX_HALVINGS = 4
+# Least reference length of a line contact in half-widths: its approach is positive from one on, and
+# the surface there moves as under a concentrated load, to the square of the ratio.
+LEAST_REFERENCE = 10.0
 
 S = TypeVar("S")
 Report = TypeVar("Report")
@@ -219,15 +222,25 @@ def resumable_increments(
 def _refuse_end_of_shape(indenter: ShapedBody, here: Any, last: Any) -> None:
     """Raise UnsupportedScene if a contact extends beyond the points of a measured indenter.
 
+    The contact of a line contact must also be small compared with its reference length.
+
     indenter  indenter with its shape
     here      reported increment
     last      previous reported increment; None before the first
     """
+    length = getattr(indenter, "reference_length", None)
+    error = None
+    if length is not None and LEAST_REFERENCE * here.contact_radius > length:
+        error = UnsupportedScene(
+            f"the half-width of the contact is {here.contact_radius:.4g} m, and reference_length "
+            f"is {length:.4g} m. Use at least {LEAST_REFERENCE:g} half-widths"
+        )
     if here.contact_radius > indenter.known_radius:
         error = UnsupportedScene(
             f"the contact radius of {here.contact_radius:.4g} m exceeds the last radius of the "
             f"profile, {indenter.known_radius:.4g} m. Use a smaller load or a wider profile"
         )
+    if error is not None:
         error.where = f"step {here.step}, increment {here.index} of {here.increments_in_step}"
         error.last_state = last
         raise error
@@ -251,9 +264,8 @@ def fractions(scene: Scene, ramp: LoadRamp, count: int) -> list[float]:
     less, more = min(start, end), max(start, end)
     if less > (more - less) / count:
         return [k / count for k in range(1, count + 1)]
-    exponent = scene.indenter.gap_exponent
-    if exponent is not None and ramp.normal.kind is ControlKind.FORCE:
-        exponent += 1
+    by_force = ramp.normal.kind is ControlKind.FORCE
+    exponent = scene.indenter.load_exponent if by_force else scene.indenter.gap_exponent
     power, share = exponent or 1, less / (more or 1.0)
     least = share ** (1 / power)
     loads = [(least + (1 - least) * k / count) ** power for k in range(1, count)]

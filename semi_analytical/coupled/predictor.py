@@ -163,16 +163,18 @@ def _predict_by_dilation(
     now, behind  data of the last converged state and of the state before
     normal       prescribed normal load at the end of the increment
     """
-    exponent = model.scene.indenter.gap_exponent
-    if exponent is None or normal.moment is not None or normal.tilt != now.target.tilt:
+    indenter = model.scene.indenter
+    exponent, degree = indenter.gap_exponent, indenter.load_exponent
+    tilts = normal.moment is not None or normal.tilt != now.target.tilt
+    if exponent is None or degree is None or tilts:
         return None
     if normal.force is not None:
         load, loads = normal.force, [state.normal_force for state in (now, behind) if state]
-        of_radius, of_force = 1 / (exponent + 1), 1.0
+        of_radius, of_force = 1 / degree, 1.0
     else:
         assert normal.approach is not None
         load, loads = normal.approach, [state.approach for state in (now, behind) if state]
-        of_radius, of_force = 1 / exponent, 1 + 1 / exponent
+        of_radius, of_force = 1 / exponent, degree / exponent
     if min(load, *loads) <= 0:
         return None
     domain, pressure = model.domain, now.pressure

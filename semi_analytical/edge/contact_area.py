@@ -12,6 +12,7 @@ import numpy as np
 
 from contact_scene.array_types import Field, Mask
 from semi_analytical.edge.fit import Stencil, fit_about
+from semi_analytical.edge.half_width import covered_strips
 from semi_analytical.operator.domain import WINDOW, ReducedDomain
 
 STENCIL = Stencil(4, 1.7)
@@ -32,6 +33,8 @@ def covered_cells(values: Field, inside: Mask, domain: ReducedDomain = WINDOW) -
     inside  cells whose centre is in the region (nx, ny)
     domain  domain of `values` and `inside`; the area excludes the mirror images
     """
+    if inside.shape[1] == 1:
+        return covered_strips(values[:, 0], inside[:, 0])
     framed = domain.add_frame(inside, 1)
     trusted = ~near(~framed)  # cells whose neighbours are inside, too
     i, j = np.nonzero(near(framed) & ~trusted)

@@ -67,6 +67,8 @@ def stick_area(
     """
     if not np.any(stick):
         return 0.0
+    if stick.shape[1] == 1:
+        return stuck_cells(shear, bound, stick)
     box = box_around(stick, LAYERS + 1).slices  # cells that determine the direction of slip
     shear, bound, stick = shear[:, *box], bound[box], stick[box]
     slips, depth = (bound > 0) & ~stick, depth_of(stick)

@@ -131,8 +131,9 @@ class NormalTarget:
 def _is_carried_on(cells: Mask, arms: Field, moment: Pair, force: float | None) -> bool:
     """Return True if some pressure on given cells has the prescribed force and moments.
 
-    The cells must surround the point where the normal force acts. If the normal force is free, they
-    must lie on both sides of the direction of the moments.
+    The cells must surround the point where the normal force acts; strips must lie on both sides of
+    it. If the normal force is free, the cells must lie on both sides of the direction of the
+    moments.
 
     cells   cells that may carry pressure (nx, ny)
     arms    (y, x) of the cells (2, nx, ny) [length]
@@ -140,6 +141,8 @@ def _is_carried_on(cells: Mask, arms: Field, moment: Pair, force: float | None) 
     force   normal force [force]; None where the approach is prescribed
     """
     (y, x), (M_x, M_y) = arms[:, cells], moment
+    if not np.any(y) and force is not None:
+        return bool(x.size and np.min(x) < M_y / force < np.max(x))
     if force is not None:
         angles = np.sort(np.arctan2(y - M_x / force, x - M_y / force))
         gaps = np.diff(angles, append=angles[:1] + 2 * np.pi)

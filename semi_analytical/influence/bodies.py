@@ -6,6 +6,7 @@ from contact_scene.rig import Rig, compliances
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.coefficients import Composite, InfluenceCoefficients
+from semi_analytical.influence.line import StripCoefficients
 
 
 def influence_coefficients(
@@ -14,6 +15,7 @@ def influence_coefficients(
     spacing: tuple[float, float],
     offsets: tuple[int, int],
     rig: Rig | None = None,
+    reference_length: float | None = None,
 ) -> InfluenceCoefficients:
     """Return the influence coefficients of the relative displacement of two bodies.
 
@@ -24,15 +26,19 @@ def influence_coefficients(
     offsets       number of offsets along x and y, including zero
     rig           springs of the test rig, which displace all cells equally: their compliance times
                   the cell area is added
+    reference_length
+                  distance from a line load at which the surface does not move, for the strips of a
+                  line contact [length]; None for cells
     """
-    integrals = RectangleIntegrals(*spacing, offsets)
     down, along = (spacing[0] * spacing[1] * c for c in compliances(rig))
-    return Composite(
-        _body_coefficients(lower, spacing, integrals, offsets),
-        _body_coefficients(upper, spacing, integrals, offsets),
-        along,
-        down,
-    )
+    integrals = RectangleIntegrals(*spacing, offsets)
+
+    def of_body(body: Body) -> tuple[InfluenceCoefficients, ...]:
+        if reference_length is None or not body.deforms:
+            return _body_coefficients(body, spacing, integrals, offsets)
+        return (StripCoefficients(stack_of(body), spacing[0], offsets, reference_length),)
+
+    return Composite(of_body(lower), of_body(upper), along, down)
 
 
 def _body_coefficients(

@@ -164,6 +164,8 @@ class ReducedDomain:
         """
         (x, y), (nx, ny) = self.mirrors, values.shape
         rows, columns = [0] * (not x) + [nx - 1], [0] * (not y) + [ny - 1]
+        if ny == 1:  # strips have no border along y
+            columns = []
         return np.concatenate([values[rows].ravel(), values[:, columns].ravel()])
 
     def add_frame(self, field: AnyField, width: int) -> AnyField:

@@ -90,5 +90,7 @@ class OnCells(Solver):
 def _grid_text(grid: SurfaceGrid) -> str:
     """Return the text of cells and window of a grid, such as "64 x 64 cells on 2 x 2 mm"."""
     (nx, ny), (Lx, Ly) = grid.cells, grid.window
+    if grid.of_strips:
+        return f"{nx} strips on {engineering_unit(Lx, 'm').text(Lx)}"
     length = engineering_unit(max(Lx, Ly), "m")
     return f"{nx} x {ny} cells on {Lx / length.size:.4g} x {length.text(Ly)}"

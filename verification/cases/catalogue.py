@@ -36,6 +36,10 @@ CASES = (
     "series_spring",
     "eccentric_contact",
     "strained_ball",
+    "line_push",
+    "line_loop",
+    "line_shapes",
+    "line_unlike",
     "torsion",
     "contact_stiffness",
     "sheared_cone",
@@ -98,6 +102,7 @@ MODULES = {
         *("fretting_loop", "paper_fretting_loop", "fem_partial_slip", "fem_penalty_slip"),
         *("radial_tangential", "growing_loads"),
     ),
+    "line_contacts": ("line_push", "line_loop", "line_shapes", "line_unlike"),
     "rig_and_strain": ("series_spring", "eccentric_contact", "strained_ball"),
     "torsion": ("torsion", "torsion_coated", "fem_torsion", "radial_torsion", "radial_turning"),
     "coatings": (

@@ -74,10 +74,10 @@ class Run:
 
     @property
     def spacing(self) -> float:
-        """Longer side of a cell of the grid, the discretisation size h in orders of convergence
-        [length].
+        """Longer side of a cell of the grid, or width of a strip: the discretisation size h in
+        orders of convergence [length].
         """
-        return max(self.grid.spacing)
+        return self.grid.cell_side
 
     def solve(self) -> semi_analytical.Result:
         """Solve the scene on the grid of cells, with the physical effects that the solver or the

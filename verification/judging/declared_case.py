@@ -18,6 +18,7 @@ from contact_scene.quantities.increment import (
     components,
 )
 from semi_analytical import SurfaceGrid, plan
+from semi_analytical.default_grid import STRIP_LENGTH, align_to_edges
 from verification.exhibits.chart import Chart
 from verification.judging import field_errors
 from verification.judging.case import (
@@ -51,6 +52,7 @@ from verification.quantities import unit_of
 from verification.solver import Method
 
 PER_OCTAVE = 5
+STRIPS_WINDOW = 2.5  # over the half width of the contact
 
 
 def refinement(coarsest: int, finest: int) -> tuple[int, ...]:
@@ -78,6 +80,11 @@ CELLS = {
     "sum": "Σ",
     "between": "0.1 to 0.95",
     "but": "two cells around the stick edge apart, ",
+}
+STRIPS = CELLS | {
+    "point": "strip",
+    "edge": "half of the contact width, fitted below the strip width",
+    "stick": "half of the width of the stick zone",
 }
 HATS = {
     "point": "ring",
@@ -126,7 +133,7 @@ class SizedRun:
         "ring".
         """
         if isinstance(self.run, Run):
-            return CELLS
+            return STRIPS if self.run.grid.of_strips else CELLS
         if isinstance(self.run, RadiiRun):
             return RINGS
         hats = self.run.method is not Method.PENALTY
@@ -227,6 +234,22 @@ def on_cells(
     corrected = plan(problem.scene, edge=BY_DEFAULT).edge != "off"
     followed = map(_without_edge_correction, rungs) if corrected and len(rungs) > 1 else rungs
     return ladder(problem, rungs, tuple(followed))
+
+
+def on_strips(problem: Problem, count: int, of: str = "") -> RefinementLevels:
+    """Create the run of a line contact on strips, for the semi-analytical solver.
+
+    The window is 2.5 half widths of the contact long.
+
+    problem  problem with its known answer
+    count    number of strips
+    of       name of the problem within its case, with which the label begins
+    """
+    grid = SurfaceGrid((count, 1), (STRIPS_WINDOW * problem.radius, STRIP_LENGTH))
+    grid = align_to_edges(problem.scene, grid)
+    label = f"{of}, {count} strips".removeprefix(", ")
+    run = Run(label, problem.scene, grid, problem=of)
+    return ladder(problem, [SizedRun(run, count, STRIPS_WINDOW)])
 
 
 def _without_edge_correction(rung: SizedRun) -> SizedRun:

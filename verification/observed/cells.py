@@ -87,9 +87,11 @@ def _state_on_cells(
     # Conjugate to force, tangential forces, moments, torque and strains of the lower body.
     arms = (p, q[0], q[1], p * y, p * x, q[1] * x - q[0] * y, q[0] * x, q[1] * y)
     forces = area * np.array([*map(np.sum, arms), np.sum(q[0] * y + q[1] * x)])
-    motions = [now.approach, *shift, *tilt, now.twist or 0.0, -xx, -yy, -(now.bulk_shear or 0.0)]
+    approach = now.approach
+    assert approach is not None  # a line contact has a reference length
+    motions = [approach, *shift, *tilt, now.twist or 0.0, -xx, -yy, -(now.bulk_shear or 0.0)]
     # A tilted indenter may be in contact although its axis is higher than at first contact.
-    lowered = (now.approach + tilt[0] * y + tilt[1] * x)[p > 0]
+    lowered = (approach + tilt[0] * y + tilt[1] * x)[p > 0]
     change = now.edge_change or 0.0
 
     def balance(carried: Field, due: object, most: Field, times: float) -> Balance:
@@ -107,7 +109,7 @@ def _state_on_cells(
             balances.append(balance(forces[5], now.torque, limit * arm, 0.0))
     return ContactState(
         now, np.full_like(p, area), undeformed, p, now.gap, q, limit, slip, slip + before_touch,
-        forces, np.array(motions), float(np.max(np.abs(lowered), initial=abs(now.approach))),
+        forces, np.array(motions), float(np.max(np.abs(lowered), initial=abs(approach))),
         tuple(balances), tuple(_stated_differences(before, now, area)),
         eased=result.tolerance / max(result.tolerance, change),
     )  # fmt: skip

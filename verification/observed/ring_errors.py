@@ -32,7 +32,9 @@ def approach(result: Result) -> float:
     """Return the approach of the bodies since first touch at the end of the last load step
     [length].
     """
-    return float(result.steps[-1].approach)
+    reached = result.steps[-1].approach
+    assert reached is not None  # a line contact has a reference length
+    return float(reached)
 
 
 def peak_pressure(result: Result) -> float:

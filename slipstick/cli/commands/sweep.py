@@ -98,7 +98,8 @@ def sweep(
     valid = next(point for point in made if not point.invalid)
     first = read_scene_file(scene, valid.overrides).scene
     listing = "slipstick maintain schema summary"
-    refuse_unknown("quantity", names, quantities(first.body), listing)
+    known = quantities(first.body, line=first.indenter.is_line)
+    refuse_unknown("quantity", names, known, listing)
     expectation = read_expectation(
         expect,
         save_expected,

@@ -603,7 +603,8 @@ class _SolvedLevel(NamedTuple):
     def of(cls, posed: Posed, times: float, counts: tuple[int, ...]) -> _SolvedLevel:
         asked = posed.fineness.asked
         assert isinstance(asked, SurfaceDiscretisation)
-        cells = tuple(2 * round(times * n / 2) if times > 1 else n for n in asked.cells or ())
+        drawn = asked.cells if isinstance(asked.cells, tuple) else ()
+        cells = tuple(2 * round(times * n / 2) if times > 1 else n for n in drawn)
         plan = semi_analytical.plan(posed.scene, edge=asked.edge).cut_into(counts)
         finer = asked.model_copy(update={"cells": cells})
         result = semi_analytical.solve_discretised(posed.scene, finer, plan=plan)

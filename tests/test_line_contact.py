@@ -1,0 +1,381 @@
+"""Laws of line contacts: coefficients of strips, closed forms, loads per length, refusals."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import numpy as np
+import pytest
+from command import outcome
+
+import slipstick
+from contact_scene import Scene, SceneError, SurfaceDiscretisation
+from contact_scene.quantities.summary import summary_schema
+from contact_scene.solver_errors import UnsupportedScene
+from semi_analytical.frf.stack import Stack
+from semi_analytical.frf.surface import scalars
+from semi_analytical.influence.line import SCALARS, StripCoefficients
+from semi_analytical.solve import solve_discretised
+
+STEEL = {"young_modulus": 210e9, "poisson_ratio": 0.3}
+MODULUS = 210e9 / (1 - 0.3**2) / 2
+RADIUS, FORCE, FRICTION, REFERENCE = 18e-3, 1e6, 0.1, 0.02
+HALF_WIDTH = float(np.sqrt(4 * FORCE * RADIUS / (np.pi * MODULUS)))
+PEAK = 2 * FORCE / (np.pi * HALF_WIDTH)
+
+
+def document(*loading: dict[str, Any], **changes: Any) -> dict[str, Any]:
+    """A steel cylinder on a steel half-space."""
+    indenter = {"shape": "cylinder", "radius": RADIUS, "material": STEEL}
+    indenter |= {"reference_length": REFERENCE} | changes.pop("indenter", {})
+    return {
+        "indenter": {key: value for key, value in indenter.items() if value is not None},
+        "body": {"material": STEEL},
+        "friction": {"coefficient": FRICTION},
+        "loading": list(loading) or [{"normal_force": FORCE}],
+        **changes,
+    }
+
+
+def solved(*loading: dict[str, Any], cells: int = 256, **changes: Any) -> Any:
+    scene = Scene.model_validate(document(*loading, **changes))
+    return solve_discretised(scene, SurfaceDiscretisation(cells=cells))
+
+
+# ---- Coefficients
+
+# Base, and layers: alike, stiff on soft, soft on stiff, two layers, rigid base, incompressible.
+STACKS = {
+    "half-space": Stack((), (80e9, 0.3)),
+    "equal layer": Stack([(80e9, 0.3, 1.0)], (80e9, 0.3)),
+    "stiff": Stack([(200e9, 0.2, 1.0)], (80e9, 0.3)),
+    "soft": Stack([(1e9, 0.4, 1.0)], (80e9, 0.3)),
+    "two layers": Stack([(200e9, 0.2, 1.0), (20e9, 0.45, 2.0)], (80e9, 0.3)),
+    "rigid base": Stack([(1e9, 0.3, 1.0)], None),
+    "incompressible": Stack([(1e9, 0.5, 1.0)], None),
+}
+
+
+def dense_displacement(stack: Stack, width: float, x: np.ndarray, far: float) -> np.ndarray:
+    """Displacements at x minus those at `far` (4, n), by Gauss sums over all wavenumbers.
+
+    The transform of a strip, sin(m w/2)/(m/2), makes the integrals converge like 1/m². The last
+    wavenumber is 600 per width, so that the tail is below 1e-5 of the values.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(16)
+    step = np.pi / max(far, float(np.max(x)))
+    edges = np.concatenate([[0.0], step * 2.0 ** np.arange(-60, 0), step * np.arange(1, 8_000)])
+    m = ((edges[1:] + edges[:-1])[:, None] / 2 + np.diff(edges)[:, None] / 2 * nodes).ravel()
+    own = (np.diff(edges)[:, None] / 2 * weights).ravel()
+    response = np.array(scalars(stack, m)) * own * np.sin(m * width / 2) / (m / 2) / np.pi
+    found = np.zeros((4, len(x)))
+    for n, place in enumerate(x):
+        even = np.cos(m * place) - np.cos(m * far)
+        found[:, n] = response @ even
+        found[1, n] = response[1] @ np.sin(m * place)
+    return found
+
+
+@pytest.mark.parametrize("name", STACKS)
+def test_coefficients_are_sums_over_all_wavenumbers(name: str) -> None:
+    stack, width, places = STACKS[name], 0.5, np.array([0, 1, 2, 5, 10, 23])
+    found = StripCoefficients(stack, width, (42, 3), 1.0)
+    dense = dense_displacement(stack, width, width * places, 40 * width)
+    for component, row in SCALARS.items():
+        own = found[component]
+        assert not np.any(own[:, 1:])
+        one = own[places, 0] - (0.0 if component == "zx" else own[40, 0])
+        size = np.ptp(dense[row])
+        np.testing.assert_allclose(one, dense[row], rtol=0, atol=1e-4 * size, err_msg=component)
+    assert not np.any(found["xy"])
+    assert not np.any(found["zy"])
+
+
+def test_layers_equal_to_their_base_have_the_coefficients_of_the_half_space() -> None:
+    plain, layered = (
+        StripCoefficients(STACKS[name], 0.1, (400, 1), 10.0)
+        for name in ("half-space", "equal layer")
+    )
+    for component in SCALARS:
+        size = np.max(np.abs(plain[component]))
+        # Each coefficient is a difference of integrals that grow with the offset.
+        np.testing.assert_allclose(layered[component], plain[component], rtol=0, atol=1e-12 * size)
+
+
+def test_the_reference_length_adds_a_uniform_displacement() -> None:
+    near, far = (StripCoefficients(STACKS["stiff"], 0.1, (50, 1), L)["zz"][:, 0] for L in (1, 20))
+    rise = 0.1 / np.pi * (1 - 0.3) / 80e9 * np.log(20)
+    np.testing.assert_allclose(far - near, rise, rtol=1e-9)
+    rigid = [StripCoefficients(STACKS["rigid base"], 0.1, (50, 1), L)["zz"] for L in (1, 20)]
+    np.testing.assert_allclose(*rigid, rtol=1e-9)
+
+
+# ---- Closed forms
+
+
+def approach_under(force: float) -> float:
+    """Hertz, counted from the surface at the reference length."""
+    half = np.sqrt(4 * force * RADIUS / (np.pi * MODULUS))
+    return float(force / (np.pi * MODULUS) * (1 + 2 * np.log(2 * REFERENCE / half)))
+
+
+@pytest.mark.parametrize("cells", [64, 256, 1024])
+def test_pressing_and_pushing_follow_hertz_and_cattaneo(cells: int) -> None:
+    push = 0.5 * FRICTION * FORCE
+    result = solved({"normal_force": FORCE}, {"tangential_force": [push, 0]}, cells=cells)
+    end, first = result.steps[1], 1e-3 * 64 / cells
+    stick = HALF_WIDTH * np.sqrt(0.5)
+    moved = FRICTION * (approach_under(FORCE) - approach_under(FORCE / 2))
+    assert end.peak_pressure == pytest.approx(PEAK, rel=3e-4 * (64 / cells) ** 2)
+    assert end.contact_radius == pytest.approx(HALF_WIDTH, rel=max(first, 2e-4))
+    assert end.stick_radius == pytest.approx(stick, rel=max(first, 2e-4))
+    assert end.approach == pytest.approx(approach_under(FORCE), rel=5e-5 * (64 / cells))
+    assert end.tangential_shift[0] == pytest.approx(moved, rel=2e-4 * (64 / cells))
+    assert end.contact_area == 2 * end.contact_radius
+
+
+def test_a_push_along_the_line_has_the_shear_of_a_push_across_it() -> None:
+    push = 0.5 * FRICTION * FORCE
+    across, along = (
+        solved({"normal_force": FORCE}, {"tangential_force": force}).steps[1]
+        for force in ([push, 0], [0, push])
+    )
+    size = FRICTION * PEAK
+    np.testing.assert_allclose(along.shear[1], across.shear[0], rtol=0, atol=1e-5 * size)
+    shift = along.tangential_shift[1] / across.tangential_shift[0]
+    assert shift == pytest.approx(1 / (1 - 0.3), rel=1e-6)
+
+
+def test_a_bulk_stress_in_phase_moves_the_stick_zone() -> None:
+    push, eccentricity = 0.5 * FRICTION * FORCE, 0.2
+    strain = eccentricity * FRICTION * HALF_WIDTH / RADIUS
+    stress = strain * STEEL["young_modulus"] / (1 - 0.3**2)
+    step = {"tangential_force": [push, 0], "bulk_stress": [stress, 0, 0]}
+    result = solved({"normal_force": FORCE}, step, cells=512)
+    end, x = result.steps[1], result.grid.x
+    centre = float(np.mean(x[end.in_stick[:, 0]])) / HALF_WIDTH
+    assert centre == pytest.approx(eccentricity, abs=3e-3)  # within a strip
+    assert end.stick_radius == pytest.approx(HALF_WIDTH * np.sqrt(0.5), rel=5e-4)
+    assert end.bulk_strain == pytest.approx((strain, 0.0))
+
+
+def test_a_moment_tilts_the_cylinder() -> None:
+    moment = 0.3 * FORCE * HALF_WIDTH
+    (end,) = solved({"normal_force": FORCE, "moment": [0, moment]}, cells=512).steps
+    assert end.tilt[1] == pytest.approx(moment / (FORCE * RADIUS), rel=1e-5)
+    assert end.moment[1] == pytest.approx(moment)
+    (free,) = solved({"approach": end.approach, "tilt": [0, end.tilt[1]]}, cells=512).steps
+    assert free.normal_force == pytest.approx(FORCE, rel=1e-3)
+
+
+def test_tractions_do_not_depend_on_the_reference_length() -> None:
+    steps = {"normal_force": FORCE}, {"tangential_force": [0.4 * FRICTION * FORCE, 0]}
+    near, far = (solved(*steps, indenter={"reference_length": L}) for L in (REFERENCE, 1.0))
+    none = solved(*steps, indenter={"reference_length": None})
+    for other in (far, none):
+        size = 1e-8 * PEAK
+        np.testing.assert_allclose(other.steps[1].shear, near.steps[1].shear, rtol=0, atol=size)
+        lost = [result.steps[1].dissipated_energy for result in (near, other)]
+        assert lost[1] == pytest.approx(lost[0], rel=1e-6)
+    end = none.steps[1]
+    unknown = (end.approach, end.tangential_shift, end.elastic_energy, end.input_work)
+    assert unknown == (None, None, None, None)
+    assert far.steps[1].approach > near.steps[1].approach
+
+
+def test_unequal_bodies_slide_with_a_shifted_pressure() -> None:
+    """Rigid on ν = 0.3: tan πγ = µβ, a² = 4WR/πE*(1 - 4γ²), middle at 2γa (Johnson 1985, 8.2)."""
+    push = {"tangential_shift": [1e-3, 0]}
+    press = {"normal_force": FORCE, "tangential_shift": [0, 0]}
+    rigid = {"indenter": {"material": "rigid"}, "friction": {"coefficient": 0.3}}
+    end = (result := solved(press, push, cells=512, **rigid)).steps[1]
+    gamma = np.arctan(0.3 * (1 - 2 * 0.3) / (2 * (1 - 0.3))) / np.pi
+    half = np.sqrt(4 * FORCE * RADIUS / (np.pi * 2 * MODULUS * (1 - 4 * gamma**2)))
+    assert end.contact_radius == pytest.approx(half, rel=3e-4)
+    middle = float(np.mean(result.grid.x[end.pressure[:, 0] > 0])) / half
+    assert abs(middle) == pytest.approx(2 * gamma, abs=3e-3)
+
+
+EDGE = 1e-3
+
+
+def rounded_load(half: float, edge_radius: float) -> float:
+    """W = E*/R ∫_b^a t(t - b)/√(a² - t²) dt of a flat punch with rounded edges."""
+    angle = np.arcsin(EDGE / half)
+    rest = np.pi / 2 - angle - np.sin(angle) * np.cos(angle)
+    return float(MODULUS / edge_radius * half**2 / 2 * rest)
+
+
+PROFILE = np.linspace(-2e-3, 2.4e-3, 221)
+SHAPES: dict[str, tuple[dict[str, Any], float, float]] = {
+    # Sizes, force and half width.
+    "wedge": ({"slope_angle": 0.01}, MODULUS * 3e-4 * np.tan(0.01), 3e-4),
+    "strip": ({"half_width": EDGE, "edge_radius": 0.05}, rounded_load(1.5e-3, 0.05), 1.5e-3),
+    "line_profile": (
+        {"file": np.stack([PROFILE, PROFILE**2 / (2 * RADIUS)])},
+        FORCE,
+        HALF_WIDTH,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_shapes_have_the_half_width_of_their_closed_form(name: str) -> None:
+    sizes, force, half = SHAPES[name]
+    shape = {"shape": name, "radius": None, **sizes}
+    (end,) = solved({"normal_force": force}, cells=512, indenter=shape).steps
+    assert end.contact_radius == pytest.approx(half, rel=2e-4)
+    (led,) = solved({"approach": end.approach}, cells=512, indenter=shape).steps
+    assert led.normal_force == pytest.approx(force, rel=2e-4)
+
+
+@pytest.mark.parametrize("cells", [48, 96, 384])
+def test_a_sharp_edge_at_its_best_place_leaves_an_error_of_second_order(cells: int) -> None:
+    shape = {"shape": "strip", "radius": None, "half_width": EDGE}
+    press = {"normal_force": FORCE, "moment": [0, 0.2 * FORCE * EDGE]}
+    result = solved(press, cells=cells, indenter=shape)
+    (end,), x = result.steps, result.grid.x
+    assert end.contact_radius == pytest.approx(EDGE, rel=1e-12)
+    tilt = 0.2 * FORCE * EDGE * 4 / (np.pi * MODULUS * EDGE**2)
+    assert end.tilt[1] == pytest.approx(tilt, rel=3e-4 * 48 / cells)
+    middle = np.argsort(np.abs(x))[:2]
+    exact = FORCE / np.pi / np.sqrt(EDGE**2 - x[middle[0]] ** 2)
+    assert np.mean(end.pressure[middle]) == pytest.approx(exact, rel=6e-4 * (48 / cells) ** 2)
+
+
+def test_thin_layers_have_the_pressure_of_their_limits() -> None:
+    """Johnson (1985), section 5.8: a parabola on a compressible layer."""
+    half, thickness = 1e-3, 1e-3 / 80
+    layer = {"thickness": thickness, "material": {"young_modulus": 1e9, "poisson_ratio": 0.3}}
+    uniaxial = 1e9 * 0.7 / (1.3 * 0.4)
+    peak = uniaxial * half**2 / (2 * RADIUS * thickness)
+    body = {"material": "rigid", "layers": [layer]}
+    changes: dict[str, Any] = {"body": body, "indenter": {"material": "rigid"}}
+    (end,) = solved({"normal_force": 4 / 3 * peak * half}, **changes, friction=None).steps
+    assert end.peak_pressure == pytest.approx(peak, rel=2e-3)
+
+
+# ---- What a line contact refuses
+
+REFUSED = {
+    "force": ({"loading": [{"normal_force": "100 N"}]}, 'per length such as "100 N/mm"'),
+    "moment": (
+        {"loading": [{"normal_force": FORCE, "moment": [0, "1 N m"]}]},
+        'a moment per length such as "20 N"',
+    ),
+    "stiffness": ({"rig": {"normal_stiffness": "1 N/um"}}, 'such as "50 N/mm^2"'),
+    "torque": ({"loading": [{"normal_force": FORCE}, {"torque": 1.0}]}, "out of the plane"),
+    "twist": ({"loading": [{"normal_force": FORCE}, {"twist": 1e-3}]}, "out of the plane"),
+    "moment x": ({"loading": [{"normal_force": FORCE, "moment": [1, 0]}]}, "(0, value)"),
+    "tilt x": ({"loading": [{"normal_force": FORCE, "tilt": [1e-4, 0]}]}, "(0, value)"),
+    "strain": (
+        {"loading": [{"normal_force": FORCE, "bulk_strain": [0, 1e-4, 0]}]},
+        "(value, 0, 0)",
+    ),
+    "stress": (
+        {"loading": [{"normal_force": FORCE, "bulk_stress": [0, 0, 1e6]}]},
+        "(value, 0, 0)",
+    ),
+    "approach": (
+        {"loading": [{"approach": 1e-5}], "indenter": {"reference_length": None}},
+        "add indenter.reference_length",
+    ),
+    "spring": (
+        {"rig": {"normal_stiffness": 1e9}, "indenter": {"reference_length": None}},
+        "add indenter.reference_length",
+    ),
+    "friction map": (
+        {"friction": {"coefficient": {"map": np.full((4, 4), 0.1), "spacing": 1e-3}}},
+        "one number",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_is_not_in_plane_strain_is_refused(name: str) -> None:
+    changes, words = REFUSED[name]
+    loading = changes.get("loading", [{"normal_force": FORCE}])
+    rest = {key: value for key, value in changes.items() if key != "loading"}
+    with pytest.raises(SceneError, match=r".") as refused:
+        Scene.model_validate(document(*loading, **dict(rest)))
+    assert words in str(refused.value)
+
+
+def test_a_load_per_length_is_refused_on_a_ball() -> None:
+    ball = {"shape": "sphere", "reference_length": None}
+    with pytest.raises(SceneError, match='a normal force such as "100 N"'):
+        Scene.model_validate(document({"normal_force": "100 N/mm"}, indenter=ball))
+
+
+@pytest.mark.parametrize("solver", ["radial", "fem"])
+def test_axisymmetric_solvers_refuse_a_cylinder(solver: str) -> None:
+    with pytest.raises(UnsupportedScene, match="not axisymmetric"):
+        slipstick.solve(Scene.model_validate(document()), solver)
+
+
+def test_a_contact_needs_a_distant_reference() -> None:
+    with pytest.raises(UnsupportedScene, match="at least 10 half-widths"):
+        solved(indenter={"reference_length": 5 * HALF_WIDTH})
+
+
+def test_cells_along_two_axes_are_refused() -> None:
+    scene = Scene.model_validate(document())
+    for wrong in ({"cells": (64, 64)}, {"window": (1e-3, 1e-3)}):
+        with pytest.raises(UnsupportedScene, match="one number, along x"):
+            solve_discretised(scene, SurfaceDiscretisation(**wrong))
+
+
+# ---- Whole runs
+
+CYLINDER = """
+title = "Cylinder"
+[indenter]
+shape = "cylinder"
+radius = "18 mm"
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN/mm"
+[[loading]]
+tangential_force = ["50 N/mm", 0]
+[[loading]]
+tangential_force = ["-50 N/mm", 0]
+[[loading]]
+tangential_force = ["50 N/mm", 0]
+[semi_analytical]
+cells = 128
+"""
+
+
+def test_a_run_reports_per_length(tmp_path: Path) -> None:
+    scene, out = tmp_path / "cylinder.toml", tmp_path / "out"
+    scene.write_text(CYLINDER, encoding="utf-8")
+    ended = outcome("run", scene, "--output", out, "--figures", "all", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    assert "MN/m" in ended.stdout
+    assert "half" in ended.stdout
+    record = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    jsonschema.validate(record, summary_schema())
+    end = record["steps"][-1]
+    assert end["half_width"] == pytest.approx(HALF_WIDTH, rel=1e-3)
+    assert end["contact_width"] == 2 * end["half_width"]
+    assert "contact_radius" not in end
+    assert "half_width" in end["errors"]
+    assert end["approach"] is end["tangential_shift"] is end["elastic_energy"] is None
+    error = end["errors"]["peak_pressure"]["error"]
+    assert abs(end["peak_pressure"] - PEAK) <= error < 1e-2 * PEAK
+    header = (out / "increments.csv").read_text(encoding="utf-8").split("\n")[0]
+    assert "normal_force [N/m]" in header
+    assert "stick_half_width [m]" in header
+    assert "energy_per_cycle [J/m]" in (out / "cycles.csv").read_text(encoding="utf-8")
+    stored = slipstick.load(out)
+    assert stored.increments["half_width"].unit == "m"
+    assert stored.increments["normal_force"].unit == "N/m"
+    assert stored.end_of_step(3).contact_radius == end["half_width"]
+    assert stored.surface.weights.sum() == pytest.approx(record["window"][0])
+    exported = outcome("export", out, "--output", tmp_path / "vtu", cwd=tmp_path)
+    assert exported.returncode == 0, exported.stderr

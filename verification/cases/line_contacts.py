@@ -1,0 +1,389 @@
+"""Verification cases of line contacts in plane strain, on strips: closed forms per unit length.
+
+A cylinder is pressed, pushed, pushed to and fro, strained and slid; wedges and flat punches have
+tips and edges. The bodies are half-spaces, or a thin layer on a rigid base.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from contact_scene import (
+    RIGID,
+    Body,
+    CoulombFriction,
+    Cylinder,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Scene,
+    Strip,
+    Wedge,
+)
+from verification.closed_forms.line_contact import (
+    CylinderContact,
+    FlatStrip,
+    PushedCylinder,
+    SlidingCylinder,
+    WedgeContact,
+    rounded_strip_load,
+)
+from verification.judging.case import Case, Level
+from verification.judging.declared_case import (
+    APPROACH,
+    CONTACT_RADIUS,
+    ENERGY,
+    ENERGY_PER_CYCLE,
+    JUDGED_BY,
+    PEAK_PRESSURE,
+    PRESSURE_L1,
+    SHEAR,
+    STICK_RADIUS,
+    STRIPS_WINDOW,
+    Observable,
+    Within,
+    case,
+    error_norm,
+    judged,
+    number,
+    on_strips,
+)
+from verification.judging.drawings import Drawn, profile
+from verification.problems.problem import (
+    CONTACT_MODULUS,
+    FRICTION,
+    OVER_PEAK,
+    OVER_RADIUS,
+    RADIUS,
+    STEEL,
+    Problem,
+)
+
+STRIPS = 1024
+TARGET = f"accuracy target of line contacts at {STRIPS} strips, the default"
+DISTANCE = 20e-3  # at which the surface does not move
+LOAD = 1e6
+HERTZ_LINE = CylinderContact(LOAD, RADIUS, CONTACT_MODULUS, DISTANCE)
+PUSH = 0.5 * FRICTION * LOAD
+SOURCE = "Hertz; Cattaneo 1938; Johnson 1985, sections 4.2 and 7.2"
+
+
+def _cylinder(*loading: LoadStep, friction: float | None = FRICTION, **changes: Any) -> Scene:
+    """Create the scene of a steel cylinder on a half-space of the same steel.
+
+    friction  coefficient of friction; None without friction
+    changes   other tables of the scene
+    """
+    given: dict[str, Any] = {
+        "title": "Cylinder on a half-space",
+        "indenter": Cylinder(radius=RADIUS, material=STEEL, reference_length=DISTANCE),
+        "body": Body(material=STEEL),
+        "friction": None if friction is None else CoulombFriction(coefficient=friction),
+        "loading": loading,
+    }
+    return Scene(**(given | changes))
+
+
+def _problem(
+    scene: Scene, *ends: Any, half_width: float = HERTZ_LINE.contact_radius, **more: Any
+) -> Problem:
+    """Create the problem of a line contact from its scene and the exact answer of each load step.
+
+    half_width  half width of the contact [length]
+    more        further attributes of the problem
+    """
+    scales = {OVER_PEAK: HERTZ_LINE.peak_pressure, OVER_RADIUS: half_width}
+    return Problem(scene, ends, half_width, **({"source": SOURCE, "scales": scales} | more))
+
+
+PRESS = LoadStep(normal_force=LOAD)
+PUSHED = PushedCylinder(HERTZ_LINE, FRICTION, PUSH)
+PUSHED_LINE = _problem(_cylinder(PRESS, LoadStep(tangential_force=(PUSH, 0.0))), HERTZ_LINE, PUSHED)
+LOOP = _problem(
+    _cylinder(PRESS, *(LoadStep(tangential_force=(sign * PUSH, 0.0)) for sign in (1, -1, 1))),
+    *(HERTZ_LINE, PUSHED, PUSHED, PUSHED),
+)
+SHIFT_X = number("shift", "tangential shift", quantity="tangential_shift_x")
+PRESSED_PEAK, PRESSED_APPROACH = (replace(what, step=0) for what in (PEAK_PRESSURE, APPROACH))
+PER_LENGTH = "J/m"
+
+
+def line_push(level: Level = Level.QUICK) -> Case:
+    """Create the verification case of a cylinder that is pressed and pushed.
+
+    level  amount of computation: quick, standard or full
+    """
+    strips = on_strips(PUSHED_LINE, STRIPS)
+    rows = (
+        Within(PRESSED_PEAK, 1e-5, TARGET),
+        Within(PRESSED_APPROACH, 1e-5, f"as the peak pressure, {TARGET}"),
+        Within(replace(PRESSURE_L1, step=0), 2e-4, f"as the half width, {TARGET}"),
+        Within(CONTACT_RADIUS, 2e-4, TARGET),
+        Within(STICK_RADIUS, 2e-4, TARGET),
+        Within(SHIFT_X, 1e-5, f"as the peak pressure, {TARGET}"),
+        Within(SHEAR, 2e-4, f"as the half width, {TARGET}"),
+        Within(
+            replace(ENERGY, unit=PER_LENGTH, source=SOURCE), 5e-4,
+            "slip at the edge, over the width of a strip: twice the error of the half width",
+        ),
+    )  # fmt: skip
+    return case(
+        "line_push",
+        "Line contact: a cylinder pressed and pushed",
+        "A parabolic cylinder of 18 mm radius under 1 kN/mm, then under a tangential force of "
+        "0.5 µW across its axis. Approach and shift are counted from the surface 20 mm from the "
+        "contact.",
+        judged(strips, rows),
+        charts=(
+            profile(
+                strips, "line_push_profile", "Pressure and shear over µ",
+                "Computed and exact pressure after pressing, shear over µ after the push, and "
+                "their differences, in units of the peak pressure.",
+                "p / p₀ and q / µp₀", HERTZ_LINE.peak_pressure,
+                Drawn(lambda end: end.pressure, lambda exact: exact.pressure, "p", 0),
+                Drawn(
+                    lambda end: end.shear[0] / FRICTION,
+                    lambda exact: lambda x: exact.shear(x) / FRICTION, "q/µ", 1,
+                ),
+            ),
+        ),
+        equations=(
+            r"a^2 = \frac{4WR}{\pi E^*},\quad p_0 = \frac{2W}{\pi a},\quad "
+            r"\omega_z = \frac{W}{\pi E^*}\left(1 + 2\ln\frac{2L}{a}\right)",
+            r"q = \mu\,[p(x; W) - p(x; W - T/\mu)],\quad c = a\sqrt{1 - T/\mu W}",
+        ),
+        no_order="the errors depend on the places of the edges within strips",
+    )  # fmt: skip
+
+
+def _stick_centre(result: Any, step: int, _: Problem) -> float:
+    """Return the mean of x over the strips that stick at the end of a load step [length]."""
+    end = result.steps[step]
+    return float(np.mean(result.grid.x[end.in_stick[:, 0]]))
+
+
+STICK_CENTRE = Observable(
+    "stick_centre", "mean of x over the strips that stick", "m", _stick_centre,
+    lambda end: float(end.stick_centre), OVER_RADIUS,
+)  # fmt: skip
+HALF_A_STRIP = "half a strip: the zone is made of whole strips"
+STRAINS = (0.1, 0.2)  # distance of the stick zone from the middle, in half widths
+
+
+def _strained(part: float) -> Problem:
+    """Create the problem of a push with a bulk stress in phase (Nowell and Hills 1987).
+
+    part  distance of the stick zone from the middle of the contact, in half widths
+    """
+    a = HERTZ_LINE.contact_radius
+    strain = part * a * FRICTION / RADIUS
+    stress = strain * STEEL.plane_strain_modulus
+    push = LoadStep(tangential_force=(PUSH, 0.0), bulk_stress=(stress, 0.0, 0.0))
+    exact = PushedCylinder(HERTZ_LINE, FRICTION, PUSH, strain)
+    return _problem(
+        _cylinder(PRESS, push), HERTZ_LINE, exact,
+        source="Nowell and Hills 1987", across=1.0,
+    )  # fmt: skip
+
+
+def line_loop(level: Level = Level.QUICK) -> Case:
+    """Create the verification case of a cylinder under reversed pushes, and with bulk stress.
+
+    level  amount of computation: quick, standard or full
+    """
+    loop = on_strips(LOOP, STRIPS, of="loop")
+    energy = replace(
+        ENERGY_PER_CYCLE, meaning="energy dissipated from 0.5 µW to -0.5 µW and back",
+        unit=PER_LENGTH,
+    )  # fmt: skip
+    strained = [on_strips(_strained(part), STRIPS, of=f"e = {part:g} a") for part in STRAINS]
+    rows = (
+        Within(STICK_CENTRE, 0.5 * STRIPS_WINDOW / STRIPS, HALF_A_STRIP),
+        Within(STICK_RADIUS, 5e-4, f"half a strip at either end, {TARGET}"),
+        Within(SHEAR, 5e-4, f"half a strip at either end, {TARGET}"),
+    )
+    return case(
+        "line_loop",
+        "Line contact: loop, and push with bulk stress in phase",
+        "The cylinder of line_push under a tangential force that is reversed twice, and under a "
+        "tangential force that grows with a bulk stress of the lower body, which moves the stick "
+        "zone towards one edge.",
+        judged(loop, (Within(energy, 1e-4, "as the energy of line_push at the end of a loop"),)),
+        *(
+            judged(
+                of,
+                [
+                    replace(row, name=f"{row.what.name}_at_{part:g}")
+                    for row in rows
+                ],
+            )
+            for part, of in zip(STRAINS, strained, strict=True)
+        ),
+        no_order=JUDGED_BY.format("line_push"),
+    )  # fmt: skip
+
+
+SLOPE = 0.01
+WEDGE = WedgeContact(1e5, SLOPE, CONTACT_MODULUS)
+FLAT, EDGE_RADIUS = 1e-3, 50e-3
+ROUNDED = 1.5 * FLAT
+TILTED_STRIP = FlatStrip(LOAD, FLAT, CONTACT_MODULUS, 0.2 * LOAD * FLAT)
+
+
+def _shaped(shape: type, load: float, **sizes: float) -> Scene:
+    indenter = shape(material=STEEL, reference_length=0.1, **sizes)
+    return _cylinder(LoadStep(normal_force=load), friction=None, indenter=indenter)
+
+
+def _middle_error(result: Any, step: int, problem: Problem) -> float:
+    """Compute the largest relative error of the pressure in the middle half of a punch."""
+    end, x = result.steps[step], result.grid.x
+    middle = np.abs(x) < problem.radius / 2
+    exact = problem.ends[step].pressure(x[middle])
+    return float(np.max(np.abs(end.pressure[middle, 0] / exact - 1)))
+
+
+MIDDLE = error_norm(
+    "middle_pressure", "largest relative error of the pressure in the middle half", _middle_error
+)
+TILT = number("tilt", "tilt", quantity="tilt_y")
+
+
+def line_shapes(level: Level = Level.QUICK) -> Case:
+    """Create the verification case of a wedge, a rounded and a sharp punch of infinite length.
+
+    level  amount of computation: quick, standard or full
+    """
+    wedge = _problem(
+        _shaped(Wedge, WEDGE.load, slope_angle=SLOPE), WEDGE,
+        half_width=WEDGE.contact_radius, source="Johnson 1985, section 5.2",
+    )  # fmt: skip
+    rounded = _problem(
+        _shaped(
+            Strip,
+            rounded_strip_load(ROUNDED, FLAT, EDGE_RADIUS, CONTACT_MODULUS),
+            half_width=FLAT,
+            edge_radius=EDGE_RADIUS,
+        ),
+        SimpleNamespace(contact_radius=ROUNDED),
+        half_width=ROUNDED,
+        source="Ciavarella, Hills and Monno 1998",
+    )
+    press = LoadStep(normal_force=LOAD, moment=(0.0, TILTED_STRIP.moment))
+    sharp = _problem(
+        _shaped(Strip, LOAD, half_width=FLAT).model_copy(update={"loading": (press,)}),
+        TILTED_STRIP, half_width=FLAT, across=1.0,
+        source="Sadowsky 1928; Johnson 1985, section 2.8",
+    )  # fmt: skip
+    of_flat = (
+        Within(MIDDLE, 1e-5, f"second order with the edge at its best place, {TARGET}"),
+        Within(TILT, 2e-5, "twice the error of the pressure, whose moment it is"),
+    )
+    return case(
+        "line_shapes",
+        "Line contact: wedge and flat punches",
+        "A wedge of 0.01 rad, a flat punch with rounded edges, and a flat punch with sharp edges "
+        "under a moment of 0.2 Wb, with the half width b. The sharp edges lie 0.175 strips inside "
+        "the outermost borders of strips.",
+        judged(
+            on_strips(wedge, STRIPS, of="wedge"),
+            (
+                Within(CONTACT_RADIUS, 2e-4, TARGET, name="half_width_of_wedge"),
+                Within(PRESSURE_L1, 1e-3, "a strip over the half width: infinite at the tip"),
+            ),
+        ),
+        judged(
+            on_strips(rounded, STRIPS, of="rounded"),
+            (Within(CONTACT_RADIUS, 2e-4, TARGET, name="half_width_of_rounded"),),
+        ),
+        judged(on_strips(sharp, STRIPS, of="sharp"), of_flat),
+        no_order=JUDGED_BY.format("line_push"),
+    )
+
+
+SLIDING = SlidingCylinder(LOAD, RADIUS, STEEL.plane_strain_modulus, 0.3, 0.5 * 0.4 / 0.7)
+THIN = IsotropicMaterial(young_modulus=1e9, poisson_ratio=0.3)
+UNIAXIAL = 1e9 * 0.7 / (1.3 * 0.4)
+HALF, THICKNESS = 1e-3, 1e-3 / 80
+THIN_PEAK = UNIAXIAL * HALF**2 / (2 * RADIUS * THICKNESS)
+
+
+# Along the line the surface is softer than across it by 1/(1 - ν).
+ALONG = PUSHED.shift / (1 - STEEL.poisson_ratio)
+SHIFT_Y = number(
+    "shift_along", "shift along the line", quantity="tangential_shift_y", exact="shift"
+)
+
+
+def _middle(result: Any, step: int, _: Problem) -> float:
+    """Return the distance of the middle of the contact from x = 0 [length]."""
+    end = result.steps[step]
+    return abs(float(np.mean(result.grid.x[end.pressure[:, 0] > 0])))
+
+
+MIDDLE_OF_CONTACT = Observable(
+    "middle", "distance of the middle of the contact from the apex", "m", _middle,
+    lambda end: float(end.distance_of_middle), OVER_RADIUS,
+)  # fmt: skip
+
+
+def line_unlike(level: Level = Level.QUICK) -> Case:
+    """Create the verification case of unlike bodies, a thin layer, and a push along the line.
+
+    level  amount of computation: quick, standard or full
+    """
+    rigid = Cylinder(radius=RADIUS, material=RIGID, reference_length=DISTANCE)
+    sliding = _problem(
+        _cylinder(
+            LoadStep(normal_force=LOAD, tangential_shift=(0.0, 0.0)),
+            LoadStep(tangential_shift=(1e-3, 0.0)),
+            friction=SLIDING.friction,
+            indenter=rigid,
+        ),
+        HERTZ_LINE, SLIDING,
+        half_width=SLIDING.contact_radius, source="Johnson 1985, section 8.2",
+    )  # fmt: skip
+    body = Body(material=RIGID, layers=(Layer(thickness=THICKNESS, material=THIN),))
+    thin = _problem(
+        _cylinder(
+            LoadStep(normal_force=4 / 3 * THIN_PEAK * HALF),
+            friction=None, indenter=rigid, body=body,
+        ),
+        SimpleNamespace(peak_pressure=THIN_PEAK), uncertainty=(THICKNESS / HALF) ** 2,
+        half_width=HALF, source="Johnson 1985, section 5.8",
+    )  # fmt: skip
+    along = _problem(
+        _cylinder(PRESS, LoadStep(tangential_force=(0.0, PUSH))), HERTZ_LINE,
+        SimpleNamespace(shift=ALONG, stick_radius=PUSHED.stick_radius),
+    )  # fmt: skip
+    strip = STRIPS_WINDOW / STRIPS
+    return case(
+        "line_unlike",
+        "Line contact: sliding of unlike bodies, thin layer, push along the line",
+        "A rigid cylinder slides on a half-space with µ = 0.3; it is pressed on a layer of 1/80 "
+        "of the half width on a rigid base; and the cylinder of line_push is pushed along its "
+        "axis, which shears the bodies without any change of volume.",
+        judged(
+            on_strips(sliding, STRIPS, of="sliding"),
+            (
+                Within(CONTACT_RADIUS, 3e-4, "the exponents at the edges are not exactly 1/2"),
+                Within(MIDDLE_OF_CONTACT, strip, "a strip: both edges are borders of strips"),
+            ),
+        ),
+        judged(
+            on_strips(thin, STRIPS, of="thin layer"),
+            (Within(PEAK_PRESSURE, 2 / 80**2, "the limit of thin layers, to second order in h/a"),),
+        ),
+        judged(
+            on_strips(along, STRIPS, of="along"),
+            (
+                Within(SHIFT_Y, 1e-5, "as the shift of line_push"),
+                Within(STICK_RADIUS, 2e-4, TARGET),
+            ),
+        ),
+        no_order=JUDGED_BY.format("line_push"),
+    )
