@@ -85,13 +85,13 @@ def _moments_long(whole: Any, self: Any, tractions: Any) -> Any:
     return whole(self, tractions) * np.where(varies, 1.001, 1.0)
 
 
-@replaces(coupled_increment, "_coupled_problem")
+@replaces(coupled_increment, "coupled_problem")
 def _limit_of_other_pressure(whole: Any, *given: Any) -> Any:
     problem = whole(*given)
     return replace(problem, friction_limit=lambda p: problem.friction_limit(0.99 * p))
 
 
-@replaces(coupled_increment, "_coupled_problem")
+@replaces(coupled_increment, "coupled_problem")
 def _slope_dropped(whole: Any, *given: Any) -> Any:
     return replace(whole(*given), friction_slope=np.zeros_like)
 

@@ -1019,9 +1019,9 @@ def test_a_cycle_has_the_numbers_and_errors_of_the_step_that_closes_it(tmp_path:
     for name, mark in OF_CYCLES.items():
         parts = ("_x", "_y") if mark.kind is Kind.VECTOR else ("",)
         error = end["errors"].get(name, {"error": None})["error"]
-        errors = [None] * len(parts) if error is None else np.ravel(error).tolist()
+        errors = [None] * len(parts) if error is None else [*np.broadcast_to(error, len(parts))]
         shown = [cycles[0][f"{name}{part}_error [{mark.unit or 1}]"] for part in parts]
-        assert shown == ["" if size is None else repr(size) for size in errors]
+        assert shown == ["" if size is None else repr(float(size)) for size in errors]
 
 
 def test_an_error_is_no_smaller_than_that_of_an_earlier_step() -> None:

@@ -128,6 +128,8 @@ def contact_stiffness(level: Level = Level.QUICK) -> Case:
         judged(on_meshes[1], _of_twist(part_of_side(1.5), NODES)),
         judged(on_radii(push, "rings"), _of_push(FORCES, 0.5 / 24, RINGS)),
         judged(on_radii(twist, "torsion on discs"), _of_twist(1e-9, IDENTITY)),
+        no_order="the edges of contact and stick zone have any position in a cell; other cases "
+        "judge the orders of the radii, to which the stiffnesses are proportional",
     )
 
 
