@@ -278,7 +278,7 @@ def test_what_has_no_limit_is_told(
         (STATED, ["--require", "approach 0.01%"], 0),
         (STATED, [*COARSE, "--require", "approach 0.01%"], 1),
         (STATED, ["--require", "tangential_shift 1%"], 6),
-        (STATED, ["--require", "aproach 1%"], 2),
+        (STATED, ["--require", "stress 1%"], 2),
         (STATED, ["--step", 2], 2),
         ("[accuracy]\napproach = 1e-3", [], 0),
     ],

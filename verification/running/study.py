@@ -331,7 +331,8 @@ class StudyRecord(Description):
 
     provenance: Provenance
     own_cells: bool = False
-    """True if the user chose the number of cells; the record then represents no level."""
+    """True if the user chose the number of cells or the scene; the record then represents no
+    level."""
 
     @model_validator(mode="after")
     def _is_of_this_version(self) -> StudyRecord:

@@ -145,7 +145,7 @@ def compute_study(
             level=settings.level.name.lower(),
             conclusion=study.conclude(settings, records),
             lost=tuple(end.lost for end in ends if end.lost is not None),
-            own_cells=settings.cells is not None,
+            own_cells=settings.cells is not None or study.name not in STUDIES,
             provenance=provenance(command, seconds, modules=(study.cases.__module__,)),
         )
         write_study(record, row_files(records, record.conclusion.rows), directory)
