@@ -280,23 +280,26 @@ def _traction_cell_width(state: LoadedBodies) -> float:
 def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
     """Return a contact state whose surface tractions are means over two by two cells.
 
-    The total force is preserved. The stress below these coarse tractions is compared with that
-    below the fine tractions, for an error estimate.
+    Strips are combined in pairs. The total force is preserved. The stress below these coarse
+    tractions is compared with that below the fine tractions, for an error estimate.
 
     state  bodies and surface tractions on cells
     shift  0 or 1, number of empty cells before the first pair of cells along each side; it selects
            the position of the coarse cells
     """
     sides = [state.axes[axis] for axis in ("x", "y")]
+    line = len(sides[1]) == 1
     pads = [(shift, (len(side) + shift) % 2) for side in sides]
     axes, counts = {}, [(len(side) + sum(pad)) // 2 for side, pad in zip(sides, pads, strict=True)]
-    for axis, side, count in zip(("x", "y"), sides, counts, strict=True):
+    if line:
+        axes["y"], pads[1], counts[1] = sides[1], (0, 0), 1
+    for axis, side, count in list(zip(("x", "y"), sides, counts, strict=True))[: 2 - line]:
         h = side[1] - side[0]
         axes[axis] = side[0] + h * (2 * np.arange(count) + 1 / 2 - shift)
     tractions = {}
     for name, field in state.tractions.items():
         even = np.pad(field, [*[(0, 0)] * (field.ndim - 2), *pads])
-        pairs = even.reshape(*field.shape[:-2], counts[0], 2, counts[1], 2)
+        pairs = even.reshape(*field.shape[:-2], counts[0], 2, counts[1], 2 - line)
         tractions[name] = np.asarray(pairs.mean(axis=(-3, -1)))
     return replace(state, axes=axes, tractions=tractions)
 

@@ -143,14 +143,13 @@ def _compute_cycles(result: Result) -> tuple[FrettingCycle, ...]:
     Cycles that contain an increment without dissipated energy are omitted: cycles without shear,
     and cycles that reach the friction limit under force control, whose slip is undefined.
 
-    On cells, except the strips of a line contact, σ_T and F2 require the stress at the surface of
-    the lower body, or of the indenter if the lower body is rigid. This stress adds 2 to 5 % to the
-    time of the solve.
+    On cells, σ_T and F2 require the stress at the surface of the lower body, or of the indenter if
+    the lower body is rigid. This stress adds 2 to 5 % to the time of the solve.
     """
     surface = surface_of(result)
     closed = load_cycles(result.scene.load_path())
     tension: Any = None
-    if closed and isinstance(surface, Cells) and not surface.of_strips:
+    if closed and isinstance(surface, Cells):
         from semi_analytical.surface_tensile_stress import SurfaceTensileStress
 
         tension = SurfaceTensileStress(cast(Any, result))

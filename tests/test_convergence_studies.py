@@ -248,6 +248,7 @@ def test_the_setting_of_the_scene_is_that_of_a_run(solver: str, tmp_path: Path) 
     contents = read(CATTANEO + "[fem_reference]\nelements_per_radius = 8", tmp_path)
     level = plan_of(StudiedScene(contents, 2, solver), None).run.compute()
     end = values_of(solve(contents, solver))[-1]
+    assert level.parts
     for part in level.parts:
         name, of = part.parameters["quantity"], part.parameters["of"]
         assert level.measures[name] in np.atleast_1d(end[of])

@@ -13,10 +13,13 @@ import slipstick
 from contact_scene import Scene, SceneError, SurfaceDiscretisation
 from contact_scene.quantities.summary import summary_schema
 from contact_scene.solver_errors import UnsupportedScene
+from semi_analytical.frf.depth import Level, material_at
 from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.line import SCALARS, StripCoefficients
 from semi_analytical.solve import solve_discretised
+from semi_analytical.stress import subsurface
+from semi_analytical.stress.strips import RESPONSES, strip_responses
 
 STEEL = {"young_modulus": 210e9, "poisson_ratio": 0.3}
 MODULUS = 210e9 / (1 - 0.3**2) / 2
@@ -379,3 +382,59 @@ def test_a_run_reports_per_length(tmp_path: Path) -> None:
     assert stored.surface.weights.sum() == pytest.approx(record["window"][0])
     exported = outcome("export", out, "--output", tmp_path / "vtu", cwd=tmp_path)
     assert exported.returncode == 0, exported.stderr
+
+
+# ---- Stress below
+
+
+def test_stress_below_is_that_of_a_half_space_and_yields_where_it_should() -> None:
+    """First yield: τ 0.30028 p₀ at 0.7862 a, von Mises 0.55752 p₀ at 0.7043 a for ν = 0.3."""
+    result = solved(cells=512)
+    depths = np.linspace(0.05, 1.5, 59) * HALF_WIDTH
+    found = subsurface(result.scene, result.grid, result.steps[0].pressure, None, depths)
+    sxx, syy, szz, _, sxz, _ = np.moveaxis(found.stress[..., 0], 1, 0)
+    middle = len(found.x) // 2
+    assert np.max(np.abs(sxz[:, middle])) < 1e-2 * PEAK
+    shear = np.abs(sxx - szz)[:, middle] / 2
+    mises = np.sqrt(((sxx - syy) ** 2 + (syy - szz) ** 2 + (szz - sxx) ** 2) / 2)[:, middle]
+    for values, size, depth in ((shear, 0.30028, 0.7862), (mises, 0.55752, 0.7043)):
+        assert np.max(values) == pytest.approx(size * PEAK, rel=1e-4)
+        assert depths[np.argmax(values)] == pytest.approx(depth * HALF_WIDTH, abs=0.03 * HALF_WIDTH)
+
+
+@pytest.mark.parametrize("layer", [0, 1])
+def test_layers_equal_to_their_base_have_the_stress_of_the_half_space(layer: int) -> None:
+    depth = (0.4, 1.3)[layer]
+    plain = strip_responses(STACKS["half-space"], Level(depth, 0), 0.1, 60)
+    layered = strip_responses(STACKS["equal layer"], Level(depth, layer), 0.1, 60)
+    np.testing.assert_allclose(layered, plain, rtol=0, atol=1e-13 * np.max(np.abs(plain)))
+
+
+@pytest.mark.parametrize("name", ["stiff", "soft", "two layers"])
+def test_tractions_and_strain_are_continuous_at_an_interface(name: str) -> None:
+    stack = STACKS[name]
+    above, below = (strip_responses(stack, Level(1.0, layer), 0.1, 60) for layer in (0, 1))
+    rows = {response: n for n, response in enumerate(RESPONSES)}
+    for response in ("zz z", "xz z", "zz x", "xz x", "yz y"):
+        row = rows[response]
+        np.testing.assert_allclose(above[row], below[row], rtol=0, atol=1e-12)
+    # ε_xx = (1 - ν) σ_xx/2G - ν σ_zz/2G in plane strain; the interface is bonded.
+    for traction in "zx":
+        strains = []
+        for layer, stress in enumerate((above, below)):
+            G, nu = material_at(stack, Level(1.0, layer))
+            xx, zz = (stress[rows[f"{part} {traction}"]] for part in ("xx", "zz"))
+            strains.append(((1 - nu) * xx - nu * zz) / (2 * G))
+        size = np.max(np.abs(strains))
+        np.testing.assert_allclose(*strains, rtol=0, atol=1e-11 * size)
+
+
+def test_the_stress_command_states_errors_and_leaves_no_displacement(tmp_path: Path) -> None:
+    scene = tmp_path / "cylinder.toml"
+    scene.write_text(CYLINDER, encoding="utf-8")
+    ended = outcome("stress", scene, "--output", "below", "--step", "1", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    record = json.loads((tmp_path / "below" / "stress.json").read_text(encoding="utf-8"))
+    largest = next(one for one in record["maxima"] if one["measure"] == "von_mises")
+    assert abs(largest["value"] - 0.55752 * PEAK) <= 2e-3 * PEAK
+    assert "nan" not in (tmp_path / "below" / "stress_axis.csv").read_text(encoding="utf-8")

@@ -104,8 +104,6 @@ def section_stress(result: Result) -> StressField | None:
     """
     if not result.scene.body.deforms or not result.steps[-1].contact_area:
         return None
-    if result.scene.indenter.is_line:
-        return None
     state = state_of_result(result, None)
     if state.pressed is not None:
         if len(state.tractions) > 1:
@@ -115,9 +113,10 @@ def section_stress(result: Result) -> StressField | None:
         return stress_on_disc(state)
     if not isinstance(surface_of(result), Cells):
         return None
-    state = coarser(state, MAX_CELLS)
-    if max(state.tractions["pressure"].shape) > MAX_CELLS:
-        return None
+    if not result.scene.indenter.is_line:
+        state = coarser(state, MAX_CELLS)
+        if max(state.tractions["pressure"].shape) > MAX_CELLS:
+            return None
     from contact_results.stress.on_cells import stress_on_cells
     from semi_analytical.stress import default_depths
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
+from math import isnan
 from pathlib import Path
 
 import numpy as np
@@ -174,10 +175,13 @@ def interface_points(field: StressField, body: Body) -> Iterator[tuple[int, str,
 
 
 def _point_rows(points: StressPoints, body: Body) -> Iterator[tuple[object, ...]]:
-    """Yield the table rows of stress points: place, material, displacement, stress, invariants."""
+    """Yield the table rows of stress points: place, material, displacement, stress, invariants.
+
+    The unknown displacement below a line contact is None.
+    """
     numbers = np.vstack([points.displacement, points.stress, points.von_mises, points.principal])
     materials = [layer_name(material, len(body.layers)) for material in points.material.tolist()]
     # The addition of 0.0 removes the sign of negative zeros.
     places = (np.stack([points.x, points.y, points.depth], axis=-1) + 0.0).tolist()
     for place, material, row in zip(places, materials, (numbers.T + 0.0).tolist(), strict=True):
-        yield (*place, material, *row)
+        yield (*place, material, *(None if isnan(number) else number for number in row))

@@ -85,7 +85,8 @@ def stress_at_cells(
         shear = -shear
     tractions = _far_field_tractions(state, pressure, shear)
     fields = {level: subsurface(body, grid, *tractions, [level]) for level in set(levels)}
-    found = [fields[level].below(*at) for *at, level in zip(x, y, levels, strict=True)]
+    rows = np.zeros_like(y) if grid.of_strips else y  # the same at every y
+    found = [fields[level].below(*at) for *at, level in zip(x, rows, levels, strict=True)]
     displacement, stress = (np.concatenate(parts).T for parts in zip(*found, strict=True))
     depth, layer = (np.array([getattr(level, name) for level in levels]) for name in LEVEL)
     points = StressPoints(x, y, depth, layer, displacement, stress, at_edge=x != x)
@@ -228,6 +229,8 @@ def _computed_cells(
     from semi_analytical.stress.convolution import mirror_planes
     from semi_analytical.stress.depths import line_weights
 
+    if grid.of_strips:
+        return slice(None), None
     at_section = np.flatnonzero(line_weights(grid.y, 0.0))
     tractions = pressure[None] if shear is None else np.stack([*shear, pressure])
     along_x, along_y = mirror_planes(tractions)
@@ -258,6 +261,8 @@ def _fit_edge(
     from semi_analytical.frf.stack import stack_of
     from semi_analytical.stress import EdgeNotSeen, near_edge, near_surface
 
+    if grid.of_strips:
+        return None, "strips of a line contact are narrow beside their edges"
     if state.no_root is not None:
         return None, state.no_root
     if not any(level.layer == 0 and near_surface(level.depth, grid.spacing) for level in levels):
@@ -387,11 +392,13 @@ def _extend_window(
 
     x, y = state.axes["x"], state.axes["y"]
     pressure, shear = state.tractions["pressure"], state.tractions.get("shear")
-    sides = [float(c[-1] - c[0]) / (len(c) - 1) for c in (x, y)]
+    sides = [float(c[-1] - c[0]) / (len(c) - 1) if len(c) > 1 else 1.0 for c in (x, y)]
     halves = [ceil(r / side) - len(c) // 2 for r, side, c in zip(reach, sides, (x, y), strict=True)]
     widths = [
         max(_margin_cells(pressure, axis, margin), halves[axis] + NEIGHBOURS) for axis in (0, 1)
     ]
+    if len(y) == 1:
+        widths[1] = 0
     pad = [(width, width) for width in widths]
     cells = (len(x) + 2 * widths[0], len(y) + 2 * widths[1])
     grid = SurfaceGrid(cells, (cells[0] * sides[0], cells[1] * sides[1]))
@@ -444,6 +451,9 @@ def _stress_points(
     places = np.meshgrid(field.depths, field.x[columns], field.y, indexing="ij", copy=False)
     depth, x, y = places
     layers = np.array([level.layer for level in field.levels])
+    at_edge = np.isin(x, grid.x[[0, -1]])
+    if not grid.of_strips:
+        at_edge |= np.isin(y, grid.y[[0, -1]])
     return StressPoints(
         x,
         y,
@@ -451,7 +461,7 @@ def _stress_points(
         np.broadcast_to(layers[:, None, None], x.shape),
         np.moveaxis(field.displacement, 1, 0)[:, :, columns],
         np.moveaxis(field.stress, 1, 0)[:, :, columns],
-        at_edge=np.isin(x, grid.x[[0, -1]]) | np.isin(y, grid.y[[0, -1]]),
+        at_edge=at_edge,
     )
 
 

@@ -28,6 +28,7 @@ from semi_analytical.stress.depths import (
     line_weights,
 )
 from semi_analytical.stress.rectangle import half_space_response
+from semi_analytical.stress.strips import strip_stresses
 
 DOUBLE = 8
 # Arrays of the size of the window at the peak, in addition to the fields: coefficients, potentials
@@ -45,7 +46,7 @@ class SubsurfaceField:
 
     x, y          positions of the cell centres, shapes (nx,) and (ny,) [length]
     levels        depth and layer of each level, in the order of the request
-    displacement  (u_x, u_y, u_z), zero far away, shape (nz, 3, nx, ny) [length]
+    displacement  (u_x, u_y, u_z), zero far away, shape (nz, 3, nx, ny) [length]; NaN for strips
     stress        order xx, yy, zz, yz, xz, xy, tensile stress positive, shape (nz, 6, nx, ny)
                   [force/length^2]
     """
@@ -84,6 +85,8 @@ class SubsurfaceField:
 
         y  coordinate of the section [length]
         """
+        if len(self.y) == 1 and self.y[0] == y:
+            return self
         weights = line_weights(self.y, y)[:, None]
         return SubsurfaceField(
             self.x, np.array([y]), self.levels, self.displacement @ weights, self.stress @ weights
@@ -184,6 +187,13 @@ def fields_by_level(
     tractions = _checked_tractions(grid, pressure, shear)
     stack = _deformable_stack(body)
     levels = levels_of(stack, depths)
+    if grid.of_strips:
+        for level, stress in zip(
+            levels, strip_stresses(stack, grid, tractions, levels), strict=True
+        ):
+            unknown = np.full((1, 3, *grid.cells), np.nan)
+            yield SubsurfaceField(grid.x, grid.y, (level,), unknown, stress[None])
+        return
     rows = np.arange(grid.cells[1]) if rows is None else rows
     offsets = offsets_between(tractions, rows)
     few = len(rows) <= NEIGHBOURS
