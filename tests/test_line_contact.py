@@ -200,6 +200,20 @@ def test_unequal_bodies_slide_with_a_shifted_pressure() -> None:
     assert abs(middle) == pytest.approx(2 * gamma, abs=3e-3)
 
 
+def test_loads_that_grow_together_are_exact_in_one_increment() -> None:
+    """Jäger (1998): the shear grows by k Δp, with the ratio k < µ of the changes of the loads."""
+    k = 0.5 * FRICTION
+    grown = {"normal_force": 2 * FORCE, "tangential_force": [k * FORCE, 0]}
+    result = solved({"normal_force": FORCE}, grown)
+    first, end = result.steps
+    assert len(result.increments) == 2
+    change = k * (end.pressure - first.pressure)
+    np.testing.assert_allclose(end.shear[0], change, rtol=0, atol=1e-6 * FRICTION * PEAK)
+    moved = k * (approach_under(2 * FORCE) - approach_under(FORCE))
+    assert end.tangential_shift[0] == pytest.approx(moved, rel=1e-4)
+    assert end.dissipated_energy == pytest.approx(0.0, abs=1e-9 * end.elastic_energy)
+
+
 EDGE = 1e-3
 
 
