@@ -394,6 +394,10 @@ def test_a_run_reports_per_length(tmp_path: Path) -> None:
     assert stored.increments["normal_force"].unit == "N/m"
     assert stored.end_of_step(3).contact_radius == end["half_width"]
     assert stored.surface.weights.sum() == pytest.approx(record["window"][0])
+    (tmp_path / "loop.csv").write_text("shift [um],T [N]\n0,0\n1,1\n0,0\n", encoding="utf-8")
+    compared = outcome("against", "loop.csv", out, cwd=tmp_path)
+    assert compared.returncode == 2
+    assert "forces per length" in " ".join(compared.stderr.replace("│", " ").split())
     exported = outcome("export", out, "--output", tmp_path / "vtu", cwd=tmp_path)
     assert exported.returncode == 0, exported.stderr
 
