@@ -283,5 +283,5 @@ def scale_cells(cells: tuple[int, int], factor: float) -> tuple[int, int]:
     cells   numbers of cells along x and y
     factor  factor of both numbers
     """
-    nx, ny = (2 * fast_length(ceil(round(factor * n, 6) / 2)) if n > 1 else 1 for n in cells)
-    return nx, ny
+    nx, ny = (2 * fast_length(ceil(round(factor * n, 6) / 2)) for n in cells)
+    return nx, 1 if cells[1] == 1 else ny

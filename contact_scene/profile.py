@@ -155,13 +155,13 @@ class PlaneProfile(Profile):
 
     @cached_property
     def _points(self) -> tuple[Values, Values, Values]:
-        """Coordinates of the points, heights above the first point, slopes."""
-        z = self.heights - self.heights[0]
+        """Coordinates of the points, heights above the lowest point, slopes."""
+        z = self.heights - np.min(self.heights)
         return self.radii, z, limited_slopes(self.radii, z)
 
     @cached_property
     def _lowest(self) -> tuple[float, float]:
-        """Lowest height above the first point [length], and its coordinate [length]."""
+        """Lowest height above the lowest point [length], and its coordinate [length]."""
         x = np.concatenate([self.radii, self._turning_places()])
         heights = self._height_above_first(x)
         at = int(np.argmin(heights))

@@ -112,6 +112,11 @@ def comparison(
         if {motion, LOAD} <= table.keys():
             if step is not None:
                 raise NothingToCompare("a loop is compared with the last load cycle; omit --step")
+            if run.scene.indenter.is_line:
+                raise NothingToCompare(
+                    "the table is a loop of a force, and a line contact has forces per length; "
+                    "compare a profile (x with p or q)"
+                )
             theirs = np.stack([table[motion], table[LOAD]])
             return tuple(_compare_loops(theirs, run, motion))
     if PLACE in table and {PRESSURE, SHEAR} & table.keys():

@@ -200,6 +200,20 @@ def test_unequal_bodies_slide_with_a_shifted_pressure() -> None:
     assert abs(middle) == pytest.approx(2 * gamma, abs=3e-3)
 
 
+def test_loads_that_grow_together_are_exact_in_one_increment() -> None:
+    """Jäger (1998): the shear grows by k Δp, with the ratio k < µ of the changes of the loads."""
+    k = 0.5 * FRICTION
+    grown = {"normal_force": 2 * FORCE, "tangential_force": [k * FORCE, 0]}
+    result = solved({"normal_force": FORCE}, grown)
+    first, end = result.steps
+    assert len(result.increments) == 2
+    change = k * (end.pressure - first.pressure)
+    np.testing.assert_allclose(end.shear[0], change, rtol=0, atol=1e-6 * FRICTION * PEAK)
+    moved = k * (approach_under(2 * FORCE) - approach_under(FORCE))
+    assert end.tangential_shift[0] == pytest.approx(moved, rel=1e-4)
+    assert end.dissipated_energy == pytest.approx(0.0, abs=1e-9 * end.elastic_energy)
+
+
 EDGE = 1e-3
 
 
@@ -380,6 +394,10 @@ def test_a_run_reports_per_length(tmp_path: Path) -> None:
     assert stored.increments["normal_force"].unit == "N/m"
     assert stored.end_of_step(3).contact_radius == end["half_width"]
     assert stored.surface.weights.sum() == pytest.approx(record["window"][0])
+    (tmp_path / "loop.csv").write_text("shift [um],T [N]\n0,0\n1,1\n0,0\n", encoding="utf-8")
+    compared = outcome("against", "loop.csv", out, cwd=tmp_path)
+    assert compared.returncode == 2
+    assert "forces per length" in " ".join(compared.stderr.replace("│", " ").split())
     exported = outcome("export", out, "--output", tmp_path / "vtu", cwd=tmp_path)
     assert exported.returncode == 0, exported.stderr
 

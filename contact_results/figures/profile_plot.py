@@ -100,30 +100,22 @@ def draw_end(ax: Any, result: Result, surface: Surface) -> None:
 
 
 def draw_slip(ax: Any, result: Result, surface: Surface) -> None:
-    """Draw the slip of the surfaces since the start at the ends of load steps, or the gap.
-
-    The gap is drawn without slip.
+    """Draw the slip of the surfaces since the start at the ends of load steps, or else the gap.
 
     ax  axes of matplotlib
     """
-    length = _line_axis(ax, result, surface)
-    x, lines, name = surface.profile_line.places / length.size, {}, "slip"
-    for step in select_steps([*result.steps]):
-        vector = surface.vector(step, "slip")
-        if vector is not None and np.any(vector):
-            axis = int(np.argmax(np.max(np.abs(vector.reshape(2, -1)), axis=1)))
-            lines[step.step] = surface.along(vector[axis])
-            name = f"slip s{surface.profile_line.components[axis]}"
-    if not lines:
-        end, name = result.steps[-1], "gap"
-        gap, touched = surface.scalar(end, "gap"), _pressure_field(end, surface) > 0
-        assert gap is not None
-        lines[end.step] = surface.along(np.where(touched, 0.0, gap))
-    unit = engineering_unit(float(np.max([np.max(np.abs(v)) for v in lines.values()])), "m")
-    for number, (step, values) in enumerate(lines.items()):
-        ax.plot(x, values / unit.size, label=f"step {step}", **style.line_style(number))
+    length, end = _line_axis(ax, result, surface), result.steps[-1]
+    gap = surface.scalar(end, "gap")
+    assert gap is not None
+    outside = np.where(_pressure_field(end, surface) > 0, 0.0, gap)
+    unit = engineering_unit(float(np.max(outside)), "m")
+    slips = _vector_curves(surface, select_steps([*result.steps]), "slip", "slip s", "m")
+    curves, *_ = *slips, Curves("gap", {end.step: surface.along(outside)}, unit)
+    x = surface.profile_line.places / length.size
+    for number, (step, values) in enumerate(curves.lines.items()):
+        ax.plot(x, values / curves.unit.size, label=f"step {step}", **style.line_style(number))
     ax.axhline(0.0, color="black", linewidth=0.5)
-    ax.set_ylabel(unit.labelled(name))
+    ax.set_ylabel(curves.unit.labelled(curves.name))
     style.legend_above(ax)
 
 
@@ -135,19 +127,30 @@ def _pressure_curves(surface: Surface, steps: Sequence[Increment]) -> Curves:
 
 
 def _shear_curves(surface: Surface, steps: Sequence[Increment]) -> list[Curves]:
-    """Return the profiles of the shear components along and across the line.
+    """Return the profiles of the shear components along and across the line."""
+    return _vector_curves(surface, steps, "shear", "shear q", "Pa")
+
+
+def _vector_curves(
+    surface: Surface, steps: Sequence[Increment], name: str, label: str, unit: str
+) -> list[Curves]:
+    """Return the profiles of the components of a vector field along and across the line.
 
     Components that are round-off at the ends of all given load steps are omitted.
+
+    name   "shear" or "slip"
+    label  label of the axis, without the component
+    unit   SI unit of the field
     """
-    found = ((step.step, surface.vector(step, "shear")) for step in steps)
+    found = ((step.step, surface.vector(step, name)) for step in steps)
     lines = {step: surface.vector_along(vector) for step, vector in found if vector is not None}
     sizes = [np.max(np.abs(vector), axis=1) for vector in lines.values()]
     largest = np.max([(0.0, 0.0), *sizes], axis=0).tolist()
     return [
         Curves(
-            f"shear q{surface.profile_line.components[k]}",
+            f"{label}{surface.profile_line.components[k]}",
             {step: vector[k] for step, vector in lines.items()},
-            engineering_unit(largest[k], "Pa"),
+            engineering_unit(largest[k], unit),
         )
         for k in (0, 1)
         if largest[k] > SAME * max(largest)

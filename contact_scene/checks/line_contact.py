@@ -3,6 +3,8 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from contact_scene.body import Body
 from contact_scene.discretisation import SurfaceDiscretisation
 from contact_scene.friction import CoulombFriction
@@ -19,16 +21,12 @@ _EXAMPLES: Mapping[str, tuple[str, str]] = {
     "moment": ('"20 N"', '"20 N m"'),
     **dict.fromkeys(("normal_stiffness", "tangential_stiffness"), ('"50 N/mm^2"', '"50 N/um"')),
 }
-_FORCES = ("normal_force", "tangential_force", "moment")
-_STIFFNESSES = ("normal_stiffness", "tangential_stiffness")
-# Loads that strain the bodies along y, with the components that do not.
-_OUT_OF_PLANE: Mapping[str, tuple[int, ...]] = {
-    "torque": (),
-    "twist": (),
-    "moment": (1,),
-    "tilt": (1,),
-    "bulk_strain": (0,),
-    "bulk_stress": (0,),
+# Loads that strain the bodies along y: index of the component that does not, and expected value.
+_OUT_OF_PLANE: Mapping[str, tuple[int | None, str]] = {
+    "torque": (None, "no torque"),
+    "twist": (None, "no twist"),
+    **dict.fromkeys(("moment", "tilt"), (1, "(0, value)")),
+    **dict.fromkeys(("bulk_strain", "bulk_stress"), (0, "(value, 0, 0)")),
 }
 # Examples along x, and along x and y.
 _DIMENSIONS: Mapping[str, tuple[str, str]] = {
@@ -53,39 +51,29 @@ def wrong_units(
     indenter: Indenter, loading: Sequence[LoadStep], rig: Rig | None
 ) -> Iterator[Problem]:
     """Find loads with the unit of a force on a line contact, or per length on another contact."""
-    tables: list[tuple[Path, Any, tuple[str, ...]]] = [
-        *((("loading", index), step, _FORCES) for index, step in enumerate(loading)),
-        (("rig",), rig, _STIFFNESSES),
-    ]
     line = indenter.is_line
-    for path, table, names in tables:
-        for name in names:
-            value = getattr(table, name, None)
-            parts = value if isinstance(value, tuple) else (value,)
-            written = [part for part in parts if isinstance(part, WithUnit) and part]
-            if any(isinstance(part, PerLength) is not line for part in written):
-                quantity = name.replace("_", " ")
-                right = f"a {quantity} per length" if line else f"a {quantity}"
+    steps: list[tuple[Path, Any]] = [(("loading", n), step) for n, step in enumerate(loading)]
+    for path, table in [*steps, (("rig",), rig)]:
+        for name, examples in _EXAMPLES.items():
+            parts = np.atleast_1d(np.array(getattr(table, name, None), dtype=object))
+            if any(isinstance(p, WithUnit) and isinstance(p, PerLength) is not line for p in parts):
+                load, per = f"a {name.replace('_', ' ')}", " per length"
                 yield Problem(
                     (*path, name),
-                    f"got a {quantity}{' ' if line else ' per length '}"
-                    f"on a {indenter.shape.replace('_', ' ')}",
-                    f"{right} such as {_EXAMPLES[name][not line]}",
+                    f"got {load}{'' if line else per} on a {indenter.shape.replace('_', ' ')}",
+                    f"{load}{per if line else ''} such as {examples[not line]}",
                 )
 
 
 def loads_out_of_plane(indenter: Indenter, loading: Sequence[LoadStep]) -> Iterator[Problem]:
     """Find loads that a line contact in plane strain cannot have."""
     for index, step in enumerate(loading if indenter.is_line else ()):
-        for name, allowed in _OUT_OF_PLANE.items():
-            value = getattr(step, name)
-            parts = value if isinstance(value, tuple) else (value or 0.0,)
-            if any(part for number, part in enumerate(parts) if number not in allowed):
-                expected = "no such load"
-                if allowed:
-                    kept = ("(value, 0, 0)", "(0, value)")[allowed[0]]
-                    expected = f"{kept}, because a line contact is in plane strain"
-                yield Problem(("loading", index, name), "the load acts out of the plane", expected)
+        for name, (allowed, expected) in _OUT_OF_PLANE.items():
+            parts = np.atleast_1d(getattr(step, name) or 0.0)
+            if np.any(np.delete(parts, allowed if allowed is not None and len(parts) > 1 else [])):
+                yield Problem(
+                    ("loading", index, name), "the load acts out of the plane of strain", expected
+                )
 
 
 def undefined_motions(

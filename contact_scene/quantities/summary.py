@@ -12,6 +12,7 @@ from pydantic.dataclasses import dataclass as pydantic_dataclass
 from contact_scene.quantities import residuals
 from contact_scene.quantities.field_metadata import CONVENTION, Kind, Reported, reported
 from contact_scene.quantities.increment import (
+    SCALARS,
     Quality,
     State,
 )
@@ -300,23 +301,32 @@ def load_summary(text: str) -> RunSummary:
         raise ValueError(": ".join(filter(None, (key, message)))) from None
 
 
+def _line_texts(mark: Reported | None, name: str) -> dict[str, str]:
+    """Return meaning and unit of a scalar of a line contact for the JSON Schema; empty for others.
+
+    mark  unit and meaning of the scalar for other contacts; None for other keys
+    name  name of the scalar
+    """
+    if mark is None:
+        return {}
+    mark = shown_mark(name, mark, line=True)
+    return {"description": mark.meaning, "unit": mark.unit or "1"}
+
+
 def summary_schema() -> dict[str, Any]:
     """Create the JSON Schema of `summary.json`, with the meaning and unit of every key."""
     schema = RunSummary.model_json_schema(mode="serialization", schema_generator=DescribedSchema)
     step = schema["$defs"]["StepSummary"]
-    marks = {**reported(State), **reported(Quality), **OF_CYCLES}
-    properties = dict(step["properties"])
-    for name in properties.keys() & marks:
-        mark = shown_mark(name, marks[name], line=True)
-        texts = {"description": mark.meaning, "unit": mark.unit or "1"}
-        properties[name] = {**properties[name], **texts}
-    required = [shown_name(name, line=True) for name in step["required"]]
-    line = {"properties": rename_keys(properties, SHOWN_NAMES), "required": required}
+    marks = {**SCALARS, **OF_CYCLES}
+    properties = {
+        shown_name(name, line=True): {**shape, **_line_texts(marks.get(name), name)}
+        for name, shape in step["properties"].items()
+    }
     schema["$defs"]["LineStepSummary"] = {
         **step,
-        **line,
         "title": "LineStepSummary",
-        "description": "State of a line contact at the end of one `[[loading]]` table.",
+        "properties": properties,
+        "required": [shown_name(name, line=True) for name in step["required"]],
     }
     either = [{"$ref": f"#/$defs/{name}"} for name in ("StepSummary", "LineStepSummary")]
     schema["properties"]["steps"]["items"] = {"anyOf": either}
