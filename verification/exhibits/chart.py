@@ -192,7 +192,9 @@ def value_text(value: float | None, unit: str, digits: int = 6) -> str:
         return plain(value, digits) + unit
     scale = engineering_unit(abs(value), unit)
     text = f"{value / scale.size:#.{digits}g}".rstrip(".")
-    return f"{float(text):.0f} {scale.name}" if "e" in text else f"{text} {scale.name}"
+    if "e-" in text:
+        text = plain(float(text), digits)
+    return f"{float(text):.0f} {scale.name}" if "e+" in text else f"{text} {scale.name}"
 
 
 def plain(value: float | None, digits: int = 3) -> str:
