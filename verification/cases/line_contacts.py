@@ -223,6 +223,11 @@ def line_loop(level: Level = Level.QUICK) -> Case:
             )
             for part, of in zip(STRAINS, strained, strict=True)
         ),
+        equations=(
+            r"\oint T\,d\delta = 4 E",
+            r"q = \mu\,[p(x; a) - \tfrac{c}{a} p(x - e; c)],\quad c = a\sqrt{1 - T/\mu W},\quad "
+            r"e = \varepsilon_{xx} R/\mu",
+        ),
         no_order=JUDGED_BY.format("line_push"),
     )  # fmt: skip
 
@@ -301,6 +306,11 @@ def line_shapes(level: Level = Level.QUICK) -> Case:
             (Within(CONTACT_RADIUS, 2e-4, TARGET, name="half_width_of_rounded"),),
         ),
         judged(on_strips(sharp, STRIPS, of="sharp"), of_flat),
+        equations=(
+            r"W = E^* a \tan\alpha,\quad p = \tfrac{1}{\pi} E^* \tan\alpha\,\mathrm{arcosh}(a/|x|)",
+            r"W = \frac{E^*}{R} \int_b^a \frac{t\,(t - b)}{\sqrt{a^2 - t^2}}\,dt",
+            r"p = \frac{W}{\pi\sqrt{b^2 - x^2}} \left(1 + \frac{2 M x}{W b^2}\right)",
+        ),
         no_order=JUDGED_BY.format("line_push"),
     )
 
@@ -384,6 +394,12 @@ def line_unlike(level: Level = Level.QUICK) -> Case:
                 Within(SHIFT_Y, 1e-5, "as the shift of line_push"),
                 Within(STICK_RADIUS, 2e-4, TARGET),
             ),
+        ),
+        equations=(
+            r"a^2 = \frac{4 W R}{\pi E^* (1 - 4\gamma^2)},\quad \tan\pi\gamma = \mu\beta,\quad "
+            r"p \propto (a + x)^{1/2 \pm \gamma} (a - x)^{1/2 \mp \gamma}",
+            r"p = \frac{E (1 - \nu)}{(1 + \nu)(1 - 2\nu)}\,\frac{a^2 - x^2}{2 R h}",
+            r"\delta_y = \delta_x/(1 - \nu)",
         ),
         no_order=JUDGED_BY.format("line_push"),
     )
