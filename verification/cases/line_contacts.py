@@ -224,7 +224,7 @@ def line_loop(level: Level = Level.QUICK) -> Case:
             for part, of in zip(STRAINS, strained, strict=True)
         ),
         equations=(
-            r"\oint T\,d\delta = 4 E",
+            r"\int T\,d\delta = 4 E",
             r"q = \mu\,[p(x; a) - \tfrac{c}{a} p(x - e; c)],\quad c = a\sqrt{1 - T/\mu W},\quad "
             r"e = \varepsilon_{xx} R/\mu",
         ),
