@@ -1,7 +1,7 @@
 """Interpolation of maps: heights by limited cubic convolution, friction coefficients bilinearly.
 
-Cubic convolution (Keys 1981, IEEE ASSP 29, Eq. 15) draws a cubic between two values, with the
-slopes of central differences. Beside a flat it dips below the flat. The slopes are therefore
+Cubic convolution (Keys 1981, IEEE ASSP 29, Eq. 15) interpolates two values by a cubic that has the
+slopes of central differences. Beside a flat this cubic is below the flat. The slopes are therefore
 limited such that the cubic is monotone where the values are, and has an extremum between two values
 only if the curvatures on both sides agree, as on a smooth tip (Huynh 1993, SIAM J. Numer. Anal. 30,
 57).
@@ -93,7 +93,7 @@ def fill_missing_heights(heights: NDArray[np.float64]) -> NDArray[np.float64]:
 def interpolate(
     heights: NDArray[np.float64], spacing: tuple[float, float], x: ArrayLike, y: ArrayLike
 ) -> NDArray[np.float64]:
-    """Interpolate a height map by limited cubic convolution, without dips beside flats.
+    """Interpolate a height map by limited cubic convolution, which is never below a flat.
 
     The result is the mean of two interpolations: first along x, then along y, and in reverse order.
     Between its outermost points and the border of their cells, the map is extrapolated by
