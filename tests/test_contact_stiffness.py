@@ -1,5 +1,7 @@
 """Contact stiffnesses: derivatives of solved increments, closed forms, stated errors, requests."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -92,13 +94,18 @@ CASES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", CASES)
-@pytest.mark.parametrize("solver", SOLVERS)
-@pytest.mark.parametrize("body", BODIES)
+def moves_edge(body: str, solver: str, name: str) -> bool:
+    """Rings that follow the normal load have a moving edge, and no tangent."""
+    names, steps, _ = CASES[name]
+    return solver == "radial" and names == PRESSED and (body == "coated" or len(steps) > 1)
+
+
+EVERY = [case for case in product(BODIES, SOLVERS, CASES) if not moves_edge(*case)]
+
+
+@pytest.mark.parametrize(("body", "solver", "name"), EVERY)
 def test_stiffness_is_the_derivative_of_the_solved_increment(body, solver, name) -> None:
     names, steps, kind = CASES[name]
-    if solver == "radial" and names == PRESSED and (body == "coated" or len(steps) > 1):
-        pytest.skip("its rings follow the normal load; a moving edge has no tangent")
     *before, last = steps
     end = ends(solver, *steps, body=body, **kind)[-1]
     exact = difference(solver, last, names, *before, body=body, **kind)

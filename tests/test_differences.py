@@ -55,6 +55,7 @@ class End:
         vars(self).update(dict.fromkeys(SCALARS), normal_force=value, approach=1e-6)
         self.contact_area, self.contact_radius = 1e-6, 5e-4
         self.tangential_shift = (value, 1e-6)
+        self.is_line = False
 
 
 def of_residuals(values: list[float]) -> str:

@@ -23,6 +23,7 @@ from contact_scene import (
     Ellipsoid,
     FlatPunch,
     HeightMap,
+    LineProfile,
     Paraboloid,
     RevolvedProfile,
     Scene,
@@ -281,7 +282,9 @@ def test_what_a_shape_says_of_its_gap_is_true(shape, reach, angle) -> None:
     assert not np.isnan(shape.initial_gap(x, y))
     if shape.is_even:
         mirrored = shape.initial_gap(np.array([x, -x, x]), np.array([y, y, -y]))
-        np.testing.assert_allclose(mirrored, mirrored[0], rtol=1e-12)
+        # A table is interpolated with the round-off of its heights.
+        heights = np.ptp(shape.profile.heights) if isinstance(shape, LineProfile) else 0.0
+        np.testing.assert_allclose(mirrored, mirrored[0], rtol=1e-12, atol=1e-15 * heights)
     if shape.is_of_revolution:
         around = shape.initial_gap(reach * np.cos(ANGLES), reach * np.sin(ANGLES))
         # Round-off of the radius, which an edge or an equator makes large, and of the gap.
@@ -295,7 +298,7 @@ def test_what_a_shape_says_of_its_gap_is_true(shape, reach, angle) -> None:
             shape.initial_gap(0.51 * shape.extent[0], 0.0)
     elif shape.gap_exponent is not None:
         k = shape.gap_exponent
-        r = min(shape.contact_at(1e-12 * reach)) ** (1 / k)  # far below any radius that is drawn
+        r = min(shape.contact_at(1e-18 * reach)) ** (1 / k)  # far below any radius that is drawn
         one, two = shape.initial_gap([r, 2 * r], 0.0)
         assert two / one == pytest.approx(2.0**k, rel=1e-5)
 

@@ -6,7 +6,6 @@ from contact_scene.rig import Rig, compliances
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
 from semi_analytical.influence.coefficients import Composite, InfluenceCoefficients
-from semi_analytical.influence.line import StripCoefficients
 
 
 def influence_coefficients(
@@ -36,6 +35,8 @@ def influence_coefficients(
     def of_body(body: Body) -> tuple[InfluenceCoefficients, ...]:
         if reference_length is None or not body.deforms:
             return _body_coefficients(body, spacing, integrals, offsets)
+        from semi_analytical.influence.line import StripCoefficients
+
         return (StripCoefficients(stack_of(body), spacing[0], offsets, reference_length),)
 
     return Composite(of_body(lower), of_body(upper), along, down)
