@@ -26,7 +26,7 @@ from semi_analytical.coupled import coupled_increment
 from semi_analytical.increments import tangential_solve, tangential_state
 from semi_analytical.increments.normal_target import NormalTarget
 from verification.defects.defect import Defect, Replacement, Replacements, planted, replaces
-from verification.observed.contact_state import observed
+from verification.observed.observed_laws import observed
 
 TOLERANCE = 1e-8
 # A law is violated beyond the tolerance of the solver and the norms of `observed`.

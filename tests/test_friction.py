@@ -38,7 +38,7 @@ from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding, UnsupportedScene
 from fem_reference.plan import ANGULAR
 from verification.judging.case import OVER_ANGLES
-from verification.observed.contact_state import observed
+from verification.observed.observed_laws import observed
 
 CELLS = (6, 5)
 PRESSURES = arrays(np.float64, CELLS, elements=st.floats(0.0, 1e9))

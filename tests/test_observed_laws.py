@@ -20,8 +20,9 @@ from verification.judging.case import (
     per_radius,
 )
 from verification.observed.cells import states_on_cells
-from verification.observed.contact_state import imbalances, missed, observed, violations
+from verification.observed.contact_state import imbalances, missed, violations
 from verification.observed.elements import states_on_elements
+from verification.observed.observed_laws import observed
 from verification.observed.radii import states_on_radii
 from verification.problems import problem as paper
 from verification.problems.cattaneo_mindlin import torque_step

@@ -63,7 +63,8 @@ from verification.regression.baseline import (
     recording,
     text_of,
 )
-from verification.report.files import RECORD, write_report
+from verification.report.file_names import RECORD
+from verification.report.files import write_report
 from verification.report.summary_text import counts_text, uncovered_lines
 from verification.running.provenance import Provenance
 from verification.running.report_record import Report, count, load_report

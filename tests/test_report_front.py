@@ -17,17 +17,8 @@ from verification.judging.outcome import (
     Status,
     Verdict,
 )
-from verification.report.files import (
-    EARLIER,
-    PACKED,
-    PAGE,
-    RECORD,
-    SHEETS,
-    draw_again,
-    record_in,
-    set_aside_report,
-    write_report,
-)
+from verification.report.file_names import PACKED, PAGE, RECORD, SHEETS
+from verification.report.files import EARLIER, draw_again, record_in, set_aside_report, write_report
 from verification.report.page import line_of, render_page
 from verification.report.summary_text import claims_line, moved_rows, worse_rows
 from verification.running.report_record import dump_report, load_report

@@ -13,7 +13,7 @@ from report_examples import (
 
 from verification.exhibits.chart import Table
 from verification.judging.outcome import Status
-from verification.report.files import SHEETS
+from verification.report.file_names import SHEETS
 from verification.report.page import MAX_CHARTS, heading, render_page
 from verification.report.summary_text import features, stored_records
 from verification.running.study import StudyRecord, dump_study

@@ -19,15 +19,8 @@ from slipstick.cli.errors import ExitCode, exit_code
 from verification.cases.catalogue import CaseToJudge, JudgedCase
 from verification.judging.outcome import CaseOutcome, ChangeKind, Status, order_text
 from verification.regression.baseline import accept, baselines_of, compared
-from verification.report.files import (
-    JUNIT,
-    PAGE,
-    RECORD,
-    SHEETS,
-    SUMMARY,
-    set_aside_report,
-    write_report,
-)
+from verification.report.file_names import JUNIT, PAGE, RECORD, SHEETS, SUMMARY
+from verification.report.files import set_aside_report, write_report
 from verification.report.page import render_page
 from verification.report.summary_text import (
     change_rows,

@@ -11,7 +11,7 @@ import pytest
 
 from contact_scene import FiniteElementDiscretisation
 from fem_reference import Increment, Method, Result, solve
-from verification.observed.contact_state import observed
+from verification.observed.observed_laws import observed
 from verification.studies.stability.contacts import (
     TOLERANCE,
     LoadingPath,

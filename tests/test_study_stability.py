@@ -13,7 +13,7 @@ from semi_analytical import NotConverged, Result, solve
 from verification.exhibits.chart import Look, curve
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.observed.contact_state import observed
+from verification.observed.observed_laws import observed
 from verification.report.drawing import look_of
 from verification.running.case_pool import CaseStore
 from verification.running.study import CaseRecord, Settings

@@ -19,7 +19,8 @@ from verification.cases.partial_slip import near_sliding
 from verification.judging.case import Level
 from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
-from verification.report.files import EARLIER, FILES, PAGE, RECORD
+from verification.report.file_names import FILES, PAGE, RECORD
+from verification.report.files import EARLIER
 
 pytestmark = pytest.mark.usefixtures("one_process")
 

@@ -19,7 +19,8 @@ from verification.judging.outcome import (
     Status,
     failure_text,
 )
-from verification.report.files import JUNIT, PAGE, RECORD, SHEETS, SUMMARY, write_report
+from verification.report.file_names import JUNIT, PAGE, RECORD, SHEETS, SUMMARY
+from verification.report.files import write_report
 from verification.report.page import render_page, render_sheets
 from verification.report.summary_text import OMISSIONS
 from verification.running.provenance import provenance

@@ -21,7 +21,7 @@ from fem_reference.expected_radius import meshed_radius
 from fem_reference.history import solved_increments
 from fem_reference.model import ContactModel
 from fem_reference.stress import SurfaceTractions, subsurface
-from verification.observed.contact_state import observed
+from verification.observed.observed_laws import observed
 
 SLIDING = 3 * pi / 16 * LIMIT * A  # torque at which a Hertz contact slips at all points
 PRESSED = {**PRESS, "increments": 4}

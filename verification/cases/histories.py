@@ -50,7 +50,7 @@ from verification.judging.case import (
     per_radius,
 )
 from verification.judging.declared_case import IDENTITY, case
-from verification.observed.contact_state import observed
+from verification.observed.observed_laws import observed
 from verification.problems.cattaneo_mindlin import (
     LARGEST,
     PUNCH_RADIUS,

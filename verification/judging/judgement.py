@@ -58,7 +58,8 @@ from verification.judging.outcome import (
     finite,
     order_status,
 )
-from verification.observed.contact_state import Imbalance, Observed, observed
+from verification.observed.contact_state import Imbalance
+from verification.observed.observed_laws import Observed, observed
 from verification.problems.problem import NUMERICAL, ROUNDING, ReferenceKind, identity
 from verification.quantities import largest_residual
 from verification.solver import Solver

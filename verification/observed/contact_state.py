@@ -7,11 +7,10 @@ solvers. `missed` compares computed loads and motions with the prescribed ones.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -435,48 +434,3 @@ def _unresolved_work_of(start: ContactState, now: ContactState) -> float:
 
 def _finite_gap(gap: Field) -> Field:
     return np.where(np.isposinf(gap), 0.0, gap)
-
-
-class Observed(NamedTuple):
-    """Hold the largest violations of laws that were evaluated from the fields of a result.
-
-    violation  largest violation of any law of contact or friction in any increment; infinite if a
-               number is not finite [1]
-    imbalance  largest energy imbalance of any increment, over the largest energy so far [1]
-    of_slip    number of increments in which a law of slip is not evaluated, by reason
-    of_energy  number of increments in which energies are not fully compared, by reason
-    """
-
-    violation: float
-    imbalance: float
-    of_slip: Counter[str]
-    of_energy: Counter[str]
-
-
-def observed(result: Any) -> Observed:
-    """Evaluate the laws of contact and friction and the energy balance in all increments of a
-    result.
-
-    result  result of any of the three solvers
-    """
-    states = _contact_states(result)
-    return Observed(
-        largest_of([*violations(states), *missed(result.scene, result.steps)]),
-        largest_of(imbalances(states)),
-        Counter(state.unseen for state in states if state.unseen),
-        Counter(reason for state in states if (reason := state.not_compared)),
-    )
-
-
-def _contact_states(result: Any) -> list[ContactState]:
-    if result.solver == "semi_analytical":
-        from verification.observed.cells import states_on_cells
-
-        return states_on_cells(result)
-    if result.solver == "radial":
-        from verification.observed.radii import states_on_radii
-
-        return states_on_radii(result)
-    from verification.observed.elements import states_on_elements
-
-    return states_on_elements(result)

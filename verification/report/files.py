@@ -16,19 +16,19 @@ from pathlib import Path
 from contact_results.directory.atomic_file import OutputRefused, atomic_file
 from contact_results.directory.run_directory import refuse_files_above
 from contact_results.directory.stop_signals import stop_signals_held
-from verification.running.report_record import EARLIER, PACKED_SUFFIX, Report, dump_report
+from verification.report.file_names import (
+    JUNIT,
+    PACKED,
+    PAGE,
+    POSSIBLE,
+    RECORD,
+    SHEETS,
+    STUDY_FILES,
+    SUMMARY,
+)
+from verification.running.report_record import EARLIER, Report, dump_report
 from verification.running.study import RECORD as STUDY_RECORD
 from verification.running.study import StudyRecord, dump_study
-
-PAGE, SHEETS = "index.html", "sheets.html"  # the front, and one sheet per case
-RECORD = "report.json"
-PACKED = f"{RECORD}{PACKED_SUFFIX}"  # what is kept of a report: `xz report.json` makes it
-JUNIT = "junit.xml"
-SUMMARY = "summary.md"
-FILES = (RECORD, PAGE, SHEETS, JUNIT, SUMMARY)  # of any report
-POSSIBLE = (*FILES, PACKED)
-STUDY_FILES = (STUDY_RECORD, PAGE)
-CASES = "cases"  # of the directory: the records of finished cases
 
 
 def refuse_if_unwritable(directory: Path) -> None:

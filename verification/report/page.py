@@ -38,7 +38,7 @@ from verification.judging.outcome import (
     uncertainty_text,
 )
 from verification.report.drawing import inline_svg
-from verification.report.files import PAGE, SHEETS
+from verification.report.file_names import PAGE, SHEETS
 from verification.report.summary_text import (
     change_counts,
     changes_text,

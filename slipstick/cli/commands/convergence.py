@@ -22,7 +22,7 @@ from slipstick.cli.terminal import print_table
 from slipstick.solvers.names import SolverName
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.report.files import PAGE
+from verification.report.file_names import PAGE
 from verification.running.study import Settings
 from verification.studies.refinement.levels import FEWEST_LEVELS, StudiedScene
 from verification.studies.refinement.study import scene_study

@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from contact_results.directory.atomic_file import Refused
-from verification.report.files import PAGE, draw_again, record_in, refuse_if_unwritable
+from verification.report.file_names import PAGE
+from verification.report.files import draw_again, record_in, refuse_if_unwritable
 from verification.running.report_record import EARLIER, Report, load_report
 
 

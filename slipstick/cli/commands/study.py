@@ -24,7 +24,8 @@ from slipstick.cli.terminal import print_table
 from verification.judging.case import Level
 from verification.judging.outcome import SYMBOLS, WORDS
 from verification.report.drawing import write_picture
-from verification.report.files import CASES, PAGE, refuse_if_unwritable, set_aside, write_study
+from verification.report.file_names import CASES, PAGE
+from verification.report.files import refuse_if_unwritable, set_aside, write_study
 from verification.running.case_pool import CaseStore, Workers
 from verification.running.provenance import provenance
 from verification.running.study import (

@@ -57,7 +57,7 @@ from verification.closed_forms.coated_indentation import (
 )
 from verification.judging.case import OTHER_NORMS, Level
 from verification.judging.outcome import finite
-from verification.observed.contact_state import observed
+from verification.observed.observed_laws import observed
 from verification.problems.problem import surface_of
 from verification.running.study import CaseRecord, TypedRow, parameters_of
 
