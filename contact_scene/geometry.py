@@ -794,7 +794,7 @@ class Strip(LineShape):
 
 
 class Wedge(LineShape):
-    """Wedge with its edge along y and the gap |x| tan(slope)."""
+    """Wedge with its edge along y, whose gap is proportional to the distance from the edge."""
 
     shape: Literal["wedge"] = "wedge"
     slope_angle: SlopeAngle
