@@ -1,5 +1,6 @@
 """Tests of the HTML page and the overview figure of a run."""
 
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -12,8 +13,9 @@ from synthetic_result import MU, synthetic_result
 from contact_results.figures.figure_files import seen_from_above
 from contact_results.figures.map_panels import RingsAbove
 from contact_results.figures.maps import field_map, latest_slip, stick_slip_map
-from contact_results.figures.overview import overview
+from contact_results.figures.overview import DOTS_PER_INCH, PLACE, overview
 from contact_results.figures.profile_plot import profile_plot
+from contact_results.figures.run_page import write_page
 from contact_results.figures.style import figure_style
 from contact_results.key_numbers import key_numbers
 from contact_results.number_text import Uncertainty, number_text
@@ -140,3 +142,17 @@ def test_the_overview_begins_with_the_profile_and_ends_with_the_last_numbers() -
     assert figure.axes[0].get_position().y0 > numbers.get_position().y1
     shown = numbers.texts[0].get_text().splitlines()
     assert shown[1:-1] == [f"{name}: {text}" for name, text in key_numbers(result.steps, None)]
+
+
+@pytest.mark.parametrize("columns", [2, 3])
+def test_a_page_shows_every_panel_of_the_overview_but_the_key_numbers(columns, tmp_path) -> None:
+    result: Any = synthetic_result()
+    with figure_style():
+        figure = Figure(figsize=(columns * PLACE[0], 2 * PLACE[1] + 0.3))
+        figure.savefig(tmp_path / "overview.png", dpi=DOTS_PER_INCH)
+    write_page(result, tmp_path)
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert re.findall(r'aria-label="panel (\d)', page) == [*"12345"[: 2 * columns - 1]]
+    across = re.findall(r"background-position:(\d+)%", page)
+    assert across == [f"{100 * n // (columns - 1)}" for n in (*range(columns), *range(columns - 1))]
+    assert page.count("data:image") == 1

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import re
+import struct
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_results.directory import file_names
+from contact_results.figures.overview import DOTS_PER_INCH, PLACE
 from contact_results.key_numbers import key_numbers
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.reading.engineering_units import engineering_unit
@@ -28,10 +31,13 @@ STYLE = (
     ".soft{color:#a9adb2}a{color:#7cc4ee}img{background:#fff;padding:.5rem;box-sizing:border-box}}"
     ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,32rem),1fr));"
     "gap:0 2rem;align-items:start}#overview{grid-column:1/-1}section{min-width:0}"
+    ".panels{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,22rem),1fr))}"
+    ".panels>*{background-image:var(--overview);print-color-adjust:exact;background-color:#fff}"
     ".smaller{display:none}section:target{grid-column:1/-1;overflow-x:auto}section:target .smaller"
     "{display:inline;position:sticky;left:0}section:target img{max-width:none;"
     "width:max(100%,62rem)}"
 )
+PNG_SIZE = slice(16, 24)  # bytes of width and height in an image file
 HEADINGS = {
     "stick_slip": "Stick and slip",
 }
@@ -200,8 +206,35 @@ def _figures_html(paths: Iterable[Path]) -> Iterator[str]:
     paths  paths of image files
     """
     yield '<div class="figures">'
-    yield from (_figure_html(path) for path in paths if path.is_file())
+    for path in paths:
+        if path.is_file():
+            overview = path.name == file_names.OVERVIEW_FIGURE
+            yield (_panels_html if overview else _figure_html)(path)
     yield "</div>"
+
+
+def _panels_html(path: Path) -> str:
+    """Return the HTML of the overview, with its panels side by side or, on a phone, in a column.
+
+    The panel of key numbers is left out, because the page has a table of them.
+    """
+    image = path.read_bytes()
+    width, height = struct.unpack(">2I", image[PNG_SIZE])
+    columns = round(width / DOTS_PER_INCH / PLACE[0])
+    rows = height / DOTS_PER_INCH / PLACE[1]  # two, and the title above them
+    size = f"background-size:{100 * columns}% {100 * rows:.2f}%;aspect-ratio:{PLACE[0] / PLACE[1]}"
+    panels = []
+    for row, column in product(range(2), range(columns)):
+        across, down = column / (columns - 1), (rows - 2 + row) / (rows - 1)
+        place = f"background-position:{across:.0%} {down:.2%}"
+        label = f"panel {columns * row + column + 1} of {path.name}"
+        panels.append(f'<div role="img" aria-label="{label}" style="{size};{place}"></div>')
+    data = b64encode(image).decode("ascii")
+    return (
+        '<section id="overview"><h2>Overview</h2><div class="panels" '
+        f'style="--overview:url(data:image/png;base64,{data})">{"".join(panels[:-1])}</div>'
+        "</section>"
+    )
 
 
 def _figure_html(path: Path) -> str:
