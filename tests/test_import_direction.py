@@ -163,7 +163,7 @@ def test_what_takes_as_long_as_a_contact_is_imported_where_it_is_called() -> Non
     slow = {f"scipy.{part}" for part in ("interpolate", "optimize", "sparse", "spatial")}
     modules = [
         path
-        for name in ("contact_solver", "semi_analytical")
+        for name in ("contact_solver", "semi_analytical", "radial/normal")
         for path in (ROOT / name).rglob("*.py")
     ]
     assert modules

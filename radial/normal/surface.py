@@ -5,7 +5,6 @@ from __future__ import annotations
 from math import pi
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 from scipy.special import j0
 
 from contact_scene.array_types import Array
@@ -87,6 +86,9 @@ def largest_pressure(contact: Disc, x: Array, p: Array) -> float:
     at = int(np.argmax(p))
     if at == 0 or contact.edge:
         return float(p[at])
+    # Takes as long to import as a contact takes to solve, and most pressures peak at the axis.
+    from scipy.optimize import minimize_scalar
+
     found = minimize_scalar(
         lambda place: -float(pressure(contact, np.array([place]))[0]),
         bounds=(x[at - 1], min(x[at + 1], 1.0)),
