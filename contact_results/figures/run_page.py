@@ -29,13 +29,10 @@ STYLE = (
     "pre{overflow-x:auto;background:#f2f2f2;padding:.5rem}.soft{color:#595959;max-width:46rem}"
     "@media(prefers-color-scheme:dark){body{color:#e8e8e8;background:#16181b}pre{background:#24272c}"
     ".soft{color:#a9adb2}a{color:#7cc4ee}img{background:#fff;padding:.5rem;box-sizing:border-box}}"
-    ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,32rem),1fr));"
-    "gap:0 2rem;align-items:start}#overview{grid-column:1/-1}section{min-width:0}"
+    # A figure narrower than this is not readable: on a phone it scrolls.
+    "section{overflow-x:auto}section>img{min-width:46rem;max-width:62rem;width:100%}"
     ".panels{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,22rem),1fr))}"
     ".panels>*{background-image:var(--overview);print-color-adjust:exact;background-color:#fff}"
-    ".smaller{display:none}section:target{grid-column:1/-1;overflow-x:auto}section:target .smaller"
-    "{display:inline;position:sticky;left:0}section:target img{max-width:none;"
-    "width:max(100%,62rem)}"
 )
 PNG_SIZE = slice(16, 24)  # bytes of width and height in an image file
 HEADINGS = {
@@ -205,12 +202,10 @@ def _figures_html(paths: Iterable[Path]) -> Iterator[str]:
 
     paths  paths of image files
     """
-    yield '<div class="figures">'
     for path in paths:
         if path.is_file():
             overview = path.name == file_names.OVERVIEW_FIGURE
             yield (_panels_html if overview else _figure_html)(path)
-    yield "</div>"
 
 
 def _panels_html(path: Path) -> str:
@@ -231,20 +226,16 @@ def _panels_html(path: Path) -> str:
         panels.append(f'<div role="img" aria-label="{label}" style="{size};{place}"></div>')
     data = b64encode(image).decode("ascii")
     return (
-        '<section id="overview"><h2>Overview</h2><div class="panels" '
+        '<section><h2>Overview</h2><div class="panels" '
         f'style="--overview:url(data:image/png;base64,{data})">{"".join(panels[:-1])}</div>'
         "</section>"
     )
 
 
 def _figure_html(path: Path) -> str:
-    """Return the HTML of one figure, with the image data included and a link that enlarges it."""
+    """Return the HTML of one figure, with the image data included."""
     name = HEADINGS.get(path.stem, path.stem.replace("_", " ").capitalize())
     data = b64encode(path.read_bytes()).decode("ascii")
-    # The link enlarges the figure by CSS, since the page has no scripts.
     return (
-        f'<section id="{path.stem}"><h2>{name}</h2>'
-        f'<a href="#{path.stem}" title="larger"><img alt="{name}, larger on a click" '
-        f'src="data:image/png;base64,{data}"></a>\n<a class="smaller" href="#">smaller</a>'
-        "</section>"
+        f'<section><h2>{name}</h2><img alt="{name}" src="data:image/png;base64,{data}"></section>'
     )
