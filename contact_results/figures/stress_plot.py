@@ -112,8 +112,7 @@ def draw_surface(ax: Any, field: StressField) -> None:
     for edge in _edge_positions(field):
         if edge >= surface.x.min():
             ax.axvline(edge / length.size, color=style.GREY, linewidth=0.7, linestyle=":")
-    dotted = "edge of the contact" if ends else "contact radius"
-    ax.set_xlabel(f"{length.labelled(f'{field.label}, z = 0')}; dotted: {dotted}")
+    ax.set_xlabel(f"{length.labelled(f'{field.label}, z = 0')}; dotted: edge of the contact")
     ax.set_ylabel(unit.labelled("stress"))
     style.legend_above(ax)
 
