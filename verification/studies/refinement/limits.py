@@ -59,9 +59,15 @@ class Effect:
 
     @property
     def order_text(self) -> str:
-        """Observed convergence order with the half-width of its 95 % interval; "none" without."""
+        """Observed convergence order with the half-width of its 95 % interval.
+
+        The text is "none" if no power of the size explains the values, and "unknown" if the
+        interval is too wide to judge the order.
+        """
         if self.observed is None:
             return "none"
+        if self.observed.keeps(self.order) is None:
+            return "unknown"
         return f"{self.observed.order:.2f} ± {self.observed.half_width:.2f}"
 
 
