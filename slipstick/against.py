@@ -13,7 +13,7 @@ A loop of tangential force over shift is compared in four steps:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -50,6 +50,7 @@ MEASURED: ColumnNames = {
 # Largest distance of the last shift of a loop from its first, relative to the range: one half if
 # four points go around, and 1 for one branch.
 GAP = 0.75
+OVERALL = "overall"  # requirement without the name of a number
 
 
 class NothingToCompare(ValueError):
@@ -97,10 +98,33 @@ class ComparedNumber:
         return self.error / self.gap if self.error < self.gap else 1.0
 
 
-def comparison(
-    table: Mapping[str, Numbers], run: StoredRun, step: int | None = None
-) -> tuple[ComparedNumber, ...]:
-    """Compare a measured table with a stored run, and return one comparison per number.
+@dataclass(frozen=True, eq=False)
+class ComparedCurve:
+    """Measured and computed curve of a comparison, in SI units.
+
+    place, name         quantities along and across: shift and force, or x and a traction
+    place_unit, unit    their units
+    measured, computed  points of the curves (2, n)
+    """
+
+    place: str
+    place_unit: str
+    name: str
+    unit: str
+    measured: Numbers
+    computed: Numbers
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Comparison of a measured table with a run: numbers, and the curves that they belong to."""
+
+    numbers: tuple[ComparedNumber, ...]
+    curves: tuple[ComparedCurve, ...]
+
+
+def comparison(table: Mapping[str, Numbers], run: StoredRun, step: int | None = None) -> Comparison:
+    """Compare a measured table with a stored run.
 
     Raises NothingToCompare if the columns of the table or the run do not allow a comparison.
 
@@ -118,9 +142,9 @@ def comparison(
                     "compare a profile (x with p or q)"
                 )
             theirs = np.stack([table[motion], table[LOAD]])
-            return tuple(_compare_loops(theirs, run, motion))
+            return _compare_loops(theirs, run, motion)
     if PLACE in table and {PRESSURE, SHEAR} & table.keys():
-        return tuple(_compare_profiles(table, run, step or len(run.summary.steps)))
+        return _compare_profiles(table, run, step or len(run.summary.steps))
     raise NothingToCompare(
         f"got the columns {', '.join(table) or 'none'}, expected shift or actuator_shift with T (a "
         "loop), or x with p or q (a profile); write heads such as 'shift [um]' and 'T [N]'"
@@ -159,6 +183,13 @@ class _Loop:
         """Error of the area due to the distance of the points: its change without every second."""
         halves = (_Loop(self.shift[first::2], self.force[first::2]) for first in (0, 1))
         return max(abs(half.area - self.area) for half in halves)
+
+    @property
+    def about_centre(self) -> Numbers:
+        """Shift and force of the closed loop, relative to its centre (2, n + 1)."""
+        points = np.stack([self.shift, self.force])
+        points -= np.array([_loop_centre(self.shift), _loop_centre(self.force)])[:, None]
+        return np.concatenate([points, points[:, :1]], axis=1)
 
     @cached_property
     def cycles(self) -> tuple[_Loop, ...]:
@@ -225,11 +256,40 @@ def _close_loop(points: Numbers) -> _Loop:
     return loop
 
 
-def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Iterator[ComparedNumber]:
+def unmet(comparison: Comparison, required: Mapping[str, float]) -> tuple[str, ...]:
+    """Return a sentence on each number whose difference exceeds the required share.
+
+    required  largest allowed difference by name of the number, with underscores, relative to the
+              measured number; the name `overall` stands for all numbers except gaps and centres
+
+    Raises NothingToCompare for a name that the comparison does not have.
+    """
+    known = {each.name.replace(" ", "_"): each for each in comparison.numbers}
+    if unknown := required.keys() - known.keys() - {OVERALL}:
+        raise NothingToCompare(
+            f"got the required numbers {', '.join(sorted(unknown))}, expected one of "
+            f"{', '.join(known)}, or a share without a name"
+        )
+    around = ("gap", "centre")  # zero in a perfect test, so that a share of them says nothing
+    overall = required.get(OVERALL)
+    shares = {} if overall is None else {n: overall for n in known if not n.startswith(around)}
+    shares |= {name: share for name, share in required.items() if name != OVERALL}
+    return tuple(
+        f"{known[name].name}: the difference is "
+        f"{100 * known[name].gap / abs(known[name].measured):.3g} % of the measured number, "
+        f"required {100 * share:.4g} %"
+        if known[name].measured
+        else f"{known[name].name}: the measured number is 0, the computed one is not"
+        for name, share in shares.items()
+        if known[name].gap > share * abs(known[name].measured)
+    )
+
+
+def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Comparison:
     """Compare a measured loop of force over shift with the last load cycle of a run.
 
-    Yields the comparisons of the gaps between last and first point, of centre, slope and area, and
-    of the forces along the loop. Raises NothingToCompare if the table has no whole cycles, or if no
+    Compares the gaps between last and first point, centre, slope and area, and the forces along the
+    loop. Raises NothingToCompare if the table has no whole cycles, or if no
     load cycle of the run closes with slip under changing force and shift.
 
     table   measured shift and force (2, n)
@@ -264,28 +324,29 @@ def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Iterator[Comp
         parts = of_shift / np.ptp(ours.shift) + of_force / np.ptp(ours.force)
         of_slope = float(2 * parts * ours.slope)
     gaps = table[:, -1] - table[:, 0]
+    numbers = []
     for name, unit, gap, each, error in (
         ("gap of shift", "m", gaps[0], ours.shift, of_shift),
         ("gap of force", "N", gaps[1], ours.force, of_force),
     ):
-        yield _compare_number(name, unit, float(gap), float(each[-1] - each[0]), error)
-    yield _compare_number(
-        "centre of shift", "m", _loop_centre(theirs.shift), _loop_centre(ours.shift), of_shift
-    )
-    yield _compare_number(
-        "centre of force", "N", _loop_centre(theirs.force), _loop_centre(ours.force), of_force
-    )
-    yield _compare_number("slope", "N/m", theirs.slope, ours.slope, of_slope)
+        own = float(each[-1] - each[0])
+        numbers.append(_compare_number(name, unit, float(gap), own, error))
+    for name, unit, measured, computed, error in (
+        ("centre of shift", "m", theirs.shift, ours.shift, of_shift),
+        ("centre of force", "N", theirs.force, ours.force, of_force),
+    ):
+        centres = _loop_centre(measured), _loop_centre(computed)
+        numbers.append(_compare_number(name, unit, *centres, error))
+    numbers.append(_compare_number("slope", "N/m", theirs.slope, ours.slope, of_slope))
     # A drift of any course changes the energy by less than its size times the largest distance of
     # the other coordinate from its mean.
     furthest = [np.max(np.abs(each - np.mean(each))) for each in (theirs.force, theirs.shift)]
     cycles = len(theirs.cycles)
-    yield replace(
-        _compare_number(
-            "energy per cycle", "J", theirs.area / cycles, end.energy_per_cycle or 0.0, of_energy
-        ),
-        of_table=float(np.abs(gaps) @ furthest + theirs.area_error) / cycles,
+    energy = _compare_number(
+        "energy per cycle", "J", theirs.area / cycles, end.energy_per_cycle or 0.0, of_energy
     )
+    of_table = float(np.abs(gaps) @ furthest + theirs.area_error) / cycles
+    numbers.append(replace(energy, of_table=of_table))
     differences = []
     for cycle in theirs.cycles:
         few, many = sorted((cycle, ours), key=lambda loop: len(loop.shift))
@@ -296,15 +357,15 @@ def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Iterator[Comp
     theirs_half, ours_half = (float(np.ptp(loop.force)) / 2 for loop in (theirs, ours))
     error = None if of_slope is None else of_slope * float(np.ptp(ours.shift)) / 2
     gap = _root_mean_square(np.concatenate(differences))
-    yield ComparedNumber("force along the loop", "N", theirs_half, ours_half, error, gap)
+    numbers.append(ComparedNumber("force along the loop", "N", theirs_half, ours_half, error, gap))
+    curve = ComparedCurve("shift", "m", "force", "N", theirs.about_centre, ours.about_centre)
+    return Comparison(tuple(numbers), (curve,))
 
 
-def _compare_profiles(
-    table: Mapping[str, Numbers], run: StoredRun, step: int
-) -> Iterator[ComparedNumber]:
+def _compare_profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Comparison:
     """Compare measured profiles of pressure and shear with those of a run.
 
-    Yields the comparisons of the largest values, and of the values at the positions x of the table.
+    Compares the largest values, and the values at the positions x of the table.
     The tractions of the run are 0 outside its window.
 
     table  x with pressure, shear or both, in SI units
@@ -322,6 +383,7 @@ def _compare_profiles(
     # The relative error of tractions is that of the peak pressure; that of shear includes the
     # errors of tangential force and shift.
     shares = [_relative_error(end, "peak_pressure")]
+    numbers, curves = [], []
     for name in (PRESSURE, SHEAR):
         if name not in table:
             continue
@@ -330,14 +392,18 @@ def _compare_profiles(
             shares += [_relative_error(end, load) for load in (SHIFT, LOAD)]
         if field is None:
             raise NothingToCompare("the run has no shear; leave the column out or add friction")
-        ours = np.interp(table[PLACE], surface.profile_line.places, surface.along(field), 0.0, 0.0)
-        largest = [float(np.max(np.abs(each))) for each in (table[name], ours)]
+        places, along = surface.profile_line.places, surface.along(field)
+        measured, computed = np.stack([table[PLACE], table[name]]), np.stack([places, along])
+        curves.append(ComparedCurve(PLACE, "m", name, "Pa", measured, computed))
+        ours = np.interp(table[PLACE], places, along, 0.0, 0.0)
+        measured_largest, largest = (float(np.max(np.abs(each))) for each in (table[name], ours))
         known = [share for share in shares if share is not None]
-        error = sum(known) * largest[1] if len(known) == len(shares) else None
-        measured, computed = largest
-        yield _compare_number(f"largest {name}", "Pa", measured, computed, error)
+        error = sum(known) * largest if len(known) == len(shares) else None
+        numbers.append(_compare_number(f"largest {name}", "Pa", measured_largest, largest, error))
         gap = _root_mean_square(table[name] - ours)
-        yield ComparedNumber(f"{name} at the places", "Pa", measured, computed, error, gap)
+        label = f"{name} at the places"
+        numbers.append(ComparedNumber(label, "Pa", measured_largest, largest, error, gap))
+    return Comparison(tuple(numbers), tuple(curves))
 
 
 def _stated_error(end: StepSummary, name: str) -> float | None:

@@ -132,7 +132,9 @@ def test_a_drift_of_a_loop_is_no_energy(place: Path, cycles: int, start: int) ->
 
     def energy(points: np.ndarray) -> ComparedNumber:
         columns = {"tangential_shift": points[0], "tangential_force": points[1]}
-        (found,) = (each for each in comparison(columns, run) if each.name == "energy per cycle")
+        (found,) = (
+            each for each in comparison(columns, run).numbers if each.name == "energy per cycle"
+        )
         return found
 
     whole = energy(np.array(once))
@@ -236,3 +238,70 @@ def test_a_profile_is_compared_at_its_places(place: Path) -> None:
     for name in ("tangential_shift", "tangential_force"):
         error += steps[1]["errors"][name]["error"][0] / steps[1][name][0]
     assert shear[1] / shear[0] == pytest.approx(error, rel=0.05)
+
+
+def as_lab(place: Path, heads: str) -> Path:
+    """The loop of the run as a laboratory writes it: time, shift in µm and force, 3 % too small."""
+    moved, _, force = loop(place)
+    path = place / "lab.txt"
+    rows = np.stack([np.arange(len(force)), 1e6 * moved, 0.97 * force], axis=1)
+    lines = [heads, *(";".join(map(str, row)) for row in rows.tolist())]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return path
+
+
+CHOSEN = ("--columns", "actuator_shift = 2 um, T=3 N")
+
+
+@pytest.mark.parametrize("heads", ["Time;Disp;Load", "Time;Disp (mm);Load [kN]", ""])
+def test_columns_are_chosen_by_number_whatever_their_heads(place: Path, heads: str) -> None:
+    moved, _, force = loop(place)
+    named = {"actuator_shift [m]": moved, "T [N]": 0.97 * force}
+    by_heads = against(place, table(place / "named.csv", **named))
+    assert against(place, as_lab(place, heads), *CHOSEN) == by_heads
+
+
+def test_a_column_without_a_unit_has_that_of_its_head(place: Path) -> None:
+    lab = as_lab(place, "Time;Disp (um);Load [N]")
+    assert against(place, lab, "--columns", "δ*=2,T=3") == against(place, lab, *CHOSEN)
+
+
+@pytest.mark.parametrize(
+    ("option", "text", "told"),
+    [
+        ("--columns", "shift=2", "unit of its numbers"),
+        ("--columns", "shift=4 um,T=3 N", "expected 1 to 3"),
+        ("--columns", "shift=0 um,T=3 N", "expected 1 to 3"),
+        ("--columns", "foo=2 um", "known names"),
+        ("--columns", "shift=2 um, delta=3 um", "different names"),
+        ("--columns", "", "different names"),
+        ("--require", "5", "at most 50 %"),
+        ("--require", "approach 1%", "energy_per_cycle"),
+        ("--require", "1%,2%", "given twice"),
+    ],
+)
+def test_wrong_columns_and_requirements_are_refused(place, option, text, told) -> None:
+    chosen = () if option == "--columns" else CHOSEN
+    ended = outcome("against", as_lab(place, "t;s;F"), "run", *chosen, option, text, cwd=place)
+    assert ended.returncode == 2
+    assert told in " ".join(ended.stderr.replace("\u2502", " ").split())
+
+
+def test_a_difference_beyond_the_requirement_ends_with_code_1(place: Path) -> None:
+    lab = as_lab(place, "t;s;F")
+    for required, code in (("2%", 1), ("4%", 0), ("slope 2%, energy_per_cycle 9%", 1)):
+        command = ("against", lab, "run", *CHOSEN, "--require", required, "-o", "compared")
+        assert outcome(*command, cwd=place).returncode == code
+    numbers = json.loads((place / "compared/against.json").read_text(encoding="utf-8"))["numbers"]
+    assert numbers["slope"]["ratio"] == pytest.approx(0.97, rel=1e-6)
+    assert (place / "compared/against.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_picture_has_both_loops_about_their_centres(place: Path) -> None:
+    moved, _, force = loop(place)
+    run = load(place / "run")
+    measured = {"actuator_shift": moved + 3e-6, "tangential_force": force}
+    (curve,) = comparison(measured, run).curves
+    for points in (curve.measured, curve.computed):
+        np.testing.assert_allclose(points[0].max(), -points[0].min(), rtol=1e-9)
+    np.testing.assert_allclose(np.ptp(curve.measured, axis=1), np.ptp(curve.computed, axis=1))

@@ -31,6 +31,7 @@ _COMMENT = re.compile(r'[\s"]*[#%]')
 # Value that a spreadsheet could not compute, such as #NAME?, as the first field of a row.
 _FAILED_VALUE = re.compile(r'[\s"]*#[^\W\d]')
 _HEAD = re.compile(r"(?P<name>[^\[(]*)(?:[\[(](?P<unit>[^\])]*)[\])])?\s*")
+_CHOICE = re.compile(r"(?P<name>[^=]+)=\s*(?P<column>\d+)\s*(?P<unit>\S.*)?")
 # In a table with spaces between fields, a space may precede the unit of a head.
 _SPACED_HEADS = re.compile(r"[^\s\[(]+(?:\s*[\[(][^\])]*[\])])?")
 
@@ -128,14 +129,18 @@ def read_text_table(path: Path, name: str) -> TextTable:
     return table
 
 
-def read_columns(path: Path, names: ColumnNames) -> Mapping[str, NDArray[np.float64]]:
-    """Read the columns with known heads from a text table, in SI units.
+def read_columns(
+    path: Path, names: ColumnNames, chosen: str | None = None
+) -> Mapping[str, NDArray[np.float64]]:
+    """Read the columns with known heads, or chosen columns, from a text table, in SI units.
 
     The lowest line with a known head above the first row has the heads. A head is a name with a
     unit, such as `force [N]`. Other columns are ignored, and empty rows at the end.
 
-    path   path of the file
-    names  accepted heads of each quantity
+    path    path of the file
+    names   accepted heads of each quantity
+    chosen  columns by their numbers, such as "shift=2 um, T=3 N", for a table without known heads;
+            a column without a unit has that of its head
 
     Returns the values of each column (n,) by the name of its quantity.
 
@@ -147,10 +152,14 @@ def read_columns(path: Path, names: ColumnNames) -> Mapping[str, NDArray[np.floa
     table = read_text_table(path, name)
     for line in reversed(table.headings):
         heads = _split_heads(line, table.separator)
-        columns = _known_columns(heads, names, name)
-        if columns:
+        columns = _known_columns(heads, names, name) if chosen is None else {}
+        if columns or chosen is not None:
             break
     else:
+        heads, columns = [""] * len(table.rows[0]), {}
+    if chosen is not None:
+        columns = _chosen_columns(chosen, heads, names)
+    elif not columns:
         known = ", ".join(sorted({head for _, heads in names.values() for head in heads}))
         raise refusal(
             f"{shown(name)} has no known head above the row {shown(table.lines[0][1])}",
@@ -210,6 +219,46 @@ def _known_columns(heads: list[str], names: ColumnNames, file: str) -> dict[str,
                     f"one column of {quantity}",
                 )
             found[quantity] = column, float(kind.units[unit])
+    return found
+
+
+def _chosen_columns(
+    chosen: str, heads: list[str], names: ColumnNames
+) -> dict[str, tuple[int, float]]:
+    """Return index and factor to SI of the column that is chosen for each quantity.
+
+    Raises a validation error for an unknown name, a missing column and a missing unit.
+
+    chosen  names and numbers of columns, see `read_columns`
+    heads   heads of the columns, empty where the table has none
+    """
+    found = dict[str, tuple[int, float]]()
+    known = ", ".join(sorted({head for _, accepted in names.values() for head in accepted}))
+    for item in chosen.split(","):
+        match = _CHOICE.fullmatch(item)
+        name = match["name"].strip().lower() if match else ""
+        quantity = next((q for q, (_, accepted) in names.items() if name in accepted), None)
+        if match is None or quantity is None or quantity in found:
+            raise refusal(
+                f"got the choice {shown(item.strip())}",
+                'different names with the number of a column, such as "shift=2 um, T=3 N"',
+                f"the known names are {known}",
+            )
+        column = int(match["column"]) - 1
+        if not 0 <= column < len(heads):
+            raise refusal(
+                f"got column {column + 1}", f"1 to {len(heads)}, the columns of the table"
+            )
+        head = _HEAD.fullmatch(heads[column])
+        unit = (match["unit"] or (head and head["unit"]) or "").strip()
+        kind = names[quantity][0]
+        if unit not in kind.units:
+            raise refusal(
+                f"got {shown(item.strip())} and the head {shown(heads[column])}",
+                f"the unit of its numbers, such as {shown(f'{name}={column + 1} {kind.si}')}",
+                f"the units are {', '.join(filter(str.isascii, kind.units))}",
+            )
+        found[quantity] = column, float(kind.units[unit])
     return found
 
 

@@ -7,13 +7,19 @@ from tempfile import TemporaryDirectory
 from typing import Annotated, Any
 
 import typer
+from pydantic import TypeAdapter, ValidationError
 
+from contact_results.directory.json_record import first_mistake
 from contact_results.files.stored_run import load
 from contact_results.number_text import Uncertainty, number_text
 from contact_scene import read_scene_file
+from contact_scene.accuracy import accuracy_texts
 from contact_scene.reading.engineering_units import engineering_unit
+from contact_scene.reading.quantity import Share
 from contact_scene.reading.text_table import read_columns
-from slipstick.against import MEASURED, NothingToCompare, comparison
+from slipstick.against import MEASURED, NothingToCompare, comparison, unmet
+from slipstick.against_files import write_comparison
+from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import OptionalSolver, SetOption, optional, refuse_with_run
 from slipstick.cli.terminal import print_table
 from slipstick.solvers.names import SolverName
@@ -46,6 +52,33 @@ def against(
             help="Load step at whose end profiles are compared. Default: the last.",
         ),
     ] = None,
+    columns: Annotated[
+        str | None,
+        optional(
+            "--columns",
+            metavar="NAME=N,...",
+            help="Columns of the table by their numbers, such as 'shift=2 um, T=3 N', instead of "
+            "their heads. Without a unit, that of the head applies.",
+        ),
+    ] = None,
+    require: Annotated[
+        str | None,
+        optional(
+            "--require",
+            metavar="SHARE,...",
+            help="Exit with code 1 if a difference exceeds this share of the measured number, "
+            "such as '5%' or 'energy_per_cycle 5%, slope 10%'.",
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        optional(
+            "--output",
+            "-o",
+            metavar="DIR",
+            help="Write the numbers (against.json) and a picture of both curves (against.png).",
+        ),
+    ] = None,
     overrides: SetOption = None,
     solver: OptionalSolver = None,
 ) -> None:
@@ -60,7 +93,8 @@ def against(
         refuse_with_run({"--set": overrides, "--solver": solver})
     chosen = solver or SolverName.SEMI_ANALYTICAL
     try:
-        measured = read_columns(table, MEASURED)
+        required = _required_shares(require)
+        measured = read_columns(table, MEASURED, columns)
         with TemporaryDirectory() as solved:
             directory = source
             if not source.is_dir():
@@ -71,10 +105,11 @@ def against(
             if step is not None and step > len(run.summary.steps):
                 raise NothingToCompare(f"got step {step}, expected 1 to {len(run.summary.steps)}")
             compared = comparison(measured, run, step)
+        failures = unmet(compared, required)
     except ValueError as error:
         raise typer.BadParameter(str(error)) from None
     rows = []
-    for each in compared:
+    for each in compared.numbers:
         unit = engineering_unit(max(abs(each.measured), abs(each.computed)), each.unit)
         of_table, of_run = (
             Uncertainty(error, True) if error else None for error in (each.of_table, each.error)
@@ -91,3 +126,24 @@ def against(
         )
     heads = ("number", "measured", "computed", "ratio", "difference", "ours\nat most")
     print_table(heads, rows, numbers=True)
+    if output is not None:
+        write_comparison(compared, output, f"{table.name} and {source.name}")
+        typer.echo(f"\nresults in {output}")
+    for sentence in failures:
+        typer.echo(f"✗ fail: {sentence}")
+    if failures:
+        raise typer.Exit(ExitCode.ACCURACY)
+
+
+def _required_shares(text: str | None) -> dict[str, float]:
+    """Return the required shares by name of the number; empty without a requirement.
+
+    Raises `SceneError` for a text that is no requirement, and ValueError for a value that is no
+    share.
+    """
+    if text is None:
+        return {}
+    try:
+        return TypeAdapter(dict[str, Share]).validate_python(accuracy_texts(text))
+    except ValidationError as error:
+        raise ValueError(f"--require: {first_mistake(error)}") from None
