@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -75,16 +76,18 @@ def write_computed(
     figures: Figures,
     errors: StatedErrors | None,
     accuracy: AccuracyReached | None = None,
+    by_inputs: Mapping[str, Sequence[str]] | None = None,
 ) -> WrittenResult:
     """Write the files of what is computed from the fields of a result: tables, figures, summary.
 
     The file of fields must exist already. A part that cannot be computed has no file; the summary
     lists it as a warning.
 
-    omitted   record of the parts that cannot be computed
-    figures   see `write_result`
-    errors    stated errors; None if they were not computed
-    accuracy  requested and reached accuracy; None if none was requested
+    omitted    record of the parts that cannot be computed
+    figures    see `write_result`
+    errors     stated errors; None if they were not computed
+    accuracy   requested and reached accuracy; None if none was requested
+    by_inputs  table of the uncertainty by inputs, as columns by heading; None without
     """
     warnings: tuple[str, ...] = omitted.compute("the warnings", lambda: warnings_of(result), ())
     none: tuple[FrettingCycle, ...] = ()
@@ -126,7 +129,7 @@ def write_computed(
         omitted.write(
             "the page",
             [directory / PAGE],
-            lambda: write_page(result, directory, of_last, shown, told, doubts),
+            lambda: write_page(result, directory, of_last, shown, told, doubts, by_inputs),
         )
     warnings += omitted.warnings
     # The summary is last: it has the digest of the fields and the list of omitted parts.

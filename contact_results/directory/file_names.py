@@ -7,6 +7,7 @@ PROFILES = "profiles.csv"
 INCREMENTS = "increments.csv"
 CYCLES = "cycles.csv"
 COLUMNS = "columns.csv"
+INPUTS = "inputs.json"
 STRESS = "stress.json"  # summary of `slipstick stress`, in a directory of its own
 STRESS_PAGE = "stress.html"
 
@@ -18,4 +19,4 @@ FIGURES = (
     *("slip.png", "dissipation.png", "fretting.png"),
 )
 
-RUN_FILES = (SUMMARY, TIMING, FIELDS, PROFILES, INCREMENTS, CYCLES, COLUMNS, PAGE, *FIGURES)
+RUN_FILES = (SUMMARY, TIMING, FIELDS, PROFILES, INCREMENTS, CYCLES, COLUMNS, INPUTS, PAGE, *FIGURES)

@@ -69,6 +69,7 @@ def write_page(
     cycles: Mapping[str, Sequence[str]] | None = None,
     warnings: Sequence[str] = (),
     doubts: Sequence[str] = (),
+    by_inputs: Mapping[str, Sequence[str]] | None = None,
 ) -> None:
     """Write the HTML page of a run, with the figures that are in its directory.
 
@@ -79,6 +80,7 @@ def write_page(
     cycles     columns of `cycle_columns`; None or empty without load cycles
     warnings   warnings about the result
     doubts     texts of `doubt_texts`: reasons of the question marks
+    by_inputs  table of the uncertainty by inputs; None or empty without
     """
     parts = [
         f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
@@ -87,6 +89,7 @@ def write_page(
         "</table>" + ("" if errors is not None else "<p>Errors were left out.</p>"),
         *(_cycle_section(cycles) if cycles else ()),
         *_doubts_html(doubts),
+        *(("<h2>Uncertainty by inputs</h2>", *_table_html(by_inputs)) if by_inputs else ()),
         f'<p class="soft">{READ_ON}</p>',
         *(f"<p><strong>Warning:</strong> {escape(text)}.</p>" for text in warnings),
         *_figures_html(directory / name for name in file_names.FIGURES),

@@ -21,16 +21,22 @@ from slipstick.cli.options import (
     SceneArgument,
     SetOption,
     SolverOption,
+    optional,
     print_input_warnings,
 )
 from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+
     from contact_results.surface import Result
     from contact_scene import SceneFile
     from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
+    from contact_scene.quantities.summary import StepSummary
     from slipstick.expected import Source
     from slipstick.solvers.solver import Solver
+    from slipstick.uncertain_inputs import UncertainInput
 
 
 class Figures(StrEnum):
@@ -78,6 +84,16 @@ def run(
     most_seconds: MostSecondsOption = None,
     save_expected: SaveExpectedOption = None,
     expect: ExpectOption = None,
+    inputs: Annotated[
+        str | None,
+        optional(
+            "--inputs",
+            metavar="KEY=VALUE±DEVIATION,...",
+            help="State the uncertainty by inputs with these values and standard deviations, such "
+            "as 'body.layers[1].thickness=388±20 um, friction.coefficient=.1±.01' (or +-). Each "
+            "takes two more solves.",
+        ),
+    ] = None,
 ) -> None:
     """Solve a scene and write summary, fields, tables, a figure and a page into DIR.
 
@@ -99,11 +115,22 @@ def run(
     from contact_results.directory.timing import Stopwatch, write_timing
     from contact_results.omitted_parts import OmittedParts
     from contact_scene import read_scene_file
-    from slipstick.cli.terminal import print_message
+    from slipstick.cli.terminal import print_message, print_table
 
     stopwatch = Stopwatch()
     with stopwatch.phase("read"):
-        contents = read_scene_file(scene, overrides or ())
+        uncertain: tuple[UncertainInput, ...] = ()
+        changes = list(overrides or ())
+        if inputs is not None:
+            from slipstick.uncertain_inputs import read_inputs
+
+            uncertain = read_inputs(inputs)
+            changes += [one.override() for one in uncertain]
+        contents = read_scene_file(scene, changes)
+        changed = [
+            [read_scene_file(scene, [*changes, one.override(n)]) for n in (-1, 1)]
+            for one in uncertain
+        ]
         request = read_requested_accuracy(contents, accuracy, most_seconds, error=error)
         expectation = read_expectation(
             expect, save_expected, lambda: _source(contents, solver), error=error
@@ -141,6 +168,16 @@ def run(
         if error and stated is None:
             with stopwatch.phase("error"), show_coarse_solves():
                 stated = omitted.compute("the errors", lambda: chosen.errors(result), None)
+        by_inputs = None
+        if uncertain:
+            with stopwatch.phase("inputs"):
+                by_inputs = omitted.compute(
+                    "the uncertainty by inputs",
+                    lambda: _uncertainty_by_inputs(
+                        chosen, uncertain, changed, result, stated, staging
+                    ),
+                    None,
+                )
         with stopwatch.phase("write"):
             written = write_computed(
                 result,
@@ -149,12 +186,15 @@ def run(
                 figures=figures.value,
                 errors=stated,
                 accuracy=reached,
+                by_inputs=by_inputs,
             )
         write_timing(stopwatch, staging, result.increments)
 
     if request is None:
         remove_level_checkpoints(output)
     _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds, written.cycles)
+    if by_inputs:
+        print_table(by_inputs, zip(*by_inputs.values(), strict=True), numbers=True)
     for warning in written.warnings:
         if warning not in printed:
             print_message(f"warning: {warning}")
@@ -174,6 +214,45 @@ def run(
         raise typer.Exit(exit_code(causes[0]))
     if worse:
         raise typer.Exit(worse)
+
+
+def _uncertainty_by_inputs(
+    solver: "Solver",
+    inputs: "Sequence[UncertainInput]",
+    changed: "Sequence[Sequence[SceneFile]]",
+    result: "Result",
+    stated: "StatedErrors | None",
+    directory: "Path",
+) -> "Mapping[str, list[str]]":
+    """Solve the scenes of changed inputs, write the uncertainty of the results, return its table.
+
+    inputs     uncertain inputs
+    changed    scene with one deviation less and more of each input
+    stated     stated errors of the result; None if they were not computed
+    directory  directory of the results
+    """
+    from contact_results.cycles import fretting_cycles
+    from contact_results.directory.file_names import INPUTS
+    from contact_results.files.summary_file import summary_of
+    from slipstick.uncertain_inputs import (
+        uncertain_numbers,
+        uncertainty_columns,
+        write_uncertainties,
+    )
+
+    def last_step(result: "Result", errors: "StatedErrors | None" = None) -> "StepSummary":
+        return summary_of(result, fretting_cycles(result), errors).steps[-1]
+
+    def solved(contents: "SceneFile") -> "StepSummary":
+        fineness = solver.fineness(contents)
+        decided = solver.plan(contents.scene, fineness)
+        return last_step(solver.solve(contents.scene, fineness, decided))
+
+    ends = [(solved(less), solved(more)) for less, more in changed]
+    line = result.scene.indenter.is_line
+    numbers = uncertain_numbers(last_step(result, stated), ends, line=line)
+    write_uncertainties(inputs, numbers, directory / INPUTS)
+    return uncertainty_columns(inputs, numbers)
 
 
 def _source(contents: "SceneFile", solver: SolverName) -> "Source":

@@ -1,0 +1,116 @@
+"""Tests of `slipstick run --inputs`: the uncertainty of results by the inputs of a scene."""
+
+import json
+from math import hypot
+from pathlib import Path
+
+import pytest
+from command import outcome
+
+from contact_scene import SceneError
+from slipstick.uncertain_inputs import UncertainInput, read_inputs
+
+SCENE = """
+[indenter]
+shape = "paraboloid"
+radius = "18 mm"
+material = "rigid"
+[body]
+material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
+[friction]
+coefficient = 0.1
+[[loading]]
+normal_force = "1 kN"
+[[loading]]
+tangential_force = [50, 0]
+increments = 4
+[semi_analytical]
+cells = [32, 32]
+[radial]
+rings = 10
+"""
+# Exponents of force, radius and Young's modulus in Hertz' results (Johnson 1985, section 4.2).
+HERTZ = {
+    "approach": (2 / 3, -1 / 3, -2 / 3),
+    "contact_radius": (1 / 3, 1 / 3, -1 / 3),
+    "peak_pressure": (1 / 3, -2 / 3, 2 / 3),
+}
+INPUTS = (
+    "loading[1].normal_force = 1±.01 kN, indenter.radius=18+-.54 mm, "
+    "body.material.young_modulus=210+/-4.2 GPa"
+)
+SHARES = (0.01, 0.03, 0.02)
+
+
+@pytest.mark.parametrize("solver", ["semi-analytical", "fem", "radial"])
+def test_changes_by_inputs_are_the_powers_of_hertz(tmp_path: Path, solver: str) -> None:
+    pressed = SCENE.partition("[friction]")[0] + "[[loading]]\nnormal_force = '1 kN'\n"
+    (tmp_path / "scene.toml").write_text(pressed, encoding="utf-8")
+    coarse = "semi_analytical.cells=[32,32]", "fem_reference.elements_per_radius=6"
+    changed = [word for one in coarse for word in ("--set", one)]
+    command = ("run", "scene.toml", "-o", "out", "--solver", solver, "--inputs", INPUTS)
+    ended = outcome(*command, *changed, "--no-error", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    found = json.loads((tmp_path / "out/inputs.json").read_text(encoding="utf-8"))
+    assert [one["deviation"] for one in found["inputs"]] == [0.01, 0.54, 4.2]
+    for name, powers in HERTZ.items():
+        number = found["numbers"][name]
+        changes = [change / number["value"] for change in number["changes"].values()]
+        # The third derivative is left, and at most a hundredth by elements.
+        rough = 0.01 if solver == "fem" else 1e-3
+        expected = [power * share for power, share in zip(powers, SHARES, strict=True)]
+        assert changes == pytest.approx(expected, rel=rough)
+        assert number["by_inputs"] == pytest.approx(hypot(*changes) * number["value"])
+    page = (tmp_path / "out/index.html").read_text(encoding="utf-8")
+    assert "Uncertainty by inputs" in page
+    assert "by indenter.radius" in ended.stdout
+
+
+def test_digits_follow_from_the_larger_uncertainty(tmp_path: Path) -> None:
+    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
+    chosen = ("--inputs", "friction.coefficient=.1±.02", "--figures", "none")
+    ended = outcome("run", "scene.toml", "-o", "out", *chosen, cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    rows = {line.split("  ")[0].strip(): line.split() for line in ended.stdout.splitlines()}
+    number = json.loads((tmp_path / "out/inputs.json").read_text())["numbers"]["tangential_shift_x"]
+    assert number["by_inputs"] > 10 * number["numerical"] > 0
+    text = rows["tangential shift x (µm)"][4]
+    assert float(text) == pytest.approx(1e6 * number["value"], abs=1e6 * number["by_inputs"] / 10)
+    assert len(text) < 7
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("a.b=1±.5 um", ("a.b", 1.0, 0.5, "um")),
+        (" loading[2].torque = -1e-3 +- 2e-4 N mm ", ("loading[2].torque", -1e-3, 2e-4, "N mm")),
+        ("friction.coefficient=.1+/-.01", ("friction.coefficient", 0.1, 0.01, "")),
+    ],
+)
+def test_inputs_are_read_as_they_are_written(text, found) -> None:
+    assert read_inputs(text) == (UncertainInput(*found),)
+    one = UncertainInput(*found)
+    number = one.override(1).partition("=")[2].strip('"').split(" ")[0]
+    assert float(number) == pytest.approx(found[1] + found[2], rel=1e-11)
+
+
+@pytest.mark.parametrize("text", ["", "a=1", "a=1±0", "a=1±-1", "a=1±1,a=2±1", "a=1 um±1 um", "±1"])
+def test_what_is_no_uncertain_input_is_refused(text: str) -> None:
+    with pytest.raises(SceneError, match="expected key=value±deviation"):
+        read_inputs(text)
+
+
+@pytest.mark.parametrize(
+    ("inputs", "told"),
+    [
+        ("body.material.poisson_ratio=.49±.02", "at most 0.5"),
+        ("friction.coefficient=.06±.02", "exceeds the friction limit"),
+        ("body.colour=1±.1", "unknown key"),
+    ],
+)
+def test_a_changed_scene_is_checked_before_anything_is_solved(tmp_path, inputs, told) -> None:
+    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
+    ended = outcome("run", "scene.toml", "-o", "out", "--inputs", inputs, cwd=tmp_path)
+    assert ended.returncode == 2
+    assert told in ended.stderr
+    assert not (tmp_path / "out").exists()
