@@ -60,6 +60,8 @@ def changed(*changes: tuple[str, str]) -> str:
 MISTAKES = {
     "wrong key": (("title", "titel"), 1, "titel", "did you mean title?"),
     "misspelt key": (("radius", "raduis"), 4, "indenter.raduis", "did you mean radius?"),
+    "diameter": (("radius", "diameter"), 4, "indenter.diameter", "half of it; did you mean radius"),
+    "comma": (("18 mm", "1,8 mm"), 4, "indenter.radius", 'write a decimal point: "1.8 mm"'),
     "foreign key": (("radius", "speed = 1\nradius"), 4, "indenter.speed", "the keys here are"),
     "missing key": (('radius = "18 mm"', ""), 2, "indenter.radius", "a positive length"),
     "wrong unit": (("18 mm", "18 s"), 4, "indenter.radius", 'got "18 s", expected a positive le'),
@@ -211,6 +213,7 @@ def test_all_mistakes_are_told_at_once_in_the_order_of_the_file(tmp_path: Path) 
         (b"PK\x03\x04\x00", 1, "not valid TOML"),
         (b"a = 1\nb = = 2", 2, "not valid TOML: Invalid value (column 5)"),
         (b"a = 1\na = 2", 2, "not valid TOML"),
+        (b"[loading]\na = 1\n[loading]\na = 2", 3, "with double brackets, for each entry"),
         (b"a = [1,\n2", 2, "not valid TOML"),
         (b"a = " + b"9" * 5000, 1, "not valid TOML"),
         (b"\na = " + b"[" * 2000 + b"]" * 2000, 2, "nested too deep"),

@@ -139,6 +139,8 @@ class Quantity:
         if match is None:
             lone = _NUMBER_ALONE.fullmatch(text.strip())
             hint = f"write {text.strip()} without quotes, or add a unit" if lone else ""
+            if _QUANTITY.match(with_point := text.strip().replace(",", ".", 1)):
+                hint = f'write a decimal point: "{with_point}"'
             raise refusal(f"got {shown(text)}", self.expected, hint)
         number, unit = match.groups()
         if (factor := self.kind.units.get(unit)) is not None:

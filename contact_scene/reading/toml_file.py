@@ -63,6 +63,8 @@ def read_toml(file: FilePath) -> tuple[dict[str, Any], dict[Path, int]]:
         expected = ""
         if place and _BARE_UNIT.search(text.split("\n")[line - 1][: int(place[2])]):
             expected = 'values with units in quotes, such as "1 kN"'
+        if repeated := re.match(r"Cannot declare \('(loading|layers)',\) twice", reason):
+            expected = f"[[{repeated[1]}]], with double brackets, for each entry"
         raise _file_error(file, f"not valid TOML: {reason}{column}", expected, line) from None
 
 

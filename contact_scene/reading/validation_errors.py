@@ -64,6 +64,8 @@ def _convert_error(document: Mapping[str, Any], detail: ErrorDetails) -> Problem
         known = list(model.model_fields) if model else []
         near = get_close_matches(str(path[-1])[:100].lower(), known, n=1, cutoff=0.65)
         hint = _did_you_mean(near[0]) if near else f"the keys here are {', '.join(known)}"
+        if path[-1] == "diameter" and "radius" in known:
+            return Problem(path, "unknown key", "half of it", _did_you_mean("radius"))
         return Problem(path, "unknown key", hint=hint)
     if kind.startswith("union_tag") and not isinstance(detail["input"], dict):
         hint = _bracket_hint(path, detail["input"])
