@@ -188,6 +188,7 @@ ORDERS = {
             "sweep_chart",
             "against",
             "expected",
+            "critical_load",
             "cli",
             "__main__",
         ),
