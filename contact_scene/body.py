@@ -3,12 +3,11 @@
 from itertools import takewhile
 from math import inf, log
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from contact_scene.material import IsotropicMaterial, Material
 from contact_scene.reading.description import Description
 from contact_scene.reading.quantity import PositiveLength, PositivePressure
-from contact_scene.reading.scene_error import refusal
 
 # Differences of ln E and of ν below which a grid need not resolve two materials separately.
 NEARLY_EQUAL = 0.1, 0.01
@@ -22,12 +21,6 @@ class InterfaceStrength(Description):
 
     tension: PositivePressure | None = None
     """Limit of the tensile stress normal to the interface [force/length^2]; absent: no limit."""
-
-    @model_validator(mode="after")
-    def _has_a_limit(self) -> "InterfaceStrength":
-        if self.shear is None and self.tension is None:
-            raise refusal("the interface has no strength", "shear or tension")
-        return self
 
 
 class Layer(Description):
