@@ -53,6 +53,8 @@ MAX_FACTOR = 100.0
 MAX_STEP = 10.0
 # d ln s / d ln f before two solves determine it: that of a paraboloid under a normal force.
 FIRST_SLOPE = 1 / 3
+# d ln s / d ln f below which a stress determines no load: 1 % of it is a factor of 2.7 of the load.
+LEAST_SLOPE = 0.01
 # |ln(s/S)| at which the search ends, far below the scatter of measured strengths.
 TOLERANCE = 1e-4
 # Least |ln f| between two solves that determine a slope, and between the root and an added solve.
@@ -222,15 +224,16 @@ class LoadFactorSearch:
             below = self._level(key, 0.0) < 0
             limit["below" if below else "above"] = exp((max if below else min)(self.solved))
             return CriticalLoad(**limit)
-        slope = self._slope(key, x) or inf
+        slope = self._slope(key, x)
         extreme, end = self.solved[x][key]
-        factor = exp(x - self._level(key, x) / slope)
+        shift = -self._level(key, x) / slope if slope > LEAST_SLOPE else 0.0
+        factor = exp(x + shift)
         error = self._error_of_factor(key, x, factor, slope)
         return CriticalLoad(
             **limit,
             load_factor=factor,
             error=error,
-            normal_force=float(end.normal_force),
+            normal_force=float(end.normal_force) * exp(shift),
             step=int(end.step),
             place=(extreme.x, extreme.y, extreme.depth),
             reason=error.reason,
@@ -256,6 +259,8 @@ class LoadFactorSearch:
             if following == x:
                 return None
             x = following
+        else:  # the stress jumps
+            x = upper if isfinite(upper) else x
         if not self._slope(key, x):
             self.largest_stresses(x - ADDED)
         return x
@@ -325,14 +330,17 @@ class LoadFactorSearch:
         factor  load factor
         slope   d ln s / d ln f
         """
-        if not 0 < slope < inf:
-            return unknown_error("the stress does not grow with the load factor")
-        result = self._solve(x)
+        if slope <= LEAST_SLOPE:
+            return unknown_error("the stress hardly grows with the load factor")
         extreme, end = self.solved[x][key]
-        state = self._state(result, end.step, self.solver.errors(result))
         upper = key[0] == "indenter"
-        below = stress_below_contact(state, indenter=upper)
-        (error,) = stress_errors(state, below, [extreme], indenter=upper)
+        try:
+            result = self._solve(x)
+            state = self._state(result, end.step, self.solver.errors(result))
+            below = stress_below_contact(state, indenter=upper)
+            (error,) = stress_errors(state, below, [extreme], indenter=upper)
+        except SolverError as failed:
+            return unknown_error(str(failed))
         if error.error is None:
             return error
         scale = factor / (slope * extreme.value)

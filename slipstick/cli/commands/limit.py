@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from contact_results.directory.json_record import write_record
+from contact_results.directory.run_directory import refuse_files_above
 from contact_results.number_text import number_text, uncertainty
 from contact_scene import read_scene_file
 from contact_scene.quantities.per_length import shown_unit
@@ -46,6 +47,8 @@ def limit(
     prescribed displacements of the history are multiplied by the load factor, from 1/100 to 100,
     and the scene is solved at several factors. The smallest load factor is the first in the table.
     """
+    if output is not None:
+        refuse_files_above(output)
     contents = read_scene_file(scene, overrides or ())
     print_input_warnings(contents)
     found = critical_loads(
