@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contact_errors.error_formula import build_stated_error, unknown_error
+from contact_errors.error_formula import build_stated_error, is_singular, unknown_error
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
@@ -45,6 +45,13 @@ STRENGTHS = {
     "interface_shear": "shear",
     "interface_tensile_stress": "tension",
 }
+
+# Regions in contact with the other body.
+OUTERMOST = ("body", "layer 1")
+SINGULAR = (
+    "the elastic stress is infinite at the tip or rim of the indenter, so that yield begins at any "
+    "load; give the indenter a radius there"
+)
 
 # Load factors are searched up to this one and down to its inverse. Stresses below a paraboloid
 # change by its cube root, a factor of 4.6.
@@ -105,8 +112,8 @@ class CriticalLoad(Description):
     """Place of the largest stress: x, y and depth below the surface [m]."""
 
     reason: str | None = None
-    """Reason why the solver refuses a larger or smaller load, or why the error is not converged;
-    null for others."""
+    """Reason why the stress determines no load, why the solver refuses a load, or why the error is
+    not converged; null for others."""
 
 
 class CriticalLoads(Description):
@@ -216,6 +223,8 @@ class LoadFactorSearch:
         which, region, measure = key
         limit: dict[str, Any] = {"body": which, "region": region.removesuffix(" above")}
         limit |= {"measure": measure, "strength": self.wanted[key]}
+        if measure == "von_mises" and region in OUTERMOST and is_singular(self.scene.indenter):
+            return CriticalLoad(**limit, reason=SINGULAR)
         try:
             x = self._find_root(key)
         except SolverError as refused:

@@ -15,10 +15,13 @@ from scipy.optimize import brentq, minimize_scalar
 from contact_errors.error_formula import unknown_error
 from contact_results.stress.invariants import von_mises
 from contact_scene import (
+    RIGID,
     Body,
+    Cone,
     CoulombFriction,
     Cylinder,
     FiniteElementDiscretisation,
+    FlatPunch,
     InterfaceStrength,
     IsotropicMaterial,
     Layer,
@@ -203,6 +206,15 @@ def test_indenter_of_another_strength_is_judged_by_itself() -> None:
     assert second.load_factor == pytest.approx(8 * first.load_factor, rel=1e-9)
 
 
+def test_tip_or_rim_yields_at_any_load() -> None:
+    scene = pressed(Body(material=steel(yield_strength=YIELD)))
+    for indenter in (Cone(slope_angle=0.01, material=RIGID), FlatPunch(radius=R, material=RIGID)):
+        sharp = scene.model_copy(update={"indenter": indenter})
+        (one,) = critical_loads(sharp, "radial").limits
+        assert (one.load_factor, one.below, one.above) == (None, None, None)
+        assert "infinite" in one.reason
+
+
 def test_strengths_change_no_solution() -> None:
     bond = InterfaceStrength(tension=1e8)
     plain, strong = steel(), steel(yield_strength=YIELD, tensile_strength=TENSILE)
@@ -229,7 +241,7 @@ def test_load_factor_multiplies_every_control() -> None:
 
 # ---- Search of the root, on stresses given by formulas.
 
-KEY = ("body", "body", "von_mises")
+KEY = ("body", "interface 1 above", "interface_shear")
 
 
 @dataclass

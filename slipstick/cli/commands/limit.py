@@ -76,7 +76,7 @@ def _row(one: CriticalLoad, unit: str) -> list[str]:
     region = one.region if one.body == "body" else f"indenter, {one.region}"
     row = [region, one.measure, quantity(one.strength, "Pa")]
     if one.load_factor is None or one.normal_force is None or one.place is None:
-        beyond = f"> {one.below:.4g}" if one.below else f"< {one.above:.4g}"
+        beyond = f"> {one.below:.4g}" if one.below else f"< {one.above:.4g}" if one.above else "–"
         return [*row, beyond, *["–"] * 5]
     factor = number_text(one.load_factor, uncertainty(one.error), 1.0)
     places = (quantity(each, "m", 3) for each in one.place)
