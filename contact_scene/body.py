@@ -7,10 +7,20 @@ from pydantic import Field
 
 from contact_scene.material import IsotropicMaterial, Material
 from contact_scene.reading.description import Description
-from contact_scene.reading.quantity import PositiveLength
+from contact_scene.reading.quantity import PositiveLength, PositivePressure
 
 # Differences of ln E and of ν below which a grid need not resolve two materials separately.
 NEARLY_EQUAL = 0.1, 0.01
+
+
+class InterfaceStrength(Description):
+    """Limits of the stress on the interface below a layer, for 'slipstick limit'."""
+
+    shear: PositivePressure | None = None
+    """Limit of the shear stress on the interface [force/length^2]; absent: no limit."""
+
+    tension: PositivePressure | None = None
+    """Limit of the tensile stress normal to the interface [force/length^2]; absent: no limit."""
 
 
 class Layer(Description):
@@ -21,6 +31,9 @@ class Layer(Description):
 
     material: IsotropicMaterial
     """Material of the layer."""
+
+    interface_strength: InterfaceStrength | None = None
+    """Strength of the bond to the layer or substrate below; absent: no limit."""
 
 
 class Body(Description):

@@ -90,6 +90,18 @@ class LoadStep(Description):
             raise refusal("the step names no load", f"at least one of {keys}")
         return self
 
+    def multiplied(self, factor: float) -> "LoadStep":
+        """Return the load step with all prescribed forces and displacements times a factor."""
+        values = {name: getattr(self, name) for pair in CONTROLS for name in pair}
+        changes = {
+            name: tuple(factor * part for part in value)
+            if isinstance(value, tuple)
+            else factor * value
+            for name, value in values.items()
+            if value is not None
+        }
+        return self.model_copy(update=changes)
+
     def _prescribes(self, key: str) -> bool:
         return getattr(self, key) is not None
 

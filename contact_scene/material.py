@@ -21,6 +21,14 @@ class IsotropicMaterial(Description):
     poisson_ratio: PoissonRatio
     """Poisson's ratio nu, -1 < nu <= 0.5."""
 
+    yield_strength: PositivePressure | None = None
+    """Limit of the equivalent stress of von Mises, for 'slipstick limit' [force/length^2]. Absent:
+    no limit."""
+
+    tensile_strength: PositivePressure | None = None
+    """Limit of the largest principal stress, for 'slipstick limit' [force/length^2]. Absent: no
+    limit."""
+
     @property
     def shear_modulus(self) -> float:
         """Shear modulus G = E / 2(1 + nu) [force/length^2]."""

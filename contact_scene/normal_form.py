@@ -12,6 +12,7 @@ from contact_scene.body import Body, Layer
 from contact_scene.body_pair import coupling
 from contact_scene.geometry import Ellipsoid, Paraboloid
 from contact_scene.loading import LoadStep
+from contact_scene.material import IsotropicMaterial
 from contact_scene.scene import Scene
 from contact_scene.stepping.load_path import (
     LoadRamp,
@@ -32,13 +33,15 @@ def normal_form(scene: Scene) -> Scene:
     - A control that is zero in all load steps becomes the default control of its coordinate (free
       shift, fixed twist, fixed tilt) if both are equal by symmetry or without friction.
     - Friction that is zero everywhere is removed if no load shears the contact.
+    - Strengths are removed: the solution does not depend on them.
     """
     indenter, ramps = scene.indenter, scene.load_path()
     if isinstance(indenter, Ellipsoid) and indenter.is_of_revolution:
         indenter = Paraboloid(
             material=indenter.material, layers=indenter.layers, radius=indenter.radii[0]
         )
-    merged = {"indenter": _merge_equal_layers(indenter), "body": _merge_equal_layers(scene.body)}
+    bodies = {"indenter": indenter, "body": scene.body}
+    merged = {name: _merge_equal_layers(_without_strengths(body)) for name, body in bodies.items()}
     shears = any(any(ramp.tangential.end) or ramp.twisting.end for ramp in ramps)
     friction = scene.friction
     if friction is not None and friction.largest == 0.0 and not shears:
@@ -48,6 +51,23 @@ def normal_form(scene: Scene) -> Scene:
     steps = tuple(_replace_controls(step, unnamed) for step in scene.loading)
     found = found.model_copy(update={"loading": steps})
     return scene if found == scene else found
+
+
+def _without_strengths(body: B) -> B:
+    """Return a body without the strengths of its materials and interfaces."""
+    layers = tuple(
+        layer.model_copy(update={"material": _elastic(layer.material), "interface_strength": None})
+        for layer in body.layers
+    )
+    material = body.material
+    if isinstance(material, IsotropicMaterial):
+        material = _elastic(material)
+    return body.model_copy(update={"material": material, "layers": layers})
+
+
+def _elastic(material: IsotropicMaterial) -> IsotropicMaterial:
+    """Return a material without its strengths."""
+    return material.model_copy(update={"yield_strength": None, "tensile_strength": None})
 
 
 def _merge_equal_layers(body: B) -> B:

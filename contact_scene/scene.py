@@ -103,6 +103,14 @@ class Scene(Description):
         loading = tuple(step.model_copy(update={"increments": count}) for step, count in steps)
         return self.model_copy(update={"loading": loading})
 
+    def with_loads_multiplied(self, factor: float) -> "Scene":
+        """Return a copy of the scene whose loads and prescribed displacements are multiplied.
+
+        factor  factor of all controls of all load steps
+        """
+        loading = tuple(step.multiplied(factor) for step in self.loading)
+        return self.model_copy(update={"loading": loading})
+
     def load_path(self) -> tuple[LoadRamp, ...]:
         """Return the load ramps of the scene: the linear changes of all loads in each load step.
 

@@ -7,7 +7,7 @@ from typing import Any
 import typer
 from pydantic import BaseModel
 
-from contact_scene import Body, IsotropicMaterial, Layer, LoadStep, Scene
+from contact_scene import Body, InterfaceStrength, IsotropicMaterial, Layer, LoadStep, Scene
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.discretisation import (
     FiniteElementDiscretisation,
@@ -36,6 +36,7 @@ TABLES: dict[str, type[BaseModel]] = {
     "[body]": Body,
     "[[body.layers]] and [[indenter.layers]], outermost first": Layer,
     "material = { … }": IsotropicMaterial,
+    "interface_strength = { … }": InterfaceStrength,
     "[friction]": CoulombFriction,
     "coefficient = { … }, a map": FrictionMap,
     "[rig]": Rig,

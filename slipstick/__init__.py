@@ -5,6 +5,7 @@
     errors = slipstick.stated_errors(result)       # error of every scalar
     slipstick.save(result, "out", errors=errors)   # summary, tables, fields, figures
     run = slipstick.load("out")                    # arrays with units and meanings
+    slipstick.critical_loads(scene)                # load factors of first yield, cracks
     slipstick.surface_response(body, m, n)         # displacement of a body by a wave of traction
 
 The names of this module are imported on first use. The solvers' own interfaces are in
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
         FlatPunch,
         FrictionMap,
         HeightMap,
+        InterfaceStrength,
         IsotropicMaterial,
         Layer,
         LineProfile,
@@ -42,6 +44,7 @@ if TYPE_CHECKING:
         load_scene,
     )
     from semi_analytical.frf.response_matrix import surface_response
+    from slipstick.critical_load import critical_loads
     from slipstick.solving import plan, save, solve, stated_errors
 
 __all__ = [
@@ -49,6 +52,7 @@ __all__ = [
     "Scene",
     "Body",
     "Layer",
+    "InterfaceStrength",
     "IsotropicMaterial",
     "RIGID",
     "Sphere",
@@ -71,6 +75,7 @@ __all__ = [
     "plan",
     "solve",
     "stated_errors",
+    "critical_loads",
     "save",
     "load",
     "StoredRun",
@@ -81,6 +86,7 @@ HOMES = {
     **dict.fromkeys(__all__, "contact_scene"),
     **dict.fromkeys(("plan", "solve", "stated_errors", "save"), "slipstick.solving"),
     **dict.fromkeys(("load", "StoredRun"), "contact_results.files.stored_run"),
+    "critical_loads": "slipstick.critical_load",
     "surface_response": "semi_analytical.frf.response_matrix",
 }
 

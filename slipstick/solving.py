@@ -77,7 +77,7 @@ def plan(
     UnsupportedScene
         The solver does not support the scene.
     """
-    chosen, solved, fineness = _check_arguments(scene, solver, discretisation)
+    chosen, solved, fineness = check_arguments(scene, solver, discretisation)
     return chosen.plan(solved, fineness)
 
 
@@ -147,7 +147,7 @@ def solve(
         UnsupportedScene, NotConverged, GrossSliding, ResourceRefused and others of
         `contact_scene.solver_errors`; AccuracyOutOfReach if the requested accuracy is not met.
     """
-    chosen, solved, fineness = _check_arguments(scene, solver, discretisation)
+    chosen, solved, fineness = check_arguments(scene, solver, discretisation)
     if not (progress is None or callable(progress)):
         kind = type(progress).__name__
         raise TypeError(f"progress is a {kind}, expected a function of an increment, or None")
@@ -244,7 +244,7 @@ def _solve_to_accuracy(
     return made.level.result
 
 
-def _check_arguments(
+def check_arguments(
     scene: Scene | SceneFile, solver: str, discretisation: Discretisation | None
 ) -> tuple[Solver, Scene, Discretisation]:
     """Check the arguments of `plan` and `solve`; return solver, scene and discretisation.

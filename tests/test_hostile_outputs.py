@@ -28,6 +28,7 @@ COMMANDS = {
     "run, elements": ("run", "scene.toml", *QUICK, "--solver", "fem", "-o"),
     "run, radial": ("run", "scene.toml", *QUICK, "--solver", "radial", "-o"),
     "stress": ("stress", "scene.toml", "--figures", "none", "--no-error", "-o"),
+    "limit": ("limit", "scene.toml", "--set", "body.material.yield_strength=1e9", "-o"),
     "challenge": ("challenge", "export", "hertz_point", "-o"),
     "judge": ("judge", "answered", "--page"),
     "export": ("export", "run", "-o"),

@@ -112,6 +112,7 @@ COMMANDS = _lazy_commands(
         "plan": "Print the effects, the grid, the time and the memory of a run.",
         "run": "Solve a scene and write its results, tables and pictures.",
         "stress": "Compute displacement and stress below the surface.",
+        "limit": "Find the load factors at which stresses meet their strengths.",
         "sweep": "Solve a scene for values of its keys; write a table and a chart.",
         "convergence": "Refine a scene; state the error and the cost of its setting.",
         "against": "Compare a run with a measured loop or profile.",

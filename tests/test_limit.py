@@ -1,0 +1,341 @@
+"""Tests of critical loads: first yield, cracking and debonding against closed forms."""
+
+import json
+from dataclasses import dataclass
+from math import exp, pi
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from command import outcome, slipstick
+from scipy.optimize import brentq, minimize_scalar
+
+from contact_errors.error_formula import unknown_error
+from contact_results.stress.invariants import von_mises
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    CoulombFriction,
+    Cylinder,
+    FiniteElementDiscretisation,
+    FlatPunch,
+    InterfaceStrength,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+    SurfaceDiscretisation,
+)
+from contact_scene.loading import CONTROLS
+from contact_scene.normal_form import normal_form
+from contact_scene.solver_errors import ContactAtWindowEdge, UnsupportedScene
+from slipstick.critical_load import LoadFactorSearch, critical_loads
+from verification.closed_forms.hertz import PointContact, contact_modulus
+from verification.closed_forms.huber_stress import (
+    axis_stress,
+    hamilton_stress,
+    huber_stress,
+    trailing_edge_tension,
+)
+from verification.closed_forms.line_contact import CylinderContact
+
+ROOT = Path(__file__).resolve().parents[1]
+E, R, W = 210e9, 10e-3, 50.0
+# The radial solver searches its maxima to nine digits.
+SEARCHED = 1e-8
+YIELD, TENSILE = 1e9, 0.3e9
+COARSE: dict[str, Any] = {
+    "radial": None,
+    "semi-analytical": SurfaceDiscretisation(cells=(64, 64)),
+    "fem-complementarity": FiniteElementDiscretisation(elements_per_radius=16),
+}
+
+
+def steel(nu: float = 0.3, **strengths: float) -> IsotropicMaterial:
+    return IsotropicMaterial(young_modulus=E, poisson_ratio=nu, **strengths)
+
+
+def pressed(body: Body, *steps: LoadStep, nu: float = 0.3, **more: Any) -> Scene:
+    """A ball on a body under W, then further load steps."""
+    ball = Paraboloid(radius=R, material=steel(nu))
+    return Scene(
+        indenter=ball, body=body, loading=(LoadStep(normal_force=W, increments=1), *steps), **more
+    )
+
+
+def hertz(load: float, nu: float = 0.3) -> PointContact:
+    return PointContact.under_load(load, R, contact_modulus((E, nu), (E, nu)))
+
+
+def load_at(peak_pressure: float, nu: float) -> float:
+    """Load factor of W under which the ball has this peak pressure."""
+    return (peak_pressure / hertz(W, nu).peak_pressure) ** 3
+
+
+def yield_on_axis(nu: float) -> tuple[float, float]:
+    """Largest von Mises stress below a pressed ball over p0, and its depth over a."""
+
+    def stress(z: float) -> float:
+        found = axis_stress(z, 1.0, 1.0, nu)
+        return float(abs(found.axial - found.radial))
+
+    at = minimize_scalar(lambda z: -stress(z), bounds=(0.0, 2.0), options={"xatol": 1e-9})
+    return stress(at.x), float(at.x)
+
+
+def by_measure(found: Any) -> dict[str, Any]:
+    return {one.measure: one for one in found.limits}
+
+
+def error_of(one: Any) -> float:
+    assert one.error.status == "estimated"
+    return float(one.error.error)
+
+
+@pytest.mark.parametrize(
+    ("solver", "nu"),
+    [
+        *[("radial", 0.0), ("radial", 0.3), ("radial", 0.5)],
+        *[("semi-analytical", 0.3), ("fem-complementarity", 0.3)],
+    ],
+)
+def test_ball_yields_below_and_cracks_at_the_edge(solver: str, nu: float) -> None:
+    """p0 = 1.60 Y at 0.48 a for nu = 0.3 (Johnson 1985), and tension (1 - 2nu)/3 p0 (Huber)."""
+    body = Body(material=steel(nu, yield_strength=YIELD, tensile_strength=TENSILE))
+    found = critical_loads(pressed(body, nu=nu), solver, COARSE[solver])
+    limits, (constant, depth) = by_measure(found), yield_on_axis(nu)
+    first = limits["von_mises"]
+    wrong = first.load_factor - load_at(YIELD / constant, nu)
+    assert abs(wrong) <= error_of(first) + SEARCHED * first.load_factor
+    assert first.normal_force == pytest.approx(W * first.load_factor, rel=1e-3)
+    radius = hertz(first.normal_force, nu).contact_radius
+    assert first.place[2] == pytest.approx(depth * radius, rel=1e-4 if solver == "radial" else 0.1)
+    assert len(found.load_factors) <= 4
+    crack = limits["max_principal"]
+    if nu == 0.5:  # no tension at the edge: (1 - 2nu)/3 = 0
+        assert (crack.load_factor, crack.below) == (None, pytest.approx(100.0))
+        return
+    exact = load_at(TENSILE / ((1 - 2 * nu) / 3), nu)
+    assert abs(crack.load_factor - exact) <= error_of(crack) + SEARCHED * exact
+    assert np.hypot(*crack.place[:2]) == pytest.approx(
+        hertz(crack.normal_force, nu).contact_radius, rel=1e-2
+    )
+
+
+@pytest.mark.parametrize(("nu", "constant", "depth"), [(0.1, 1.25, 0.0), (0.3, 1.79363, 0.7043)])
+def test_cylinder_yields_at_the_surface_for_small_poisson_ratios(nu, constant, depth) -> None:
+    """Plane strain: at the surface p0 = Y/(1 - 2nu), which is first below nu = 0.194."""
+    scene = pressed(Body(material=steel(nu, yield_strength=YIELD)), nu=nu)
+    change = {"indenter": Cylinder(radius=R, material=steel(nu))}
+    change |= {"loading": (LoadStep(normal_force=1e5),)}
+    found = critical_loads(
+        scene.model_copy(update=change), discretisation=SurfaceDiscretisation(cells=256)
+    )
+    (one,) = found.limits
+    contact = CylinderContact(1e5, R, contact_modulus((E, nu), (E, nu)), 1.0)
+    exact = (constant * YIELD / contact.peak_pressure) ** 2
+    assert abs(one.load_factor - exact) <= error_of(one) + 1e-5 * exact
+    reached = contact.under(1e5 * exact).contact_radius
+    assert one.place[2] == pytest.approx(depth * reached, abs=0.03 * reached)
+
+
+@pytest.mark.parametrize(("friction", "on_surface"), [(0.25, False), (0.5, True)])
+def test_sliding_moves_the_onset_of_yield_to_the_surface(friction, on_surface) -> None:
+    """Hamilton (1983): the first yield is at the surface for coefficients above about 0.3."""
+    cracks = {"tensile_strength": YIELD} if on_surface else {}
+    body = Body(material=steel(yield_strength=YIELD, **cracks))
+    slides = LoadStep(tangential_force=(friction * W, 0.0), increments=1)
+    scene = pressed(body, slides, friction=CoulombFriction(coefficient=friction))
+    limits = by_measure(critical_loads(scene, discretisation=SurfaceDiscretisation(cells=(48, 48))))
+    first = limits["von_mises"]
+    # Below the surface by Hamilton; at the trailing edge sigma_xx is the largest tension, and
+    # sigma_yy is -(1 - 2nu)/3 p0 of the pressure and (3 pi/8) nu mu p0 of the shear.
+    x, z = np.linspace(-1, 1, 201), np.linspace(0.01, 0.8, 80)[:, None]
+    below = von_mises(hamilton_stress(x, 0.0, z, 1.0, 1.0, friction, 0.3))
+    edge = np.zeros(6)
+    edge[0] = trailing_edge_tension(1.0, friction, 0.3)
+    edge[1] = 3 * pi / 8 * 0.3 * friction - (1 - 2 * 0.3) / 3
+    largest = max(float(np.max(below)), float(von_mises(edge)))
+    exact = load_at(YIELD / largest, 0.3)
+    assert abs(first.load_factor - exact) <= error_of(first)
+    assert (first.place[2] == 0.0) == on_surface == (largest > np.max(below))
+    assert first.step == 2
+    if on_surface:
+        crack = limits["max_principal"]
+        exact = load_at(YIELD / trailing_edge_tension(1.0, friction, 0.3), 0.3)
+        assert abs(crack.load_factor - exact) <= error_of(crack)
+
+
+def test_layer_of_the_base_material_keeps_its_strengths_and_its_interface() -> None:
+    """Stresses at the fixed depth of an interface are Huber's, and no powers of the load."""
+    depth, bond = 60e-6, 0.25e9
+    layer = Layer(
+        thickness=depth, material=steel(), interface_strength=InterfaceStrength(shear=bond)
+    )
+    scene = pressed(Body(material=steel(yield_strength=YIELD), layers=(layer,)))
+    found = {(one.region, one.measure): one for one in critical_loads(scene, "radial").limits}
+
+    def shear(contact: PointContact) -> float:
+        r = np.linspace(0, 2, 4001) * contact.contact_radius
+        stress = huber_stress(r, depth, contact.contact_radius, contact.peak_pressure, 0.3)
+        return float(np.max(np.abs(stress.shear))) - bond
+
+    constant, deep = yield_on_axis(0.3)
+    exact = {
+        ("interface 1", "interface_shear"): exp(brentq(lambda x: shear(hertz(W * exp(x))), -2, 2)),
+        ("base", "von_mises"): load_at(YIELD / constant, 0.3),
+    }
+    for key, factor in exact.items():
+        one = found[key]
+        assert abs(one.load_factor - factor) <= error_of(one) + 1e-6 * factor  # points of shear
+    assert found["interface 1", "interface_shear"].place[2] == pytest.approx(depth)
+    assert deep * hertz(W * exact["base", "von_mises"]).contact_radius > depth
+
+
+def test_indenter_of_another_strength_is_judged_by_itself() -> None:
+    """Equal bodies have equal stresses; the indenter with half the strength yields first."""
+    body = Body(material=steel(yield_strength=YIELD))
+    ball = Paraboloid(radius=R, material=steel(yield_strength=YIELD / 2))
+    scene = pressed(body).model_copy(update={"indenter": ball})
+    first, second = critical_loads(scene, "radial").limits
+    assert (first.body, second.body) == ("indenter", "body")
+    assert second.load_factor == pytest.approx(8 * first.load_factor, rel=1e-9)
+
+
+def test_tip_or_rim_yields_at_any_load() -> None:
+    scene = pressed(Body(material=steel(yield_strength=YIELD)))
+    for indenter in (Cone(slope_angle=0.01, material=RIGID), FlatPunch(radius=R, material=RIGID)):
+        sharp = scene.model_copy(update={"indenter": indenter})
+        (one,) = critical_loads(sharp, "radial").limits
+        assert (one.load_factor, one.below, one.above) == (None, None, None)
+        assert "infinite" in one.reason
+
+
+def test_strengths_change_no_solution() -> None:
+    bond = InterfaceStrength(tension=1e8)
+    plain, strong = steel(), steel(yield_strength=YIELD, tensile_strength=TENSILE)
+    layer = {"thickness": 1e-4}
+    bare = pressed(Body(material=plain, layers=(Layer(material=plain, **layer),)))
+    rated = pressed(
+        Body(material=plain, layers=(Layer(material=strong, interface_strength=bond, **layer),))
+    )
+    assert normal_form(rated) == normal_form(bare)
+
+
+def test_load_factor_multiplies_every_control() -> None:
+    for number in (0, 1):
+        values = {pair[number]: 0.01 for pair in CONTROLS}
+        for name in values.keys() & {"tangential_force", "tangential_shift", "moment", "tilt"}:
+            values[name] = (0.01, -0.02)
+        for name in values.keys() & {"bulk_stress", "bulk_strain"}:
+            values[name] = (0.01, 0.0, -0.02)
+        step = LoadStep(**values, increments=3)
+        doubled = {name: tuple(np.multiply(2, v)) if np.ndim(v) else 2 * v
+                   for name, v in values.items()}  # fmt: skip
+        assert step.multiplied(2.0) == LoadStep(**doubled, increments=3)
+
+
+# ---- Search of the root, on stresses given by formulas.
+
+KEY = ("body", "interface 1 above", "interface_shear")
+
+
+@dataclass
+class Formula(LoadFactorSearch):
+    """Search on a stress law instead of solves."""
+
+    law: Any = None
+
+    def largest_stresses(self, x: float) -> Any:
+        if x not in self.solved:
+            value = self.law(exp(x))
+            place = SimpleNamespace(value=value, x=0.0, y=0.0, depth=0.0)
+            end = SimpleNamespace(normal_force=1.0, step=1)
+            self.solved[x] = {} if value <= 0 else {KEY: (place, end)}
+        return self.solved[x]
+
+    def _error_of_factor(self, *given: Any) -> Any:
+        return unknown_error("a formula")
+
+
+def search_root(law: Any) -> tuple[Any, int]:
+    """Critical load of a law of the load factor for the strength 1, and the number of solves."""
+    search = Formula(None, None, None, {KEY: 1.0}, None, law=law)  # type: ignore[arg-type]
+    search.largest_stresses(0.0)
+    return search.critical_load(KEY), len(search.solved)
+
+
+@pytest.mark.parametrize(
+    ("law", "exact", "solves"),
+    [
+        (lambda f: 0.5 * f ** (1 / 3), 8.0, 2),
+        (lambda f: 2.0 * f ** (1 / 3), 0.125, 2),
+        (lambda f: f ** (1 / 3), 1.0, 2),  # the given load is critical
+        (lambda f: 0.5 * f**0.5, 4.0, 3),
+        (lambda f: 0.05 * f, 20.0, 4),
+        (lambda f: 0.25 * f**0.2 + f / 64, 32.0, 6),
+        (lambda f: max(0.3 * f ** (1 / 3), 0.002 * f**2), 500**0.5, 8),  # another place takes over
+        (lambda f: f - 5.0, 6.0, 10),  # compression at small loads
+        (lambda f: 0.9 if f < 7 else 1.2, 7.0, 22),  # a jump
+        *((lambda f, at=at: 0.0 if f < at else 1.2, at, 22) for at in (3.0, 7.0)),  # compression
+        (lambda f: 1.0, 1.0, 2),  # independent of the load, at the strength
+    ],
+)
+def test_root_is_found_in_few_solves(law, exact, solves) -> None:
+    found, made = search_root(law)
+    assert found.load_factor == pytest.approx(exact, rel=1e-3)
+    assert made <= solves
+
+
+@pytest.mark.parametrize("law", [lambda f: 0.5, lambda f: 0.01 * f**0.2, lambda f: 0.0])
+def test_limit_beyond_the_range_is_told_so(law) -> None:
+    found, made = search_root(law)
+    assert (found.load_factor, found.below) == (None, pytest.approx(100.0))
+    assert made <= 4
+
+
+def test_solver_that_refuses_a_larger_load_ends_the_search() -> None:
+    def law(factor: float) -> float:
+        if factor > 4:
+            raise ContactAtWindowEdge("the contact reaches the edge")
+        return 0.4 * factor ** (1 / 3)
+
+    one, _ = search_root(law)
+    assert (one.load_factor, one.below) == (None, 1.0)
+    assert one.reason is not None
+    assert "the contact reaches the edge" in one.reason
+
+
+# ---- The command.
+
+
+def test_command_writes_what_python_returns(tmp_path: Path) -> None:
+    strengths = ("yield_strength=2 GPa", "tensile_strength=900 GPa")
+    options = [word for key in strengths for word in ("--set", f"body.material.{key}")]
+    ran = outcome(
+        *("limit", "scenes/hertz.toml", *options, "--solver", "radial", "-o", tmp_path / "out"),
+        cwd=ROOT,
+    )
+    assert ran.returncode == 0, ran.stderr
+    record = json.loads((tmp_path / "out" / "limit.json").read_text(encoding="utf-8"))
+    first, second = record["limits"]
+    assert f"{first['load_factor']:.6f}" in ran.stdout
+    assert "> 100" in ran.stdout
+    assert (second["load_factor"], second["error"]) == (None, None)
+    constant, _ = yield_on_axis(0.3)
+    peak = PointContact.under_load(1e3, 0.018, contact_modulus((420e9, 0.3), (420e9, 0.3)))
+    exact = (2e9 / constant / peak.peak_pressure) ** 3
+    assert first["load_factor"] == pytest.approx(exact, rel=1e-9)
+
+
+def test_scene_without_strengths_is_refused_with_the_remedy(tmp_path: Path) -> None:
+    ran = outcome("limit", "scenes/hertz.toml", cwd=ROOT)
+    assert ran.returncode == 2
+    assert "add yield_strength or tensile_strength" in ran.stderr
+    with pytest.raises(UnsupportedScene, match="interface_strength"):
+        critical_loads(pressed(Body(material=steel())))
+    assert slipstick("limit", ROOT / "scenes/hertz.toml", "--set", "body.yield_strength=1") == 2
