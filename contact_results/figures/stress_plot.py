@@ -13,6 +13,7 @@ from matplotlib.ticker import MaxNLocator
 
 from contact_results.figures import style
 from contact_results.figures.section_panel import draw_section, show_depths
+from contact_results.stress.files import interface_points
 from contact_results.stress.points import StressField, StressIncrement, StressPoints
 from contact_scene import Body
 from contact_scene.reading.engineering_units import engineering_unit, quantity
@@ -71,19 +72,53 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
 def line_plot(field: StressField, body: Body, title: str) -> Figure:
     """Draw stresses over depth on the z axis and below the trailing edge, and along the surface.
 
-    The trailing edge is the edge with the larger σxx at the surface. Call within `figure_style`.
+    The trailing edge is the edge with the larger σxx at the surface. A body with layers has a panel
+    of its outermost interface as well. Call within `figure_style`.
 
     field  stress in one body
     body   this body, whose interfaces are drawn
     title  title of the figure
     """
-    figure = _titled_figure(11.0, 4.4, title)
-    place = {"left": 0.06, "right": 0.97, "bottom": 0.12, "top": 0.84, "wspace": 0.25}
-    axis, below, surface = figure.subplots(1, 3, gridspec_kw=place)
+    rows, columns = (2, 2) if body.layers else (1, 3)
+    figure = _titled_figure(3.7 * columns, 4.4 * rows, title)
+    place = {"left": 0.2 / columns, "right": 1 - 0.1 / columns, "wspace": 0.25, "hspace": 0.28}
+    place |= {"bottom": 0.12 / rows, "top": 1 - 0.16 / rows}
+    axes = figure.subplots(rows, columns, gridspec_kw=place)
+    axis, below, surface, *interface = axes.flat
     draw_depth(axis, field, body, field.axis, "on the axis")
     draw_depth(below, field, body, *_below_edge(field))
     draw_surface(surface, field)
+    for ax in interface:
+        draw_interface(ax, field, body)
     return figure
+
+
+def draw_interface(ax: Any, field: StressField, body: Body) -> None:
+    """Draw stresses along the outermost interface: σxx on its sides, σzz and σxz, which are equal.
+
+    ax     axes of matplotlib
+    field  stress in one body
+    body   this body, with layers
+    """
+    reach = field.shown[0]
+    length = engineering_unit(reach, "m")
+    sides = {
+        side: points.select(np.flatnonzero(np.abs(points.x) <= reach))
+        for number, side, points in interface_points(field, body)
+        if number == 1
+    }
+    lines = {f"σxx {side}": (points, "xx") for side, points in sides.items()}
+    lines |= {f"σ{name}": (sides["above"], name) for name in ("zz", "xz")}
+    largest = max(np.abs(points.components[name]).max() for points, name in lines.values())
+    unit = engineering_unit(float(largest), "Pa")
+    for number, (label, (points, name)) in enumerate(lines.items()):
+        values = points.components[name] / unit.size
+        ax.plot(points.x / length.size, values, label=label, **style.line_style(number))
+    ax.axhline(0.0, color="black", linewidth=0.5)
+    depth = quantity(float(sides["above"].depth.flat[0]), "m", 3)
+    ax.set_xlabel(f"{length.labelled(field.label)} on the interface z = {depth}")
+    ax.set_ylabel(unit.labelled("stress"))
+    style.legend_above(ax)
 
 
 def draw_surface(ax: Any, field: StressField) -> None:
