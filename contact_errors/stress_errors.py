@@ -78,6 +78,7 @@ AT_SURFACE = "body", "layer 1", SURFACE
 NEAR = 2.0
 # Reasons why the error of a stress is not converged.
 AT_WINDOW_EDGE = "the largest stress lies at the edge of the window"
+INFINITE = "the pressure is infinite at a tip or a rim, and the stress may be infinite below it"
 UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted within the cells"
 COARSE = 2.0  # coarsening factor of the tractions
 # Error over the difference from a solution of the radial solver with twice the points.
@@ -199,13 +200,14 @@ def stress_errors(
     ]
     # The largest stress adjacent to a fitted contact edge converges with a higher order.
     fitted = bool(field.how.get("edges")) if field.edge is None else field.edge.determined
+    infinite = state.scene is not None and is_singular(state.scene.indenter)
     errors, measures = [], field.points.measures
     for extreme in found:
         largest, unresolved = 0.0, False
+        tension = extreme.measure == LARGEST_TENSION
+        shallow = extreme.on_edge or extreme.depth < near
         for at_edge, values in here.items():
             value = values.get((extreme.region, extreme.measure))
-            tension = extreme.measure == LARGEST_TENSION
-            shallow = extreme.on_edge or extreme.depth < near
             if value is None or (at_edge and not (shallow or tension)):
                 continue
             order = SMOOTH if not at_edge else EDGE if fitted else ROOT
@@ -224,7 +226,12 @@ def stress_errors(
         parts: dict[Part, Field] = {part: np.array([largest])}
         parts |= _parts_of_tractions(state, extreme.value)
         small = largest <= LARGEST_SHARE * abs(extreme.value)
-        reason = AT_WINDOW_EDGE if extreme.at_window_edge else UNRESOLVED if unresolved else None
+        doubts = (
+            (extreme.at_window_edge, AT_WINDOW_EDGE),
+            (unresolved, UNRESOLVED),
+            (infinite and shallow and not tension, INFINITE),
+        )
+        reason = next((why for doubtful, why in doubts if doubtful), None)
         errors.append(build_stated_error(parts, reason or (None if small else TOO_LARGE)))
     return tuple(errors)
 
@@ -340,12 +347,15 @@ def _loaded_body(state: LoadedBodies, indenter: bool) -> Body:
 def _error_per_spread(order: float) -> float:
     """Return the error of a stress over its difference from that of coarse tractions.
 
-    The formula is that of all scalars: 3 |coarse - fine| / √(r^(2p) + 1), with the coarsening
-    factor r = 2 and the theoretical convergence order p.
+    With the coarsening factor r = 2 and the theoretical convergence order p, it is the larger of
+
+    - 3 / √(r^(2p) + 1), the formula of all scalars for errors that scatter, and
+    - 1 / (r^p - 1), for errors that decrease as a power; it is larger below the order 1.
 
     order  convergence order p of the stress
     """
-    return SPREADS / sqrt(COARSE ** (2 * order) + 1)
+    scattered = SPREADS / sqrt(COARSE ** (2 * order) + 1)
+    return float(max(scattered, 1 / (COARSE**order - 1)))
 
 
 def _traction_cell_width(state: LoadedBodies) -> float:

@@ -781,6 +781,15 @@ def test_the_tension_at_a_coating_pressed_without_friction_is_known(
     assert abs(value - exact) <= size(error) <= widest * exact
 
 
+def test_a_stress_below_a_tip_is_not_converged_near_the_surface() -> None:
+    posed = scene(PRESS, indenter=Cone(slope_angle=0.02, material=RIGID), friction=None)
+    result = package.solve(posed, "semi-analytical", cells(24))
+    names = ["von_mises@body", "max_shear@body"]
+    for _, error in largest_stresses(result, stated_errors(result), names).values():
+        assert error.status is ErrorStatus.NOT_CONVERGED
+        assert "infinite" in error.reason
+
+
 @pytest.mark.parametrize("deeper", [0.0, 0.03, 0.06, 0.09, 0.13])
 def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
     """Below Hertz's contact the stress on the axis is known (Johnson 1985, eq. 3.45)."""
@@ -1095,7 +1104,10 @@ def test_a_question_mark_advises_the_radial_solver_where_it_can_solve_the_scene(
     run = outcome("run", "scene.toml", "-o", "out", "--solver", solver, cwd=tmp_path)
     assert run.returncode == 0
     assert "the exact value is infinite" in run.stdout
-    for text in (run.stdout, (tmp_path / "out/index.html").read_text()):
+    stress = outcome("stress", "out", "-o", "below", cwd=tmp_path)
+    assert stress.returncode == 0
+    pages = [(tmp_path / page).read_text() for page in ("out/index.html", "below/stress.html")]
+    for text in (run.stdout, stress.stdout, *pages):
         assert ("--solver radial can solve this: normal load" in text) is advised
 
 
