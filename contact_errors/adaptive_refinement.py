@@ -158,8 +158,7 @@ class RefinementLevel:
 
         shares  requested relative error by name of the scalar
         """
-        reached = {name: self.reached_error(name) for name in shares}
-        return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
+        return SPARE * self.excess(shares) <= 1
 
     def excess(self, shares: Mapping[str, float]) -> float:
         """Return the largest ratio of reached to requested relative error.
@@ -168,8 +167,8 @@ class RefinementLevel:
 
         shares  requested relative error by name of the scalar
         """
-        reached = [(self.reached_error(name), share) for name, share in shares.items()]
-        return max(np.inf if error is None else error / share for error, share in reached)
+        errors = {name: self.reached_error(name) for name in shares}
+        return max(np.inf if e is None else e / shares[name] for name, e in errors.items())
 
     def beyond_refinement(self, shares: Mapping[str, float]) -> str | None:
         """Return a message if the error of a scalar exceeds a request on any grid; else None.
@@ -411,7 +410,8 @@ def refine(
     """
     level = levels.solve_first_level()
     shares, left_out, _ = targets_of(request, level, levels)
-    spent, rounds, worse, stopped, best = 0.0, 0, 0, None, level
+    spent, rounds, worse, stopped = 0.0, 0, 0, None
+    best = level
     while stopped is None:
         spent, rounds = spent + level.seconds, rounds + 1
         reached = {name: level.reached_error(name) for name in shares}

@@ -180,12 +180,16 @@ def stress_errors(
     if state.pressed is not None:
         return _stress_errors_on_disc(state, field.points, found, indenter)
     part: Part = "elements" if state.on_rings else "cells"
+    errors: list[StatedError] = []
     known = None if at_depths else _reference_maxima(state, found, indenter)
-    if known is not None:  # a largest stress that the reference lacks decays to zero outside
-        return tuple(
-            _difference_from_reference(state, e, known.get((e.region, e.measure), 0.0), part)
-            for e in found
-        )
+    if known is not None:
+        pressing = replace(state, by_increments=None)
+        for extreme in found:
+            # A largest stress that the reference lacks decays to zero outside.
+            exact = known.get((extreme.region, extreme.measure), 0.0)
+            size = abs(extreme.value - exact) + REFERENCE_PRECISION * abs(exact)
+            errors.append(_stated(pressing, part, extreme.value, size, None))
+        return tuple(errors)
     depths = np.unique(field.points.depth).tolist()
     sampled = depths[::2] if len(depths) > 2 else depths
     if state.on_rings:
@@ -201,7 +205,7 @@ def stress_errors(
     # The largest stress adjacent to a fitted contact edge converges with a higher order.
     fitted = bool(field.how.get("edges")) if field.edge is None else field.edge.determined
     infinite = state.scene is not None and is_singular(state.scene.indenter)
-    errors, measures = [], field.points.measures
+    measures = field.points.measures
     for extreme in found:
         largest, unresolved = 0.0, False
         tension = extreme.measure == LARGEST_TENSION
@@ -223,16 +227,13 @@ def stress_errors(
                 error = max(error, value / (sqrt(cells) - 1))
                 unresolved = value + error > extreme.value
             largest = max(largest, value + error - extreme.value)
-        parts: dict[Part, Field] = {part: np.array([largest])}
-        parts |= _parts_of_tractions(state, extreme.value)
-        small = largest <= LARGEST_SHARE * abs(extreme.value)
         doubts = (
             (extreme.at_window_edge, AT_WINDOW_EDGE),
             (unresolved, UNRESOLVED),
             (infinite and shallow and not tension, INFINITE),
         )
         reason = next((why for doubtful, why in doubts if doubtful), None)
-        errors.append(build_stated_error(parts, reason or (None if small else TOO_LARGE)))
+        errors.append(_stated(state, part, extreme.value, largest, reason))
     return tuple(errors)
 
 
@@ -265,31 +266,22 @@ def _reference_maxima(
     return {(e.region, e.measure): e.value for e in extremes(field, _loaded_body(known, indenter))}
 
 
-def _difference_from_reference(
-    state: LoadedBodies, extreme: Extreme, known: float, part: Part
+def _stated(
+    state: LoadedBodies, part: Part, value: float, size: float, reason: str | None
 ) -> StatedError:
-    """Return the difference of a largest stress from its reference, as its stated error.
+    """Build the stated error of a stress, with the parts that the errors of the tractions cause.
 
-    state    bodies and surface tractions; supplies the error by the points of the indenter
-    extreme  largest stress
-    known    reference of the largest stress
-    part     name of the part of the error
+    state   bodies and surface tractions with their relative errors
+    part    name of the part by the cells, elements or points
+    value   stress [force/length^2]
+    size    size of this part [force/length^2]
+    reason  reason why the error is unreliable, or None
     """
-    size = abs(extreme.value - known) + REFERENCE_PRECISION * abs(known)
     parts: dict[Part, Field] = {part: np.array([size])}
-    parts |= _parts_of_tractions(replace(state, by_increments=None), extreme.value)
-    small = size <= LARGEST_SHARE * abs(extreme.value)
-    return build_stated_error(parts, None if small else TOO_LARGE)
-
-
-def _parts_of_tractions(state: LoadedBodies, value: float) -> dict[Part, Field]:
-    """Return the parts of the error of a stress that the errors of the tractions cause, by cause.
-
-    state  bodies and surface tractions with their relative errors
-    value  stress [force/length^2]
-    """
     causes: dict[Part, float | None] = {"increments": state.by_increments, "map": state.by_map}
-    return {part: np.array([size * abs(value)]) for part, size in causes.items() if size}
+    parts |= {cause: np.array([share * abs(value)]) for cause, share in causes.items() if share}
+    small = size <= LARGEST_SHARE * abs(value)
+    return build_stated_error(parts, reason or (None if small else TOO_LARGE))
 
 
 def _largest_by_place(
@@ -452,7 +444,7 @@ def _stress_errors_on_disc(
     errors = []
     for k, e in enumerate(found):
         size = OF_FINER * abs(again[e.measure][k] - e.value)
-        parts: dict[Part, Field] = {"quadrature": np.array([size + PRECISION * abs(e.value)])}
-        parts |= _parts_of_tractions(state, e.value)
-        errors.append(build_stated_error(parts, AT_WINDOW_EDGE if e.at_window_edge else None))
+        size += PRECISION * abs(e.value)
+        reason = AT_WINDOW_EDGE if e.at_window_edge else None
+        errors.append(_stated(state, "quadrature", e.value, size, reason))
     return tuple(errors)
