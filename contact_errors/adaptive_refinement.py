@@ -5,11 +5,11 @@ solved on finer and finer levels, until the stated errors meet the request or a 
 memory is reached. The result of the first level determines the scalars that the request applies to.
 A request that cannot be met is refused after the first level.
 
-Each part of an error may use an equal share of the requested error. A parameter of the
-discretisation is refined by the factor (part of the error / allowed part)^(1/p), where p is its
-convergence order. The factor of the cells and of the increments is at most 4 per level, that of
-other parameters at most 16. If an error estimate has not converged, the cells are refined by at
-least 2.
+The largest parts of an error share equally what the smaller ones leave of the requested error. A
+parameter of the discretisation is refined by the factor (part of the error / allowed part)^(1/p),
+where p is its convergence order. The factor of the cells and of the increments is at most 4 per
+level, that of other parameters at most 16. If an error estimate has not converged, the cells are
+refined by at least 2.
 """
 
 import time
@@ -199,7 +199,7 @@ class RefinementLevel:
             of_cells = max(EDGE, least)
             for error in self.errors(name):
                 parts = {p: float(np.max(s)) / self.largest(name) for p, s in error.parts.items()}
-                allowed = share / SPARE / max(1, sum(size > 0 for size in parts.values()))
+                allowed = largest_allowed_part([*parts.values()], share / SPARE)
                 wanted: dict[Part, float] = {
                     part: (size / allowed) ** (1 / ORDERS.get(part, of_cells))
                     for part, size in parts.items()
@@ -358,6 +358,23 @@ class Levels:
             f"a level with {name} = {size} needs about {needed / 2**30:.1f} GiB, and "
             f"{available / 2**30:.1f} GiB are available"
         )
+
+
+def largest_allowed_part(sizes: Sequence[float], limit: float) -> float:
+    """Compute the size to which the parts of an error are to be reduced for a given sum.
+
+    Parts below the result keep their size; the larger ones share the rest equally. The result is
+    infinite if the sum of the parts does not exceed the limit.
+
+    sizes  sizes of the parts
+    limit  largest sum of the reduced parts
+    """
+    left = limit
+    for count, size in zip(range(len(sizes), 0, -1), sorted(sizes), strict=True):
+        if size * count > left:
+            return left / count
+        left -= size
+    return np.inf
 
 
 def limit_factors(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinement:

@@ -40,6 +40,7 @@ from contact_errors.adaptive_refinement import (
     Levels,
     Refined,
     RefinementLevel,
+    largest_allowed_part,
     limit_factors,
     refine,
     targets_of,
@@ -379,6 +380,13 @@ def test_a_worked_example_of_refinement() -> None:
     by = level_of(parts).needed_factors({"approach": 0.01})
     assert by == pytest.approx({"cells": 3.715, "increments": 6.9, "section": 1.313}, rel=1e-3)
     assert limit_factors(by, "cells") == by | {"increments": 4.0}
+
+
+@given(st.lists(st.floats(0, 1), min_size=1, max_size=5), st.floats(1e-6, 1.0))
+def test_reduced_parts_use_up_what_was_asked(sizes: list[float], limit: float) -> None:
+    allowed = largest_allowed_part(sizes, limit)
+    reduced = sum(min(size, allowed) for size in sizes)
+    assert reduced == pytest.approx(min(limit, sum(sizes)), abs=1e-12)
 
 
 def test_a_number_that_has_not_converged_doubles_the_cells() -> None:
