@@ -16,7 +16,7 @@ inside, and at the surface adjacent to the edge of the contact. The error of the
 - Adjacent to the contact edge the order is 1 if the edge is fitted within the cells, else ½.
 - Let the tractions end like a square root at the edge, with m cells per contact radius. Half a cell
   inside the edge the computed tensile stress is then too small by m^-½ of its true value.
-- At a fitted edge the error is at least 3 times the difference from another fit.
+- At a fitted edge the error is at least 4.3 times the difference from another fit.
 - If an edge that is not fitted may have the largest tensile stress, the error has not converged.
 - Other stresses than the tensile stress are compared at the edge only if their maximum was found
   near the surface.
@@ -83,6 +83,8 @@ UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted
 COARSE = 2.0  # coarsening factor of the tractions
 # Error over the difference from a solution of the radial solver with twice the points.
 OF_FINER = 1 / (1 - COARSE ** (-BELIEVED * SMOOTH))
+# Error over the difference of two fits of the edge, as if the wider one had half of the cells.
+OF_ANOTHER_FIT = 1 / (COARSE ** (BELIEVED * ROOT) - 1)
 # Relative error of the stress at a fitted edge by the evaluation of its tractions: at most 1.2e-3
 # in Hertz contacts with partial and gross slip on 24 to 96 cells per side.
 EDGE_PRECISION = 1e-3
@@ -221,7 +223,7 @@ def stress_errors(
             if not shallow:
                 error += _between_levels(field.points, measures[extreme.measure], extreme)
             if at_edge and field.edge is not None and extreme.region in AT_SURFACE:
-                error = max(error, SPREADS * field.edge.apart) + EDGE_PRECISION * abs(value)
+                error = max(error, OF_ANOTHER_FIT * field.edge.apart) + EDGE_PRECISION * abs(value)
             if at_edge and tension and not fitted:
                 cells = max((state.contact_radius or 0.0) / _traction_cell_width(state), 2.0)
                 error = max(error, value / (sqrt(cells) - 1))
