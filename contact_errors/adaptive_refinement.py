@@ -5,11 +5,11 @@ solved on finer and finer levels, until the stated errors meet the request or a 
 memory is reached. The result of the first level determines the scalars that the request applies to.
 A request that cannot be met is refused after the first level.
 
-Each part of an error may use an equal share of the requested error. A parameter of the
-discretisation is refined by the factor (part of the error / allowed part)^(1/p), where p is its
-convergence order. The factor of the cells and of the increments is at most 4 per level, that of
-other parameters at most 16. If an error estimate has not converged, the cells are refined by at
-least 2.
+The largest parts of an error share equally what the smaller ones leave of the requested error. A
+parameter of the discretisation is refined by the factor (part of the error / allowed part)^(1/p),
+where p is its convergence order. The factor of the cells and of the increments is at most 4 per
+level, that of other parameters at most 16. If an error estimate has not converged, the cells are
+refined by at least 2.
 """
 
 import time
@@ -40,6 +40,8 @@ from contact_errors.error_formula import (
     unknown_error,
 )
 from contact_errors.stress_errors import largest_stresses
+from contact_results.radial_method import radial_advice
+from contact_results.stress.loaded_bodies import RADIAL
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
 from contact_scene.machine import available_bytes
 from contact_scene.quantities.stated_error import (
@@ -65,6 +67,9 @@ SPARE = 1.15
 # error has not converged.
 MAX_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
 MAX_ROUNDS = 7
+# Consecutive rounds without a smaller error after which the refinement stops. Estimates scatter, so
+# that a single larger one says little.
+MAX_WORSE = 2
 # Parts of an error that no refinement of the discretisation reduces, with their causes.
 UNREFINED: Mapping[Part, str] = MappingProxyType(
     {"map": "the points of the indenter", "neglected": "neglected effects"}
@@ -153,8 +158,17 @@ class RefinementLevel:
 
         shares  requested relative error by name of the scalar
         """
-        reached = {name: self.reached_error(name) for name in shares}
-        return all(r is not None and SPARE * r <= shares[name] for name, r in reached.items())
+        return SPARE * self.excess(shares) <= 1
+
+    def excess(self, shares: Mapping[str, float]) -> float:
+        """Return the largest ratio of reached to requested relative error.
+
+        The ratio is infinite if an error is unknown or has not converged.
+
+        shares  requested relative error by name of the scalar
+        """
+        errors = {name: self.reached_error(name) for name in shares}
+        return max(np.inf if e is None else e / shares[name] for name, e in errors.items())
 
     def beyond_refinement(self, shares: Mapping[str, float]) -> str | None:
         """Return a message if the error of a scalar exceeds a request on any grid; else None.
@@ -185,7 +199,7 @@ class RefinementLevel:
             of_cells = max(EDGE, least)
             for error in self.errors(name):
                 parts = {p: float(np.max(s)) / self.largest(name) for p, s in error.parts.items()}
-                allowed = share / SPARE / max(1, sum(size > 0 for size in parts.values()))
+                allowed = largest_allowed_part([*parts.values()], share / SPARE)
                 wanted: dict[Part, float] = {
                     part: (size / allowed) ** (1 / ORDERS.get(part, of_cells))
                     for part, size in parts.items()
@@ -346,6 +360,23 @@ class Levels:
         )
 
 
+def largest_allowed_part(sizes: Sequence[float], limit: float) -> float:
+    """Compute the size to which the parts of an error are to be reduced for a given sum.
+
+    Parts below the result keep their size; the larger ones share the rest equally. The result is
+    infinite if the sum of the parts does not exceed the limit.
+
+    sizes  sizes of the parts
+    limit  largest sum of the reduced parts
+    """
+    left = limit
+    for count, size in zip(range(len(sizes), 0, -1), sorted(sizes), strict=True):
+        if size * count > left:
+            return left / count
+        left -= size
+    return np.inf
+
+
 def limit_factors(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Refinement:
     """Limit the refinement factors of the discretisation parameters from one level to the next.
 
@@ -367,7 +398,7 @@ def limit_factors(by: Refinement, cells: Part, most: float = MAX_AT_ONCE) -> Ref
 class Refined:
     """Outcome of the adaptive refinement of a scene for a requested accuracy.
 
-    level     last solved level, with its result and error estimates
+    level     level that meets the request, else that with the smallest errors
     accuracy  requested and reached relative errors by name, and the reason if the request is not
               met
     """
@@ -384,9 +415,9 @@ def refine(
 ) -> Refined:
     """Solve finer and finer discretisations (levels) of a scene until the errors meet a request.
 
-    If a limit is reached, or the solve of the next level fails, the last solved level is returned
-    with the reason. Raises AccuracyOutOfReach for a request that cannot be met, and any SolverError
-    of the first level.
+    If a limit is reached, the errors do not decrease, or the solve of the next level fails, the
+    level with the smallest errors is returned with the reason. Raises AccuracyOutOfReach for a
+    request that cannot be met, and any SolverError of the first level.
 
     levels        scene and solver
     request       requested relative errors by name
@@ -396,12 +427,15 @@ def refine(
     """
     level = levels.solve_first_level()
     shares, left_out, _ = targets_of(request, level, levels)
-    spent, rounds, stopped = 0.0, 0, None
+    spent, rounds, worse, stopped = 0.0, 0, 0, None
+    best = level
     while stopped is None:
         spent, rounds = spent + level.seconds, rounds + 1
         reached = {name: level.reached_error(name) for name in shares}
         if estimated is not None:
             estimated(rounds, shares, reached)
+        better = level.excess(shares) <= best.excess(shares)
+        best, worse = (level, 0) if better else (best, worse + 1)
         if level.meets(shares):
             break
         by = limit_factors(level.needed_factors(shares), level.part)
@@ -415,6 +449,8 @@ def refine(
         )
         if rounds == MAX_ROUNDS:
             stopped = f"{rounds} rounds have not met it"
+        elif worse == MAX_WORSE:
+            stopped = f"{worse} rounds in succession have not reduced the error"
         elif stopped is None and spent + shared * seconds > most_seconds:
             stopped = (
                 f"after {spent:.3g} s the next round would take about {shared * seconds:.2g} s, "
@@ -428,14 +464,14 @@ def refine(
                 stopped = f"the next round has no answer: {kind}{error}"
     accuracy = AccuracyReached(
         asked=shares,
-        reached=reached,
+        reached={name: best.reached_error(name) for name in shares},
         met=stopped is None,
-        settings=levels.settings(level.fineness),
+        settings=levels.settings(best.fineness),
         rounds=rounds,
         left_out=left_out,
         stopped=stopped,
     )
-    return Refined(level, accuracy)
+    return Refined(best, accuracy)
 
 
 def targets_of(
@@ -468,7 +504,9 @@ def targets_of(
     last = levels.last(level, shares)
     coarsest = levels.last(level, {name: DOUBT * share for name, share in shares.items()})
     if too_large := levels.beyond_limit(coarsest) or levels.beyond_memory(last):
-        raise AccuracyOutOfReach(f"no grid can meet the request: {too_large}")
+        solver = RADIAL if level.part == "quadrature" else ""
+        advice = radial_advice(levels.solver.scene, solver, doubted=True)
+        raise AccuracyOutOfReach(". ".join((f"no grid can meet the request: {too_large}", *advice)))
     return shares, left_out, last
 
 

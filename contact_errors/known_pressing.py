@@ -41,35 +41,51 @@ def known_pressing(scene: Scene) -> Sequence[Sequence[Values]]:
     scene  contact problem with its load history
     """
     ramps, indenter = scene.load_path(), scene.indenter
+    alone = pressing_alone(scene)
+    if alone is None:
+        return ()
+    bare = not (scene.body.layers or indenter.layers)
+    if isinstance(indenter, Ellipsoid) and bare:
+        found = [[_hertz(scene, indenter, ramp) for ramp in ramps]]
+    elif indenter.is_of_revolution:
+        found = _by_rings(alone)
+    else:
+        return ()
+    return [list(_known_values(scene, ramps, scalars)) for scalars in found]
+
+
+def pressing_alone(scene: Scene) -> Scene | None:
+    """Return a scene without friction whose pressure is that of a scene; None if there is none.
+
+    There is none for coupled bodies with friction, an approach prescribed through a spring, and
+    tilted indenters.
+
+    scene  contact problem with its load history
+    """
+    ramps = scene.load_path()
     frictionless = scene.friction is None or not scene.friction.largest
     by_force = all(ramp.normal.kind is ControlKind.FORCE for ramp in ramps)
     sprung = compliances(scene.rig)[0] and not by_force
     tilts = any(any(ramp.tilting.end) for ramp in ramps)
     coupled = not frictionless and coupling(scene)[0]
     if sprung or coupled or tilts:
-        return ()
-    bare = not (scene.body.layers or indenter.layers)
-    if isinstance(indenter, Ellipsoid) and bare:
-        found = [[_hertz(scene, indenter, ramp) for ramp in ramps]]
-    elif indenter.is_of_revolution:
-        found = _by_rings(scene, ramps)
-    else:
-        return ()
-    return [list(_known_values(scene, ramps, scalars)) for scalars in found]
-
-
-def _by_rings(scene: Scene, ramps: Sequence[LoadRamp]) -> list[list[Mapping[str, float]]]:
-    """Compute the scalars of the pressing by the radial solver, with each fineness.
-
-    The result is empty if the solver refuses the scene.
-    """
+        return None
     loads = [
         LoadStep(normal_force=ramp.normal.end)
         if ramp.normal.kind is ControlKind.FORCE
         else LoadStep(approach=ramp.normal.end)
         for ramp in ramps
     ]
-    alone = scene.model_copy(update={"friction": None, "rig": None, "loading": tuple(loads)})
+    return scene.model_copy(update={"friction": None, "rig": None, "loading": tuple(loads)})
+
+
+def _by_rings(alone: Scene) -> list[list[Mapping[str, float]]]:
+    """Compute the scalars of the pressing by the radial solver, with each fineness.
+
+    The result is empty if the solver refuses the scene.
+
+    alone  scene of the pressing alone
+    """
     try:
         plan = radial.plan(alone)
         return [

@@ -11,7 +11,7 @@ from contact_results.files.csv_file import STEP, Column, write_meanings, write_t
 from contact_results.stress.files import INVARIANTS, PLACE, VOLUME, write_files
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import COMPONENTS, StressField, StressIncrement
-from contact_results.stress.stress_maxima import Extreme, maxima_columns, stress_doubts
+from contact_results.stress.stress_maxima import Extreme, maxima_columns
 from contact_scene import Body
 from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
@@ -40,6 +40,7 @@ def write_stress(
     with_figures: bool,
     errors: Sequence[StatedError] | None = None,
     accuracy: AccuracyReached | None = None,
+    doubts: Sequence[str] = (),
 ) -> None:
     """Write all files of the stress below a contact.
 
@@ -54,6 +55,7 @@ def write_stress(
     with_figures  also write figures and page
     errors        stated errors of `found`; None if they were not computed
     accuracy      requested and reached accuracy; None if none was requested
+    doubts        lines below the table of the page, about errors that have not converged
     """
     with files_at_once(directory, STRESS, (VOLUME, STRESS_PAGE)) as staging:
         write_files(state, which, field, found, staging, errors, accuracy)
@@ -64,9 +66,7 @@ def write_stress(
             title = f"{state.title or 'Stress'}: {which}, step {state.step}"
             body = state.indenter if which == "indenter" else state.body
             names = write_stress_figures(field, body, staging, title)
-            write_stress_page(
-                maxima_columns(found, errors), title, names, staging, stress_doubts(found, errors)
-            )
+            write_stress_page(maxima_columns(found, errors), title, names, staging, doubts)
 
 
 def write_history(

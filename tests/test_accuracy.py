@@ -40,6 +40,7 @@ from contact_errors.adaptive_refinement import (
     Levels,
     Refined,
     RefinementLevel,
+    largest_allowed_part,
     limit_factors,
     refine,
     targets_of,
@@ -306,6 +307,24 @@ def test_a_limit_of_time_holds_for_all_rounds_together(monkeypatch: pytest.Monke
     assert len(rounds) == 2
 
 
+def test_rounds_that_do_not_reduce_the_error_end_the_refinement_at_the_best_level(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    sizes, reached = iter([0.02, 0.01, 0.03, 0.04]), {}
+
+    def scripted(self: RefinementLevel, name: str) -> float:
+        cells = self.fineness.space.cells
+        if cells not in reached:
+            reached[cells] = next(sizes)
+        return reached[cells]
+
+    monkeypatch.setattr(RefinementLevel, "reached_error", scripted)
+    made = climbed(scene(PRESS), "approach 0.1%")
+    assert made.accuracy.reached == {"approach": 0.01}
+    assert reached[made.level.result.grid.cells] == reached[made.accuracy.settings.cells] == 0.01
+    assert "have not reduced the error" in made.accuracy.stopped
+
+
 def test_a_limit_of_memory_keeps_the_best_result(monkeypatch: pytest.MonkeyPatch) -> None:
     # Another program takes the memory after the first level, which is not accurate enough without
     # edge correction.
@@ -361,6 +380,13 @@ def test_a_worked_example_of_refinement() -> None:
     by = level_of(parts).needed_factors({"approach": 0.01})
     assert by == pytest.approx({"cells": 3.715, "increments": 6.9, "section": 1.313}, rel=1e-3)
     assert limit_factors(by, "cells") == by | {"increments": 4.0}
+
+
+@given(st.lists(st.floats(0, 1), min_size=1, max_size=5), st.floats(1e-6, 1.0))
+def test_reduced_parts_use_up_what_was_asked(sizes: list[float], limit: float) -> None:
+    allowed = largest_allowed_part(sizes, limit)
+    reduced = sum(min(size, allowed) for size in sizes)
+    assert reduced == pytest.approx(min(limit, sum(sizes)), abs=1e-12)
 
 
 def test_a_number_that_has_not_converged_doubles_the_cells() -> None:
@@ -442,7 +468,7 @@ def test_python_solves_as_accurately_as_the_file_asks(
     assert result.steps[-1].approach == pytest.approx(APPROACH, rel=2e-3)
     assert result.grid.cells < (64, 64)
     asked = read_scene_file(written(tmp_path, "[accuracy]\ncontact_radius = 1e-12\n"))
-    with pytest.raises(AccuracyOutOfReach):
+    with pytest.raises(AccuracyOutOfReach, match="--solver radial can solve this"):
         solve_file(asked)
     monkeypatch.setattr(adaptive_refinement, "MAX_ROUNDS", 1)
     asked = read_scene_file(written(tmp_path, "[accuracy]\napproach = '0.0001 %'\n"))

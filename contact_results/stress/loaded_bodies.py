@@ -67,6 +67,7 @@ class LoadedBodies:
     contact_radius  [length]; None if unknown
     peak_pressure   [force/length^2]; None if unknown
     strain          bulk strain of the lower body; None if there is none
+    scene           scene of the result; None if unknown
     """
 
     title: str
@@ -85,6 +86,7 @@ class LoadedBodies:
     contact_radius: float | None = None
     peak_pressure: float | None = None
     strain: Strain | None = None
+    scene: Scene | None = None
 
     @property
     def on_rings(self) -> bool:
@@ -244,6 +246,7 @@ def _loaded_bodies(
         contact_radius=end.contact_radius,
         peak_pressure=end.peak_pressure,
         strain=None if end.bulk_strain is None else (*end.bulk_strain, end.bulk_shear or 0.0),
+        scene=scene,
     )
 
 

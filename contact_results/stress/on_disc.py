@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.points import MEASURES, StressField, StressPoints
 from contact_results.stress.radial_body import RadialBody
 from contact_results.stress.stress_maxima import extremes
 from contact_scene.array_types import Field
@@ -23,7 +23,11 @@ SHOWN = 3.0  # extent of figures to the sides and in depth, in contact radii
 
 @one_thread()
 def stress_on_disc(
-    state: LoadedBodies, *, indenter: bool = False, depths: Sequence[float] | None = None
+    state: LoadedBodies,
+    *,
+    indenter: bool = False,
+    depths: Sequence[float] | None = None,
+    measures: Collection[str] = MEASURES,
 ) -> StressField:
     """Compute the stress in the plane of the load below the tractions of the radial solver.
 
@@ -33,6 +37,7 @@ def stress_on_disc(
     indenter  True for the stress in the indenter, False for the lower body
     depths    depths [length], without both sides of every interface, which are always included;
               None chooses them from contact and layers, and refines the maxima
+    measures  names of the stress measures whose maxima are refined
 
     Raises ValueError for a depth outside the body, and UnsupportedScene as `RadialBody.from_state`
     does.
@@ -62,7 +67,11 @@ def stress_on_disc(
     if depths is not None:
         return field
     extreme = extremes(field, state.indenter if indenter else state.body)
-    nearer = [body.largest(one) for one in extreme if one.region in body.parts.named]
+    nearer = [
+        body.largest(one)
+        for one in extreme
+        if one.region in body.parts.named and one.measure in measures
+    ]
     return replace(field, points=StressPoints.concatenate([field.points, *nearer]))
 
 

@@ -17,6 +17,7 @@ from contact_results.directory.run_directory import refuse_files_above
 from contact_results.radial_method import radial_advice
 from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import (
+    RADIAL,
     LoadedBodies,
     state_of_result,
     state_of_run,
@@ -241,7 +242,15 @@ def stress(
         which, body = _elastic_body(state, indenter)
         field = _stress_field(state, chosen_depths, indenter=indenter, volume=volume)
         found = extremes(field, body)
-        errors = stress_errors(state, field, found, indenter=indenter) if error else None
+        errors = None
+        if error:
+            chosen_alone = chosen_depths is not None
+            errors = stress_errors(state, field, found, indenter=indenter, at_depths=chosen_alone)
+        doubts = list(stress_doubts(found, errors))
+        doubted = bool(doubts) or (reached is not None and not reached.met)
+        if state.scene is not None:
+            solver_name = RADIAL if state.pressed is not None else ""
+            doubts += radial_advice(state.scene, solver_name, doubted=doubted)
         write_stress(
             state,
             which,
@@ -251,18 +260,14 @@ def stress(
             with_figures=figures is Figures.ALL,
             errors=errors,
             accuracy=reached,
+            doubts=doubts,
         )
     if reached is not None:
         print_pairs(accuracy_lines(reached))
     columns = maxima_columns(found, errors)
     print_table(columns, list(zip(*columns.values(), strict=True)), numbers=True)
-    doubts = stress_doubts(found, errors)
     for text in doubts:
         typer.echo(f"  {text}")
-    if contents is not None:
-        doubted = bool(doubts) or (reached is not None and not reached.met)
-        for text in radial_advice(contents.scene, chosen, doubted=doubted):
-            typer.echo(f"  {text}")
     edge: Any = field.how.get("edge")
     if edge is not None and not edge["fitted"]:
         typer.echo(f"  no correction of the stress near the contact edge: {edge['because']}")
