@@ -15,6 +15,7 @@ from xml.etree import ElementTree
 
 from verification.exhibits.chart import plain, value_text
 from verification.judging.outcome import (
+    ROUNDING,
     SYMBOLS,
     WORDS,
     CaseOutcome,
@@ -323,8 +324,6 @@ def _change_row(
 
 MAX_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
 TIMES = (3.0, 10.0)  # factors of an error that a verdict should detect
-# Smaller errors, relative to the scale of their verdict, are round-off of sums over 10⁴ cells.
-ROUND_OFF = 1e-12
 OUTSIDE = {
     ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.THEORY,
     ReferenceKind.EXTERNAL_CODE,
@@ -383,7 +382,7 @@ def power_text(report: Report) -> str:
         for verdict in case.verdicts
         if verdict.status is Status.PASS and verdict.tolerance_kind != "order"
         and verdict.reference_kind in OUTSIDE and verdict.error is not None
-        and verdict.error > ROUND_OFF * verdict.scale
+        and verdict.error > ROUNDING
     ]  # fmt: skip
     if not judged:
         return ""
