@@ -26,10 +26,6 @@ from verification.judging.declared_case import (
     MIDDLE,
     PEAK_PRESSURE,
     PRESSURE_L2,
-    SHIFT,
-    STICK_RADIUS,
-    WORK,
-    Observable,
     Refined,
     Reported,
     Within,
@@ -42,33 +38,11 @@ from verification.judging.declared_case import (
 )
 from verification.judging.judgement import judge_laws, judge_order, judge_quantity, with_uncertainty
 from verification.judging.outcome import Status, Verdict
-from verification.problems.cattaneo_mindlin import sheared
 from verification.problems.indentation import BALL
-from verification.problems.problem import HERTZ, Problem, hertz_grid
+from verification.problems.problem import HERTZ, hertz_grid
 from verification.regression.baseline import Key, key_of
 
 CELLS = (32, 64, 128)
-SHEARED = sheared("sheared", (0.3, 0.9))
-
-
-def answered(problem: Problem, times: float = 1.0) -> Any:
-    """A result by cells that has the exact numbers of a problem, or these so many times."""
-    names = ("approach", "peak_pressure", "contact_radius", "stick_radius", "dissipated_energy")
-    steps = []
-    for exact in problem.ends:
-        known = {name: times * getattr(exact, name) for name in names if hasattr(exact, name)}
-        shift = (times * getattr(exact, "shift", 0.0), 0.0)
-        steps.append(SimpleNamespace(**known, tangential_shift=shift))
-    return SimpleNamespace(steps=steps)
-
-
-@pytest.mark.parametrize("what", [SHIFT, STICK_RADIUS, WORK], ids=lambda o: o.name)
-def test_errors_of_a_history_are_over_one_scale_at_every_stop(what: Observable) -> None:
-    for step, part in enumerate((0.3, 0.9), 1):
-        at = what.at(step, part, "µW")
-        value, scale = at.reference(SHEARED).value, SHEARED.scale(at.over)
-        assert at.error(SHEARED)(answered(SHEARED)) == 0
-        assert at.error(SHEARED)(answered(SHEARED, 1.01)) == pytest.approx(0.01 * value / scale)
 
 
 def test_the_pressure_is_judged_by_one_norm_on_cells_and_on_rings() -> None:

@@ -1,11 +1,10 @@
-"""Tests of the stored reference solutions: complete, readable and physically possible."""
+"""Tests of the stored reference solutions: named, with origins that exist."""
 
 import json
 import pkgutil
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from verification.references import load_reference
@@ -14,21 +13,6 @@ ROOT = Path(__file__).parents[1]
 FILES = sorted((ROOT / "verification" / "references").glob("*.json"))
 NAMES = re.compile(r"\b(?:verification|radial|fem_reference|semi_analytical)(?:\.\w+)+")
 PATHS = re.compile(r"\b(?:verification|docs)/[\w/]+\.\w+")
-
-
-@pytest.mark.parametrize(
-    "name",
-    [
-        "coated_frictionless_paraboloid",
-        "external_code_calculix",
-        "frf",
-        "influence_coefficients",
-        "frictional_indentation_homogeneous",
-        "frictional_indentation_coated",
-    ],
-)
-def test_reference_loads(name):
-    assert load_reference(name)
 
 
 def texts_of(content):
@@ -57,31 +41,3 @@ def test_missing_reference_is_named_and_the_folder_cannot_be_left():
         load_reference("nope")
     with pytest.raises(ValueError, match="no reference"):
         load_reference("../references/frf")
-
-
-def load_over_hertz(row):
-    """Load from the tabulated profile: 3 (a/a_H)² ∫ p/p_H x dx, by a fit of p/√(1-x²) in x²."""
-    x, p = np.array(row["r_over_a"]), np.array(row["p_over_pH"])
-    smooth = np.polynomial.Polynomial.fit(x**2, p / np.sqrt(1 - x**2), 6)
-    nodes, weights = np.polynomial.legendre.leggauss(40)
-    x = np.sin(np.pi / 4 * (nodes + 1))
-    integrand = smooth(x**2) * (1 - x**2) * x
-    return 3 * row["a_over_aH"] ** 2 * (integrand * weights).sum() * np.pi / 4
-
-
-@pytest.mark.parametrize("row", load_reference("coated_frictionless_paraboloid")["rows"])
-def test_coated_profiles_carry_the_load(row):
-    # a fit through twelve points
-    assert load_over_hertz(row) == pytest.approx(1, abs=2e-4)
-
-
-@pytest.mark.parametrize(
-    "row",
-    [
-        *load_reference("frictional_indentation_homogeneous")["rows"],
-        load_reference("frictional_indentation_coated"),
-    ],
-)
-def test_frictional_profiles_carry_the_load(row):
-    # the kink at the stick radius limits the fit
-    assert load_over_hertz(row) == pytest.approx(1, abs=1e-2)
