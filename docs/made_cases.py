@@ -1,4 +1,5 @@
-"""Pages of the verification manual: one for each case, from its declaration and its baseline."""
+"""Pages of the verification manual: one for each case, from its declaration and its baseline, and
+the requirements with the cases that show them."""
 
 import json
 from collections.abc import Iterator, Mapping
@@ -10,7 +11,9 @@ from made_reference import table
 import verification.baselines
 from contact_scene.reading.engineering_units import quantity
 from verification.cases.catalogue import CASES, case_of
+from verification.cases.requirements import REQUIREMENTS
 from verification.judging.case import Case, Derived, Level
+from verification.report.summary_text import OMISSIONS
 
 BASELINES = Path(verification.baselines.__file__).parent
 LEVELS = ("full", "standard", "quick")
@@ -21,6 +24,19 @@ def pages() -> dict[str, str]:
     cases = [case_of(name, Level.QUICK) for name in CASES]
     accepted = {case.name: _accepted(case.name) for case in cases}
     return {"index": _index(cases)} | {c.name: page(c, *accepted[c.name]) for c in cases}
+
+
+def requirements() -> str:
+    """Return the tables of requirements with the cases that show them, and the list of gaps."""
+    shown = {name: case_of(name, Level.QUICK).shows for name in CASES}
+    parts = []
+    for group, meanings in REQUIREMENTS.items():
+        rows = [
+            (key, meaning, ", ".join(f"`{name}`" for name, keys in shown.items() if key in keys))
+            for key, meaning in meanings.items()
+        ]
+        parts += [f"## {group}\n", table(("requirement", "meaning", "cases"), rows)]
+    return "\n".join((*parts, "## Gaps\n", *(f"- {_text(text)}" for text in OMISSIONS), ""))
 
 
 def page(case: Case, level: str, numbers: Mapping[str, Any]) -> str:

@@ -14,6 +14,7 @@ def write_pages(docs: Path) -> None:
     does not read them again."""
     made = docs / "made"
     pages = {f"{name}.md": getattr(made_reference, name)() for name in INCLUDED}
+    pages["requirements.md"] = made_cases.requirements()
     pages |= {f"cases/{name}.md": text for name, text in made_cases.pages().items()}
     for name, text in pages.items():
         path = made / name

@@ -123,46 +123,6 @@ def approach_under(force: float) -> float:
     return float(force / (np.pi * MODULUS) * (1 + 2 * np.log(2 * REFERENCE / half)))
 
 
-@pytest.mark.parametrize("cells", [64, 256, 1024])
-def test_pressing_and_pushing_follow_hertz_and_cattaneo(cells: int) -> None:
-    push = 0.5 * FRICTION * FORCE
-    result = solved({"normal_force": FORCE}, {"tangential_force": [push, 0]}, cells=cells)
-    end, first = result.steps[1], 1e-3 * 64 / cells
-    stick = HALF_WIDTH * np.sqrt(0.5)
-    moved = FRICTION * (approach_under(FORCE) - approach_under(FORCE / 2))
-    assert end.peak_pressure == pytest.approx(PEAK, rel=3e-4 * (64 / cells) ** 2)
-    assert end.contact_radius == pytest.approx(HALF_WIDTH, rel=max(first, 2e-4))
-    assert end.stick_radius == pytest.approx(stick, rel=max(first, 2e-4))
-    assert end.approach == pytest.approx(approach_under(FORCE), rel=5e-5 * (64 / cells))
-    assert end.tangential_shift[0] == pytest.approx(moved, rel=2e-4 * (64 / cells))
-    assert end.contact_area == 2 * end.contact_radius
-
-
-def test_a_push_along_the_line_has_the_shear_of_a_push_across_it() -> None:
-    push = 0.5 * FRICTION * FORCE
-    across, along = (
-        solved({"normal_force": FORCE}, {"tangential_force": force}).steps[1]
-        for force in ([push, 0], [0, push])
-    )
-    size = FRICTION * PEAK
-    np.testing.assert_allclose(along.shear[1], across.shear[0], rtol=0, atol=1e-5 * size)
-    shift = along.tangential_shift[1] / across.tangential_shift[0]
-    assert shift == pytest.approx(1 / (1 - 0.3), rel=1e-6)
-
-
-def test_a_bulk_stress_in_phase_moves_the_stick_zone() -> None:
-    push, eccentricity = 0.5 * FRICTION * FORCE, 0.2
-    strain = eccentricity * FRICTION * HALF_WIDTH / RADIUS
-    stress = strain * STEEL["young_modulus"] / (1 - 0.3**2)
-    step = {"tangential_force": [push, 0], "bulk_stress": [stress, 0, 0]}
-    result = solved({"normal_force": FORCE}, step, cells=512)
-    end, x = result.steps[1], result.grid.x
-    centre = float(np.mean(x[end.in_stick[:, 0]])) / HALF_WIDTH
-    assert centre == pytest.approx(eccentricity, abs=3e-3)  # within a strip
-    assert end.stick_radius == pytest.approx(HALF_WIDTH * np.sqrt(0.5), rel=5e-4)
-    assert end.bulk_strain == pytest.approx((strain, 0.0))
-
-
 def test_a_moment_tilts_the_cylinder() -> None:
     moment = 0.3 * FORCE * HALF_WIDTH
     (end,) = solved({"normal_force": FORCE, "moment": [0, moment]}, cells=512).steps
@@ -187,19 +147,6 @@ def test_tractions_do_not_depend_on_the_reference_length() -> None:
     assert far.steps[1].approach > near.steps[1].approach
 
 
-def test_unequal_bodies_slide_with_a_shifted_pressure() -> None:
-    """Rigid on ν = 0.3: tan πγ = µβ, a² = 4WR/πE*(1 - 4γ²), middle at 2γa (Johnson 1985, 8.2)."""
-    push = {"tangential_shift": [1e-3, 0]}
-    press = {"normal_force": FORCE, "tangential_shift": [0, 0]}
-    rigid = {"indenter": {"material": "rigid"}, "friction": {"coefficient": 0.3}}
-    end = (result := solved(press, push, cells=512, **rigid)).steps[1]
-    gamma = np.arctan(0.3 * (1 - 2 * 0.3) / (2 * (1 - 0.3))) / np.pi
-    half = np.sqrt(4 * FORCE * RADIUS / (np.pi * 2 * MODULUS * (1 - 4 * gamma**2)))
-    assert end.contact_radius == pytest.approx(half, rel=3e-4)
-    middle = float(np.mean(result.grid.x[end.pressure[:, 0] > 0])) / half
-    assert abs(middle) == pytest.approx(2 * gamma, abs=3e-3)
-
-
 def test_loads_that_grow_together_are_exact_in_one_increment() -> None:
     """Jäger (1998): the shear grows by k Δp, with the ratio k < µ of the changes of the loads."""
     k = 0.5 * FRICTION
@@ -217,34 +164,14 @@ def test_loads_that_grow_together_are_exact_in_one_increment() -> None:
 EDGE = 1e-3
 
 
-def rounded_load(half: float, edge_radius: float) -> float:
-    """W = E*/R ∫_b^a t(t - b)/√(a² - t²) dt of a flat punch with rounded edges."""
-    angle = np.arcsin(EDGE / half)
-    rest = np.pi / 2 - angle - np.sin(angle) * np.cos(angle)
-    return float(MODULUS / edge_radius * half**2 / 2 * rest)
-
-
-PROFILE = np.linspace(-2e-3, 2.4e-3, 221)
-SHAPES: dict[str, tuple[dict[str, Any], float, float]] = {
-    # Sizes, force and half width.
-    "wedge": ({"slope_angle": 0.01}, MODULUS * 3e-4 * np.tan(0.01), 3e-4),
-    "strip": ({"half_width": EDGE, "edge_radius": 0.05}, rounded_load(1.5e-3, 0.05), 1.5e-3),
-    "line_profile": (
-        {"file": np.stack([PROFILE, PROFILE**2 / (2 * RADIUS)])},
-        FORCE,
-        HALF_WIDTH,
-    ),
-}
-
-
-@pytest.mark.parametrize("name", SHAPES)
-def test_shapes_have_the_half_width_of_their_closed_form(name: str) -> None:
-    sizes, force, half = SHAPES[name]
-    shape = {"shape": name, "radius": None, **sizes}
-    (end,) = solved({"normal_force": force}, cells=512, indenter=shape).steps
-    assert end.contact_radius == pytest.approx(half, rel=2e-4)
+def test_a_profile_of_the_cylinder_has_its_half_width() -> None:
+    x = np.linspace(-2e-3, 2.4e-3, 221)
+    profile = np.stack([x, x**2 / (2 * RADIUS)])
+    shape = {"shape": "line_profile", "radius": None, "file": profile}
+    (end,) = solved({"normal_force": FORCE}, cells=512, indenter=shape).steps
+    assert end.contact_radius == pytest.approx(HALF_WIDTH, rel=2e-4)
     (led,) = solved({"approach": end.approach}, cells=512, indenter=shape).steps
-    assert led.normal_force == pytest.approx(force, rel=2e-4)
+    assert led.normal_force == pytest.approx(FORCE, rel=2e-4)
 
 
 @pytest.mark.parametrize("cells", [48, 96, 384])
@@ -259,18 +186,6 @@ def test_a_sharp_edge_at_its_best_place_leaves_an_error_of_second_order(cells: i
     middle = np.argsort(np.abs(x))[:2]
     exact = FORCE / np.pi / np.sqrt(EDGE**2 - x[middle[0]] ** 2)
     assert np.mean(end.pressure[middle]) == pytest.approx(exact, rel=6e-4 * (48 / cells) ** 2)
-
-
-def test_thin_layers_have_the_pressure_of_their_limits() -> None:
-    """Johnson (1985), section 5.8: a parabola on a compressible layer."""
-    half, thickness = 1e-3, 1e-3 / 80
-    layer = {"thickness": thickness, "material": {"young_modulus": 1e9, "poisson_ratio": 0.3}}
-    uniaxial = 1e9 * 0.7 / (1.3 * 0.4)
-    peak = uniaxial * half**2 / (2 * RADIUS * thickness)
-    body = {"material": "rigid", "layers": [layer]}
-    changes: dict[str, Any] = {"body": body, "indenter": {"material": "rigid"}}
-    (end,) = solved({"normal_force": 4 / 3 * peak * half}, **changes, friction=None).steps
-    assert end.peak_pressure == pytest.approx(peak, rel=2e-3)
 
 
 # ---- What a line contact refuses

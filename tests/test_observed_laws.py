@@ -172,6 +172,13 @@ def test_each_law_alone_is_seen(solved):
 
 
 @pytest.mark.parametrize("name", ["cells", "rings"])
+def test_stick_outside_the_contact_is_seen(solved, name):
+    *before, last = solved[name].increments
+    wrong = replace(last, in_stick=np.ones_like(last.in_stick))
+    assert observed(replace(solved[name], increments=(*before, wrong)))[0] >= 1
+
+
+@pytest.mark.parametrize("name", ["cells", "rings"])
 def test_step_that_ends_under_another_load_is_seen(solved, name):
     result = solved[name]
     last = result.scene.loading[-1]

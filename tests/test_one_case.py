@@ -17,6 +17,7 @@ from contact_scene import read_scene_file
 from semi_analytical import plan
 from verification.cases.catalogue import CASES, MODULE_OF, choose
 from verification.cases.fretting import paper_fretting_loop
+from verification.cases.requirements import REQUIREMENTS
 from verification.judging.case import Derived, Level, SectionRun
 from verification.problems.problem import ReferenceKind
 
@@ -99,17 +100,19 @@ def test_labels_and_verdicts_of_a_case_are_unambiguous(name: str) -> None:
 def test_every_case_states_its_equations_its_orders_and_the_errors_of_its_references(
     level: Level,
 ) -> None:
-    """An order is judged, or a reason is given; a reference that somebody computed has an error; a
-    number has a key of its own."""
+    """Requirements are named; an order is judged, or a reason is given; a reference that somebody
+    computed has an error; a number has a key of its own."""
     computed = (ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.EXTERNAL_CODE)
     assert cases(level)
+    known = {name for group in REQUIREMENTS.values() for name in group}
+    assert {name for case in cases(level) for name in case.shows} == known
     for case in cases(level):
+        assert case.shows, case.name
         assert case.equations, case.name
         assert bool(case.orders) != bool(case.no_order), case.name
-        known = [(q.name, q.reference.kind, q.reference.uncertainty)
-                 for q in case.quantities]  # fmt: skip
-        for name, kind, uncertainty in known:
-            assert kind not in computed or uncertainty > 0, (case.name, name)
+        for q in case.quantities:
+            exact = q.reference.kind not in computed
+            assert exact or q.reference.uncertainty > 0, (case.name, q.name)
         keys = [(q.name, q.run, type(q.tolerance)) for q in case.quantities]
         keys += [(finding.name, finding.run, None) for finding in case.findings]
         assert len(set(keys)) == len(keys), case.name

@@ -16,11 +16,12 @@ from verification.judging.outcome import (
     Origin,
     Status,
     Verdict,
+    error_text,
 )
 from verification.report.file_names import PACKED, PAGE, RECORD, SHEETS
 from verification.report.files import EARLIER, draw_again, record_in, set_aside_report, write_report
-from verification.report.page import line_of, render_page
-from verification.report.summary_text import claims_line, moved_rows, worse_rows
+from verification.report.page import line_of, render_page, render_sheets
+from verification.report.summary_text import claims_line, moved_rows, power_text, worse_rows
 from verification.running.report_record import dump_report, load_report
 
 
@@ -35,6 +36,14 @@ def test_a_line_names_the_quantity_nearest_to_its_limit() -> None:
     assert line_of(judged(far, near, solved)) == "3 verdicts; radius uses 90 % of what is allowed"
     wrong = verdict("energy", 1.02, 1.0)
     assert line_of(judged(near, wrong)).startswith("1 of 2 verdicts passed; energy uses 200 %")
+
+
+def test_errors_below_round_off_are_no_numbers_and_count_nowhere() -> None:
+    """Errors are relative to the scale of their verdict, here 1e9 and 1e-9."""
+    found = [verdict("p", s * (1 + e), s) for s in (1e9, 1e-9) for e in (1e-6, 5e-13)]
+    assert [error_text(one) for one in found] == ["1e-6", "< 1e-12"] * 2
+    assert power_text(report_of((judged(*found),))).startswith("Of 2 numbers with a reference")
+    assert render_sheets(report_of((judged(*found),))).count("&lt; 1e-12") == 2
 
 
 def test_a_claim_that_is_inconclusive_does_not_hold() -> None:

@@ -16,7 +16,9 @@ from command import slipstick
 from report_examples import case, made_by, report_of, run_record, study, verdict
 
 from slipstick.cli.errors import ExitCode, exit_code
-from verification.cases.catalogue import CaseToJudge, JudgedCase
+from verification.cases.catalogue import CaseToJudge, JudgedCase, choose
+from verification.cases.requirements import unmet
+from verification.judging.case import Level
 from verification.judging.outcome import CaseOutcome, ChangeKind, Status, order_text
 from verification.regression.baseline import accept, baselines_of, compared
 from verification.report.file_names import JUNIT, PAGE, RECORD, SHEETS, SUMMARY
@@ -380,6 +382,19 @@ def test_failed_study_of_the_same_sources_fails_the_report() -> None:
     assert len(junit.findall("testsuite[@name='studies']/testcase/failure")) == 1
     assert junit.get("tests") == str(len(junit.findall("testsuite/testcase")))
     assert "1 of the studies failed" in render_page(report)
+
+
+def test_requirement_that_no_passing_case_shows_fails_the_report() -> None:
+    declared = choose(Level.QUICK)
+    assert unmet(declared, [a_case(case.name) for case in declared]) == ()
+    errors = [0.02 if "rig" in case.shows else 0.0 for case in declared]
+    outcomes = [a_case(case.name, error) for case, error in zip(declared, errors, strict=True)]
+    (missing,) = unmet(declared, outcomes)
+    report = three_cases().model_copy(update={"unmet": (missing,)})
+    assert report.status is Status.FAIL
+    assert failure_lines(report) == [f"FAIL requirement {missing}: no passing case shows it"]
+    for text in (render_page(report), render_summary(report), render_junit(report)):
+        assert missing in text
 
 
 def test_study_that_lost_a_case_fails_the_report() -> None:

@@ -78,6 +78,10 @@ def test_stress_at_the_surface_is_the_traction_with_the_signs_of_the_convention(
         x, y, depth = mesh.points.T
         along, across = (x, y) if axis == "x" else (y, x)
         assert np.all(across == 0)
+        corners = np.stack([along, depth], axis=1)[mesh.cells[1]]
+        one, other = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+        twice_area = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+        assert np.all(twice_area != 0)  # its edges do not cross
         inside = (depth == 0) & (np.abs(along) < 0.7)
         pressure = hertz(along[inside])
         tensor = mesh.at_points["stress [Pa]"].reshape(-1, 3, 3)[inside]

@@ -252,6 +252,7 @@ def coated_paraboloid(
                 also=(APPROACH,), beside={"uncoated": bare},
             ),
         ),
+        shows=("(8)", "coatings"),
     )  # fmt: skip
 
 
@@ -327,6 +328,7 @@ def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
             for name, pair in pairs.items()
         ),
         no_order=JUDGED_BY.format("coated_paraboloid"),
+        shows=("coatings",),
     )
 
 
@@ -427,6 +429,7 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
             for other in others
         ),
         no_order=IDENTITY,
+        shows=("(8)", "(14)"),
     )  # fmt: skip
 
 
@@ -565,6 +568,7 @@ def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
             r"W \to \frac{\pi E a^6}{96 R h^3} \ (\nu = \tfrac{1}{2})",
         ),
         no_order=f"on {cells_label(cells)} cells only; the orders are those of coated_paraboloid",
+        shows=("coatings", "hard contacts"),
     )
 
 
@@ -636,6 +640,7 @@ def film_stiffness(level: Level = Level.QUICK) -> Case:
             r"I_1(\xi) = \tfrac{2}{\pi} \arctan\xi + \tfrac{\xi}{\pi} \ln\frac{1 + \xi^2}{\xi^2}",
         ),
         no_order="derivatives of a semi-closed solution: no grid is refined",
+        shows=("coatings",),
     )  # fmt: skip
 
 
@@ -692,6 +697,7 @@ def fem_coated(
         ),
         no_order="the solver fits its meshes to the contact, whose edge has any position in an "
         "element; fem_hertz judges orders with prescribed positions of the edge",
+        shows=("finite elements", "coatings"),
     )  # fmt: skip
 
 
@@ -758,6 +764,7 @@ def radial_pressing(level: Level = Level.QUICK) -> Case:
         ),
         no_order="polynomials converge faster than any power: all numbers of terms are exact to "
         "rounding",
+        shows=("radial solver", "coatings"),
     )
 
 
@@ -875,6 +882,7 @@ def layered_reference(level: Level = Level.QUICK) -> Case:
         ),
         equations=(FREQUENCY_RESPONSE,),
         no_order="both sides are exact in the wavenumber, or quadratures to rounding",
+        shows=("(7)", "(8)", "(9)", "(10)", "(11)", "(12)", "(13)"),
     )  # fmt: skip
 
 
@@ -915,4 +923,5 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
             r"\mathbf{F}(\mathbf{R}\mathbf{k}) = \mathbf{R} \mathbf{F}(\mathbf{k}) \mathbf{R}^T",
         ),
         no_order="laws of the response itself, in which nothing converges",
+        shows=("(7)", "(12)", "(14)"),
     )  # fmt: skip

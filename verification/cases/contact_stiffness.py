@@ -130,6 +130,7 @@ def contact_stiffness(level: Level = Level.QUICK) -> Case:
         judged(on_radii(twist, "torsion on discs"), _of_twist(1e-9, IDENTITY)),
         no_order="the edges of contact and stick zone have any position in a cell; other cases "
         "judge the orders of the radii, to which the stiffnesses are proportional",
+        shows=("contact stiffness",),
     )
 
 

@@ -412,6 +412,7 @@ def cross_check(level: Level = Level.QUICK, given: tuple[Contact, ...] = ()) -> 
         ),
         no_order="two solvers are compared on one discretisation; orders are judged in cases "
         "with a known solution",
+        shows=("figure 3", "figure 4", "coated friction"),
     )  # fmt: skip
 
 
@@ -657,4 +658,5 @@ def external_codes(level: Level = Level.QUICK) -> Case:
         ),
         no_order="the records of CalculiX have two meshes; this program is judged on one "
         "discretisation",
+        shows=("other codes", "coated friction"),
     )

@@ -407,6 +407,7 @@ def fretting_loop(level: Level = Level.QUICK, cells: Sequence[int] = (), quarter
         ),
         no_order="the accuracy targets of the shear are for 128 and 256 cells; cattaneo_mindlin "
         "judges its order",
+        shows=("(6)", "figure 2", "load history"),
     )
 
 
@@ -495,6 +496,7 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
             "The closed form is not the solution of this problem; the ν = 0 loop judges accuracy.",
         ),
         no_order="the closed form is approximate: its error does not fall with the cells",
+        shows=("figure 1", "figure 2", "fretting loop", "p_H"),
     )
 
 
@@ -679,6 +681,7 @@ def fem_partial_slip(
         ),
         limits=(ACROSS,),
         no_order="" if orders else "orders are judged above the quick level",
+        shows=("finite elements", "load history"),
     )  # fmt: skip
 
 
@@ -725,6 +728,7 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
         ),
         limits=(ACROSS,),
         no_order=JUDGED_BY.format("fem_partial_slip and fem_torsion"),
+        shows=("penalty",),
     )  # fmt: skip
 
 
@@ -803,6 +807,7 @@ def growing_loads(level: Level = Level.QUICK) -> Case:
         "one increment for each step.",
         *parts,
         no_order="the error is that of the normal contact, whose order other cases judge",
+        shows=("load history",),
     )
 
 
@@ -904,4 +909,5 @@ def radial_tangential(level: Level = Level.QUICK) -> Case:
             "this solver with finite elements and cells.",
         ),
         no_order="judged on the rings that the solver chooses, not on several numbers of rings",
+        shows=("radial solver", "load history"),
     )

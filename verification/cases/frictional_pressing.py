@@ -301,6 +301,7 @@ def frictional_indentation(level: Level = Level.QUICK) -> Case:
             "The stick disc of the coated body is a few cells wide; its radius is not judged.",
         ),
         no_order=JUDGED_BY.format("indentation_refinement, in cells and in increments"),
+        shows=("(9)", "(10)", "(13)", "coated friction", "shear at T = 0"),
     )
 
 
@@ -588,6 +589,7 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
         ),
         equations=HALF.problem(1).equations,
         no_order="" if series else "orders are judged above the quick level",
+        shows=("increments",),
     )  # fmt: skip
 
 
@@ -690,6 +692,7 @@ def sheared_increments(
             r"-|\dot{\mathbf{s}}| \, \mathbf{q}",
         ),
         no_order="" if several else "orders are judged above the quick level",
+        shows=("increments", "coated friction"),
     )  # fmt: skip
 
 
@@ -796,6 +799,7 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
             r"\frac{(1 - \nu) \ln(3 - 4\nu)}{1 - 2\nu}",
         ),
         no_order="errors of both stiffnesses cancel in their ratio, and scatter from grid to grid",
+        shows=("known solutions", "hard contacts"),
     )  # fmt: skip
 
 
@@ -866,6 +870,7 @@ def spence_example(level: Level = Level.QUICK) -> Case:
         limits=("The published output has four to five digits.",),
         equations=HALF.problem(1).equations,
         no_order="the published example has one grid",
+        shows=("known solutions", "other codes"),
     )  # fmt: skip
 
 
@@ -927,6 +932,7 @@ def fem_indentation(level: Level = Level.QUICK) -> Case:
             "µ = 0.3.",
         ),
         no_order=JUDGED_BY.format("fem_increments"),
+        shows=("finite elements", "coated friction"),
     )
 
 
@@ -986,6 +992,7 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
             "information: the mesh must be refined with them.",
         ),
         equations=HALF.problem(1).equations,
+        shows=("finite elements", "increments"),
     )
 
 
@@ -1049,6 +1056,7 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
             "error: each position of the stick edge leaves a ripple, of 0.02 µp_H for µ = 0.3.",
         ),
         no_order=JUDGED_BY.format("fem_increments"),
+        shows=("penalty",),
     )
 
 
@@ -1174,4 +1182,5 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
             for title in [f"ν = {nu:g}, µ = {ratio:g} β"]
         ),
         no_order="judged at the increments of the case, not on several numbers of them",
+        shows=("radial solver", "coated friction"),
     )  # fmt: skip

@@ -277,6 +277,7 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
         "correct.",),
         equations=(ROTATION,),
         no_order=IDENTITY,
+        shows=("(4)", "load history"),
     )  # fmt: skip
 
 
@@ -537,6 +538,7 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
         limits=("All solves take equal increments, so that the increment error is not visible.",),
         equations=(ROTATION,),
         no_order=IDENTITY,
+        shows=("load history",),
     )  # fmt: skip
 
 
@@ -673,6 +675,7 @@ def same_surface(level: Level = Level.QUICK) -> Case:
         ),
         equations=(ROTATION,),
         no_order=IDENTITY,
+        shows=("effects",),
     )  # fmt: skip
 
 
@@ -733,6 +736,7 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
         ),
         equations=(r"\mathbf{C}_{xz} = 0 \Rightarrow p\ \text{and}\ \mathbf{q}\ \text{uncoupled}",),
         no_order=IDENTITY,
+        shows=("effects",),
     )  # fmt: skip
 
 
@@ -858,6 +862,7 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
         equations=(r"p(\mathbf{x}) \to p(-\mathbf{x}),\quad \mathbf{q}(\mathbf{x}) \to "
                    r"\mathbf{q}(-\mathbf{x})",),
         no_order=IDENTITY,
+        shows=("unlike bodies",),
     )  # fmt: skip
 
 
@@ -1009,6 +1014,7 @@ def led_histories(level: Level = Level.QUICK) -> Case:
         ),
         equations=(r"W = \tfrac{4}{3} E^* \sqrt{R} \, \delta^{3/2}",),
         no_order="judged on one grid: hertz_point judges the order of the force at an approach",
+        shows=("prescribed motion", "load history"),
     )  # fmt: skip
 
 
@@ -1066,4 +1072,5 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
         ),
         equations=(r"\mathbf{u} = \mathbf{u}_\mathrm{Boussinesq-Cerruti}(W, T, M) + O(a^n/R^n)",),
         no_order="the allowed difference is itself the power law of the box",
+        shows=("finite elements",),
     )  # fmt: skip

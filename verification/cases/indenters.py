@@ -182,6 +182,7 @@ def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
             ),
         ),
         limits=("Pointwise errors at the edge fall as O(√h) only and are not judged.",),
+        shows=("(1)", "(3)", "(5)", "(7)", "p_H", "known solutions"),
     )  # fmt: skip
 
 
@@ -231,6 +232,7 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
         judged(on_cells(problem, refinement(64, 256 if level is Level.QUICK else 512)), rows),
         limits=("The theory is linear elasticity of a half-space; large strains are not covered.",),
         no_order=DERIVED,
+        shows=("shapes",),
     )
 
 
@@ -253,6 +255,7 @@ def hertz_approach_control(level: Level = Level.QUICK) -> Case:
         "force is the measured quantity.",
         judged(on_cells(LED_BALL, refinement(32, 128)), rows),
         no_order=DERIVED,
+        shows=("prescribed motion",),
     )
 
 
@@ -379,6 +382,7 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
             for back, once in (grids, meshes)
         ),
         no_order=JUDGED_BY.format("hertz_point and fem_hertz"),
+        shows=("(5)", "load history"),
     )  # fmt: skip
 
 
@@ -418,6 +422,7 @@ def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
         ),
         equations=(r"\frac{1}{E^*} = \frac{1 - \nu_1^2}{E_1} + \frac{1 - \nu_2^2}{E_2}",),
         no_order="the operator differs from that of hertz_point by a factor, its orders do not",
+        shows=("unlike bodies",),
     )
 
 
@@ -461,6 +466,7 @@ def hertz_elliptical(level: Level = Level.QUICK) -> Case:
                 "p / p₀", EXACT.peak_pressure,
             ),
         ),
+        shows=("(3)", "known solutions", "shapes"),
     )  # fmt: skip
 
 
@@ -537,6 +543,7 @@ def fem_hertz(
             "the pressures. Neither term dominates on these meshes, so that there is no constant "
             "order.",
         ),
+        shows=("finite elements", "known solutions"),
     )  # fmt: skip
 
 
@@ -599,6 +606,7 @@ def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
         ),
         equations=(r"\Delta\delta = \frac{p_0}{2\varepsilon},\quad \varepsilon = \frac{c E^*}{h}",),
         no_order="error_law judges the error of the penalty, fem_hertz that of the mesh",
+        shows=("penalty",),
     )
 
 
@@ -641,6 +649,7 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
             ),
         ),
         limits=("The pressure of the cells at the apex is an average of an infinite peak.",),
+        shows=("known solutions", "shapes"),
     )  # fmt: skip
 
 
@@ -677,6 +686,7 @@ def flat_punch(level: Level = Level.QUICK) -> Case:
         ),
         no_order="first order in the cell side with scatter: the division of cells by the circle "
         "differs from grid to grid",
+        shows=("known solutions", "shapes"),
     )  # fmt: skip
 
 
@@ -810,6 +820,7 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
             ),
         ),
         no_order="first order in the cell side with scatter, as in flat_punch",
+        shows=("(1)", "(3)", "tilt and torsion"),
     )  # fmt: skip
 
 
@@ -922,6 +933,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
             r"\frac{x^2}{2R} - \varphi x = \frac{(x - R\varphi)^2}{2R} - \frac{R\varphi^2}{2}",
         ),
         no_order=IDENTITY,
+        shows=("(1)", "tilt and torsion"),
     )  # fmt: skip
 
 
@@ -1005,4 +1017,5 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
                 also=(APPROACH,),
             ),
         ),
+        shows=("finite elements", "known solutions"),
     )  # fmt: skip

@@ -157,6 +157,7 @@ def line_push(level: Level = Level.QUICK) -> Case:
             r"q = \mu\,[p(x; W) - p(x; W - T/\mu)],\quad c = a\sqrt{1 - T/\mu W}",
         ),
         no_order="the errors depend on the places of the edges within strips",
+        shows=("line contacts",),
     )  # fmt: skip
 
 
@@ -229,6 +230,7 @@ def line_loop(level: Level = Level.QUICK) -> Case:
             r"e = \varepsilon_{xx} R/\mu",
         ),
         no_order=JUDGED_BY.format("line_push"),
+        shows=("line contacts",),
     )  # fmt: skip
 
 
@@ -312,6 +314,7 @@ def line_shapes(level: Level = Level.QUICK) -> Case:
             r"p = \frac{W}{\pi\sqrt{b^2 - x^2}} \left(1 + \frac{2 M x}{W b^2}\right)",
         ),
         no_order=JUDGED_BY.format("line_push"),
+        shows=("line contacts", "shapes"),
     )
 
 
@@ -402,4 +405,5 @@ def line_unlike(level: Level = Level.QUICK) -> Case:
             r"\delta_y = \delta_x/(1 - \nu)",
         ),
         no_order=JUDGED_BY.format("line_push"),
+        shows=("line contacts", "unlike bodies"),
     )

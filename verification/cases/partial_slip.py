@@ -275,6 +275,7 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
                 for one in shifted
             ),
         ),
+        shows=("(2)", "(4)", "(11)", "known solutions"),
     )  # fmt: skip
 
 
@@ -373,6 +374,7 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
                 "qₓ / (µ mean p)", FRICTION * mean_pressure(CONE), *shears_along_x(stops),
             ),
         ),
+        shows=("known solutions", "shapes"),
     )  # fmt: skip
 
 
@@ -435,6 +437,7 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
         ),
         limits=("Under force control at µW the shift is undefined; there is no such case.",),
         no_order="the stick zone is a few cells wide or less: its radius scatters with the grid",
+        shows=("stick zone up to µW", "hard contacts"),
     )
 
 
@@ -605,4 +608,5 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
         judged(disc, (of_disc,)),
         limits=("The resolution of the stick zone is one element in radius and 22.5° in angle.",),
         no_order="on one mesh: fem_partial_slip judges the orders of meshes of the same elements",
+        shows=("finite elements",),
     )

@@ -343,6 +343,7 @@ def series_spring(level: Level = Level.QUICK) -> Case:
         judged(on_elements(problem, (16,), over=0.97, of="elements"), (*rows, *loops)),
         judged(on_radii(problem, "rings"), (*rows, *loops, works)),
         no_order="the constant compliance has no error; fretting_loop judges the contact",
+        shows=("rig",),
     )
 
 
@@ -443,6 +444,7 @@ def eccentric_contact(level: Level = Level.QUICK) -> Case:
                 Drawn(lambda end: shear_of(end)[0], lambda exact: exact.shear),
             ),
         ),
+        shows=("bulk strain",),
     )  # fmt: skip
 
 
@@ -558,4 +560,5 @@ def strained_ball(level: Level = Level.QUICK) -> Case:
         ),
         no_order="the reference is a numerical solution by the radial solver; cattaneo_mindlin "
         "and fem_partial_slip judge the orders of cells and elements",
+        shows=("bulk strain",),
     )

@@ -257,6 +257,7 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
         ),
         equations=(HAMILTON_EQUATION,),
         no_order="judged on one grid",
+        shows=("stress",),
     )  # fmt: skip
 
 
@@ -464,6 +465,7 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
             r"\sigma_{xx}(-a, 0) = p_0 \left[\frac{1 - 2\nu}{3} + \mu \pi \frac{4 + \nu}{8}\right]",
         ),
         no_order="the edge has any position in its cells: errors scatter from grid to grid",
+        shows=("stress",),
     )  # fmt: skip
 
 
@@ -622,4 +624,5 @@ def radial_stress(level: Level = Level.QUICK) -> Case:
         ),
         equations=(HAMILTON_EQUATION,),
         no_order="judged on the rings that the solver chooses, not on several numbers of rings",
+        shows=("radial solver", "stress"),
     )

@@ -232,6 +232,7 @@ def torsion(level: Level = Level.QUICK) -> Case:
                 also=(shears[1], shears[3]),
             ),
         ),
+        shows=("(2)", "(4)", "known solutions", "tilt and torsion"),
     )  # fmt: skip
 
 
@@ -322,6 +323,7 @@ def torsion_coated(level: Level = Level.QUICK) -> Case:
             "other cases judge; the torsion of the reference does not.",
         ),
         no_order="the tolerances are derived from the orders that torsion judges on equal grids",
+        shows=("tilt and torsion", "coatings"),
     )
 
 
@@ -385,6 +387,7 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
             )
             for step, part in TORQUE_PARTS.items()
         ),
+        shows=("finite elements", "tilt and torsion"),
     )  # fmt: skip
 
 
@@ -435,6 +438,7 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
             "that the solver uses as well; the torsion of the reference does not.",
         ),
         no_order="the solution is exact to rounding: no error falls with the rings",
+        shows=("radial solver", "tilt and torsion"),
     )
 
 
@@ -677,4 +681,5 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
             "with each other.",
         ),
         no_order="judged on the rings that the solver chooses, not on several numbers of rings",
+        shows=("(6)", "radial solver", "tilt and torsion"),
     )  # fmt: skip

@@ -114,6 +114,7 @@ def worked_examples(level: Level = Level.QUICK) -> Case:
             r"s^2 = \frac{\sum_i w_i \varepsilon_i^2}{n - 2}",
         ),
         no_order="arithmetic by hand",
+        shows=("statistics",),
     )  # fmt: skip
 
 
@@ -289,6 +290,7 @@ def written_files(level: Level = Level.QUICK) -> Case:
             r"M_z = \int (x q_y - y q_x) \, dA",
         ),
         no_order="numbers of one run, written twice",
+        shows=("files",),
     )  # fmt: skip
 
 

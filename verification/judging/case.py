@@ -447,6 +447,7 @@ class Case:
     limits       limits of the conclusions from this case
     equations    governing equations of the reference, in LaTeX
     no_order     reason for which no order of convergence is judged; empty if one is judged
+    shows        equations, figures and statements of `cases.requirements` that the case shows
     """
 
     name: str
@@ -460,6 +461,7 @@ class Case:
     limits: tuple[str, ...] = ()
     equations: tuple[str, ...] = ()
     no_order: str = ""
+    shows: tuple[str, ...] = ()
 
     def run(self, label: str) -> AnyRun:
         """Return the run of the case with the given label.

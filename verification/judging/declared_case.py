@@ -924,6 +924,7 @@ def case(
     limits: tuple[str, ...] = (),
     equations: tuple[str, ...] = (),
     no_order: str = "",
+    shows: tuple[str, ...] = (),
 ) -> Case:
     """Create a verification case from expanded rows and from additional quantities.
 
@@ -936,6 +937,7 @@ def case(
     limits       limits of the conclusions from this case
     equations    further governing equations, in LaTeX
     no_order     reason for which no order of convergence is judged
+    shows        equations, figures and statements of `cases.requirements` that the case shows
     """
     return Case(
         name=name,
@@ -949,6 +951,7 @@ def case(
         limits=limits,
         equations=tuple(dict.fromkeys((*(e for p in parts for e in p.equations), *equations))),
         no_order=no_order,
+        shows=shows,
     )
 
 

@@ -509,6 +509,7 @@ SYMBOLS = {Status.PASS: "✓", Status.FAIL: "✗", Status.INCONCLUSIVE: "?"}
 WORDS = {Status.PASS: "pass", Status.FAIL: "FAIL", Status.INCONCLUSIVE: "inconclusive"}
 
 
+# Smaller errors, relative to the scale of their verdict, are round-off of sums over 10⁴ cells.
 ROUNDING = 1e-12
 
 
@@ -534,6 +535,12 @@ def uncertainty_text(verdict: Verdict) -> str:
     """
     part = (verdict.reference_uncertainty or 0.0) / verdict.scale
     return f"± {plain(part, 2)}, " if part > ROUNDING else ""
+
+
+def error_text(verdict: Verdict) -> str:
+    """Return the error of a verdict over its scale as text, below round-off as "< 1e-12"."""
+    below = verdict.error is not None and 0 < verdict.error < ROUNDING
+    return f"< {plain(ROUNDING)}" if below else plain(verdict.error)
 
 
 def order_text(verdict: Verdict) -> str:

@@ -257,7 +257,7 @@ def violations(states: Sequence[ContactState]) -> Iterator[float]:
     """Yield the relative violations of the laws of contact and friction in all increments [1].
 
     The laws are: no tension, no penetration, complementarity of pressure and gap, balance of
-    forces, the friction limit, and slip opposite to the shear.
+    forces, the friction limit, stick inside the contact, and slip opposite to the shear.
 
     states  states of the contact surface, one for each increment
     """
@@ -273,6 +273,8 @@ def violations(states: Sequence[ContactState]) -> Iterator[float]:
             yield float(np.max(size - now.limit) / np.max(now.limit))
             if not now.unseen and now.passed is not None:
                 yield from _slip_violations(before, now)
+            if now.increment.in_stick is not None:
+                yield float(np.any(now.increment.in_stick & ~now.increment.in_contact))
 
 
 def _pressure_violations(now: ContactState) -> Iterator[float]:

@@ -33,6 +33,7 @@ from verification.judging.outcome import (
     Status,
     Verdict,
     clearance_text,
+    error_text,
     failure_text,
     order_text,
     uncertainty_text,
@@ -94,7 +95,7 @@ def environment() -> jinja2.Environment:
         lstrip_blocks=True,
     )
     made.filters.update(
-        value=value_text, plain=plain, clearance=clearance_text, order=order_text,
+        value=value_text, plain=plain, clearance=clearance_text, error=error_text, order=order_text,
         uncertainty=uncertainty_text, failure=failure_text,
         svg=lambda chart, prefix="": Markup(inline_svg(chart, prefix)),  # nosec B704: escaped there
     )  # fmt: skip

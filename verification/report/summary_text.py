@@ -15,6 +15,7 @@ from xml.etree import ElementTree
 
 from verification.exhibits.chart import plain, value_text
 from verification.judging.outcome import (
+    ROUNDING,
     SYMBOLS,
     WORDS,
     CaseOutcome,
@@ -191,7 +192,8 @@ OMISSIONS = (
     "no friction map is solved by a second solver.",
     "The paper's own numbers are known from its figures and two printed values only; figure 2 is "
     "compared with the closed form that the paper compares with.",
-    "Line contact is not solved: the surface grid is finite in both directions.",
+    "No case compares a number with a measurement.",
+    "No case judges how far the scatter of input moves a result.",
     "For ν > 0 no exact solution of partial slip is known; there the closed form is a companion "
     "within a stated band.",
 )
@@ -322,8 +324,6 @@ def _change_row(
 
 MAX_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
 TIMES = (3.0, 10.0)  # factors of an error that a verdict should detect
-# Smaller errors, relative to the scale of their verdict, are round-off of sums over 10⁴ cells.
-ROUND_OFF = 1e-12
 OUTSIDE = {
     ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.THEORY,
     ReferenceKind.EXTERNAL_CODE,
@@ -362,9 +362,10 @@ def uncovered_lines(report: Report) -> list[str]:
 
 
 def failure_lines(report: Report) -> list[str]:
-    """Return one log line for each failed verdict, and for each failed study of the current source
-    code."""
+    """Return one log line for each failed verdict, for each requirement that no passing case shows,
+    and for each failed study of the current source code."""
     lines = [failure_line(case.name, verdict, report.level) for case, verdict in report.failures]
+    lines += [f"FAIL requirement {text}: no passing case shows it" for text in report.unmet]
     return lines + [study_failure_line(study) for study in report.failed_studies]
 
 
@@ -381,7 +382,7 @@ def power_text(report: Report) -> str:
         for verdict in case.verdicts
         if verdict.status is Status.PASS and verdict.tolerance_kind != "order"
         and verdict.reference_kind in OUTSIDE and verdict.error is not None
-        and verdict.error > ROUND_OFF * verdict.scale
+        and verdict.error > ROUNDING
     ]  # fmt: skip
     if not judged:
         return ""
@@ -478,9 +479,9 @@ def render_junit(report: Report) -> str:
     """Render a verification report as JUnit XML, with one test suite per case and one suite of
     studies.
 
-    Each verdict is a test case. Only studies of the current source code are included. Times are
-    left out, because they differ between runs. Changes since the baseline are text output of a
-    suite and not failures.
+    Each verdict is a test case. Only studies of the current source code are included. The time of
+    a suite is the wall time of its case. Changes since the baseline are text output of a suite and
+    not failures.
     """
     root = ElementTree.Element("testsuites", name=f"slipstick verify, {report.level}")
     for case in report.cases:
@@ -496,7 +497,9 @@ def render_junit(report: Report) -> str:
             for v in case.verdicts
         ]
         lines = [row.line for row in case_rows(case) if row.kind.matters]
-        _add_test_suite(root, case.name, verdicts, lines if case.baseline else ["no baseline yet"])
+        lines = lines if case.baseline else ["no baseline yet"]
+        suite = _add_test_suite(root, case.name, verdicts, lines)
+        suite.set("time", f"{report.provenance.seconds.get(case.name, 0.0):.2f}")
     own = [study for study in report.studies if is_current(study.provenance)]
     failed = [study for study in own if study.status is Status.FAIL]
     if own:
@@ -506,6 +509,9 @@ def render_junit(report: Report) -> str:
             for one in own
         ]  # fmt: skip
         _add_test_suite(root, "studies", studies)
+    if report.unmet:
+        unmet = [(text, Status.FAIL, "no passing case shows it", "") for text in report.unmet]
+        _add_test_suite(root, "requirements", unmet)
     for name in ("tests", "failures", "errors", "skipped"):
         root.set(name, str(sum(int(suite.get(name, 0)) for suite in root)))
     ElementTree.indent(root)
@@ -515,7 +521,7 @@ def render_junit(report: Report) -> str:
 
 def _add_test_suite(
     root: ElementTree.Element, name: str, made: list[Made], lines: list[str] | None = None
-) -> None:
+) -> ElementTree.Element:
     ends = [status for _, status, _, _ in made]
     suite = ElementTree.SubElement(
         root, "testsuite", name=name, tests=str(len(made)), errors="0",
@@ -529,3 +535,4 @@ def _add_test_suite(
             child.text = text if status is Status.FAIL else None
     if lines:
         ElementTree.SubElement(suite, "system-out").text = "\n".join(lines)
+    return suite

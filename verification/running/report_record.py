@@ -55,6 +55,9 @@ class Report(Description):
     gone: tuple[GoneCase, ...] = ()
     """Cases with recorded results that a report of all cases lacks."""
 
+    unmet: tuple[str, ...] = ()
+    """Requirements that no passing case of a report of all cases shows."""
+
     @model_validator(mode="after")
     def _counts_what_it_lists(self) -> Report:
         if self.schema_version != REPORT_VERSION:
@@ -74,13 +77,14 @@ class Report(Description):
 
     @property
     def status(self) -> Status:
-        """Overall status of a verification report: FAIL if a verdict, a study or the stated errors
-        failed.
+        """Overall status of a verification report: FAIL if a verdict, a requirement, a study or
+        the stated errors failed.
 
         Stated errors fail if too few of them cover the true difference. Otherwise the status is
         PASS if any verdict passed, and INCONCLUSIVE if none passed.
         """
-        if self.counts[Status.FAIL] or self.failed_studies or self.errors_too_small:
+        failed = self.counts[Status.FAIL] or self.unmet or self.failed_studies
+        if failed or self.errors_too_small:
             return Status.FAIL
         return Status.INCONCLUSIVE if not self.counts[Status.PASS] else Status.PASS
 

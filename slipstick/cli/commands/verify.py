@@ -22,6 +22,7 @@ from slipstick.cli.progress import outcome_text, run_with_progress
 from slipstick.cli.terminal import print_table
 from verification.cases.catalogue import CASES as KNOWN
 from verification.cases.catalogue import CaseToJudge, JudgedCase, choose, lost
+from verification.cases.requirements import unmet
 from verification.judging.case import Case, Level
 from verification.judging.outcome import SYMBOLS, WORDS, CaseOutcome, ChangeKind, Status
 from verification.regression.baseline import compared, held_to, read_baselines, read_tolerances
@@ -88,8 +89,9 @@ def verify(
 ) -> None:
     """Measure the accuracy against closed forms and write the report.
 
-    Exit code 1 if a verdict failed, if fewer than 95 % of the stated errors of a full report cover
-    the true errors, or if a study of the same sources failed; otherwise 0. Changes since the
+    Exit code 1 if a verdict failed, if no passing case shows a requirement, if fewer than 95 % of
+    the stated errors of a full report cover the true errors, or if a study of the same sources
+    failed; otherwise 0. Changes since the
     baseline are printed and are no failure; see 'slipstick maintain compare'. DIR receives
     index.html (the report), sheets.html, report.json, junit.xml and summary.md.
 
@@ -156,6 +158,7 @@ def _run_and_report(
             provenance=provenance(command, seconds, modules=MODULES),
             studies=studies,
             chosen=bool(names),
+            unmet=() if names else unmet(cases, outcomes),
         )
         report = compared(measured, baselines)
         write_report(report, directory)
