@@ -14,16 +14,16 @@ from radial.plan import Plan
 
 # The values were measured with whole runs, including the coarse solve and the figures. The layers
 # had thicknesses from 1/3 to 1/400 of the contact radius. LIBRARIES: imported libraries [byte].
-LIBRARIES = 168 << 20
+LIBRARIES = 144 << 20
 LIGHT = 4500  # memory of an increment without its fields [byte]
 PER_WAVE = 11_300  # memory of a wavenumber without friction, mostly for stress in figures [byte]
-# With friction: memory of a wavenumber, of fields on rings, and of the cached responses, which are
-# limited to MAX_CACHED [byte].
-PER_WAVE_RUBBING, RINGS = 8_600, 36_000_000
+# With friction: memory of a wavenumber, of fields on rings with further libraries, and of the
+# cached responses, which are limited to MAX_CACHED [byte].
+PER_WAVE_RUBBING, RINGS = 8_600, 61_000_000
 PER_WAVE_CACHED, MAX_CACHED = 8_300, 39_000_000
 # Contacts at points (rings × angles) on half and on whole circles, memory of a wavenumber, and
 # memory of figures, which are drawn after the memory of the solve is free again [byte].
-PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 133 << 20, 246 << 20, 8_600, 181 << 20
+PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 186 << 20, 316 << 20, 8_600, 181 << 20
 
 
 def estimated_bytes(scene: Scene, plan: Plan) -> int:

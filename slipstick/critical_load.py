@@ -8,14 +8,14 @@ contact s is a power of f, such as f^(1/3) under a paraboloid, and the second so
 
 The error of s changes the root by the local slope:
 
-    error of f = f (error of s / s) / (d ln s / d ln f)
+    error of f = f ((1 - error of s / s)^(-1/n) - 1),    n = d ln s / d ln f
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from math import copysign, exp, inf, isfinite, log
+from math import copysign, exp, expm1, inf, isfinite, log, log1p
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -62,6 +62,7 @@ MAX_STEP = 10.0
 FIRST_SLOPE = 1 / 3
 # d ln s / d ln f below which a stress determines no load: 1 % of it is a factor of 2.7 of the load.
 LEAST_SLOPE = 0.01
+LARGEST_SHARE = 0.9  # of an error in its stress, beyond which a factor says nothing
 # |ln(s/S)| at which the search ends, far below the scatter of measured strengths.
 TOLERANCE = 1e-4
 # Least |ln f| between two solves that determine a slope, and between the root and an added solve.
@@ -352,9 +353,14 @@ class LoadFactorSearch:
             return unknown_error(str(failed))
         if error.error is None:
             return error
-        scale = factor / (slope * extreme.value)
         left = extreme.value * abs(self._level(key, x))
         parts: Any = {**error.parts, "tolerance": left}
+        # The stress may be smaller: its root is then at a factor that is larger than in proportion.
+        share = sum(parts.values()) / extreme.value
+        if share > LARGEST_SHARE:
+            return unknown_error("the error of the stress is almost as large as the stress")
+        growth = expm1(-log1p(-share) / slope) / share if share else 1 / slope
+        scale = factor * growth / extreme.value
         return build_stated_error(
             {part: np.array([scale * size]) for part, size in parts.items()}, error.reason
         )

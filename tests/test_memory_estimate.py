@@ -209,7 +209,7 @@ def test_plan_says_how_much_and_refuses_what_no_polynomials_resolve(tmp_path: Pa
     path = tmp_path / "scene.toml"
     path.write_text(radial_scene(2e-5), encoding="utf-8")
     ended = outcome("plan", path, "--solver", "radial", cwd=tmp_path)
-    assert "memory      about 19" in ended.stdout
+    assert "memory      about 17" in ended.stdout
     path.write_text(radial_scene(1e-7), encoding="utf-8")
     described = read_scene_file(path).scene
     with pytest.raises(UnsupportedScene, match="times the thickness of the outermost"):
