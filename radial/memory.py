@@ -23,7 +23,7 @@ PER_WAVE_RUBBING, RINGS = 8_600, 61_000_000
 PER_WAVE_CACHED, MAX_CACHED = 8_300, 39_000_000
 # Contacts at points (rings × angles) on half and on whole circles, memory of a wavenumber, and
 # memory of figures, which are drawn after the memory of the solve is free again [byte].
-PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 186 << 20, 316 << 20, 8_600, 181 << 20
+PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 200 << 20, 316 << 20, 8_600, 230 << 20
 
 
 def estimated_bytes(scene: Scene, plan: Plan) -> int:
