@@ -305,3 +305,12 @@ def test_the_picture_has_both_loops_about_their_centres(place: Path) -> None:
     for points in (curve.measured, curve.computed):
         np.testing.assert_allclose(points[0].max(), -points[0].min(), rtol=1e-9)
     np.testing.assert_allclose(np.ptp(curve.measured, axis=1), np.ptp(curve.computed, axis=1))
+
+
+def test_an_output_that_is_a_file_is_refused_before_the_scene_is_solved(place: Path) -> None:
+    measured = table(place / "loop.csv", **{"shift [um]": [1.0], "T [N]": [1.0]})
+    for output in ("loop.csv", "loop.csv/below"):
+        ended = outcome("against", measured.name, "scene.toml", "-o", output, cwd=place)
+        assert ended.returncode == 2
+        assert "loop.csv is a file; --output needs a directory" in ended.stderr
+        assert not ended.stdout
