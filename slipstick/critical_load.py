@@ -20,7 +20,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contact_errors.error_formula import build_stated_error, is_singular, unknown_error
+from contact_errors.error_formula import (
+    TOO_LARGE,
+    build_stated_error,
+    is_singular,
+    unknown_error,
+)
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
@@ -355,9 +360,9 @@ class LoadFactorSearch:
         scale = factor / (slope * extreme.value)
         left = extreme.value * abs(self._level(key, x))
         parts: Any = {**error.parts, "tolerance": left}
-        return build_stated_error(
-            {part: np.array([scale * size]) for part, size in parts.items()}, error.reason
-        )
+        sizes = {part: np.array([scale * size]) for part, size in parts.items()}
+        small = scale * sum(map(float, parts.values())) < factor
+        return build_stated_error(sizes, error.reason or (None if small else TOO_LARGE))
 
 
 def _without_sizes(discretisation: Discretisation, scene: Scene) -> Any:

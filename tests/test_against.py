@@ -295,6 +295,10 @@ def test_a_difference_beyond_the_requirement_ends_with_code_1(place: Path) -> No
     numbers = json.loads((place / "compared/against.json").read_text(encoding="utf-8"))["numbers"]
     assert numbers["slope"]["ratio"] == pytest.approx(0.97, rel=1e-6)
     assert (place / "compared/against.png").read_bytes().startswith(b"\x89PNG")
+    inside = outcome("against", lab.absolute(), ".", *CHOSEN, "-o", "../in", cwd=place / "run")
+    assert inside.returncode == 0, inside.stderr
+    title = json.loads((place / "in/against.json").read_text(encoding="utf-8"))["title"]
+    assert title == f"{lab.name} and run"
 
 
 def test_the_picture_has_both_loops_about_their_centres(place: Path) -> None:

@@ -130,7 +130,7 @@ def against(
     heads = ("number", "measured", "computed", "ratio", "difference", "ours\nat most")
     print_table(heads, rows, numbers=True)
     if output is not None:
-        write_comparison(compared, output, f"{table.name} and {source.name}")
+        write_comparison(compared, output, f"{table.name} and {source.resolve().name}")
         typer.echo(f"\nresults in {output}")
     for sentence in failures:
         typer.echo(f"✗ fail: {sentence}")
