@@ -20,7 +20,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contact_errors.error_formula import build_stated_error, is_singular, unknown_error
+from contact_errors.error_formula import (
+    TOO_LARGE,
+    build_stated_error,
+    is_singular,
+    unknown_error,
+)
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
@@ -356,14 +361,14 @@ class LoadFactorSearch:
         left = extreme.value * abs(self._level(key, x))
         parts: Any = {**error.parts, "tolerance": left}
         # The stress may be smaller: its root is then at a factor that is larger than in proportion.
-        share = sum(parts.values()) / extreme.value
+        share = sum(map(float, parts.values())) / extreme.value
         if share > LARGEST_SHARE:
             return unknown_error("the error of the stress is almost as large as the stress")
         growth = expm1(-log1p(-share) / slope) / share if share else 1 / slope
         scale = factor * growth / extreme.value
-        return build_stated_error(
-            {part: np.array([scale * size]) for part, size in parts.items()}, error.reason
-        )
+        sizes = {part: np.array([scale * size]) for part, size in parts.items()}
+        doubt = None if growth * share < 1 else TOO_LARGE
+        return build_stated_error(sizes, error.reason or doubt)
 
 
 def _without_sizes(discretisation: Discretisation, scene: Scene) -> Any:

@@ -10,7 +10,7 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, inf
 from pathlib import Path
 from typing import Any
 
@@ -57,12 +57,18 @@ def read_inputs(text: str) -> tuple[UncertainInput, ...]:
 
     text  inputs, separated by commas; each is a key, value, ± or +-, deviation, and unit
 
-    Raises SceneError for another text, a deviation of 0 or less, and a repeated key.
+    Raises SceneError for another text, a deviation of 0 or less, an infinite number, and a repeated
+    key.
     """
     found: dict[str, UncertainInput] = {}
     for item in text.split(","):
         match = _INPUT.fullmatch(item)
-        if match is None or float(match["deviation"]) <= 0 or match["key"] in found:
+        if (
+            match is None
+            or not 0 < float(match["deviation"]) < inf
+            or not abs(float(match["value"])) < inf
+            or match["key"] in found
+        ):
             raise SceneError([Problem(("--inputs",), f"got {shown(item.strip())}", EXPECTED)])
         value, deviation = float(match["value"]), float(match["deviation"])
         found[match["key"]] = UncertainInput(match["key"], value, deviation, match["unit"] or "")
@@ -76,7 +82,7 @@ class UncertainNumber:
     name     name of the scalar, with _x or _y for a component
     unit     SI unit
     value    value in the scene
-    error    stated numerical error; None if it is exact
+    error    stated numerical error, of size None if it is unknown; None if the number is exact
     changes  change by one deviation of each input
     """
 
@@ -113,7 +119,9 @@ def uncertain_numbers(
             changes = tuple((b - a) / 2 for a, b in zip(others[::2], others[1::2], strict=True))
             if any(changes):
                 label = shown_name(f"{name}_{axis}" if axis else name, line=line)
-                error = uncertainty((own.errors or {}).get(name), axis or "x")
+                unknown = Uncertainty(None, converged=False)
+                stated = own.errors
+                error = uncertainty(stated.get(name), axis or "x") if stated else unknown
                 unit = shown_unit(annotation.unit, line=line)
                 found.append(UncertainNumber(label, unit, value, error, changes))
     return tuple(found)

@@ -295,6 +295,10 @@ def test_a_difference_beyond_the_requirement_ends_with_code_1(place: Path) -> No
     numbers = json.loads((place / "compared/against.json").read_text(encoding="utf-8"))["numbers"]
     assert numbers["slope"]["ratio"] == pytest.approx(0.97, rel=1e-6)
     assert (place / "compared/against.png").read_bytes().startswith(b"\x89PNG")
+    inside = outcome("against", lab.absolute(), ".", *CHOSEN, "-o", "../in", cwd=place / "run")
+    assert inside.returncode == 0, inside.stderr
+    title = json.loads((place / "in/against.json").read_text(encoding="utf-8"))["title"]
+    assert title == f"{lab.name} and run"
 
 
 def test_the_picture_has_both_loops_about_their_centres(place: Path) -> None:
@@ -305,3 +309,12 @@ def test_the_picture_has_both_loops_about_their_centres(place: Path) -> None:
     for points in (curve.measured, curve.computed):
         np.testing.assert_allclose(points[0].max(), -points[0].min(), rtol=1e-9)
     np.testing.assert_allclose(np.ptp(curve.measured, axis=1), np.ptp(curve.computed, axis=1))
+
+
+def test_an_output_that_is_a_file_is_refused_before_the_scene_is_solved(place: Path) -> None:
+    measured = table(place / "loop.csv", **{"shift [um]": [1.0], "T [N]": [1.0]})
+    for output in ("loop.csv", "loop.csv/below"):
+        ended = outcome("against", measured.name, "scene.toml", "-o", output, cwd=place)
+        assert ended.returncode == 2
+        assert "loop.csv is a file; --output needs a directory" in ended.stderr
+        assert not ended.stdout

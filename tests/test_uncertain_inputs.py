@@ -55,6 +55,7 @@ def test_changes_by_inputs_are_the_powers_of_hertz(tmp_path: Path, solver: str) 
     assert [one["deviation"] for one in found["inputs"]] == [0.01, 0.54, 4.2]
     for name, powers in HERTZ.items():
         number = found["numbers"][name]
+        assert number["numerical"] is None  # unknown because of --no-error, not 0
         changes = [change / number["value"] for change in number["changes"].values()]
         # The third derivative is left, and at most a hundredth by elements.
         rough = 0.01 if solver == "fem" else 1e-3
@@ -94,7 +95,10 @@ def test_inputs_are_read_as_they_are_written(text, found) -> None:
     assert float(number) == pytest.approx(found[1] + found[2], rel=1e-11)
 
 
-@pytest.mark.parametrize("text", ["", "a=1", "a=1±0", "a=1±-1", "a=1±1,a=2±1", "a=1 um±1 um", "±1"])
+@pytest.mark.parametrize(
+    "text",
+    ["", "a=1", "a=1±0", "a=1±-1", "a=1±1,a=2±1", "a=1 um±1 um", "±1", "a=1±1e400", "a=1e400±1"],
+)
 def test_what_is_no_uncertain_input_is_refused(text: str) -> None:
     with pytest.raises(SceneError, match="expected key=value±deviation"):
         read_inputs(text)
@@ -114,3 +118,12 @@ def test_a_changed_scene_is_checked_before_anything_is_solved(tmp_path, inputs, 
     assert ended.returncode == 2
     assert told in ended.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_inputs_that_change_no_number_say_so(tmp_path: Path) -> None:
+    pressed = SCENE.partition("[friction]")[0] + "[[loading]]\nnormal_force = '1 kN'\n"
+    (tmp_path / "scene.toml").write_text(pressed, encoding="utf-8")
+    given = ("--inputs", "body.material.yield_strength=1±.1 GPa", "--solver", "radial")
+    ended = outcome("run", "scene.toml", "-o", "out", *given, "--figures", "none", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    assert "the inputs change no number" in ended.stdout

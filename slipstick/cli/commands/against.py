@@ -10,6 +10,7 @@ import typer
 from pydantic import TypeAdapter, ValidationError
 
 from contact_results.directory.json_record import first_mistake
+from contact_results.directory.run_directory import refuse_files_above
 from contact_results.files.stored_run import load
 from contact_results.number_text import Uncertainty, number_text
 from contact_scene import read_scene_file
@@ -91,6 +92,8 @@ def against(
     """
     if source.is_dir():
         refuse_with_run({"--set": overrides, "--solver": solver})
+    if output is not None:
+        refuse_files_above(output)
     chosen = solver or SolverName.SEMI_ANALYTICAL
     try:
         required = _required_shares(require)
@@ -127,7 +130,7 @@ def against(
     heads = ("number", "measured", "computed", "ratio", "difference", "ours\nat most")
     print_table(heads, rows, numbers=True)
     if output is not None:
-        write_comparison(compared, output, f"{table.name} and {source.name}")
+        write_comparison(compared, output, f"{table.name} and {source.resolve().name}")
         typer.echo(f"\nresults in {output}")
     for sentence in failures:
         typer.echo(f"✗ fail: {sentence}")

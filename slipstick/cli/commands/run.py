@@ -195,6 +195,8 @@ def run(
     _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds, written.cycles)
     if by_inputs:
         print_table(by_inputs, zip(*by_inputs.values(), strict=True), numbers=True)
+    elif by_inputs is not None:
+        typer.echo("  the inputs change no number at the end of the last step")
     for warning in written.warnings:
         if warning not in printed:
             print_message(f"warning: {warning}")
