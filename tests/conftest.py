@@ -74,7 +74,7 @@ def rng() -> np.random.Generator:
 def leave_figures_undrawn(patch: pytest.MonkeyPatch) -> None:
     """The figures of a run are called for and their files made, without the half second that each
     takes to draw: for tests of something else."""
-    three_panels_wide = bytes(16) + struct.pack(">2I", 1040, 648)
+    three_panels_wide = bytes(16) + struct.pack(">I", 1040)
     patch.setattr(
         "contact_results.figures.figure_files.save",
         lambda figure, path, dots: path.write_bytes(three_panels_wide),

@@ -13,7 +13,7 @@ from synthetic_result import MU, synthetic_result
 from contact_results.figures.figure_files import seen_from_above
 from contact_results.figures.map_panels import RingsAbove
 from contact_results.figures.maps import field_map, latest_slip, stick_slip_map
-from contact_results.figures.overview import DOTS_PER_INCH, PLACE, overview
+from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE, overview
 from contact_results.figures.profile_plot import profile_plot
 from contact_results.figures.run_page import write_page
 from contact_results.figures.style import figure_style
@@ -148,7 +148,7 @@ def test_the_overview_begins_with_the_profile_and_ends_with_the_last_numbers() -
 def test_a_page_shows_every_panel_of_the_overview_but_the_key_numbers(columns, tmp_path) -> None:
     result: Any = synthetic_result()
     with figure_style():
-        figure = Figure(figsize=(columns * PLACE[0], 2 * PLACE[1] + 0.3))
+        figure = Figure(figsize=(columns * PLACE[0], 2 * PLACE[1] + TITLE))
         figure.savefig(tmp_path / "overview.png", dpi=DOTS_PER_INCH)
     write_page(result, tmp_path)
     page = (tmp_path / "index.html").read_text(encoding="utf-8")

@@ -38,6 +38,7 @@ DOTS_PER_INCH = 90
 # Sides of a panel, and of its place with labels, legend and colour bar [inch].
 PANEL, PLACE = (2.6, 2.55), (3.85, 3.45)
 MARGIN = 0.65
+TITLE = 0.3  # height of the title above the panels [inch]
 BAR: dict[str, Any] = {"fraction": 0.05, "pad": 0.03}
 
 
@@ -56,7 +57,7 @@ def overview(
     """
     field = section_stress(result)
     columns = 3 if field else 2
-    width, height = columns * PLACE[0], 2 * PLACE[1] + 0.3
+    width, height = columns * PLACE[0], 2 * PLACE[1] + TITLE
     figure = style.new_figure(width, height, arranged=False)
     title = result.scene.title or "Contact"
     figure.suptitle(

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_results.directory import file_names
-from contact_results.figures.overview import DOTS_PER_INCH, PLACE
+from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE
 from contact_results.key_numbers import key_numbers
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.reading.engineering_units import engineering_unit
@@ -34,7 +34,7 @@ STYLE = (
     ".panels{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,22rem),1fr))}"
     ".panels>*{background-image:var(--overview);print-color-adjust:exact;background-color:#fff}"
 )
-PNG_SIZE = slice(16, 24)  # bytes of width and height in an image file
+PNG_WIDTH = slice(16, 20)  # bytes of the width in an image file
 HEADINGS = {
     "stick_slip": "Stick and slip",
 }
@@ -217,9 +217,9 @@ def _panels_html(path: Path) -> str:
     The panel of key numbers is left out, because the page has a table of them.
     """
     image = path.read_bytes()
-    width, height = struct.unpack(">2I", image[PNG_SIZE])
-    columns = round(width / DOTS_PER_INCH / PLACE[0])
-    rows = height / DOTS_PER_INCH / PLACE[1]  # two, and the title above them
+    (width,) = struct.unpack(">I", image[PNG_WIDTH])
+    columns = 2 + (width > 2.5 * PLACE[0] * DOTS_PER_INCH)  # without stress, or with it
+    rows = 2 + TITLE / PLACE[1]
     size = f"background-size:{100 * columns}% {100 * rows:.2f}%;aspect-ratio:{PLACE[0] / PLACE[1]}"
     panels = []
     for row, column in product(range(2), range(columns)):
