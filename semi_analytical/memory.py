@@ -41,8 +41,8 @@ LIBRARIES = 42 << 20  # bytes of libraries for the solution, without SciPy
 SCIPY = 27 << 20  # bytes of SciPy, for the solution or its errors: 19 to 44 MiB by modules
 REFERENCE = 4 << 20  # bytes of the radial solver, with which errors of uncoupled bodies compare
 # Output: libraries, arrays, and memory of the solver that is not returned to the system, more of
-# coupled bodies. Measured with the overview picture on 32 to 724 cells per side.
-DRAWING, DRAWING_ARRAYS, DRAWING_COUPLED = 75 << 20, 11, 9 << 20
+# coupled bodies. Measured with the overview picture on 32 to 1024 cells per side.
+DRAWING, DRAWING_ARRAYS, DRAWING_COUPLED = 75 << 20, 18, 9 << 20
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:
