@@ -110,3 +110,10 @@ def test_links_to_files_lead_somewhere(page: Path) -> None:
 
 def test_the_picture_is_small() -> None:
     assert (ROOT / "docs" / "coated_contact.png").stat().st_size <= 150_000
+
+
+def test_the_navigation_has_its_colours_at_every_width() -> None:
+    """The theme moves it to the top, on a dark ground, below the width of its page."""
+    found = re.search(r'"page_width": "(\d+px)"', text_of(ROOT / "docs/conf.py"))
+    assert found
+    assert f"(max-width: {found[1]})" in text_of(ROOT / "docs/_static/custom.css")
