@@ -65,7 +65,9 @@ Estimated = Callable[[int, Mapping[str, float], Mapping[str, float | None]], Non
 SPARE = 1.15
 # Largest and least refinement factor of the cells per level, and their factor for a scalar whose
 # error has not converged.
-MAX_AT_ONCE, LEAST_AT_ONCE, UNCONVERGED = 4.0, 1.15, 2.0
+MAX_AT_ONCE = 4.0
+LEAST_AT_ONCE = 1.15
+UNCONVERGED = 2.0
 MAX_ROUNDS = 7
 # Consecutive rounds without a smaller error after which the refinement stops. Estimates scatter, so
 # that a single larger one says little.
@@ -76,7 +78,8 @@ UNREFINED: Mapping[Part, str] = MappingProxyType(
 )
 # Factor by which the first level may overestimate an error, and largest refinement factor from the
 # first to the last level.
-DOUBT, FURTHEST = 4.0, 1e4
+DOUBT = 4.0
+FURTHEST = 1e4
 # A scalar below this fraction of its characteristic magnitude is zero with round-off.
 ROUND_OFF = 1e-7
 
@@ -427,7 +430,10 @@ def refine(
     """
     level = levels.solve_first_level()
     shares, left_out, _ = targets_of(request, level, levels)
-    spent, rounds, worse, stopped = 0.0, 0, 0, None
+    spent = 0.0
+    rounds = 0
+    worse = 0
+    stopped = None
     best = level
     while stopped is None:
         spent, rounds = spent + level.seconds, rounds + 1

@@ -50,7 +50,8 @@ SHARES = (
 # range of regular convergence. Solves of 8 and 9 increments compared with 4 have errors up to 1.3
 # times the stated ones. Of two rules within one history, the factor nearest to 1 would be combined
 # with differences of another factor.
-FEW, MANY = 16, (32, 8)
+FEW = 16
+MANY = (32, 8)
 LEAST_TOLERANCE = 1e-13
 # Largest number of refinements until the cells resolve the contact, and their factor.
 MAX_DOUBLINGS = 5

@@ -64,7 +64,9 @@ SPREADS = 3.0
 BELIEVED = 0.6
 # Convergence orders in the cell size: of means of smooth fields, of values at the edge of a zone
 # that lies within a cell, and of values near a square-root singularity.
-SMOOTH, EDGE, ROOT = 2.0, 1.0, 0.5
+SMOOTH = 2.0
+EDGE = 1.0
+ROOT = 0.5
 # Convergence orders of all scalars in the parameters other than the cells.
 ORDERS: Mapping[str, float] = MappingProxyType(
     {
@@ -85,8 +87,10 @@ TOO_LARGE = "the error exceeds the number"
 HIDDEN = "a stick or slip zone smaller than a cell is possible"
 
 # Features that cells have to resolve.
-CONTACT, WAVE = "semi-axis of the contact", "wavelength of the surface"
-LAYER, STICK = "thickness of a layer", "semi-axis of the stick zone"
+CONTACT = "semi-axis of the contact"
+WAVE = "wavelength of the surface"
+LAYER = "thickness of a layer"
+STICK = "semi-axis of the stick zone"
 # Smallest resolved size of each feature in cells. Elements and rings count as two cells, because
 # their shape functions are linear.
 LIMITS: Mapping[str, float] = MappingProxyType(
@@ -98,7 +102,8 @@ FITTED_STICK = 3.0
 CONTACT_EDGE = frozenset({"contact_radius", "contact_area"})
 STICK_EDGE = frozenset({"stick_radius", "stick_area", "stick_centre"})
 # Scalars that are largest values at the contact edge.
-AT_EDGES, PEAK = frozenset({"slip_amplitude", "ruiz_f1", "ruiz_f2"}), "peak_pressure"
+AT_EDGES = frozenset({"slip_amplitude", "ruiz_f1", "ruiz_f2"})
+PEAK = "peak_pressure"
 OF_SLIP = frozenset(
     {
         *("tangential_shift", "tangential_force", "twist", "torque", "dissipated_energy"),

@@ -56,7 +56,8 @@ MAX_CELLS = 16384
 # Scalars to which the remaining error of the approach in the edge correction applies.
 MOTIONS = "approach", "normal_force", "tilt", "moment", "elastic_energy", "input_work"
 # Factor and largest number of enlargements of a fitted window whose edge the contact reaches.
-ROOM, MAX_ENLARGEMENTS = 1.25, 5
+ROOM = 1.25
+MAX_ENLARGEMENTS = 5
 
 
 @dataclass(frozen=True)

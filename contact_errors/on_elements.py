@@ -38,9 +38,15 @@ from fem_reference.plan import ANGULAR
 # Solution paths in which friction changes the pressure, so that the pressure has a cusp on the
 # axis. On the whole circle it does so for coupled bodies.
 CUSPED = (Path.PRESSING_WITH_FRICTION, Path.TWISTING_WITH_FRICTION, Path.HARMONICS)
-FEWEST_ELEMENTS, SMALLEST_BOX, FEWEST_HARMONICS, LARGEST_OVERLAP = 4, 5.0, 2, 1.0
-FIRST_ELEMENTS, MAX_ELEMENTS, MAX_HARMONICS = 8, 512, 64
-LEAST_OVERLAP, LARGEST_BOX = 1e-8, 1e6
+FEWEST_ELEMENTS = 4
+SMALLEST_BOX = 5.0
+FEWEST_HARMONICS = 2
+LARGEST_OVERLAP = 1.0
+FIRST_ELEMENTS = 8
+MAX_ELEMENTS = 512
+MAX_HARMONICS = 64
+LEAST_OVERLAP = 1e-8
+LARGEST_BOX = 1e6
 
 
 @dataclass(frozen=True)

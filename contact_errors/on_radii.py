@@ -32,7 +32,8 @@ from radial.memory import estimated_bytes
 
 # Relative round-off of double precision, in systems of a few hundred equations.
 PRECISION = 1e-13
-FIRST_FINENESS, MAX_FINENESS = 0.5, 4.0
+FIRST_FINENESS = 0.5
+MAX_FINENESS = 4.0
 
 
 @dataclass(frozen=True)

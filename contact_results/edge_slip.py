@@ -30,11 +30,13 @@ from contact_scene.array_types import Field, Mask
 
 # Reach of the fits around a cell, in cells: two more cells, and three for the square of the
 # pressure, whose curvature is fitted, too.
-NEAR, FAR = 2.3, 3.2
+NEAR = 2.3
+FAR = 3.2
 # Smallest contact in cells, 7 per radius: in smaller ones the fits reach across the slip zone.
 LEAST_CONTACT = 150
 # Smallest numbers of cells of the fits: two above the numbers of coefficients.
-LEAST_NEAR, LEAST_FAR = 6, 8
+LEAST_NEAR = 6
+LEAST_FAR = 8
 # Largest change of the amplitude by a fit: the errors of resolved cells are below 15 %.
 LARGEST_CHANGE = 0.15
 POWER = 2 / 3

@@ -26,7 +26,9 @@ from contact_scene.reading.engineering_units import EngineeringUnit, engineering
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
 
-FIRST, LAST = 10, 10  # steps shown of a long history
+# steps shown of a long history
+FIRST = 10
+LAST = 10
 # Round-off, shown as 0: relative to the largest component of a vector, or to `natural_size`.
 ROUND_OFF = 1e-9
 

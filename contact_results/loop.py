@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 # Round-off: of a tangential force relative to the largest normal force of the cycle, and of a
 # motion relative to the largest approach or motion. Limit of a cycle without slip: dissipated
 # energy relative to force amplitude times shift amplitude.
-ROUND_OFF, NO_SLIP = 1e-9, 1e-9
+ROUND_OFF = 1e-9
+NO_SLIP = 1e-9
 AT_GROSS_SLIP = 0.2  # E_d/4Q*δ of Mindlin's loop at gross slip
 
 

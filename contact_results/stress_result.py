@@ -15,7 +15,9 @@ from contact_results.stress.stress_maxima import Extreme, maxima_columns
 from contact_scene import Body
 from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
-TABLE, MEANINGS, FIGURE = "stress_history.csv", "stress_history_columns.csv", "stress_history.png"
+TABLE = "stress_history.csv"
+MEANINGS = "stress_history_columns.csv"
+FIGURE = "stress_history.png"
 COLUMNS = (
     Column("point", None, "Number of the point, in the order of the options."),
     *PLACE,

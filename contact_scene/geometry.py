@@ -47,7 +47,8 @@ _MAX_UNMEASURED = 1 / 3
 
 # Quadrature points of the normal force of a line contact, and relative half distance of the points
 # between which a slope is taken.
-_ANGLES, _NEAR = 64, 1e-4
+_ANGLES = 64
+_NEAR = 1e-4
 # Half widths between which the contact of a line contact is searched [length], and bisections of
 # their logarithm, to round-off.
 _HALF_WIDTHS = 1e-15, 1e9

@@ -24,7 +24,10 @@ _COINCIDES = 1e-9
 _NEGATIVE_WEIGHTS = 9 / 32
 # Values per block of rows; largest number of sampled patches in a block; number of patches with the
 # lowest samples that are refined; number of refinements, each to a quarter of the width.
-_BLOCK, _MAX_PATCHES, _PATCHES, _REFINEMENTS = 1 << 17, 8192, 64, 14
+_BLOCK = 1 << 17
+_MAX_PATCHES = 8192
+_PATCHES = 64
+_REFINEMENTS = 14
 # Points that are interpolated at a time, each from 36 values: 5 MB.
 _POINTS = 1 << 14
 

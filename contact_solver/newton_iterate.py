@@ -60,7 +60,9 @@ class NewtonIterate:
         self.point, _ = evaluate_point(problem, start, motion)
         _refuse_gross_slip(problem, start[2])
         self.natural = natural_map(problem, self.point)
-        self.iterations, self.settled, self.is_admissible = 0, False, False
+        self.iterations = 0
+        self.settled = False
+        self.is_admissible = False
         self._zones: Zones | None = None
         self._increment: LinearisedContact | None = None
 

@@ -28,12 +28,17 @@ MAX_PROXIMAL_STEPS = 60
 # Sum over all GMRES solves; twice the largest number of a converging case of the stability map.
 MAX_ITERATIONS = 4000
 # Compliance over the self-compliance: initial value, factor of a change, largest value.
-INITIAL_COMPLIANCE, COMPLIANCE_FACTOR, MAX_COMPLIANCE = 1.0, 8.0, 1e4
+INITIAL_COMPLIANCE = 1.0
+COMPLIANCE_FACTOR = 8.0
+MAX_COMPLIANCE = 1e4
 # Relative change of the tractions below which the compliance is reduced. A failed step multiplies
 # this threshold by THRESHOLD_FACTOR, but not below NEAR. Below NEAR the solve is tried with λ = 0.
-THRESHOLD, THRESHOLD_FACTOR, NEAR = 0.1, 0.25, 1e-2
+THRESHOLD = 0.1
+THRESHOLD_FACTOR = 0.25
+NEAR = 1e-2
 # Reduction of the merit in a proximal step, and its limit of Newton steps.
-INNER_REDUCTION, MAX_STEPS = 1e-2, 12
+INNER_REDUCTION = 1e-2
+MAX_STEPS = 12
 ROUND_OFF = 1e-12
 
 

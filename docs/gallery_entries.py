@@ -7,7 +7,11 @@ from math import pi
 from gallery_claims import Claim, Entry, Ours, Verdict
 from gallery_stress import coating, deflection, edge_tension, tensions_by_thickness
 
-GPA, MPA, MM, UM, UJ = 1e9, 1e6, 1e-3, 1e-6, 1e-6
+GPA = 1e9
+MPA = 1e6
+MM = 1e-3
+UM = 1e-6
+UJ = 1e-6
 DIFFERS = Verdict.DIFFERS
 HERTZ = "closed form of Hertz"
 

@@ -17,7 +17,8 @@ from verification.running.study import StudyRecord
 
 DOCS = Path(__file__).parent
 REPORTS = DOCS.parent / "reports"
-LOOP, LOOP_CHARTS = "paper_fretting_loop", ("figure_1_history", "figure_2_loop")
+LOOP = "paper_fretting_loop"
+LOOP_CHARTS = ("figure_1_history", "figure_2_loop")
 
 
 def main() -> None:

@@ -21,8 +21,11 @@ CHANGES = (
     "loading[2].increments=10",
     "semi_analytical.cells=[96, 96]",
 )
-MM, GPA = 1e-3, 1e9
-REACH, DEPTH = 0.5, 0.62  # of the section [mm]
+MM = 1e-3
+GPA = 1e9
+# of the section [mm]
+REACH = 0.5
+DEPTH = 0.62
 LEVELS = np.arange(-2.0, 2.01, 0.125)  # [GPa]
 ISOLINES = (-3.0, -2.0, -1.0, -0.5, 0.0, 0.5)
 

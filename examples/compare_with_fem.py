@@ -20,7 +20,10 @@ from slipstick import (
     solve,
 )
 
-PRESSURE, SHEAR, APPROACH = 5e-3, 2e-2, 1e-3  # of the peak, of µ times the peak, relative
+# of the peak, of µ times the peak, relative
+PRESSURE = 5e-3
+SHEAR = 2e-2
+APPROACH = 1e-3
 A = 0.32e-3  # about the contact radius: it lays out grid and mesh and does not decide the answer
 
 # What is solved: a rigid ball pressed on a coating twice as stiff as the body below. The surface

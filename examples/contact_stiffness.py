@@ -19,7 +19,9 @@ from slipstick import (
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 HARD = IsotropicMaterial(young_modulus=400e9, poisson_ratio=0.25)
-R, W, MU = 10e-3, 50.0, 0.3
+R = 10e-3
+W = 50.0
+MU = 0.3
 
 bare = Scene(
     indenter=Sphere(radius=R, material=STEEL),
@@ -55,7 +57,8 @@ def report(name, scene):
 end, error = report("bare", bare)
 report("coated", bare.model_copy(update={"body": film}))
 
-E, G = STEEL.plane_strain_modulus / 2, STEEL.shear_modulus
+E = STEEL.plane_strain_modulus / 2
+G = STEEL.shear_modulus
 a = (3 * W * R / 4 / E) ** (1 / 3)
 exact = {"normal_stiffness": 2 * E * a, "tangential_stiffness": 4 * G * a / (2 - 0.3)}
 for name, value in exact.items():

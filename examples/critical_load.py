@@ -18,7 +18,9 @@ from slipstick import (
     critical_loads,
 )
 
-R, W, YIELD = 10e-3, 500.0, 1.5e9
+R = 10e-3
+W = 500.0
+YIELD = 1.5e9
 BALL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3, yield_strength=YIELD)
 HARD = IsotropicMaterial(young_modulus=400e9, poisson_ratio=0.25, tensile_strength=0.8e9)

@@ -11,7 +11,9 @@ import numpy as np
 
 from verification import Answer, Field, judge
 
-SPHERE, CYLINDER = 3, 2  # c = a (1 - T/µW)^(1/n)
+# c = a (1 - T/µW)^(1/n)
+SPHERE = 3
+CYLINDER = 2
 
 
 def partial_slip(exponent):

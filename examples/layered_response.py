@@ -14,7 +14,9 @@ from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from slipstick import load_scene, solve
 
-CELLS, ALLOWED = 256, 1e-2  # window of 12 contact radii; relative error of pressure and radius
+# window of 12 contact radii; relative error of pressure and radius
+CELLS = 256
+ALLOWED = 1e-2
 
 
 def response(layers, base, wavenumbers):

@@ -24,7 +24,8 @@ bare = Scene(
     ],
 )
 pressed, pushed = solve(bare).steps
-R, W = 18e-3, 1e6
+R = 18e-3
+W = 1e6
 modulus = 210e9 / (1 - 0.3**2) / 2
 a = sqrt(4 * W * R / (pi * modulus))
 error = pressed.peak_pressure / (2 * W / (pi * a)) - 1

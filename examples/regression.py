@@ -30,8 +30,10 @@ if __name__ == "__main__":
     scene = Path("ball.toml")
     example = subprocess.run(
         [sys.executable, "-m", "slipstick", "example", "coated_ball"],
-        capture_output=True, text=True, check=True,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     scene.write_text(example.stdout, encoding="utf-8")
     run = ("run", str(scene), "--output", "out", "--figures", "none")
     assert slipstick(*run, "--save-expected", "ball.json") == 0

@@ -20,9 +20,14 @@ from slipstick import (
     solve,
 )
 
-STIFFNESS, ALLOWED = (1.0, 2.0, 4.0), 2e-3  # contact moduli per element; of the shift
+# contact moduli per element; of the shift
+STIFFNESS = (1.0, 2.0, 4.0)
+ALLOWED = 2e-3
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.0)
-MU, W, T, R = 0.3, 100.0, 15.0, 10e-3
+MU = 0.3
+W = 100.0
+T = 15.0
+R = 10e-3
 
 scene = Scene(
     title="Partial slip through springs",

@@ -28,7 +28,8 @@ from fem_reference.scales import Scales
 
 # Elements per radius of the coarse mesh for bodies with layers that are not thick.
 COARSE = 8
-GROWTH, TOO_SMALL = 1.5, 0.5
+GROWTH = 1.5
+TOO_SMALL = 0.5
 MAX_TRIALS = 30
 COARSE_TOLERANCE = 1e-8
 # Largest outer radius of the coarse mesh, in contact radii. Coatings much stiffer than their

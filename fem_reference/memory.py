@@ -6,7 +6,8 @@ from contact_scene.machine import require_memory
 
 # Entries of both factors, divided by components × unknowns × log2(unknowns): without, and with
 # unknown pressures.
-FILL, FILL_WITH_PRESSURE = 5.0, 11.0
+FILL = 5.0
+FILL_WITH_PRESSURE = 11.0
 # Copies of the compliance matrix of all contact points: two in its units, its rows, and their
 # factors in zones.
 COPIES_OF_MATRIX = 5

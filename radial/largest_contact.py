@@ -17,7 +17,8 @@ from radial.response.wavenumbers import POINTS
 
 # FEW_ORDERS: number of polynomials that gives the contact radius to about 1 %. NEAR: relative error
 # of force or approach at which the iteration ends.
-FEW_ORDERS, NEAR = 16, 0.05
+FEW_ORDERS = 16
+NEAR = 0.05
 
 
 @lru_cache(maxsize=8)

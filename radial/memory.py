@@ -19,11 +19,16 @@ LIGHT = 4500  # memory of an increment without its fields [byte]
 PER_WAVE = 11_300  # memory of a wavenumber without friction, mostly for stress in figures [byte]
 # With friction: memory of a wavenumber, of fields on rings with further libraries, and of the
 # cached responses, which are limited to MAX_CACHED [byte].
-PER_WAVE_RUBBING, RINGS = 8_600, 61_000_000
-PER_WAVE_CACHED, MAX_CACHED = 8_300, 39_000_000
+PER_WAVE_RUBBING = 8_600
+RINGS = 61_000_000
+PER_WAVE_CACHED = 8_300
+MAX_CACHED = 39_000_000
 # Contacts at points (rings × angles) on half and on whole circles, memory of a wavenumber, and
 # memory of figures, which are drawn after the memory of the solve is free again [byte].
-PUSHED, WHOLE, PER_WAVE_PUSHED, DRAWN = 200 << 20, 316 << 20, 8_600, 230 << 20
+PUSHED = 200 << 20
+WHOLE = 316 << 20
+PER_WAVE_PUSHED = 8_600
+DRAWN = 230 << 20
 
 
 def estimated_bytes(scene: Scene, plan: Plan) -> int:

@@ -27,7 +27,8 @@ from radial.normal.pressing import (
 
 # OUTSIDE: ratio of the numbers of rings inside and outside the largest contact. REACH: outermost
 # radius over that of the largest contact.
-OUTSIDE, REACH = 4, 2.0
+OUTSIDE = 4
+REACH = 2.0
 # Negative pressures below this multiple of the largest pressure, and negative gaps below this
 # multiple of the approach, are round-off.
 NO_DISC = 1e-9

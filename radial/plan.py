@@ -42,7 +42,9 @@ PUSHED_INCREMENTS = 20
 LARGEST_SHARE = 0.05
 # RINGS, ANGLES: rings, and angles of a half circle, of a contact at points. ROUND_RINGS: rings of
 # an axisymmetric contact at points (torsion).
-RINGS, ANGLES, ROUND_RINGS = 24, 9, 64
+RINGS = 24
+ANGLES = 9
+ROUND_RINGS = 64
 
 EDGE = "the contact edge is an unknown of frictional pressing here; use semi-analytical"
 

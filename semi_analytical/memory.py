@@ -29,8 +29,11 @@ COUPLED_ARRAYS = {
 # to the arrays between increments.
 EDGE_ARRAYS = 25
 EDGE_RIM = 74_000  # bytes per cell of a side, in the mean
-EDGE_SHEAR, EDGE_SHEAR_ARRAYS = 23 << 20, 100
-EDGE_COUPLED, EDGE_COUPLED_ARRAYS, EDGE_COUPLED_RIM = 30 << 20, 96, 34_000
+EDGE_SHEAR = 23 << 20
+EDGE_SHEAR_ARRAYS = 100
+EDGE_COUPLED = 30 << 20
+EDGE_COUPLED_ARRAYS = 96
+EDGE_COUPLED_RIM = 34_000
 EDGE_SHEAR_RIM = 49_000
 EDGE_TURNED_RIM = 150_000
 # Arrays stored per increment: pressure and gap; shear, slip, its path length, dissipation, masks.
@@ -42,7 +45,9 @@ SCIPY = 27 << 20  # bytes of SciPy, for the solution or its errors: 19 to 44 MiB
 REFERENCE = 4 << 20  # bytes of the radial solver, with which errors of uncoupled bodies compare
 # Output: libraries, arrays, and memory of the solver that is not returned to the system, more of
 # coupled bodies. Measured with the overview picture on 32 to 1024 cells per side.
-DRAWING, DRAWING_ARRAYS, DRAWING_COUPLED = 75 << 20, 18, 9 << 20
+DRAWING = 75 << 20
+DRAWING_ARRAYS = 18
+DRAWING_COUPLED = 9 << 20
 
 
 def estimated_bytes(grid: SurfaceGrid, plan: Plan) -> int:

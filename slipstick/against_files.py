@@ -12,7 +12,8 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_scene.reading.engineering_units import engineering_unit
 from slipstick.against import ComparedCurve, Comparison
 
-NUMBERS, PICTURE = "against.json", "against.png"
+NUMBERS = "against.json"
+PICTURE = "against.png"
 
 
 def write_comparison(comparison: Comparison, directory: Path, title: str) -> None:

@@ -71,7 +71,8 @@ LARGEST_SHARE = 0.9  # of an error in its stress, beyond which a factor says not
 # |ln(s/S)| at which the search ends, far below the scatter of measured strengths.
 TOLERANCE = 1e-4
 # Least |ln f| between two solves that determine a slope, and between the root and an added solve.
-APART, ADDED = 0.02, 0.1
+APART = 0.02
+ADDED = 0.1
 # Largest number of solves for one strength. Two to five are usual.
 MAX_SOLVES = 20
 

@@ -20,7 +20,8 @@ from contact_scene.reading.engineering_units import (
 from slipstick.sweep import Variation
 
 PERCENTILES = (5.0, 50.0, 95.0)
-MAX_KEYS, MAX_TICKS = 2, 8
+MAX_KEYS = 2
+MAX_TICKS = 8
 
 
 @dataclass(frozen=True, eq=False)

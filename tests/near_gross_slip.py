@@ -33,7 +33,9 @@ COARSE: dict[str, Any] = {
     "fem": ELEMENTS,
     "fem-complementarity": ELEMENTS,
 }
-LOAD, CONTACT_RADIUS = 20.0, 1e-4  # N, and m to an order of magnitude
+# N, and m to an order of magnitude
+LOAD = 20.0
+CONTACT_RADIUS = 1e-4
 
 
 def draw_scene(rng: np.random.Generator) -> Scene:

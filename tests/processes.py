@@ -43,10 +43,13 @@ def begun(
     own |= {name: str(threads) for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")}
     path = os.pathsep.join(part for part in sys.path if part)
     return subprocess.Popen(
-        [sys.executable, "-c", program, *words], cwd=directory, text=True,
+        [sys.executable, "-c", program, *words],
+        cwd=directory,
+        text=True,
         env=os.environ | own | {"PYTHONPATH": path},
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-    )  # fmt: skip
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
 
 
 def ended(process: subprocess.Popen[str]) -> Ended:

@@ -19,10 +19,14 @@ from semi_analytical.increment_counts import StepIncrements
 from semi_analytical.plan import Coupling, Plan
 
 STEEL = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
-MU, RADIUS, PEAK = 0.1, 0.4e-3, 3e9
+MU = 0.1
+RADIUS = 0.4e-3
+PEAK = 3e9
 FORCES = (0.0, 30.0, 60.0, 90.0, 0.0, -90.0)  # at the end of the increments
 STEPS = ((1, 1, 1), (2, 1, 3), (2, 2, 3), (2, 3, 3), (3, 1, 2), (3, 2, 2))  # step, index, of
-ITERATIONS, CONVOLUTIONS, WORST_RESIDUAL = 7, 9, 3e-9
+ITERATIONS = 7
+CONVOLUTIONS = 9
+WORST_RESIDUAL = 3e-9
 
 
 def synthetic_scene(*, friction: bool) -> Scene:
@@ -50,9 +54,13 @@ def synthetic_result(cells: tuple[int, int] = (24, 20), *, friction: bool = True
     effect = Effect("friction", friction, "because the scene says so")
     path = tuple(StepIncrements(count, False, "as it is") for count in counts)
     plan = Plan(
-        shear=friction, coupling=Coupling.NONE, tilt=False, torsion=False, path=path,
+        shear=friction,
+        coupling=Coupling.NONE,
+        tilt=False,
+        torsion=False,
+        path=path,
         effects=(effect,),
-    )  # fmt: skip
+    )
     return Result(synthetic_scene(friction=friction), grid, 1e-8, plan, tuple(increments))
 
 

@@ -478,9 +478,11 @@ def test_python_solves_as_accurately_as_the_file_asks(
 
 @pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGKILL])
 def test_a_killed_run_resumes_the_solve_of_its_last_level(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
     stop: signal.Signals,
-) -> None:  # fmt: skip
+) -> None:
     path, out = written(tmp_path), tmp_path / "out"
     asked = ("--figures", "none", "--accuracy", FINER)
 

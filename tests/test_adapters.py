@@ -133,9 +133,15 @@ def test_codes_for_half_spaces_are_asked_for_what_they_have_alone() -> None:
             environment._driver_request(posed(name), 32, aspher)
             asked.add(name)
     assert asked == {
-        "hertz_point", "hertz_elliptical", "cone_contact", "flat_punch", "cattaneo_mindlin",
-        "fretting_loop", "tilted_punch", "tilted_ball",
-    }  # fmt: skip
+        "hertz_point",
+        "hertz_elliptical",
+        "cone_contact",
+        "flat_punch",
+        "cattaneo_mindlin",
+        "fretting_loop",
+        "tilted_punch",
+        "tilted_ball",
+    }
 
 
 def test_a_tilt_closes_the_gap_of_other_codes_at_positive_y_and_x() -> None:

@@ -416,8 +416,11 @@ def filled(tmp_path: Path) -> Path:
     folder = tmp_path / "challenge"
     assert slipstick("challenge", "export", "hertz_point", "-o", folder) == 0
     named(folder)
-    write(folder, ("1", "1", "approach", f"{HERTZ.approach * 1e6!r}", "um", ""),
-          ("1", "1", "contact_radius", f"{HERTZ.contact_radius!r}", "m", ""))  # fmt: skip
+    write(
+        folder,
+        ("1", "1", "approach", f"{HERTZ.approach * 1e6!r}", "um", ""),
+        ("1", "1", "contact_radius", f"{HERTZ.contact_radius!r}", "m", ""),
+    )
     return folder
 
 
@@ -483,8 +486,10 @@ def test_a_page_shows_levels_whose_numbers_are_not_finite(
     page, sizes = tmp_path / "sheet.html", ("4", "2", "1")
     with (filled / "levels.csv").open("a") as levels:
         levels.writelines(f"{n},solved,,{h},um,,{n}\n" for n, h in enumerate(sizes, start=2))
-    write(filled, *((str(n), "1", "approach", number if n > 2 else "1", "um", "")
-                    for n in (1, 2, 3, 4)))  # fmt: skip
+    write(
+        filled,
+        *((str(n), "1", "approach", number if n > 2 else "1", "um", "") for n in (1, 2, 3, 4)),
+    )
     assert slipstick("judge", filled, "--page", page) == 1
     assert "approach" in page.read_text()
 
@@ -531,10 +536,14 @@ for folder in sys.argv[1:]:
 
 @pytest.mark.parametrize(
     ("off", "left_out", "message", "colour"),
-    [(5e-5, 0, "A · 3/3", "brightgreen"), (5e-4, 0, "B · 3/3", "green"),
-     (5e-3, 0, "C · 0/3", "red"), (5e-2, 0, "none · 0/3", "red"),
-     (5e-5, 1, "partial · 2/2", "lightgrey")],
-)  # fmt: skip
+    [
+        (5e-5, 0, "A · 3/3", "brightgreen"),
+        (5e-4, 0, "B · 3/3", "green"),
+        (5e-3, 0, "C · 0/3", "red"),
+        (5e-2, 0, "none · 0/3", "red"),
+        (5e-5, 1, "partial · 2/2", "lightgrey"),
+    ],
+)
 def test_a_badge_has_the_colour_of_its_class_and_is_red_where_something_fails(
     off: float, left_out: int, message: str, colour: str
 ) -> None:
@@ -567,7 +576,7 @@ def test_what_is_required_and_missing_is_no_class(
         (("1", "1", "approach", "", "um", ""), "nothing to judge"),
         (("1", "1", "approach", "8.37", "um", "", "1"), "approach is one number"),
     ],
-)  # fmt: skip
+)
 def test_a_mistake_in_the_answers_is_named_by_file_and_line(
     filled: Path, capsys: pytest.CaptureFixture[str], row: tuple[str, ...], said: str
 ) -> None:
@@ -578,9 +587,13 @@ def test_a_mistake_in_the_answers_is_named_by_file_and_line(
 
 @pytest.mark.parametrize(
     ("point", "said"),
-    [("1", "has no value at point 2, 3"), ("12", "point '12', expected 1 to 11 of points.csv"),
-     ("", "point '', expected 1 to 11"), ("9" * 5000, "expected 1 to 11")],
-)  # fmt: skip
+    [
+        ("1", "has no value at point 2, 3"),
+        ("12", "point '12', expected 1 to 11 of points.csv"),
+        ("", "point '', expected 1 to 11"),
+        ("9" * 5000, "expected 1 to 11"),
+    ],
+)
 def test_numbers_at_places_are_all_given_each_at_its_own(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], point: str, said: str
 ) -> None:

@@ -100,8 +100,11 @@ def imported_after(*commands: tuple[object, ...], leaving: int = 0) -> list[set[
     asked = [([*map(str, c)], code) for c, code in zip(commands, codes, strict=True)]
     outcome = subprocess.run(
         [sys.executable, "-c", IMPORTING, json.dumps(asked)],
-        cwd=ROOT, capture_output=True, text=True, check=True,
-    )  # fmt: skip
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     told = [line.split() for line in outcome.stdout.splitlines() if line.startswith("imported ")]
     assert len(told) == len(commands)
     return [{*names[1:]} for names in told]

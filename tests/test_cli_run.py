@@ -35,11 +35,21 @@ increments = 3
     + COARSE
 )
 FILES = {
-    "summary.json", "timing.json", "result.h5", "profiles.csv", "increments.csv",
+    "summary.json",
+    "timing.json",
+    "result.h5",
+    "profiles.csv",
+    "increments.csv",
     "columns.csv",
-    "pressure.png", "shear.png", "profiles.png", "stick_slip.png",
-    "dissipation.png", "slip.png", "overview.png", "index.html",
-}  # fmt: skip
+    "pressure.png",
+    "shear.png",
+    "profiles.png",
+    "stick_slip.png",
+    "dissipation.png",
+    "slip.png",
+    "overview.png",
+    "index.html",
+}
 
 
 @pytest.fixture

@@ -41,14 +41,17 @@ AXISYMMETRIC = {
 # Contact of a radius, slope f' and curvature f'' of the profile.
 PROFILES = {
     "paraboloid": (
-        lambda a: PointContact(3.0, E_STAR, a), lambda r: r / 3.0, lambda r: 1 / 3.0,
+        lambda a: PointContact(3.0, E_STAR, a),
+        lambda r: r / 3.0,
+        lambda r: 1 / 3.0,
     ),
     "sphere": (
-        lambda a: SphereContact(3.0, E_STAR, a), lambda r: r / np.sqrt(9 - r**2),
+        lambda a: SphereContact(3.0, E_STAR, a),
+        lambda r: r / np.sqrt(9 - r**2),
         lambda r: 9 / np.sqrt(9 - r**2) ** 3,
     ),
     "cone": (lambda a: ConeContact(0.2, E_STAR, a), lambda r: np.tan(0.2), lambda r: 0.0),
-}  # fmt: skip
+}
 loads = st.floats(1e-6, 2.0)
 
 
@@ -118,8 +121,9 @@ def test_integrals_of_the_profile_give_load_approach_pressure_and_gap(name, a):
     for r in (1.01 * a, 1.4 * a):
         gap = integral(
             lambda t, r=r: penetration(r * np.sin(t)) - closed.approach,
-            np.arcsin(a / r), np.pi / 2,
-        )  # fmt: skip
+            np.arcsin(a / r),
+            np.pi / 2,
+        )
         assert 2 / np.pi * gap == pytest.approx(float(closed.gap(r)), rel=1e-8)
 
 
@@ -221,9 +225,12 @@ def test_printed_values(friction, ratio):
 # ---- Partial slip: equilibrium, Coulomb's bound, rigid stick zone, energy, superposition.
 
 
-LOAD, BALL_RADIUS, MU = 0.8, 3.0, 0.25
+LOAD = 0.8
+BALL_RADIUS = 3.0
+MU = 0.25
 BODY = (2.1, 0.0)
-E_ALIKE, G_STAR = contact_modulus(BODY), tangential_modulus(BODY)
+E_ALIKE = contact_modulus(BODY)
+G_STAR = tangential_modulus(BODY)
 HERTZ = PointContact.under_load(LOAD, BALL_RADIUS, E_ALIKE)
 LIMIT = MU * LOAD
 A = HERTZ.contact_radius

@@ -25,7 +25,8 @@ from verification.closed_forms.torsion import (
     one_layer,
 )
 
-A, PEAK = 0.8, 1.9
+A = 0.8
+PEAK = 1.9
 POINTS = [(0.1, 0.3), (0.5, 0.4), (0.79, 0.05), (1.2, 0.3), (2.0, 3.0)]
 
 
@@ -151,7 +152,10 @@ def test_a_sliding_contact_is_most_in_tension_at_its_trailing_edge(nu: float, mu
 # ---- Torsion: equilibrium, Coulomb's bound, rigid rotation of the stick disc, tabulated value
 
 
-TWIST_A, TWIST_PEAK, MU, MODULUS = 0.9, 1.3, 0.25, 0.7
+TWIST_A = 0.9
+TWIST_PEAK = 1.3
+MU = 0.25
+MODULUS = 0.7
 ratios = st.floats(0.01, 1)
 
 
@@ -241,7 +245,8 @@ def test_stuck_torsion():
 # ---- Tilted punch and coated torsion: equilibrium, rigid motion of what sticks, limits.
 
 
-E, W = 1.9, 1.3
+E = 1.9
+W = 1.3
 
 
 def punch(e_x=0.1, e_y=-0.15):

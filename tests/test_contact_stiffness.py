@@ -91,7 +91,7 @@ CASES = {
     "torque": (TURNED, [PRESS, {"torque": TORQUE}], {}),
     "twist": (TURNED, [PRESS, {"twist": TORQUE / TWIST}], {}),
     "force beside a twist": (PUSHED, [PRESS, {"twist": TORQUE / TWIST} | push(0.2), push(0.5)], {}),
-}  # fmt: skip
+}
 
 
 def moves_edge(body: str, solver: str, name: str) -> bool:

@@ -60,12 +60,19 @@ def test_the_next_term_does_not_hide_the_order(order: float, sizes: np.ndarray) 
 @pytest.mark.parametrize(
     ("order", "half_width", "promised", "allowance", "kept"),
     [
-        (1.35, 0.02, 1.3, 0.0, True), (1.35, 0.02, 1.5, 0.0, False), (1.35, 0.2, 1.35, 0.0, None),
-        (1.35, 0.2, 1.5, 0.0, None), (1.35, 0.2, 1.7, 0.0, False), (1.35, 0.3, 1.35, 0.0, None),
-        (1.7, 0.02, 1.65, 0.0, True), (1.7, 0.02, 1.5, 0.0, False), (1.7, 0.2, 1.5, 0.0, True),
-        (1.7, 0.2, 1.4, 0.0, False), (1.35, 0.02, 1.5, 0.2, True),
+        (1.35, 0.02, 1.3, 0.0, True),
+        (1.35, 0.02, 1.5, 0.0, False),
+        (1.35, 0.2, 1.35, 0.0, None),
+        (1.35, 0.2, 1.5, 0.0, None),
+        (1.35, 0.2, 1.7, 0.0, False),
+        (1.35, 0.3, 1.35, 0.0, None),
+        (1.7, 0.02, 1.65, 0.0, True),
+        (1.7, 0.02, 1.5, 0.0, False),
+        (1.7, 0.2, 1.5, 0.0, True),
+        (1.7, 0.2, 1.4, 0.0, False),
+        (1.35, 0.02, 1.5, 0.2, True),
     ],
-)  # fmt: skip
+)
 def test_an_order_is_kept_as_far_as_it_is_known(
     order, half_width, promised, allowance, kept
 ) -> None:
@@ -139,8 +146,13 @@ def test_halves_that_contradict_each_other_are_part_of_the_uncertainty() -> None
     values = np.where(np.arange(6) < 3, 1.1, 1.0) + 0.02 * SIZES
     coefficient, limit = np.polyfit(SIZES / SIZES[-1], values, 1, w=1 / SIZES)
     moved = max(abs(limit - 1.0), abs(limit - 1.1))
-    left = np.sqrt(np.sum((values - np.polyval([coefficient, limit], SIZES / SIZES[-1])) ** 2
-                          * (SIZES[-1] / SIZES) ** 2) / 4)  # fmt: skip
+    left = np.sqrt(
+        np.sum(
+            (values - np.polyval([coefficient, limit], SIZES / SIZES[-1])) ** 2
+            * (SIZES[-1] / SIZES) ** 2
+        )
+        / 4
+    )
     assert moved > 2 * left
     assert numerical_uncertainty(SIZES, values, 1.0) == pytest.approx(
         np.hypot(coefficient, moved), rel=1e-9

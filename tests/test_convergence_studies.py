@@ -24,11 +24,14 @@ from verification.references import load_reference
 from verification.studies.refinement.levels import StudiedScene, plan_of
 from verification.studies.refinement.limits import Estimate, estimates
 
-R, W, MU = 18e-3, 1e3, 0.1
+R = 18e-3
+W = 1e3
+MU = 0.1
 E = 210e9 / 0.91  # contact modulus of a rigid body on steel, or of two bodies of twice the modulus
 HERTZ = PointContact.under_load(W, R, E)
 A = HERTZ.contact_radius
-CELLS, FEM = "semi-analytical", "fem-complementarity"
+CELLS = "semi-analytical"
+FEM = "fem-complementarity"
 
 STEEL = 'material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }'
 ALIKE = 'material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }'
@@ -172,14 +175,19 @@ SCENES = {
         text('shape = "flat_punch"\nradius = "0.4 mm"', RIGID, STEEL),
         # The order is between ½ and 1 by the place of the rim in its cells. The radius is that of
         # the rim on every level.
-        {"approach": PUNCH.approach}, 0.15,
+        {"approach": PUNCH.approach},
+        0.15,
     ),
     "cusp of a cone": Scene(
         text('shape = "cone"\nslope_angle = 0.02', RIGID, STEEL),
-        {"approach": CONE.approach, "contact_radius": CONE.contact_radius}, 5e-4,
+        {"approach": CONE.approach, "contact_radius": CONE.contact_radius},
+        5e-4,
     ),
     "unresolved film": Scene(
-        text(BALL, RIGID, STEEL, more=coating(10, 0.02 * A)), None, 1e-4, 16,
+        text(BALL, RIGID, STEEL, more=coating(10, 0.02 * A)),
+        None,
+        1e-4,
+        16,
         reason="the thickness of a layer is",
     ),
     "thin film": Scene(
@@ -193,24 +201,30 @@ SCENES = {
     "Cattaneo-Mindlin on rings": Scene(
         text(BALL, PLAIN, PLAIN, LOOP[0], more=FRICTION),
         {"tangential_shift_x": pushed(0.9).shift, "stick_radius": pushed(0.9).stick_radius},
-        0.05, solver="radial",
+        0.05,
+        solver="radial",
     ),
     "fretting loop": Scene(
         text(BALL, PLAIN, PLAIN, *LOOP, more=FRICTION),
-        {"tangential_shift_x": loop_end().shift, "stick_radius": pushed(0.9).stick_radius,
-         "energy_per_cycle": 4 * pushed(0.9).dissipated_energy},
+        {
+            "tangential_shift_x": loop_end().shift,
+            "stick_radius": pushed(0.9).stick_radius,
+            "energy_per_cycle": 4 * pushed(0.9).dissipated_energy,
+        },
         5e-4,
     ),
     "ellipse": Scene(
         text('shape = "ellipsoid"\nradii = ["18 mm", "9 mm"]', RIGID, STEEL),
-        {"approach": ELLIPSE.approach, "peak_pressure": ELLIPSE.peak_pressure}, 1e-5,
+        {"approach": ELLIPSE.approach, "peak_pressure": ELLIPSE.peak_pressure},
+        1e-5,
     ),
     "torsion": Scene(
         text(BALL, ALIKE, ALIKE, f"torque = {TORQUE}", more=FRICTION),
-        {"twist": twisted(TORQUE).twist, "stick_radius": twisted(TORQUE).stick_radius}, 2e-3,
+        {"twist": twisted(TORQUE).twist, "stick_radius": twisted(TORQUE).stick_radius},
+        2e-3,
     ),
     "frictional indentation": Scene(INDENTED, spence(0.3, 0.3), 5e-5),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -80,9 +80,11 @@ def test_a_row_is_judged_on_the_finest_rung_or_on_those_it_names() -> None:
     }
     radius = {("contact_radius", f"{n}x{n}"): pytest.approx(0.5 * 3 / n) for n in CELLS}
     assert asked_of == {
-        ("approach", "128x128"): 0.1, ("required", "32x32"): 0.3, ("required", "64x64"): 0.2,
+        ("approach", "128x128"): 0.1,
+        ("required", "32x32"): 0.3,
+        ("required", "64x64"): 0.2,
         **radius,
-    }  # fmt: skip
+    }
     (derived,) = (q for q in made.quantities if isinstance(q.tolerance, Derived))
     assert isinstance(derived.tolerance, Derived)
     assert (derived.tolerance.levels, derived.tolerance.cap) == (grids.levels, 0.4)

@@ -17,7 +17,7 @@ from contact_scenes import (
     paraboloid,
     scene,
     steel,
-)  # fmt: skip
+)
 
 import radial
 import slipstick
@@ -334,7 +334,8 @@ def test_a_relaxed_change_at_least_halves_the_error_of_a_linear_iteration(eigenv
 # ---- Pressure and shear of bodies that couple, with their edges inside the cells, against the
 
 
-INCREMENTS, SIDE = 6, 2.8 * A
+INCREMENTS = 6
+SIDE = 2.8 * A
 FILM = coated(film(0.5, 1.0))
 
 

@@ -91,7 +91,8 @@ def border(shape: EdgeShape) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 
 # Radii in cells, angle; and the largest error of the radius there, which falls like their square.
-CIRCLE, ELLIPSE = ((13.3, 13.3), 0.0), ((15.0, 9.0), 0.5)
+CIRCLE = ((13.3, 13.3), 0.0)
+ELLIPSE = ((15.0, 9.0), 0.5)
 BOUNDS = {NARROW: 2e-4, WIDE: 3e-5}
 
 
@@ -154,8 +155,10 @@ def test_an_edge_that_cuts_off_a_corner_is_seen(towards: tuple[int, int], inside
     (m, n), side = towards, np.array([2.0])
     (mean,) = cell_means(
         lambda x, y: np.sqrt(np.maximum(m * x + n * y - 2.0 + inside, 0)),
-        np.zeros(1), np.zeros(1), (side, side),
-    )  # fmt: skip
+        np.zeros(1),
+        np.zeros(1),
+        (side, side),
+    )
     assert mean == pytest.approx(inside**2.5 / 15, abs=2e-4 * inside**0.5)
     assert mean > 0
 
@@ -185,7 +188,10 @@ def test_edges_inside_cells_are_known_by_their_means() -> None:
 
 
 Field = NDArray[np.float64]
-A, RADIUS, YOUNG, NU = 1e-3, 0.018, 210e9, 0.3
+A = 1e-3
+RADIUS = 0.018
+YOUNG = 210e9
+NU = 0.3
 NO_BODY = Body(material=RIGID)
 
 

@@ -29,12 +29,18 @@ from verification.problems.drawn.families import (
 SEED = 2  # of draws that neither tried the rules nor judge them
 # Cheap families of all rules but that of finer cells.
 CHEAP = "shapes", "tilted", "pushed-shapes", "twisted", "gross-slip", "oblique", "elements-pushed"
-COARSE, FINE = 16, 48  # cells along a side
-FEW, MANY = 6, 18  # elements per contact radius
+# cells along a side
+COARSE = 16
+FINE = 48
+# elements per contact radius
+FEW = 6
+MANY = 18
 # Smooth errors fall by nine while cells become a third as large, square roots by 1.7. Each depends
 # on the cut of the edge, which is off by at most one of some 16 cells per radius; slip at the edge
 # by somewhat more.
-FALLS, CHANCE, LARGEST = 1.5, 1e-4, 0.1
+FALLS = 1.5
+CHANCE = 1e-4
+LARGEST = 0.1
 
 
 def errors(known: KnownScene, *, fine: bool) -> Iterator[float]:

@@ -53,9 +53,10 @@ def test_python_in_the_readme_runs(tmp_path: Path) -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"^```python\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
     for fine, coarse in (
-        ("cells=(64, 64)", "cells=(16, 16)"), ("increments=6", "increments=1"),
+        ("cells=(64, 64)", "cells=(16, 16)"),
+        ("increments=6", "increments=1"),
         ("normal_force=50.0", "normal_force=50.0, increments=2"),
-    ):  # fmt: skip
+    ):
         assert fine in block
         block = block.replace(fine, coarse)
     script = tmp_path / "readme.py"

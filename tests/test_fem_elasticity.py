@@ -26,7 +26,9 @@ from fem_reference.mesh.section_mesh import SectionMesh, section_mesh
 from slipstick import solve, stated_errors
 
 R = 10.0
-ALL, PLANE, ANGULAR = (0, 1, 2), (0, 2), (1,)
+ALL = (0, 1, 2)
+PLANE = (0, 2)
+ANGULAR = (1,)
 
 
 def distorted_section(rng, poisson_ratio=0.3):

@@ -260,13 +260,19 @@ def test_opposite_load_gives_the_mirrored_state(coupled):
 def test_force_and_displacement_lead_to_the_same_state(coupled):
     of, start = coupled
     by_force = advance(
-        of, start, Loads(NormalTarget(force=1.1 * start.normal_force),
-        along(load=0.6 * MU * start.normal_force)), 1e-10,
-    )  # fmt: skip
+        of,
+        start,
+        Loads(
+            NormalTarget(force=1.1 * start.normal_force), along(load=0.6 * MU * start.normal_force)
+        ),
+        1e-10,
+    )
     by_motion = advance(
-        of, start, Loads(NormalTarget(approach=by_force.approach),
-        along(motion=by_force.motions[0])), 1e-10,
-    )  # fmt: skip
+        of,
+        start,
+        Loads(NormalTarget(approach=by_force.approach), along(motion=by_force.motions[0])),
+        1e-10,
+    )
     np.testing.assert_allclose(by_motion.pressure, by_force.pressure, atol=1e-9)
     np.testing.assert_allclose(by_motion.shear, by_force.shear, atol=1e-9)
 
@@ -352,7 +358,9 @@ def test_at_the_friction_limit_all_shear_is_along_the_load(coupled):
 
 SUBSTRATE = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 HARD = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.2)
-FORCE, FRICTION, RADIUS = 1e3, 0.2, 18e-3
+FORCE = 1e3
+FRICTION = 0.2
+RADIUS = 18e-3
 FEW = {"harmonics": 3}
 
 

@@ -154,9 +154,11 @@ def test_equations_hold_however_strong_the_coupling(
 @both_laws
 def test_unloading_dissipates_and_turns_the_shear(law: Method) -> None:
     there_and_back = scene(
-        {**PRESS, "increments": 10}, {"normal_force": 0.05 * LOAD, "increments": 15},
-        indenter=RIGID_BALL, body=BODY,
-    )  # fmt: skip
+        {**PRESS, "increments": 10},
+        {"normal_force": 0.05 * LOAD, "increments": 15},
+        indenter=RIGID_BALL,
+        body=BODY,
+    )
     found = solved(there_and_back, law=law).increments
     energy = [increment.dissipated_energy for increment in found]
     assert np.all(np.diff(energy) >= 0)
@@ -169,11 +171,10 @@ def test_unloading_dissipates_and_turns_the_shear(law: Method) -> None:
 
 G = steel().shear_modulus
 HERTZ = hertz()
-VIRGIN = PartialSlip(
-    LOAD, A, MU, tangential_modulus((YOUNG, NU), (YOUNG, NU)), 0.0
-)  # fmt: skip
+VIRGIN = PartialSlip(LOAD, A, MU, tangential_modulus((YOUNG, NU), (YOUNG, NU)), 0.0)
 UNTWISTED = TorsionalPartialSlip(A, HERTZ.peak_pressure, MU, G / 2, A)
-EXACT, PENALTY = Method.COMPLEMENTARITY, Method.PENALTY
+EXACT = Method.COMPLEMENTARITY
+PENALTY = Method.PENALTY
 
 
 def test_mirrored_load_has_the_mirrored_answer() -> None:
@@ -409,23 +410,26 @@ def test_a_coupled_push_takes_a_twentieth_of_the_limit_at_once() -> None:
     ("asked", "named"),
     [
         pytest.param(
-            scene(PRESS, indenter=Ellipsoid(radii=(1e-2, 2e-2), material=steel())), "ellipsoid",
+            scene(PRESS, indenter=Ellipsoid(radii=(1e-2, 2e-2), material=steel())),
+            "ellipsoid",
             id="ellipsoid",
         ),
         pytest.param(scene(PRESS, {"tilt": (1e-3, 0.0)}), "tilt", id="tilt"),
         pytest.param(scene(PRESS, {"moment": (0.0, 1e-3)}), "moment", id="moment"),
         pytest.param(
-            scene(PRESS, {"moment": (0.0, 0.0)}, push(0.3), indenter=RIGID_BALL), "tilt",
+            scene(PRESS, {"moment": (0.0, 0.0)}, push(0.3), indenter=RIGID_BALL),
+            "tilt",
             id="free to tilt",
         ),
         pytest.param(
             scene(PRESS, body=steel(young_modulus=1e3)).model_copy(
                 update={"body": Body(material=steel(young_modulus=1e3), layers=(FILM,))}
             ),
-            "shear moduli", id="contrast",
+            "shear moduli",
+            id="contrast",
         ),
     ],
-)  # fmt: skip
+)
 def test_what_is_not_axisymmetric_is_refused_by_name(asked: Scene, named: str) -> None:
     with pytest.raises(UnsupportedScene, match=named):
         plan(asked)
@@ -433,8 +437,12 @@ def test_what_is_not_axisymmetric_is_refused_by_name(asked: Scene, named: str) -
 
 def test_maps_are_refused_by_name(tmp_path: FilePath) -> None:
     np.save(tmp_path / "map.npy", np.eye(16))
-    rough = {"shape": "height_map", "file": str(tmp_path / "map.npy"), "spacing": 1e-4,
-             "material": "rigid"}  # fmt: skip
+    rough = {
+        "shape": "height_map",
+        "file": str(tmp_path / "map.npy"),
+        "spacing": 1e-4,
+        "material": "rigid",
+    }
     document, pushed = (scene(*steps).model_dump() for steps in ((PRESS,), (PRESS, push(0.5))))
     with pytest.raises(UnsupportedScene, match="height map"):
         plan(Scene.model_validate({**document, "indenter": rough}))

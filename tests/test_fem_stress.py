@@ -11,7 +11,9 @@ from contact_scene.solver_errors import UnsupportedScene
 from fem_reference.stress import SectionField, SurfaceTractions, subsurface
 from verification.closed_forms.huber_stress import huber_stress, sliding_axis_shear
 
-A, P0, MU = 1e-3, 1e9, 0.3
+A = 1e-3
+P0 = 1e9
+MU = 0.3
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 FILM = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.2)
 COATED = Body(material=STEEL, layers=(Layer(thickness=0.5 * A, material=FILM),))

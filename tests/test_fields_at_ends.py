@@ -136,11 +136,9 @@ BODIES = {
     "friction": CoulombFriction(coefficient=0.1),
 }
 PRESSING = LoadStep(normal_force=1e3)
-PUSH, TURN, LIMIT = (
-    LoadStep(tangential_force=(60.0, 0.0), increments=2),
-    LoadStep(torque=0.01, increments=2),
-    LoadStep(tangential_force=(-100.0, 0.0)),
-)
+PUSH = LoadStep(tangential_force=(60.0, 0.0), increments=2)
+TURN = LoadStep(torque=0.01, increments=2)
+LIMIT = LoadStep(tangential_force=(-100.0, 0.0))
 TILT = LoadStep(normal_force=1e3, moment=(0.01, 0.02), increments=2)
 MESH = FiniteElementDiscretisation(elements_per_radius=6)
 

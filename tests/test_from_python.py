@@ -62,8 +62,11 @@ def test_import_brings_in_nothing() -> None:
     ours = {"contact_scene", "contact_solver", "contact_results", "semi_analytical"}
     ours |= {"fem_reference", "verification"}
     assert not imported_after("import slipstick") & (heavy | ours)
-    assert not imported_after("from slipstick import Scene, load_scene") & {"scipy", "h5py", *ours
-        - {"contact_scene"}}  # fmt: skip
+    assert not imported_after("from slipstick import Scene, load_scene") & {
+        "scipy",
+        "h5py",
+        *ours - {"contact_scene"},
+    }
 
 
 @pytest.mark.parametrize("solver", SHEARED)
@@ -108,15 +111,14 @@ def test_a_stored_run_needs_none_of_the_files_of_its_scene(tmp_path: Path) -> No
     np.save(tmp_path / "ball.npy", (x[:, None] ** 2 + x**2) / 2 / 18e-3)
     mu = np.broadcast_to(0.1 + x, (32, 32))
     scene = slipstick.Scene(
-        indenter=HeightMap(
-            file=str(tmp_path / "ball.npy"), spacing=x[1] - x[0], material=STEEL
-        ),
+        indenter=HeightMap(file=str(tmp_path / "ball.npy"), spacing=x[1] - x[0], material=STEEL),
         body=slipstick.Body(material=STEEL),
         friction=slipstick.CoulombFriction(coefficient={"map": mu, "spacing": x[1] - x[0]}),
         loading=(
-            slipstick.LoadStep(normal_force=5.0), slipstick.LoadStep(tangential_force=(0.2, 0.0))
+            slipstick.LoadStep(normal_force=5.0),
+            slipstick.LoadStep(tangential_force=(0.2, 0.0)),
         ),
-    )  # fmt: skip
+    )
     result = slipstick.solve(scene, discretisation=COARSE["semi-analytical"])
     slipstick.save(result, tmp_path / "out", figures="none")
     (tmp_path / "ball.npy").unlink()

@@ -261,7 +261,8 @@ def test_exchanging_x_and_y_exchanges_the_components():
 # ---- The closed forms of the influence coefficients are integrals of the point solutions.
 
 
-G, NU = 3.0, 0.3
+G = 3.0
+NU = 0.3
 CELLS = {"square": (0.7, 0.7), "flat": (0.5, 1.6), "upright": (3.0, 0.4)}
 # Point solutions of Boussinesq and Cerruti (Johnson 1985, eqs 3.18 and 3.75), times 2 pi G.
 POINT = {

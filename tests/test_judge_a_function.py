@@ -79,9 +79,13 @@ def judge(*arguments: object) -> int:
     ],
 )
 def test_the_exit_code_says_how_a_function_did(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], function: str,
-    options: tuple[str, ...], code: int, said: str,
-) -> None:  # fmt: skip
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    function: str,
+    options: tuple[str, ...],
+    code: int,
+    said: str,
+) -> None:
     file = tmp_path / "mine.py"
     file.write_text(FILE)
     case = ("--case", "hertz_point", "--levels", "1")

@@ -34,9 +34,13 @@ def act(folder: Path, **inputs: str) -> tuple[int, str]:
     summary = folder / "summary.md"
     given = {"SLIPSTICK": str(SLIPSTICK), "GITHUB_STEP_SUMMARY": str(summary), "LEVELS": "1"}
     done = subprocess.run(
-        ["bash", ACTION / "judge.sh"], cwd=folder, env={**os.environ, **given, **inputs},
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        ["bash", ACTION / "judge.sh"],
+        cwd=folder,
+        env={**os.environ, **given, **inputs},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     return done.returncode, summary.read_text() if summary.exists() else done.stderr
 
 
@@ -47,8 +51,9 @@ def test_a_failure_on_any_case_is_that_of_the_action(tmp_path: Path) -> None:
     )
     assert code == 1
     assert re.findall(r"^- (\S+) \| mine.py:off", page, re.MULTILINE) == [
-        "hertz_point", "coated_paraboloid/E1_over_E2=2"
-    ]  # fmt: skip
+        "hertz_point",
+        "coated_paraboloid/E1_over_E2=2",
+    ]
     code, page = act(
         tmp_path, SOLVER="mine.py:right", CASES="hertz_point", STRICT="true", GRADE="A"
     )

@@ -30,44 +30,63 @@ OUTCOMES = {
     "wrong": ("OFF = 0.05", "--slipstick", {"failed": 1}, "*beyond class B*"),
     "omitted": ("RADIUS = 'central_pressure'", "--slipstick", {"failed": 1}, "*omitted*"),
     "partial": (
-        "RADIUS, PARTIAL, CLASS = 'central_pressure', True, 'C'", "--slipstick",
-        {"failed": 1}, "*central_pressure*",
+        "RADIUS, PARTIAL, CLASS = 'central_pressure', True, 'C'",
+        "--slipstick",
+        {"failed": 1},
+        "*central_pressure*",
     ),
     "cannot": (
-        "def solve(problem, level):\n    raise CannotDo('balls only')", "--slipstick",
-        {"skipped": 1}, "*cannot: balls only*",
+        "def solve(problem, level):\n    raise CannotDo('balls only')",
+        "--slipstick",
+        {"skipped": 1},
+        "*cannot: balls only*",
     ),
     "strictly cannot": (
-        "def solve(problem, level):\n    raise CannotDo('balls only')", "--slipstick-strict",
-        {"failed": 1}, "*cannot: balls only*",
+        "def solve(problem, level):\n    raise CannotDo('balls only')",
+        "--slipstick-strict",
+        {"failed": 1},
+        "*cannot: balls only*",
     ),
     "raises": (
-        "def solve(problem, level):\n    return 1 / 0", "--slipstick", {"failed": 1},
+        "def solve(problem, level):\n    return 1 / 0",
+        "--slipstick",
+        {"failed": 1},
         "*ZeroDivisionError*",
     ),
     "leaves": (
-        "import os\ndef solve(problem, level):\n    os._exit(0)", "--slipstick", {"failed": 1},
+        "import os\ndef solve(problem, level):\n    os._exit(0)",
+        "--slipstick",
+        {"failed": 1},
         "*solve ended without an answer on level 0: exit code 0*",
     ),
     "is endless": (
-        "SECONDS = 0.5\ndef solve(problem, level):\n    while True: pass", "--slipstick",
-        {"failed": 1}, "*solve gave no answer on level 0 within 0.5 s*",
+        "SECONDS = 0.5\ndef solve(problem, level):\n    while True: pass",
+        "--slipstick",
+        {"failed": 1},
+        "*solve gave no answer on level 0 within 0.5 s*",
     ),
     "worse than saved": (
-        "OFF, AGAINST = 1.6e-3, 'saved.json'", "--slipstick", {"failed": 1},
+        "OFF, AGAINST = 1.6e-3, 'saved.json'",
+        "--slipstick",
+        {"failed": 1},
         "*worse hertz_point/approach*was error 0.0001*",
     ),
     "as saved": ("AGAINST = 'saved.json'", "--slipstick", {"passed": 1}, ""),
     "cannot any more": (
         "AGAINST = 'saved.json'\ndef solve(problem, level):\n    raise CannotDo('balls only')",
-        "--slipstick", {"failed": 1}, "*cannot: balls only*",
+        "--slipstick",
+        {"failed": 1},
+        "*cannot: balls only*",
     ),
     "nothing saved": (
-        "AGAINST = 'no.json'", "--slipstick", {"failed": 1}, "*no.json cannot be read*--save*",
+        "AGAINST = 'no.json'",
+        "--slipstick",
+        {"failed": 1},
+        "*no.json cannot be read*--save*",
     ),
     "no challenge": ("CASES = ['hertz']", "--slipstick", {"errors": 1}, "*no challenge 'hertz'*"),
     "no solver": ("del solve", "--slipstick", {"errors": 1}, "*no solve; expected*"),
-}  # fmt: skip
+}
 
 
 def answer(problem: Posed, level: int) -> Answer:

@@ -83,10 +83,11 @@ DAMAGES: dict[str, tuple[Callable[[Path], object], str]] = {
         "is no array of this version",
     ),
     "a queue that never ends": (
-        lambda p: in_place_of(p, os.mkfifo), "cannot be used: it is no plain file"
+        lambda p: in_place_of(p, os.mkfifo),
+        "cannot be used: it is no plain file",
     ),
     "a directory": (lambda p: in_place_of(p, os.mkdir), "cannot be used: it is no plain file"),
-}  # fmt: skip
+}
 
 
 def flipped(path: Path, at: int) -> None:

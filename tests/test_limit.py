@@ -44,10 +44,13 @@ from verification.closed_forms.huber_stress import (
 from verification.closed_forms.line_contact import CylinderContact
 
 ROOT = Path(__file__).resolve().parents[1]
-E, R, W = 210e9, 10e-3, 50.0
+E = 210e9
+R = 10e-3
+W = 50.0
 # The radial solver searches its maxima to nine digits.
 SEARCHED = 1e-8
-YIELD, TENSILE = 1e9, 0.3e9
+YIELD = 1e9
+TENSILE = 0.3e9
 COARSE: dict[str, Any] = {
     "radial": None,
     "semi-analytical": SurfaceDiscretisation(cells=(64, 64)),
@@ -234,8 +237,9 @@ def test_load_factor_multiplies_every_control() -> None:
         for name in values.keys() & {"bulk_stress", "bulk_strain"}:
             values[name] = (0.01, 0.0, -0.02)
         step = LoadStep(**values, increments=3)
-        doubled = {name: tuple(np.multiply(2, v)) if np.ndim(v) else 2 * v
-                   for name, v in values.items()}  # fmt: skip
+        doubled = {
+            name: tuple(np.multiply(2, v)) if np.ndim(v) else 2 * v for name, v in values.items()
+        }
         assert step.multiplied(2.0) == LoadStep(**doubled, increments=3)
 
 

@@ -23,7 +23,10 @@ from semi_analytical.stress.strips import RESPONSES, strip_responses
 
 STEEL = {"young_modulus": 210e9, "poisson_ratio": 0.3}
 MODULUS = 210e9 / (1 - 0.3**2) / 2
-RADIUS, FORCE, FRICTION, REFERENCE = 18e-3, 1e6, 0.1, 0.02
+RADIUS = 18e-3
+FORCE = 1e6
+FRICTION = 0.1
+REFERENCE = 0.02
 HALF_WIDTH = float(np.sqrt(4 * FORCE * RADIUS / (np.pi * MODULUS)))
 PEAK = 2 * FORCE / (np.pi * HALF_WIDTH)
 

@@ -130,18 +130,37 @@ def test_laws_are_found_in_what_is_returned(solved_run):
 
 ENERGIES = ("approach", "elastic_energy", "dissipated_energy")
 TORN = {  # run, factor: what its last increment tells wrong by it
-    ("cells", 1.01): ("pressure", "shear", "slip", "normal_force", "tangential_force",
-                      "dissipation", "slip_distance", "tangential_shift", "input_work",
-                      "unresolved_work", *ENERGIES),
+    ("cells", 1.01): (
+        "pressure",
+        "shear",
+        "slip",
+        "normal_force",
+        "tangential_force",
+        "dissipation",
+        "slip_distance",
+        "tangential_shift",
+        "input_work",
+        "unresolved_work",
+        *ENERGIES,
+    ),
     ("cells, twisted", 1.01): ("torque", "twist"),
-    **dict.fromkeys((("rings", 1.01), ("springs", 1.01)), ("pressure", "shear_along_load",
-                    "slip_along_load", "normal_force", "approach", "dissipated_energy",
-                    "input_work")),
+    **dict.fromkeys(
+        (("rings", 1.01), ("springs", 1.01)),
+        (
+            "pressure",
+            "shear_along_load",
+            "slip_along_load",
+            "normal_force",
+            "approach",
+            "dissipated_energy",
+            "input_work",
+        ),
+    ),
     ("radii", 1.02): ("pressure", "shear_radial", "normal_force", "approach", "elastic_energy"),
     ("radii", 1.1): ("slip_radial", "dissipated_energy", "input_work"),
     ("radii, twisted", 1.02): ("torque", "shear_circumferential"),
     ("radii, twisted", -1.0): ("slip_circumferential", "twist"),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(

@@ -43,9 +43,13 @@ print(*sys.modules)
 def loaded(program: str, *arguments: str, cwd: Path) -> set[str]:
     """Names of the modules that a program lists in its last line."""
     ended = subprocess.run(
-        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=True,
-        cwd=cwd, env=os.environ | dict.fromkeys(VARIABLES, ONE),
-    )  # fmt: skip
+        [sys.executable, "-c", program, *arguments],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=cwd,
+        env=os.environ | dict.fromkeys(VARIABLES, ONE),
+    )
     return set(ended.stdout.splitlines()[-1].split())
 
 
@@ -62,10 +66,17 @@ def test_one_case_loads_no_other(program: str, tmp_path: Path) -> None:
     others = {MODULE_OF.get(name, name) for name in CASES} - {"indenters"}
     assert not within(modules, *(f"verification.cases.{name}" for name in others))
     assert not within(
-        modules, "fem_reference", "skfem", "matplotlib", "jinja2", "verification.studies",
-        "verification.defects", "verification.peers",
-        "verification.report.page", "verification.report.drawing",
-    )  # fmt: skip
+        modules,
+        "fem_reference",
+        "skfem",
+        "matplotlib",
+        "jinja2",
+        "verification.studies",
+        "verification.defects",
+        "verification.peers",
+        "verification.report.page",
+        "verification.report.drawing",
+    )
 
 
 # ---- The cases describe what they say, and their references agree with each other.

@@ -182,7 +182,8 @@ def test_inverse_has_the_magnitudes_of_the_eigenvalues(xx, yy, xy):
 
 
 REDUCED_ROUND_OFF = 1e-14
-HALF_X, HALF_Y = ReducedDomain((True, False)), ReducedDomain((False, True))
+HALF_X = ReducedDomain((True, False))
+HALF_Y = ReducedDomain((False, True))
 ALONG_X, ALONG_Y, TWISTED = (ReducedDomain((True, True), s) for s in ((-1, 1), (1, -1), (-1, -1)))
 DOMAINS = (
     *(QUARTER, ALONG_X, ALONG_Y, TWISTED, HALF_X, HALF_Y),
@@ -409,7 +410,8 @@ ON_THE_WINDOW = {
     "x, then y": (scene(PRESS, push(0.3), push(0, 0.2)), "no mirror plane in common"),
     "pushed and twisted": (scene(PRESS, {**push(0.3), "twist": 1e-4}), "torsion act together"),
     "coupled, twisted": (
-        coupled_scenes.scene(COUPLED_PRESS, {"twist": 1e-4}), "no mirror plane in common",
+        coupled_scenes.scene(COUPLED_PRESS, {"twist": 1e-4}),
+        "no mirror plane in common",
     ),
     "uneven friction": (scene(PRESS, push(0.3), friction=UNEVEN), "friction is not symmetric"),
     "tilted": (scene({**PRESS, "tilt": (1e-4, 0.0)}), "tilts"),
@@ -421,7 +423,7 @@ ON_THE_WINDOW = {
         ),
         "does not declare symmetry",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("described", "because"), ON_THE_WINDOW.values(), ids=ON_THE_WINDOW)

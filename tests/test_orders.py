@@ -68,9 +68,14 @@ def judged(errors: np.ndarray, expected: float) -> Verdict:
         for label in results
     )
     order = Order(
-        "order", Followed.SHIFT, "a planted value", tuple(results), lambda result: result.error,
-        expected, "planted",
-    )  # fmt: skip
+        "order",
+        Followed.SHIFT,
+        "a planted value",
+        tuple(results),
+        lambda result: result.error,
+        expected,
+        "planted",
+    )
     return judge_order(order, Case("planted", "", "", runs, (), orders=(order,)), results)
 
 
@@ -103,9 +108,15 @@ def test_values_that_refinement_does_not_change_are_judged_exactly(
         for label, size in zip(labels, SIZES, strict=False)
     )
     quantity = Quantity(
-        "constant", "", "", "finest", lambda result: result, identity(reference, "planted"),
-        Derived(labels, 1.0, 1.0, "planted"), 1.0,
-    )  # fmt: skip
+        "constant",
+        "",
+        "",
+        "finest",
+        lambda result: result,
+        identity(reference, "planted"),
+        Derived(labels, 1.0, 1.0, "planted"),
+        1.0,
+    )
     case = Case("planted", "", "", runs, (quantity,))
     verdict = judge_quantity(quantity, case, dict.fromkeys(labels, 0.0))
     assert (verdict.allowed, verdict.status, verdict.clearance) == (0.0, status, clearance)
@@ -113,9 +124,15 @@ def test_values_that_refinement_does_not_change_are_judged_exactly(
 
 def test_a_stated_error_covers_no_more_than_itself_and_that_of_the_reference() -> None:
     quantity = Quantity(
-        "one", "", "", "run", float, Reference(0.0, ReferenceKind.CLOSED_FORM, "planted", 0.25),
-        Required(1.0, "planted"), 1.0,
-    )  # fmt: skip
+        "one",
+        "",
+        "",
+        "run",
+        float,
+        Reference(0.0, ReferenceKind.CLOSED_FORM, "planted", 0.25),
+        Required(1.0, "planted"),
+        1.0,
+    )
     case = Case("planted", "", "", (), (quantity,))
     found = [
         judge_quantity(
@@ -206,10 +223,18 @@ def judged_change(errors, expected, not_yet=None):
         for n, (size, error) in enumerate(zip(HALVED, errors, strict=True))
     }
     order = Order(
-        "order", Followed.APPROACH, "a planted value", tuple(results),
-        lambda one, other: abs(one.value - other.value), expected, "planted", not_yet,
-        refined=Refinement.INCREMENTS, size=lambda result: result.size, apart=1,
-    )  # fmt: skip
+        "order",
+        Followed.APPROACH,
+        "a planted value",
+        tuple(results),
+        lambda one, other: abs(one.value - other.value),
+        expected,
+        "planted",
+        not_yet,
+        refined=Refinement.INCREMENTS,
+        size=lambda result: result.size,
+        apart=1,
+    )
     runs = tuple(SimpleNamespace(label=label, solver=Solver.CELLS) for label in results)
     case = Case("planted", "planted", "", runs, (), orders=(order,))
     return judge_order(order, case, results)
@@ -231,10 +256,17 @@ def test_changes_over_two_levels_tell_the_same_order():
     }
     runs = tuple(SimpleNamespace(label=label, solver=Solver.CELLS) for label in results)
     order = Order(
-        "order", Followed.APPROACH, "a planted value", tuple(results),
-        lambda one, other: abs(one.value - other.value), 1.5, "planted",
-        refined=Refinement.INCREMENTS, size=lambda result: result.size, apart=2,
-    )  # fmt: skip
+        "order",
+        Followed.APPROACH,
+        "a planted value",
+        tuple(results),
+        lambda one, other: abs(one.value - other.value),
+        1.5,
+        "planted",
+        refined=Refinement.INCREMENTS,
+        size=lambda result: result.size,
+        apart=2,
+    )
     verdict = judge_order(order, Case("planted", "", "", runs, (), orders=(order,)), results)
     assert verdict.value == pytest.approx(1.5, abs=1e-6)
     assert verdict.order.sizes == pytest.approx(sizes[:-2])

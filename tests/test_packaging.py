@@ -129,14 +129,24 @@ def run_pytest(folder: Path, sources: dict[str, str], no_skip: str) -> str:
     for name, source in sources.items():
         (folder / f"test_{name}.py").write_text(f"import pytest\n{source}\n", encoding="utf-8")
     return subprocess.run(
-        [sys.executable, "-m", "pytest", "-rA", "--continue-on-collection-errors",
-         "-p", "no:cacheprovider", "--rootdir", folder, folder],
+        [
+            sys.executable,
+            "-m",
+            "pytest",
+            "-rA",
+            "--continue-on-collection-errors",
+            "-p",
+            "no:cacheprovider",
+            "--rootdir",
+            folder,
+            folder,
+        ],
         env=os.environ | {"SLIPSTICK_NO_SKIP": no_skip},
         cwd=folder,
         capture_output=True,
         text=True,
         check=False,
-    ).stdout  # fmt: skip
+    ).stdout
 
 
 def test_skip_fails_where_forbidden_and_an_expected_failure_is_none(tmp_path: Path) -> None:

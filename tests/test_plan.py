@@ -20,7 +20,8 @@ from semi_analytical import Coupling, Result, SurfaceGrid, all_effects, plan, so
 from semi_analytical.operator.domain import WINDOW
 from semi_analytical.plan import COMPUTED, MIRROR_PLANES
 
-ONE, MANY = False, True
+ONE = False
+MANY = True
 LEAST = 1e-3
 
 

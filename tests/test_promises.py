@@ -138,8 +138,12 @@ def test_a_name_that_leads_elsewhere_is_refused(
     out.mkdir()
     for place in (scenes / "h.npy", out / "h.npy"):
         np.save(place, np.zeros((8, 8)))
-    for link, target in (("link.npy", out / "h.npy"), ("linked", out), ("dangling.npy", out / "x"),
-                         ("loop.npy", scenes / "loop.npy")):  # fmt: skip
+    for link, target in (
+        ("link.npy", out / "h.npy"),
+        ("linked", out),
+        ("dangling.npy", out / "x"),
+        ("loop.npy", scenes / "loop.npy"),
+    ):
         (scenes / link).symlink_to(target)
     os.mkfifo(scenes / "queue.npy")
     (scenes / "scene.toml").write_text(text.replace("NAME", "h.npy") + REST)
@@ -211,9 +215,13 @@ def test_a_planted_number_that_is_none_ends_in_an_error_or_in_the_answer(
 
 
 OF = {
-    "approach": (1, 0), "peak_pressure": (0, 1), "contact_area": (2, 0), "stick_area": (2, 0),
-    "dissipated_energy": (3, 1), "elastic_energy": (3, 1),
-}  # fmt: skip
+    "approach": (1, 0),
+    "peak_pressure": (0, 1),
+    "contact_area": (2, 0),
+    "stick_area": (2, 0),
+    "dissipated_energy": (3, 1),
+    "elastic_energy": (3, 1),
+}
 """Powers of length and of stress."""
 
 

@@ -61,7 +61,8 @@ from verification.closed_forms.torsion import (
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 MODULUS = STEEL.plane_strain_modulus
-FORCE, RADIUS = 1e3, 18e-3
+FORCE = 1e3
+RADIUS = 18e-3
 BALL = Paraboloid(radius=RADIUS, material=RIGID)
 
 ratios = st.floats(-0.5, 0.5)
@@ -213,9 +214,11 @@ def test_a_peak_between_rings_is_found() -> None:
 def test_pressing_with_friction_takes_two_fifths_of_force_times_approach() -> None:
     """W grows as δ^(3/2): friction keeps the contact similar to itself."""
     contact = Scene(
-        indenter=BALL, body=Body(material=STEEL), friction={"coefficient": 0.2},
+        indenter=BALL,
+        body=Body(material=STEEL),
+        friction={"coefficient": 0.2},
         loading=({"normal_force": FORCE, "increments": 4},),
-    )  # fmt: skip
+    )
     (end,) = radial.solve(contact).steps
     assert_allclose(end.input_work, 0.4 * FORCE * end.approach, rtol=2e-5)
 
@@ -245,7 +248,7 @@ REFUSED = {
         "loading": (LoadStep(normal_force=1e-6),),
     },
     "polynomials": {"body": coated(0.01, 1e-7), "loading": (LoadStep(normal_force=1e-3),)},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("reason", REFUSED)

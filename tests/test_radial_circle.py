@@ -41,8 +41,11 @@ from radial.tangential.ring_state import (
 from radial.tangential.stiffness_inverse import StiffnessInverse
 
 SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
-LOAD, FRICTION = 4 / 3e6, 0.3  # of a ball with R = 1 and E* = 1: a = 1/100
-RADIUS, LIMIT = 0.01, LOAD * FRICTION
+# of a ball with R = 1 and E* = 1: a = 1/100
+LOAD = 4 / 3e6
+FRICTION = 0.3
+RADIUS = 0.01
+LIMIT = LOAD * FRICTION
 TORQUE = 3 * math.pi / 16 * LIMIT * RADIUS  # at which all slips, of bodies that do not couple
 PRESS = LoadStep(normal_force=LOAD, increments=4)
 ALIKE: dict[str, Any] = {
@@ -103,11 +106,13 @@ CALLED_FOR = {
     "twisted, coupled": ((twist(0.4),), {}, RingAngles.ONE),
     "pushed": ((push(0.4, 0.0), push(-0.4, 0.0)), {}, RingAngles.HALF),
     "pushed, free to turn": (
-        (LoadStep(tangential_force=(0.1 * LIMIT, 0.0), torque=0.0),), {}, RingAngles.HALF,
+        (LoadStep(tangential_force=(0.1 * LIMIT, 0.0), torque=0.0),),
+        {},
+        RingAngles.HALF,
     ),
     "pushed and twisted": ((push(0.4, 0.0), twist(0.1)), ALIKE, RingAngles.WHOLE),
     "turning": ((push(0.4, 0.0), push(0.0, 0.4)), {}, RingAngles.WHOLE),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", CALLED_FOR)
@@ -125,8 +130,11 @@ def test_all_around_the_whole_circle_is_the_half_and_its_mirror_image() -> None:
             scale = np.max(np.abs(getattr(one, name)))
             assert_allclose(getattr(other, name), getattr(one, name), atol=1e-10 * scale)
         if one.pressure.ndim > 1:
-            assert_allclose(other.pressure[:, : one.pressure.shape[1]], one.pressure,
-                            atol=1e-9 * one.peak_pressure)  # fmt: skip
+            assert_allclose(
+                other.pressure[:, : one.pressure.shape[1]],
+                one.pressure,
+                atol=1e-9 * one.peak_pressure,
+            )
 
 
 @pytest.mark.parametrize("circle", RingAngles)
@@ -156,8 +164,12 @@ def test_torsion_twists_the_surface_by_the_shear_modulus_alone() -> None:
         RingAngles.WHOLE,
         FRICTION,
     )
-    assert_allclose((other.compliance @ shear.ravel()).reshape(shear.shape), moved, rtol=1e-9,
-                    atol=1e-12 * np.max(moved))  # fmt: skip
+    assert_allclose(
+        (other.compliance @ shear.ravel()).reshape(shear.shape),
+        moved,
+        rtol=1e-9,
+        atol=1e-12 * np.max(moved),
+    )
 
 
 # ---- What friction carries of a push beside torsion, and sliding beyond it, by the radial s
@@ -213,8 +225,9 @@ def test_mirrored_loads_mirror_all() -> None:
     other = rough(scene(twist(-0.4), push(0.5, 0.0), twist(0.3)))
     for one, two in zip(beside().steps, other.steps, strict=True):
         size = math.hypot(*beside().steps[2].tangential_shift)
-        assert_allclose(two.tangential_shift, one.tangential_shift * np.array([1, -1]),
-                        atol=1e-10 * size)  # fmt: skip
+        assert_allclose(
+            two.tangential_shift, one.tangential_shift * np.array([1, -1]), atol=1e-10 * size
+        )
         assert two.twist == pytest.approx(-one.twist, rel=1e-10)
         assert two.torque == pytest.approx(-one.torque, rel=1e-12)
         assert two.dissipated_energy == pytest.approx(one.dissipated_energy, rel=1e-10)
@@ -224,8 +237,9 @@ def test_fields_carry_the_loads_and_obey_coulomb() -> None:
     end, surface = beside().steps[3], surface_of(beside())
     shear, (x, y) = surface.vector(end, "shear"), surface.positions
     assert_allclose(np.sum(surface.weights), math.pi * end.radii[-1] ** 2, rtol=1e-12)
-    assert_allclose(np.sum(shear * surface.weights, axis=(1, 2)), end.tangential_force,
-                    atol=5e-3 * LIMIT)  # fmt: skip
+    assert_allclose(
+        np.sum(shear * surface.weights, axis=(1, 2)), end.tangential_force, atol=5e-3 * LIMIT
+    )
     about = np.sum((shear[1] * x - shear[0] * y) * surface.weights)
     assert_allclose(about, end.torque, atol=5e-3 * TORQUE)
     assert max(step.residuals.friction_cone for step in beside().increments) < 1e-10
@@ -323,8 +337,9 @@ def test_tractions_of_rings_are_those_that_move_them_so(circle: RingAngles, ring
     known = points.equal_compliance.matrix[np.ix_(some, some)]
     stiffness = points.stiffness(rings)
     assert_allclose(stiffness.matrix @ known, np.eye(3 * m), atol=1e-9)
-    assert_allclose(stiffness(known.T.reshape(-1, 3, m)).reshape(known.shape), np.eye(3 * m),
-                    atol=1e-9)  # fmt: skip
+    assert_allclose(
+        stiffness(known.T.reshape(-1, 3, m)).reshape(known.shape), np.eye(3 * m), atol=1e-9
+    )
 
 
 @pytest.mark.parametrize("slipping", [0.0, 0.4, 1.0])

@@ -36,9 +36,10 @@ def weber_schafheitlin(mu: int, nu: int, a: float, b: float) -> float:
     if upper <= 0 and upper == int(upper):
         return 0.0
     return float(
-        first / math.gamma(upper)
+        first
+        / math.gamma(upper)
         * hyp2f1((1 + mu + nu) / 2, (1 + mu - nu) / 2, mu + 1, (a / b) ** 2)
-    )  # fmt: skip
+    )
 
 
 def kernel(name: str, m: int, r: float, s: float) -> float:
@@ -73,9 +74,13 @@ def test_energies_of_hats_are_their_kernels_integrated(name: str, m: int, i: int
             if e != f:
                 total += dblquad(weighted, *r, *s, epsabs=1e-10, epsrel=1e-8)[0]
                 continue
-            for below in (lambda r: r, lambda _, end=s[1]: end), (
-                lambda _, end=s[0]: end, lambda r: r,
-            ):  # fmt: skip
+            for below in (
+                (lambda r: r, lambda _, end=s[1]: end),
+                (
+                    lambda _, end=s[0]: end,
+                    lambda r: r,
+                ),
+            ):
                 total += dblquad(weighted, *r, *below, epsabs=1e-10, epsrel=1e-8)[0]
     found = getattr(half_space_integrals(NODES, HIGHEST), name)[m][i, j]
     assert_allclose(found, total, rtol=2e-8, atol=1e-10)

@@ -35,8 +35,11 @@ from verification.closed_forms.cattaneo_mindlin import PartialSlip
 # Two alike: E* = 1, and what shear feels of them, 1/G* = Σ (2 - ν)/4G.
 ALIKE = IsotropicMaterial(young_modulus=2 * 0.91, poisson_ratio=0.3)
 SOFT = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
-LOAD, FRICTION = 4 / 3e6, 0.3  # of a ball with R = 1 and E* = 1: a = 1/100
-RADIUS, LIMIT = 0.01, LOAD * FRICTION
+# of a ball with R = 1 and E* = 1: a = 1/100
+LOAD = 4 / 3e6
+FRICTION = 0.3
+RADIUS = 0.01
+LIMIT = LOAD * FRICTION
 SHEAR = 2 * ALIKE.shear_modulus / (2 - ALIKE.poisson_ratio)
 VIRGIN = PartialSlip(LOAD, RADIUS, FRICTION, SHEAR, 0.0)
 
@@ -233,8 +236,11 @@ def test_half_spaces_answer_the_pressure_of_hertz_as_hertz_says(front: float) ->
 
 # ---- laws -------------------------------------------------------------------------------------
 
-UP_AND_DOWN = (LoadStep(normal_force=1e-3, increments=4), LoadStep(normal_force=3e-4, increments=3),
-               LoadStep(approach=0.01, increments=3))  # fmt: skip
+UP_AND_DOWN = (
+    LoadStep(normal_force=1e-3, increments=4),
+    LoadStep(normal_force=3e-4, increments=3),
+    LoadStep(approach=0.01, increments=3),
+)
 
 
 def test_bodies_that_change_places_have_shear_of_the_other_sign() -> None:

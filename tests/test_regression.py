@@ -164,8 +164,11 @@ def posed(case: CaseOutcome, name: str, part: float | None, **changes: object) -
     return with_verdict(case, name, **changes)
 
 
-SAME, DRIFT, WORSE = ChangeKind.UNCHANGED, ChangeKind.DRIFT, ChangeKind.WORSE
-BETTER, OUTSIDE = ChangeKind.BETTER, ChangeKind.OUTSIDE
+SAME = ChangeKind.UNCHANGED
+DRIFT = ChangeKind.DRIFT
+WORSE = ChangeKind.WORSE
+BETTER = ChangeKind.BETTER
+OUTSIDE = ChangeKind.OUTSIDE
 ORDER = "order_of_peak_pressure"
 PASSED = {"value": 2.03, "reference": 2.0, "allowed": 0.2, "interval": 0.2}
 LOST = {"allowed": 1.0, "interval": 1.0, "status": Status.INCONCLUSIVE}
@@ -175,20 +178,34 @@ CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
     # verdict, part of what is allowed (before, now) or how it is judged, kind, exit code, remark
     *(
         ("approach", 0.2, now, kind, code, "")
-        for now, kind, code in ((0.2, SAME, 0), (0.2 + 1e-12, SAME, 0), (0.2099, SAME, 0),
-                                (0.29, DRIFT, 5), (0.31, WORSE, 7), (1.1, OUTSIDE, 1))
+        for now, kind, code in (
+            (0.2, SAME, 0),
+            (0.2 + 1e-12, SAME, 0),
+            (0.2099, SAME, 0),
+            (0.29, DRIFT, 5),
+            (0.31, WORSE, 7),
+            (1.1, OUTSIDE, 1),
+        )
     ),
     *(
         ("approach", was, now, kind, code, "")
         for was, now, kind, code in (
-            (-0.2, 0.4, WORSE, 7), (0.4, 0.8, WORSE, 7), (0.01, 0.014, SAME, 0),
+            (-0.2, 0.4, WORSE, 7),
+            (0.4, 0.8, WORSE, 7),
+            (0.01, 0.014, SAME, 0),
             (0.01, 0.03, WORSE, 7),
-            (3.0, 3.0, SAME, 0), (3.0, 0.2, BETTER, 5),
+            (3.0, 3.0, SAME, 0),
+            (3.0, 0.2, BETTER, 5),
             # To the other side of the reference, by less than is allowed, and what failed already.
-            (-0.8, 0.95, OUTSIDE, 1), (0.95, -0.8, DRIFT, 5), (0.2, 0.95, WORSE, 7),
-            (2.0, 20.0, OUTSIDE, 1), (2.0, 2.1, DRIFT, 5),
+            (-0.8, 0.95, OUTSIDE, 1),
+            (0.95, -0.8, DRIFT, 5),
+            (0.2, 0.95, WORSE, 7),
+            (2.0, 20.0, OUTSIDE, 1),
+            (2.0, 2.1, DRIFT, 5),
             # An error that falls far is suspicious, unless it was small.
-            (0.8, -0.3, BETTER, 5), (0.8, -0.6, DRIFT, 5), (0.03, 0.001, DRIFT, 5),
+            (0.8, -0.3, BETTER, 5),
+            (0.8, -0.6, DRIFT, 5),
+            (0.03, 0.001, DRIFT, 5),
         )
     ),
     # How far below its tolerance a solve ends says nothing.
@@ -208,15 +225,21 @@ CHANGES: list[tuple[str, Any, Any, ChangeKind, int, str]] = [
     (ORDER, PASSED, FAILED, OUTSIDE, 1, ""),
     ("order_of_pressure", {}, NAN, DRIFT, 5, ""),
     ("order_of_pressure", NAN, NAN, SAME, 0, ""),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("name", "was", "now", "kind", "code", "remark"), CHANGES)
 @pytest.mark.parametrize("machine", [MACHINE, ELSEWHERE], ids=["here", "elsewhere"])
 def test_what_changes_and_what_it_ends_with(
-    healthy: CaseOutcome, name: str, was: Any, now: Any, kind: ChangeKind, code: int, remark: str,
+    healthy: CaseOutcome,
+    name: str,
+    was: Any,
+    now: Any,
+    kind: ChangeKind,
+    code: int,
+    remark: str,
     machine: Any,
-) -> None:  # fmt: skip
+) -> None:
     then, here = (
         posed(healthy, name, None, **one) if isinstance(one, dict) else posed(healthy, name, one)
         for one in (was, now)
@@ -242,10 +265,13 @@ def test_an_error_twice_as_large_is_red_whatever_is_allowed() -> None:
     guarded = 0
     for case in kept.cases:
         judged = {
-            key_of(v): v for v in case.verdicts
-            if v.error is not None and v.error > NOISE and v.tolerance_kind != "order"
+            key_of(v): v
+            for v in case.verdicts
+            if v.error is not None
+            and v.error > NOISE
+            and v.tolerance_kind != "order"
             and v.name not in FOUND_IN_A_RUN
-        }  # fmt: skip
+        }
         twice = tuple(doubled(v) if key_of(v) in judged else v for v in case.verdicts)
         now = compare(case.model_copy(update={"verdicts": twice}), case)
         kinds = {key_of(v): v.regression.kind for v in now.verdicts if v.regression is not None}
@@ -649,13 +675,27 @@ def test_accepted_tolerances_are_twice_the_largest_error_over_kernels(
     assert all(verdict.status is Status.FAIL for verdict in failed)
     assert proposed([report_of(held)]) == {}
     # No less is accepted than the uncertainty of the reference.
-    assert [v.allowed for v in held_to([outcome.model_copy(update={"verdicts": [
-        v.model_copy(update={"reference_uncertainty": 0.6 * v.allowed * v.scale})
-        for v in outcome.verdicts
-    ]})], known)[0].verdicts] == [
+    assert [
+        v.allowed
+        for v in held_to(
+            [
+                outcome.model_copy(
+                    update={
+                        "verdicts": [
+                            v.model_copy(
+                                update={"reference_uncertainty": 0.6 * v.allowed * v.scale}
+                            )
+                            for v in outcome.verdicts
+                        ]
+                    }
+                )
+            ],
+            known,
+        )[0].verdicts
+    ] == [
         0.6 * v.allowed if w.bound else v.allowed
         for v, w in zip(outcome.verdicts, held.verdicts, strict=True)
-    ]  # fmt: skip
+    ]
 
 
 def test_a_tolerance_allows_for_the_last_change_of_the_edge_correction(
@@ -678,9 +718,18 @@ def test_a_tolerance_never_exceeds_the_bound_of_its_case(outcome: CaseOutcome) -
     one = outcome.verdicts[0]
     wide = {"allowed": 2 * one.allowed, "error": one.allowed}
     known = Tolerances.model_validate(
-        {"level": "quick", "accepted": [{"because": "why", "commit": None, "kernels": [],
-         "tolerances": {outcome.name: {text_of(one): wide}}}]}
-    )  # fmt: skip
+        {
+            "level": "quick",
+            "accepted": [
+                {
+                    "because": "why",
+                    "commit": None,
+                    "kernels": [],
+                    "tolerances": {outcome.name: {text_of(one): wide}},
+                }
+            ],
+        }
+    )
     assert held_to([outcome], known) == (outcome,)
 
 
@@ -717,8 +766,11 @@ def test_verify_judges_by_the_accepted_tolerances(
     verify = ("verify", "dissimilar_bodies", "--output", tmp_path)
     assert slipstick(*verify) == 0
     measured = load_report(tmp_path / "report.json").cases[0]
-    tight = {text_of(v): Tolerance(allowed=0.9 * v.error, error=0.45 * v.error)
-             for v in measured.verdicts if v.error and v.error > FLOOR}  # fmt: skip
+    tight = {
+        text_of(v): Tolerance(allowed=0.9 * v.error, error=0.45 * v.error)
+        for v in measured.verdicts
+        if v.error and v.error > FLOOR
+    }
     accepted = Acceptance(because="why", commit=None, kernels=(), tolerances={measured.name: tight})
     known = Tolerances(level="quick", accepted=(accepted,))
     monkeypatch.setattr("slipstick.cli.commands.verify.read_tolerances", lambda level: known)

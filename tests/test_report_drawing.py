@@ -12,7 +12,9 @@ from verification.exhibits.chart import Chart, Look, Panel, curve
 from verification.report.drawing import draw, inline_svg
 
 STYLES = Path(verification.report.__file__).parent / "templates" / "style.css"
-TEXT, GRAPHICS = 4.5, 3.0  # contrasts that WCAG 2.1 asks for, AA
+# contrasts that WCAG 2.1 asks for, AA
+TEXT = 4.5
+GRAPHICS = 3.0
 INKS = ("ink", "soft", "link", "pass", "fail", "inconclusive")
 LINES = ("reference", *(f"series-{n}" for n in range(1, 7)))
 
@@ -47,8 +49,12 @@ def test_both_axes_of_a_logarithmic_chart_are_labelled() -> None:
 def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
     names = range(36)
     curves = tuple(curve(str(n), [0, 1], [0, n], Look.COMPUTED, n) for n in names)
-    chart = Chart(name="one", title="t", caption="c",
-                  rows=((Panel(x_label="x", y_label="y", curves=curves),),))  # fmt: skip
+    chart = Chart(
+        name="one",
+        title="t",
+        caption="c",
+        rows=((Panel(x_label="x", y_label="y", curves=curves),),),
+    )
     with style.figure_style():
         (axes,) = draw(chart).axes
     looks = {(line.get_color(), str(vars(line)["_dash_pattern"])) for line in axes.get_lines()}

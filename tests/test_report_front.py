@@ -58,8 +58,12 @@ def test_the_front_shows_what_is_worse_and_the_table_only_what_moved() -> None:
         was = Change(kind=kind, recorded=kind is not ChangeKind.NEW, was=1.0, moved=0.2, since="x")
         return verdict(name, 1.001, 1.0).model_copy(update={"regression": was})
 
-    kinds = {"dear": ChangeKind.WORSE, "moved": ChangeKind.DRIFT, "fresh": ChangeKind.NEW,
-             "still": ChangeKind.UNCHANGED}  # fmt: skip
+    kinds = {
+        "dear": ChangeKind.WORSE,
+        "moved": ChangeKind.DRIFT,
+        "fresh": ChangeKind.NEW,
+        "still": ChangeKind.UNCHANGED,
+    }
     one = judged(*(compared(name, kind) for name, kind in kinds.items()))
     origin = Origin(commit="1a2b3c4", changed=False, date="2000-01-01", reason="first")
     report = report_of((one.model_copy(update={"baseline": origin}),))

@@ -53,8 +53,9 @@ def test_promises_have_figures_or_the_command_that_finds_them() -> None:
         for how, count, planned in (("as planned", 20, None), ("all on", 50, "as planned"))
     )
     same = case("forced_effects", {"ball": (1.0, 1.0)}, planned)
-    report = report_of((same.model_copy(update={"runs": (planned, forced)}),),
-                       (study("stability", level="full"),))  # fmt: skip
+    report = report_of(
+        (same.model_copy(update={"runs": (planned, forced)}),), (study("stability", level="full"),)
+    )
     plan, cost, stable, _ = features(report, SHEETS)
     assert "2.5 to 2.5 times the convolutions" in plan.figures
     assert cost.status is None

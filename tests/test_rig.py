@@ -21,7 +21,9 @@ from semi_analytical.grid import SurfaceGrid
 from semi_analytical.plan import plan
 
 STIFFNESS = 179.167756e6  # of the contact [N/m]
-SHIFT, FORCE = 0.626373e-6, 87.362685  # half ranges of the loop
+# half ranges of the loop
+SHIFT = 0.626373e-6
+FORCE = 87.362685
 TOLERANCE = 1e-10
 SAME = IsotropicMaterial(young_modulus=461.538461538e9, poisson_ratio=0.0)
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)

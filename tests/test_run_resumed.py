@@ -74,8 +74,11 @@ def started(directory: Path, *options: str, dying: str = "") -> "subprocess.Pope
     (directory / "scene.toml").write_text(SCENE, encoding="utf-8")
     return subprocess.Popen(
         [sys.executable, "-c", RUN.replace("DYING", dying), *ASKED, *options],
-        cwd=directory, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-    )  # fmt: skip
+        cwd=directory,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
 
 
 def results(directory: Path) -> dict[str, bytes]:
@@ -149,8 +152,11 @@ CASES = ("layered_identities", "cattaneo_mindlin")
 def endless_started(directory: Path, *arguments: str, by: str = "") -> "subprocess.Popen[str]":
     return subprocess.Popen(
         [sys.executable, "-c", PROGRAM.replace("INTERRUPTED", by), *arguments],
-        cwd=directory, text=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-    )  # fmt: skip
+        cwd=directory,
+        text=True,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+    )
 
 
 def wait_for(directory: Path, pattern: str, count: int) -> None:
@@ -189,9 +195,16 @@ def test_interrupted_run_says_from_where_it_goes_on(tmp_path: Path) -> None:
 
 def test_interrupted_verification_counts_what_it_keeps(tmp_path: Path) -> None:
     process = endless_started(
-        tmp_path, "verify", *CASES, "-o", "out", "--workers", "1", "--fresh",
+        tmp_path,
+        "verify",
+        *CASES,
+        "-o",
+        "out",
+        "--workers",
+        "1",
+        "--fresh",
         by=signalled("SIGINT", saved=1),
-    )  # fmt: skip
+    )
     again = "the same command without --fresh"
     last = interrupted(process, by_itself=True)[-1]
     assert last == f"interrupted; 1 of 2 cases are stored in out/cases; {again} computes the others"

@@ -31,20 +31,28 @@ def clone(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     ("options", "spread"),
     [
-        ("", True), ("-q", True), ("-k grid", True), ("-m slow --timeout 9", True),
+        ("", True),
+        ("-q", True),
+        ("-k grid", True),
+        ("-m slow --timeout 9", True),
         ("--ignore=tests/test_plan.py", True),
-        ("tests/test_plan.py -q", False), ("tests/test_grid.py::test_it", False),
-        ("-n 0", False), ("-n0 -q", False), ("--numprocesses=3", False),
+        ("tests/test_plan.py -q", False),
+        ("tests/test_grid.py::test_it", False),
+        ("-n 0", False),
+        ("-n0 -q", False),
+        ("--numprocesses=3", False),
     ],
-)  # fmt: skip
+)
 def test_tests_run_on_every_core_unless_a_file_or_n_is_named(
     options: str, spread: bool, clone: Path
 ) -> None:
     said = subprocess.run(
         ["bash", clone / "run", "test", *options.split()],
         env=os.environ | {"PYTHON": str(clone / ".venv" / "bin" / "python")},
-        capture_output=True, text=True, check=True,
-    ).stdout.split()  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.split()
     assert said == ["-m", "pytest", *(SPREAD.split() if spread else []), *options.split()]
 
 

@@ -24,7 +24,8 @@ from contact_scene import (
 from contact_scene.stepping.load_path import along_one_line, first_direction
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
-FORCE, DISPLACEMENT = ControlKind.FORCE, ControlKind.DISPLACEMENT
+FORCE = ControlKind.FORCE
+DISPLACEMENT = ControlKind.DISPLACEMENT
 
 
 def scene(*steps: dict[str, Any], mu: float | None = 0.1) -> Scene:

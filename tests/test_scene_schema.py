@@ -371,11 +371,14 @@ def test_a_mark_at_the_start_and_foreign_line_ends_do_no_harm(tmp_path: Path) ->
         ("indenter.radius=20 mm", "scene.indenter.radius", 0.02),
         ('indenter.radius="20 mm"', "scene.indenter.radius", 0.02),
         ("body.material=rigid", "scene.body.material", RIGID),
-        ("body.layers=[{thickness=1, material={young_modulus=420e9, poisson_ratio=0.3}}]",
-         "scene.body.layers.0", Layer(thickness=1, material=STEEL)),
+        (
+            "body.layers=[{thickness=1, material={young_modulus=420e9, poisson_ratio=0.3}}]",
+            "scene.body.layers.0",
+            Layer(thickness=1, material=STEEL),
+        ),
         ("title=a=b", "scene.title", "a=b"),
     ],
-)  # fmt: skip
+)
 def test_an_override_replaces_one_key(override: str, attributes: str, expected: Any) -> None:
     value: Any = read_scene_file(SCENES / "fretting_loop.toml", [override])
     for name in attributes.split("."):

@@ -43,9 +43,12 @@ FAST_RUNS = [
 ]
 # A quicker defect is caught by the same law.
 SLOW = (
-    "fe-coated-indenter-uncoupled", "fe-coupling-of-the-indenter",
-    "force-taken-over", "increments-halved", "one-increment",
-)  # fmt: skip
+    "fe-coated-indenter-uncoupled",
+    "fe-coupling-of-the-indenter",
+    "force-taken-over",
+    "increments-halved",
+    "one-increment",
+)
 Runs = dict[str, CaseRecord]
 
 
@@ -63,10 +66,11 @@ def different(one: dict[str, dict[str, Any]], other: dict[str, dict[str, Any]]) 
     """Names of one that stand for something else in the other, or for nothing."""
     return {
         (place, name)
-        for place, names in one.items() if names != other.get(place)
+        for place, names in one.items()
+        if names != other.get(place)
         for name, value in names.items()
         if value is not other.get(place, {}).get(name)
-    }  # fmt: skip
+    }
 
 
 def test_defects_are_many_and_name_cases_of_the_catalogue() -> None:

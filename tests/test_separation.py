@@ -40,9 +40,7 @@ UNTWISTED = *TWISTED, {"torque": 0.0, **FEW}, LIFT
 LED = ({"approach": APPROACH},)
 HISTORIES = {
     "pressed": History((PRESS, LIFT), (PRESS,), (PRESS,), None),
-    "by approach": History(
-        (*LED, {"approach": 0.0}), LED, LED, None
-    ),
+    "by approach": History((*LED, {"approach": 0.0}), LED, LED, None),
     "pushed": History((*PUSHED, {**LIFT, **push(0)}), PUSHED, PUSHED),
     "twisted": History(UNTWISTED, TWISTED, UNTWISTED),
     "moved while apart": History(
@@ -50,7 +48,7 @@ HISTORIES = {
         (PRESS, slide(3, **FEW)),
         (PRESS, slide(1, **FEW)),
     ),
-}  # fmt: skip
+}
 
 
 def solved(steps: tuple[dict, ...], solver: Any, friction: float | None = 0.1) -> Any:

@@ -75,9 +75,12 @@ main()
 def slipstick(*arguments: object) -> Ended:
     process = subprocess.run(
         [sys.executable, "-c", COMMAND, *map(str, arguments)],
-        cwd=ROOT, capture_output=True, text=True, check=False,
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
         env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
-    )  # fmt: skip
+    )
     said, _, took = process.stderr.rpartition("took ")
     seconds, memory = took.split()
     words = " ".join(said.replace("│", " ").split())  # out of the frame that typer draws
@@ -100,14 +103,15 @@ SCENE_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
     "title": (lambda path: path.write_bytes(b'title = "' + 9 * MEGABYTE * b"a" + b'"'), "title"),
     "escapes": (lambda path: path.write_bytes(b'title = "' + 9 * MEGABYTE * b"\\"), "escapes"),
     "lines of a text": (
-        lambda path: path.write_bytes(b'title = """' + 9 * MEGABYTE * b"\n" + b'"""'), "title"
+        lambda path: path.write_bytes(b'title = """' + 9 * MEGABYTE * b"\n" + b'"""'),
+        "title",
     ),
     "key": (lambda path: path.write_bytes(9 * MEGABYTE * b"k" + b" = 1"), "kkk…"),
     "digits": (
         lambda path: path.write_bytes(b"\na = " + b"1" * MEGABYTE),
         "scene.toml:2: not valid TOML: a whole number of more than 4300 digits",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.fixture(scope="module")
@@ -182,9 +186,7 @@ def surface_result(path: Path, **changed: tuple[int, ...]) -> None:
 NOT_A_RESULT = f"is not the {FIELDS} of a run: "
 DIGEST = "its digest is not that"
 RESULT_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
-    "grid": (
-        lambda path: surface_result(path, increments_of_pressure=(6, HUGE, HUGE)), CLAIM
-    ),
+    "grid": (lambda path: surface_result(path, increments_of_pressure=(6, HUGE, HUGE)), CLAIM),
     "steps": (lambda path: surface_result(path, increments_of_step=(1 << 40,)), CLAIM),
     "pressure": (lambda path: surface_result(path, increments_of_pressure=(6, 9, HUGE)), "shape"),
     "shear": (lambda path: surface_result(path, increments_of_shear=(6, 2, 9, HUGE)), "shape"),
@@ -193,7 +195,7 @@ RESULT_BOMBS: dict[str, tuple[Callable[[Path], object], str]] = {
     "chunks": (lambda path: many_chunks(path), "chunks, at most"),
     "zeros": (lambda path: damaged(path, b""), DIGEST),
     "zeros after a signature": (lambda path: damaged(path, b"\x89HDF\r\n\x1a\n"), DIGEST),
-}  # fmt: skip
+}
 
 
 def damaged(path: Path, head: bytes) -> None:

@@ -156,9 +156,11 @@ def test_a_worked_example() -> None:
     assert "coarse solve" in (unknown.reason or "")
     assert found.reason is None
     for name, few in {
-        "stick_radius": Features(10, stick=0.9), "dissipated_energy": Features(10, annulus=0.0),
-        "approach": Features(10, layer=0.9), "peak_pressure": Features(10, wave=3.9),
-    }.items():  # fmt: skip
+        "stick_radius": Features(10, stick=0.9),
+        "dissipated_energy": Features(10, annulus=0.0),
+        "approach": Features(10, layer=0.9),
+        "peak_pressure": Features(10, wave=3.9),
+    }.items():
         assert few.unresolved(name), name
 
 
@@ -328,7 +330,8 @@ def rubbed(*loading: dict[str, Any], body: Body, like: bool = True, **more: Any)
     return scene(PRESS, *loading, indenter=ball).model_copy(update={"body": body})
 
 
-TWIST, BOTH = {"torque": 1e-3}, {"torque": 1e-3, "tangential_force": (50.0, 0.0)}
+TWIST = {"torque": 1e-3}
+BOTH = {"torque": 1e-3, "tangential_force": (50.0, 0.0)}
 ACROSS = {"tangential_force": (0.0, 50.0)}
 MATTERS = {
     "pressed, alike": (rubbed(body=Body(material=steel())), [False]),
@@ -391,9 +394,14 @@ def test_a_pressed_ellipsoid_is_that_of_hertz(radii, by) -> None:
     posed = scene(step, push(0.5), indenter=Ellipsoid(radii=radii, material=pair), body=pair)
     ((pressed, pushed),) = known_pressing(posed)
     a, b = exact.semi_axes
-    expected = {"approach": exact.approach, "normal_force": LOAD, "contact_area": np.pi * a * b,
-                "contact_radius": np.sqrt(a * b), "peak_pressure": exact.peak_pressure,
-                "elastic_energy": 0.4 * LOAD * exact.approach}  # fmt: skip
+    expected = {
+        "approach": exact.approach,
+        "normal_force": LOAD,
+        "contact_area": np.pi * a * b,
+        "contact_radius": np.sqrt(a * b),
+        "peak_pressure": exact.peak_pressure,
+        "elastic_energy": 0.4 * LOAD * exact.approach,
+    }
     for name, value in expected.items():
         assert pressed[name] == pytest.approx(value, rel=1e-11), name
     assert "elastic_energy" not in pushed  # the shear stores energy, too
@@ -451,8 +459,14 @@ def alike(young: float, nu: float, radius: float, mu: float, *steps: LoadStep) -
     )
 
 
-def indented(radius: float, load: float, film: Layer | None, base: Any, mu: float | None = None,
-             *more: LoadStep) -> Scene:  # fmt: skip
+def indented(
+    radius: float,
+    load: float,
+    film: Layer | None,
+    base: Any,
+    mu: float | None = None,
+    *more: LoadStep,
+) -> Scene:
     return Scene(
         indenter=Paraboloid(radius=radius, material=RIGID),
         body=Body(material=base, layers=() if film is None else (film,)),
@@ -473,9 +487,10 @@ def hertzian(count: int) -> Known:
 def elements(count: int, solver: str) -> Known:
     known = hertzian(8)
     return known._replace(
-        asked=FiniteElementDiscretisation(elements_per_radius=count), solver=solver,
+        asked=FiniteElementDiscretisation(elements_per_radius=count),
+        solver=solver,
         scene=scene(PRESS, friction=None),
-    )  # fmt: skip
+    )
 
 
 def cattaneo(solver: str = "semi-analytical") -> Known:
@@ -516,7 +531,9 @@ def ridge(**shape: float) -> Known:
 
 
 # Half width of a map, radius of its flat or of its tip.
-HALF, FLAT, ROUND = 0.5e-3, 0.2e-3, 10e-3
+HALF = 0.5e-3
+FLAT = 0.2e-3
+ROUND = 10e-3
 MAPPED: dict[str, tuple[Callable[[Any], Any], dict[str, float]]] = {
     # Sneddon's solution by quadrature.
     "flat that ends in a parabola": (
@@ -676,34 +693,55 @@ EXPENSIVE: dict[str, Callable[[], Known]] = {
     # By four times the increments.
     "loop of the paper": lambda: Known(
         read_scene_file(SCENES / "fretting_loop.toml").scene,
-        {"energy_per_cycle": 32.4984e-6}, uncertain=3e-5,
+        {"energy_per_cycle": 32.4984e-6},
+        uncertain=3e-5,
     ),
     "thin stiff film": lambda: Known(
-        indented(6.35e-3, 50.0, Layer(thickness=4e-6, material=bodies(600e9, 0.2)),
-                 bodies(230e9, 0.3), 0.5, *(LoadStep(tangential_shift=(x, 0.0))
-                                            for x in (5e-6, -5e-6, 5e-6))),
-        {"stick_radius": 0.0}, cells(128),
+        indented(
+            6.35e-3,
+            50.0,
+            Layer(thickness=4e-6, material=bodies(600e9, 0.2)),
+            bodies(230e9, 0.3),
+            0.5,
+            *(LoadStep(tangential_shift=(x, 0.0)) for x in (5e-6, -5e-6, 5e-6)),
+        ),
+        {"stick_radius": 0.0},
+        cells(128),
     ),
     # By `radial`.
     "elements coarser than a stiff film": lambda: Known(
-        indented(0.018, 450.0, Layer(thickness=3e-5, material=bodies(2100e9, 0.3)),
-                 bodies(210e9, 0.3), 0.3),
-        {"peak_pressure": 3.408e9, "contact_radius": 2.59382e-4, "approach": 4.64199e-6,
-         "stick_radius": 1.6312e-4},
+        indented(
+            0.018,
+            450.0,
+            Layer(thickness=3e-5, material=bodies(2100e9, 0.3)),
+            bodies(210e9, 0.3),
+            0.3,
+        ),
+        {
+            "peak_pressure": 3.408e9,
+            "contact_radius": 2.59382e-4,
+            "approach": 4.64199e-6,
+            "stick_radius": 1.6312e-4,
+        },
         FiniteElementDiscretisation(elements_per_radius=20),
         "fem-complementarity",
     ),
     # By `radial`: round-off and the section decide.
     "elements on a film 1e8 times as stiff": lambda: Known(
-        indented(0.018, 450.0, Layer(thickness=1e-4, material=bodies(2.1e19, 0.3)),
-                 bodies(210e9, 0.3)),
-        {"approach": 2.777e-8, "contact_radius": 6.409e-7, "peak_pressure": 5.231e14,
-         "elastic_energy": 6.248e-6},
+        indented(
+            0.018, 450.0, Layer(thickness=1e-4, material=bodies(2.1e19, 0.3)), bodies(210e9, 0.3)
+        ),
+        {
+            "approach": 2.777e-8,
+            "contact_radius": 6.409e-7,
+            "peak_pressure": 5.231e14,
+            "elastic_energy": 6.248e-6,
+        },
         FiniteElementDiscretisation(elements_per_radius=10),
         "fem-complementarity",
         uncertain=2e-4,
     ),
-}  # fmt: skip
+}
 
 # Three coarse solves agree with the run by chance, as for 1 of 80 numbers of the study
 # error-coverage: 48², 26², 20² and 16² cells. On films of two elements the peak pressure converges
@@ -817,9 +855,10 @@ def test_the_error_of_two_coarse_tractions_is_their_root_mean_square(monkeypatch
     field = stress_on_cells(state, depths=[0.0, 0.5 * A])
     for shifts in ((0, 1), (0, 0), (1, 1)):
         monkeypatch.setattr(
-            stress_errors_module, "on_wide_cells",
+            stress_errors_module,
+            "on_wide_cells",
             lambda state, shift, of=shifts: on_wide_cells(state, of[shift]),
-        )  # fmt: skip
+        )
         found = stress_errors(state, field, extremes(field, result.scene.body), at_depths=True)
         sizes[shifts] = np.array([one.error for one in found])
     one, other = sizes[0, 0], sizes[1, 1]
@@ -834,11 +873,12 @@ def test_stress_near_the_surface_improves_slower_with_cells_than_that_below(monk
     depth, wide = np.array([0.01 * A, A]), on_wide_cells(state, 0)
     monkeypatch.setattr(stress_errors_module, "on_wide_cells", lambda *_: wide)
     monkeypatch.setattr(
-        stress_errors_module, "stress_at_cells",
+        stress_errors_module,
+        "stress_at_cells",
         lambda one, *_, **__: SimpleNamespace(
             depth=depth, stress=np.full((6, 2), float(one is wide))
         ),
-    )  # fmt: skip
+    )
     _, (near, below) = stress_errors_module.stress_at(state, depth, depth, [])
     assert near > 1.2 * below > 0
 

@@ -23,7 +23,8 @@ from semi_analytical.edge.contact_area import (
 from semi_analytical.edge_correction.stick_area import stick_area
 from semi_analytical.operator.domain import QUARTER, ReducedDomain
 
-CELLS, PARTS = 64, 12
+CELLS = 64
+PARTS = 12
 CONTACT = 28.0  # radius in cells
 
 
@@ -159,7 +160,9 @@ def test_values_that_rise_to_the_edge_count_whole_cells():
 def test_stick_area_is_that_of_cattaneo_and_mindlin(degrees, turned_back):
     """Shear is µp less a second dome within the stick zone; less twice that after a reversal, so
     that the shear in the middle still points the old way."""
-    a, c, friction = 28.0, 13.0, 0.3
+    a = 28.0
+    c = 13.0
+    friction = 0.3
     bound, inner = friction * dome((a, a)), friction * c / a * dome((c, c))
     along = np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])[:, None, None]
     shear = (bound - (2 if turned_back else 1) * inner) * along
@@ -188,9 +191,9 @@ def waves_contact(half: float, count: int, off: float) -> Array:
     touching = np.abs(places) < half * step
     while True:
         n = np.flatnonzero(touching)
-        system = np.block([
-            [answer[np.ix_(n, n)], np.ones((len(n), 1))], [np.ones((1, len(n))) / count, 0.0]
-        ])  # fmt: skip
+        system = np.block(
+            [[answer[np.ix_(n, n)], np.ones((len(n), 1))], [np.ones((1, len(n))) / count, 0.0]]
+        )
         *p, deep = np.linalg.solve(
             system, np.append(np.cos(places[n]), np.sin(half * step / 2) ** 2)
         )

@@ -27,10 +27,13 @@ from verification.closed_forms.huber_stress import (
 
 Field = NDArray[np.float64]
 
-NU, MU = 0.3, 0.1
+NU = 0.3
+MU = 0.1
 STACK = Stack((), (1.0, NU))
 # The contact within its grid: radius in cells, and its centre off every symmetry.
-CELLS, RADIUS, CENTRE = 48, 15.0, (23.61, 23.28)
+CELLS = 48
+RADIUS = 15.0
+CENTRE = (23.61, 23.28)
 
 
 def pressed_on(spacing: tuple[float, float] = (1.0, 1.0)) -> tuple[SurfaceGrid, Field]:

@@ -100,7 +100,8 @@ def cell_transform(dx, dy):
     return lambda m, n: dx * dy * np.sinc(m * dx / 2 / np.pi) * np.sinc(n * dy / 2 / np.pi)
 
 
-DX, DY = 1.0, 0.6
+DX = 1.0
+DY = 0.6
 # xx, yy, zz, yz, xz, xy as places in the tensor
 PLACES = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
 BODIES = {
@@ -211,7 +212,8 @@ def test_coefficients_are_the_transform_of_the_frf(name, place):
 # ---- Fields below a contact: Hertz, Hamilton, coated quadrature, interfaces, equilibrium, e
 
 
-NU, MU = 0.3, 0.25
+NU = 0.3
+MU = 0.25
 HALF_SPACE = Stack((), (1.0, NU))
 COATED = Stack([(3.0, 0.2, 0.3), (0.5, 0.5, 0.4)], (1.0, 0.3))
 XX, YY, ZZ, YZ, XZ, XY = range(6)

@@ -160,7 +160,8 @@ def test_no_error_is_trusted_where_the_stress_is_infinite() -> None:
 # ---- Stress below the radial solver's shear: closed forms, laws of layers and equilibrium.
 
 
-MU, NU = 0.3, 0.3
+MU = 0.3
+NU = 0.3
 G = 2.0
 # a = 1, E* = π/2 and p_H = 1.
 SAME = Paraboloid(radius=1.0, material=SOFT)
@@ -197,9 +198,11 @@ def test_below_a_sliding_ball_it_is_hamiltons(depth: float) -> None:
 
 
 ROUND = LoadedCircle(
-    1.0, 0.0, np.linspace(0, 1, 241)[None, :, None] * np.array([0.2, 0.1, 0.0])[:, None, None]
+    1.0,
+    0.0,
+    np.linspace(0, 1, 241)[None, :, None] * np.array([0.2, 0.1, 0.0])[:, None, None]
     + np.array([0.0, 0.0, 1.0])[:, None, None],
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize("circle", [ANYHOW, ROUND])
@@ -260,9 +263,11 @@ def frictional(body: Body, indenter: Paraboloid, *loads: LoadStep) -> Scene:
 def pushed(direction: tuple[float, float] = (1.0, 0.0)) -> Scene:
     force = 0.06 * W * direction[0], 0.06 * W * direction[1]
     return frictional(
-        Body(material=SOFT), SAME, LoadStep(normal_force=W, increments=1),
+        Body(material=SOFT),
+        SAME,
+        LoadStep(normal_force=W, increments=1),
         LoadStep(tangential_force=force, increments=2),
-    )  # fmt: skip
+    )
 
 
 def test_an_oblique_load_has_its_profile_along_it_and_acts_on_the_indenter_in_reverse(

@@ -133,9 +133,14 @@ def test_only_workers_elsewhere_must_have_the_same_sources(elsewhere: bool, tmp_
 def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path) -> None:
     seen: list[CaseEnd] = []
     cases = (
-        Square(1.0), Dying(10.0), Square(2.0), Refusing(20.0), Square(3.0), Killed(30.0),
+        Square(1.0),
+        Dying(10.0),
+        Square(2.0),
+        Refusing(20.0),
+        Square(3.0),
+        Killed(30.0),
         Square(4.0),
-    )  # fmt: skip
+    )
     ends = run_cases(cases, CaseStore(tmp_path, Number), 2, seen.append)
     assert [end.case for end in ends] == list(cases)
     assert {end.case.name for end in seen} == {case.name for case in cases}
@@ -143,8 +148,10 @@ def test_failing_and_dying_cases_are_named_and_the_others_finish(tmp_path: Path)
     assert values == {"square-1": 1.0, "square-2": 4.0, "square-3": 9.0, "square-4": 16.0}
     lost = {end.lost.name: end.lost.reason for end in ends if end.lost is not None}
     assert lost == {
-        "square-10": KILLED, "square-20": "ArithmeticError: no square today", "square-30": KILLED
-    }  # fmt: skip
+        "square-10": KILLED,
+        "square-20": "ArithmeticError: no square today",
+        "square-30": KILLED,
+    }
 
     again = run_cases(cases[:1] + cases[2:3], CaseStore(tmp_path, Number), 2, seen.append)
     assert all(end.stored for end in again)
@@ -229,12 +236,16 @@ def stored(directory: Path, name: str = "stability") -> StudyRecord:
     """A study without cases, stored as its command stores it."""
     chosen = STUDIES[name]
     record = StudyRecord(
-        name=chosen.name, title=chosen.title, question="Is 1 < 2?", level="quick",
+        name=chosen.name,
+        title=chosen.title,
+        question="Is 1 < 2?",
+        level="quick",
         conclusion=chosen.conclude(Settings(Level.QUICK), {}).model_copy(
             update={"answer": "Yes, 1 < 2."}
         ),
-        lost=(), provenance=provenance("slipstick maintain study", {}),
-    )  # fmt: skip
+        lost=(),
+        provenance=provenance("slipstick maintain study", {}),
+    )
     write_study(record, {}, directory / name)
     return record
 

@@ -41,9 +41,16 @@ HALF_SPACE = replace(ORDINARY, modulus_ratio=1.0)
 SOFT_FILM = replace(ORDINARY, modulus_ratio=1e-3, thickness=0.01, poisson_ratio=0.5)
 STIFF_FILM = replace(ORDINARY, modulus_ratio=1e3, thickness=0.1, poisson_ratio=0.0)
 GOOD = CellRecord(
-    verdict=Verdict.CONVERGED, tolerance=1e-8, residual=2e-9, observed=3e-9, increments=4,
-    rounds=7, way="alternation", iterations=80, convolutions=400,
-)  # fmt: skip
+    verdict=Verdict.CONVERGED,
+    tolerance=1e-8,
+    residual=2e-9,
+    observed=3e-9,
+    increments=4,
+    rounds=7,
+    way="alternation",
+    iterations=80,
+    convolutions=400,
+)
 
 
 @pytest.mark.parametrize(("level", "least"), [(Level.QUICK, 100), (Level.FULL, 2000)])
@@ -57,11 +64,26 @@ def test_a_level_has_enough_cells_with_names_of_their_own(level: Level, least: i
 
 def test_different_cells_have_different_names_and_files(tmp_path: object) -> None:
     cells = [
-        ORDINARY, *(replace(ORDINARY, **{key: value}) for key, value in
-        {"friction": 0.3, "push": 0.3, "modulus_ratio": 0.3, "thickness": 0.3, "load": 0.3,
-         "poisson_ratio": 0.2, "base_ratio": 0.2, "length": 0.3, "modulus": 0.3, "cells": 24,
-         "path": LoadingPath.LOOP, "surface": Surface.ROUGH, "solver": Solver.PENALTY}.items()),
-    ]  # fmt: skip
+        ORDINARY,
+        *(
+            replace(ORDINARY, **{key: value})
+            for key, value in {
+                "friction": 0.3,
+                "push": 0.3,
+                "modulus_ratio": 0.3,
+                "thickness": 0.3,
+                "load": 0.3,
+                "poisson_ratio": 0.2,
+                "base_ratio": 0.2,
+                "length": 0.3,
+                "modulus": 0.3,
+                "cells": 24,
+                "path": LoadingPath.LOOP,
+                "surface": Surface.ROUGH,
+                "solver": Solver.PENALTY,
+            }.items()
+        ),
+    ]
     assert len({cell.name for cell in cells}) == len(cells)
     store = CaseStore(tmp_path)
     assert all(store.path(a) != store.path(b) for a, b in combinations(cells, 2))
@@ -167,7 +189,7 @@ DEFECTS = {
     "slip aside": lambda i: {"slip": np.stack([-i.slip[1], i.slip[0]])},
     "energy won by friction": lambda i: {"dissipated_energy": -i.dissipated_energy},
     "not a number": lambda i: {"pressure": np.where(i.pressure > 0, np.nan, 0.0)},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("defect", DEFECTS)
@@ -201,9 +223,12 @@ def test_giving_up_is_recorded_with_its_residual(monkeypatch: pytest.MonkeyPatch
 def test_the_way_of_the_solver_is_told() -> None:
     ways = [
         judge_contact(replace(ORDINARY, **change)).way
-        for change in ({}, {"surface": Surface.ALIKE_BALL},
-                       {"surface": Surface.ALIKE_BALL, "path": LoadingPath.PRESS})
-    ]  # fmt: skip
+        for change in (
+            {},
+            {"surface": Surface.ALIKE_BALL},
+            {"surface": Surface.ALIKE_BALL, "path": LoadingPath.PRESS},
+        )
+    ]
     assert ways == ["pressure and shear together", "pressure, then shear", "pressure alone"]
 
 

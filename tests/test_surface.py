@@ -22,7 +22,8 @@ from contact_scene.array_types import Field
 
 REACH = 1.5  # of the places
 ROUND_OFF = 1e-15
-ALONG_X, OBLIQUE = (1.0, 0.0), (0.6, 0.8)
+ALONG_X = (1.0, 0.0)
+OBLIQUE = (0.6, 0.8)
 PARTS = ("radial", "circumferential", "along_load")
 
 

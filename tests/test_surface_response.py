@@ -135,7 +135,9 @@ def test_a_stiffer_layer_gives_a_smaller_compliance(body, alpha, angle, factor, 
 def test_a_pressed_surface_moves_down_and_toward_the_load():
     """The transform of numpy has the sign exp(+i k x) of the response in its inverse."""
     material = IsotropicMaterial(young_modulus=200 * GPA, poisson_ratio=0.3)
-    points, width, sigma = 256, 1e-3, 2e-5
+    points = 256
+    width = 1e-3
+    sigma = 2e-5
     x = (np.arange(points) - points // 2) * width / points
     k = 2 * np.pi * np.fft.fftfreq(points, width / points)
     pressure = np.exp(-(x[:, None] ** 2 + x**2) / (2 * sigma**2))

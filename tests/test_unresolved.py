@@ -252,7 +252,9 @@ def test_ball_is_told_by_its_contact_radius(radii: float, large: bool) -> None:
 class End:
     """A state that presses so hard."""
 
-    approach, contact_area, contact_radius = 0.0, 1.0, 0.5
+    approach = 0.0
+    contact_area = 1.0
+    contact_radius = 0.5
 
     def __init__(self, pressure: float) -> None:
         self.normal_force = pressure
@@ -336,14 +338,16 @@ MISTAKES = {  # of a steel ball on a coated one: the contact radius is 0.19 mm
     "degrees of twist": ("loading[2]={twist=1}", 'was "1 deg" meant?'),
     "degrees of tilt": ("loading[2]={tilt=[0.5,0]}", 'was "0.5 deg" meant?'),
     "degrees of slope": (
-        'indenter={shape="cone",slope_angle=0.5,material="rigid"}', 'was "0.5 deg" meant?',
+        'indenter={shape="cone",slope_angle=0.5,material="rigid"}',
+        'was "0.5 deg" meant?',
     ),
     "mm of approach": ('loading[1]={approach="10 mm"}', "strains of about"),
     "a window of a radius": (
-        'semi_analytical.window=["0.3 mm","0.3 mm"]', "less than the diameter of the contact",
+        'semi_analytical.window=["0.3 mm","0.3 mm"]',
+        "less than the diameter of the contact",
     ),
     "a tolerance of cells": ("semi_analytical.tolerance=0.1", "above the usual 0.001"),
-}  # fmt: skip
+}
 
 
 @pytest.fixture

@@ -35,7 +35,9 @@ from contact_scene.solver_errors import (
 )
 from slipstick.solvers.on_cells import OnCells
 
-R, E, NU = 10e-3, 70e9, 0.3
+R = 10e-3
+E = 70e9
+NU = 0.3
 E_STAR = E / (1 - NU**2)
 ALUMINIUM = IsotropicMaterial(young_modulus=E, poisson_ratio=NU)
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.25)
@@ -101,7 +103,8 @@ def coated(*layers: tuple[float, IsotropicMaterial]) -> Body:
     return Body(material=ALUMINIUM, layers=tuple(Layer(thickness=t, material=m) for t, m in layers))
 
 
-PRESS, MU = {"normal_force": 100.0}, CoulombFriction(coefficient=0.3)
+PRESS = {"normal_force": 100.0}
+MU = CoulombFriction(coefficient=0.3)
 PUSH = {"normal_force": 100.0, "tangential_force": (10.0, 0.0)}
 NOTHING = {"tangential_shift": (0.0, 0.0), "torque": 0.0, "moment": (0.0, 0.0)}
 BARE = scene(PRESS)

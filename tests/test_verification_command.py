@@ -129,8 +129,10 @@ def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_p
         shutil.copy(uninterrupted / name, tmp_path)
     subprocess.run(
         [sys.executable, "-c", KILLED, "verify", *RESUMED_CASES, "-o", tmp_path, "--workers", "1"],
-        capture_output=True, timeout=600, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        timeout=600,
+        check=False,
+    )
     kept = records(tmp_path)
     assert len(kept) == 2
     assert not any((tmp_path / name).exists() for name in FILES)

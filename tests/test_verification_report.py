@@ -185,10 +185,18 @@ def test_what_is_allowed_stands_in_the_unit_of_the_value(
     value: float, reference: float, allowed: float, unit: str, text: str
 ) -> None:
     error = abs(value - reference)
-    failed = verdict("one", 9.0, 1.0).model_copy(update={
-        "value": value, "reference": reference, "unit": unit, "allowed": allowed, "scale": 1.0,
-        "error": error, "status": Status.FAIL, "meaning": "energy, increment 3: work 2 J",
-    })  # fmt: skip
+    failed = verdict("one", 9.0, 1.0).model_copy(
+        update={
+            "value": value,
+            "reference": reference,
+            "unit": unit,
+            "allowed": allowed,
+            "scale": 1.0,
+            "error": error,
+            "status": Status.FAIL,
+            "meaning": "energy, increment 3: work 2 J",
+        }
+    )
     assert failure_text(failed) == f"{text} ({error / allowed:.2g} U), increment 3: work 2 J"
 
 

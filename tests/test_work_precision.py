@@ -38,10 +38,13 @@ positive = st.floats(1e-6, 1.0)
 points = st.lists(
     st.builds(
         lambda method, fineness, error, seconds: Point(method, "", "", fineness, error, seconds),
-        st.sampled_from(["one", "other"]), st.integers(1, 64), positive, positive,
+        st.sampled_from(["one", "other"]),
+        st.integers(1, 64),
+        positive,
+        positive,
     ),
     max_size=20,
-)  # fmt: skip
+)
 
 
 @given(points, st.sampled_from(TARGETS))

@@ -40,7 +40,9 @@ from verification.running.case_pool import ThisProcess
 FOLDER = Path(__file__).with_name("transcripts")
 INPUTS = (".toml", ".csv", ".py")
 SHOWN = 12  # values of a column that are shown one by one; of a longer one, as many samples
-RELATIVE, OF_LINE = 1e-5, 1e-6  # allowed difference, relative to a number and to its line's largest
+# allowed difference, relative to a number and to its line's largest
+RELATIVE = 1e-5
+OF_LINE = 1e-6
 LOOSER = (  # pattern of a line, allowed difference: relative, of the line's largest, absolute
     (re.compile("residual|imbalance"), 0.3, 0.0, 2e-10),  # round-off, dimensionless
     (re.compile("iterations|convolutions|sweeps|rounds|augmentations"), 1.0, 0.0, 3.0),
@@ -58,7 +60,7 @@ VARIABLE = (  # text that differs between machines, versions and times
     (re.compile(r"data:[\w/+;-]+,[\w+/=]+"), "DATA"),
     (re.compile(r"\b\d+\.\d+\.\d+(\.\w+)?\b"), "VERSION"),
     (re.compile(r"(differs( here)?:|cases? \w+ compared with|of (the|\d+) cases:) .*"), "BASELINE"),
-)  # fmt: skip
+)
 VARIABLE_KEY = re.compile(
     "seconds|bytes|machine|libraries|version$|started|commit|provenance|processor|regression"
     "|baseline[.]|by[.]"

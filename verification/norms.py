@@ -45,7 +45,8 @@ def shear_error(shear: Field, exact: Field, limit: Field) -> float:
 AtPlaces = Callable[[Field, Field], Field]
 Rule = tuple[Field, Field]  # places from -1 to 1, and weights that sum to 2
 
-SMOOTH, ROUGH = leggauss(4), leggauss(64)
+SMOOTH = leggauss(4)
+ROUGH = leggauss(64)
 # Lobatto rule with a point in every corner of a cell; the contact edge may cut off a corner between
 # Gauss points.
 WITH_CORNERS = np.array([-1, -np.sqrt(0.2), np.sqrt(0.2), 1]), np.array([1, 5, 5, 1]) / 6

@@ -143,8 +143,9 @@ class CheckpointDirectory:
             self._ends.append(len(increments))
             self._extent = part.extent
         if standing is not None:
-            self._say(f"going on after increment {self._kept()} of an interrupted run "
-                      f"({self._directory})")  # fmt: skip
+            self._say(
+                f"going on after increment {self._kept()} of an interrupted run ({self._directory})"
+            )
         return standing
 
     def _drop_from(self, first: int) -> None:

@@ -41,8 +41,11 @@ def arithmetic() -> str:
     import numpy as np
     from threadpoolctl import threadpool_info
 
-    cores = {f"{i['internal_api']} {i.get('architecture')}" for i in threadpool_info()
-             if i["user_api"] == "blas"}  # fmt: skip
+    cores = {
+        f"{i['internal_api']} {i.get('architecture')}"
+        for i in threadpool_info()
+        if i["user_api"] == "blas"
+    }
     targets = np.lib.introspect.opt_func_info(func_name="^sin$", signature="float64")
     vectors = {one["current"] for kinds in targets.values() for one in kinds.values()}
     return ", ".join((*sorted(cores), *sorted(vectors)))

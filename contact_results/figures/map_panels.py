@@ -284,6 +284,17 @@ def draw_arrows(
     u, v = vector[:, i, j] * apart / longest
     edge = "black" if colour == "white" else "none"
     ax.quiver(
-        x[i], y[j], u, v, angles="xy", scale_units="xy", scale=1.0, pivot="mid", color=colour,
-        edgecolor=edge, linewidth=0.6, width=0.012, headwidth=3.5,
-    )  # fmt: skip
+        x[i],
+        y[j],
+        u,
+        v,
+        angles="xy",
+        scale_units="xy",
+        scale=1.0,
+        pivot="mid",
+        color=colour,
+        edgecolor=edge,
+        linewidth=0.6,
+        width=0.012,
+        headwidth=3.5,
+    )

@@ -36,7 +36,8 @@ MAX_CELLS = 64
 EVERY = 2  # interval of the default depths that are used
 DOTS_PER_INCH = 90
 # Sides of a panel, and of its place with labels, legend and colour bar [inch].
-PANEL, PLACE = (2.6, 2.55), (3.85, 3.45)
+PANEL = (2.6, 2.55)
+PLACE = (3.85, 3.45)
 MARGIN = 0.65
 TITLE = 0.3  # height of the title above the panels [inch]
 BAR: dict[str, Any] = {"fraction": 0.05, "pad": 0.03}
@@ -195,9 +196,13 @@ def _draw_stress(figure: Figure, axes: Any, along: Any, result: Result, field: S
     if (field.edge is None or not field.edge.determined) and isinstance(surface_of(result), Cells):
         cell = float(np.diff(field.section.x.ravel()[:2])[0])
         along.text(
-            0.5, 0.02, f"by cells of {quantity(cell, 'm', 3)}:\ntoo low beside the edges",
-            ha="center", fontsize="small", transform=along.transAxes,
-        )  # fmt: skip
+            0.5,
+            0.02,
+            f"by cells of {quantity(cell, 'm', 3)}:\ntoo low beside the edges",
+            ha="center",
+            fontsize="small",
+            transform=along.transAxes,
+        )
 
 
 def _write_numbers(ax: Any, result: Result, errors: Mapping[str, StatedError] | None) -> None:

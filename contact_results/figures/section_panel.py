@@ -30,7 +30,8 @@ QUADRILATERALS = {
 MAX_LEVELS = 12
 # If the layers together are thinner than THIN times the visible depth, they are drawn on the share
 # STRETCHED of the depth axis.
-THIN, STRETCHED = 0.125, 0.3
+THIN = 0.125
+STRETCHED = 0.3
 HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
 
 Values = NDArray[np.float64]
@@ -65,14 +66,20 @@ def draw_section(
     most = float(np.abs(levels).max())
     signed = levels[0] < 0
     image = ax.tricontourf(
-        triangles, np.clip(drawn / unit.size, levels[0], levels[-1]), levels=levels,
+        triangles,
+        np.clip(drawn / unit.size, levels[0], levels[-1]),
+        levels=levels,
         cmap=style.SIGNED_MAP if signed else style.MAGNITUDE_MAP,
         norm=Normalize(-most if signed else 0.0, most),
-    )  # fmt: skip
+    )
     ax.tricontour(
-        triangles, drawn / unit.size, levels=levels, colors="black", linewidths=0.3,
+        triangles,
+        drawn / unit.size,
+        levels=levels,
+        colors="black",
+        linewidths=0.3,
         linestyles="solid",
-    )  # fmt: skip
+    )
     label = unit.labelled(name)
     figure.colorbar(image, ax=ax, ticks=levels, label=label, format="%g", **(bar or {}))
     if not show_depths(ax, body, depth, length):
@@ -118,9 +125,12 @@ def show_depths(ax: Any, body: Body, deepest: float, length: EngineeringUnit) ->
     for _, side, depth, _ in interface_sides(body):
         if side == "above" and depth < deepest:
             ax.axhline(
-                depth / length.size, color="black", linewidth=1.0, linestyle="--",
+                depth / length.size,
+                color="black",
+                linewidth=1.0,
+                linestyle="--",
                 path_effects=HALO,
-            )  # fmt: skip
+            )
     return stretched
 
 

@@ -19,7 +19,8 @@ from contact_scene import Body
 from contact_scene.reading.engineering_units import engineering_unit, quantity
 
 BAR = {"fraction": 0.05, "pad": 0.03}
-SECTION, LINES = "stress_section.png", "stress_lines.png"
+SECTION = "stress_section.png"
+LINES = "stress_lines.png"
 
 
 def write_stress_figures(

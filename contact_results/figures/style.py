@@ -81,9 +81,14 @@ def legend_above(ax: Any, **given: Any) -> None:
     given  further arguments of `Axes.legend`
     """
     ax.legend(
-        loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=5, fontsize="small",
-        handlelength=1.6, columnspacing=1.0, **given,
-    )  # fmt: skip
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+        ncols=5,
+        fontsize="small",
+        handlelength=1.6,
+        columnspacing=1.0,
+        **given,
+    )
 
 
 def legend_beside(ax: Any) -> None:

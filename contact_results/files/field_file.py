@@ -40,7 +40,9 @@ AXES = {
     "radii": ("m", "radii of the rings"),
     "angles": ("rad", "from the direction of the tangential load"),
 }
-PER_INCREMENT, PER_STEP, COMPONENT = ("increment",), (STEP,), ("component",)
+PER_INCREMENT = ("increment",)
+PER_STEP = (STEP,)
+COMPONENT = ("component",)
 PLACES = {"step": "loading step, from 1", "increment": "increment within the step, from 1"}
 
 

@@ -31,7 +31,8 @@ from contact_scene.quantities.field_metadata import (
 )
 from contact_scene.quantities.stated_error import AccuracyReached, StatedError
 
-SECTION, VOLUME = "stress_section.vtu", "stress_volume.vtu"
+SECTION = "stress_section.vtu"
+VOLUME = "stress_volume.vtu"
 
 INVARIANTS = (
     Column("von_mises", "Pa", "Equivalent stress of von Mises."),
@@ -46,7 +47,9 @@ POINT_ARRAYS = (
     *INVARIANTS,
     Column("material", None, "0 is the outermost layer, the highest number the base."),
 )
-MAXIMA, AXIS, INTERFACES = "stress_maxima.csv", "stress_axis.csv", "stress_interfaces.csv"
+MAXIMA = "stress_maxima.csv"
+AXIS = "stress_axis.csv"
+INTERFACES = "stress_interfaces.csv"
 MEANINGS = "stress_columns.csv"
 
 PLACE = (

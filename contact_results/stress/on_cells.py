@@ -41,7 +41,8 @@ NEIGHBOURS = 4  # adjacent cells of a point that the interpolation uses
 LEVEL = ("depth", "layer")
 # Numbers in memory per point of the volume. Computed: displacement and stress by depth, the same
 # for all depths, corners of cells. Written: coordinates, displacement, full tensor, invariants.
-COMPUTED, WRITTEN = 9 + 9 + 8, 3 + 3 + 9 + 4
+COMPUTED = 9 + 9 + 8
+WRITTEN = 3 + 3 + 9 + 4
 
 
 def estimated_bytes(grid: SurfaceGrid) -> int:

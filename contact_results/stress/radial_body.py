@@ -43,10 +43,13 @@ class PointNumbers(NamedTuple):
     rounds: int
 
 
-PRESSED, SHEARED = PointNumbers(32, 32, 48, 3, 6), PointNumbers(20, 16, 28, 2, 5)
+PRESSED = PointNumbers(32, 32, 48, 3, 6)
+SHEARED = PointNumbers(20, 16, 28, 2, 5)
 # Points outside the plane of the section, where the tensile stress at the bottom of a layer may be
 # largest: distances in contact radii, number of angles, and every n-th depth.
-RADII, ANGLES, EVERY = np.array([0.3, 0.6, 0.8, 0.95, 1.0, 1.15, 1.5]), 7, 2
+RADII = np.array([0.3, 0.6, 0.8, 0.95, 1.0, 1.15, 1.5])
+ANGLES = 7
+EVERY = 2
 
 
 @dataclass(frozen=True)
@@ -235,10 +238,12 @@ class RadialBody:
         x, y = self.centre + r * np.cos(angles), r * np.sin(angles)
         last = len(levels) - 1
         sides = [
-            n for n, level in enumerate(levels)
-            if n % EVERY == 0 or n in (0, last)
+            n
+            for n, level in enumerate(levels)
+            if n % EVERY == 0
+            or n in (0, last)
             or level.depth in (levels[n - 1].depth, levels[min(n + 1, last)].depth)
-        ]  # fmt: skip
+        ]
         return self.stress_points([levels[n] for n in sides], x.ravel(), y.ravel())
 
     def largest(self, extreme: Extreme) -> StressPoints:

@@ -75,7 +75,8 @@ USUAL: Mapping[str, Usual] = {
 }
 # Limits of modulus [Pa] and radius [m] of a dimensionless scene: softer than rubber and larger than
 # a ball.
-_SOFTEST, _LARGEST = 1e6, 0.1
+_SOFTEST = 1e6
+_LARGEST = 0.1
 _MARKED = 1 / 3  # largest fraction of marks, as of heights that were not measured
 _FEW = 6  # values that are evenly spaced by chance
 # Largest distance of coordinates from even spacing, in steps, if their steps are written with two
@@ -94,7 +95,8 @@ SPRINGS = (
 )
 # Layer thickness in contact radii above which the material below has no effect, and below which
 # the layer has none. The ratio of the moduli shifts both limits.
-_DEEP, _THIN = 20.0, 1e-4
+_DEEP = 20.0
+_THIN = 1e-4
 
 
 def implausible_input(scene: Scene, **fineness: BaseModel) -> tuple[str, ...]:

@@ -113,7 +113,8 @@ class WithFields:
 
 
 # Attributes of a value in a file: its place, and its attributes if it was read last.
-_STATE, _OPENED = "_stored_state", "_opened_state"
+_STATE = "_stored_state"
+_OPENED = "_opened_state"
 # Attributes that remain in memory and identify the increments of a history.
 _AT_HAND = ("step", "index", "increments_in_step")
 _last_read: weakref.ref[WithFields] | None = None

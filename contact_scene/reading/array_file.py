@@ -16,7 +16,8 @@ from contact_scene.reading.scene_error import (
 )
 from contact_scene.reading.text_table import TABLE_SUFFIXES, read_text_table
 
-_MIN_SIDE, _MAX_SIDE = 4, 16384
+_MIN_SIDE = 4
+_MAX_SIDE = 16384
 _MAX_VALUES = 4096 * 4096  # 134 MB, more than the largest grid
 
 

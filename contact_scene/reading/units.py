@@ -34,7 +34,9 @@ def unit_factors(**factors: str) -> Mapping[str, Decimal]:
 
 
 _DEGREE = "0.01745329251994329576923690768488612713443"  # pi/180
-_INCH, _POUND = "0.0254", "4.4482216152605"  # exact by definition
+# exact by definition
+_INCH = "0.0254"
+_POUND = "4.4482216152605"
 
 PURE_NUMBER = Kind("", "", MappingProxyType({}))
 LENGTH = Kind(

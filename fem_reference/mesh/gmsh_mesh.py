@@ -32,7 +32,8 @@ DEBIAN_PACKAGES = (
 FAR_ELEMENTS = 8
 """Number of elements along a far side of the box. Graded elements have about this size there."""
 
-_FRONTAL_FOR_QUADS, _SIMPLE_WITH_QUADS_ONLY = 8, 2
+_FRONTAL_FOR_QUADS = 8
+_SIMPLE_WITH_QUADS_ONLY = 2
 OPTIONS = {
     "General.Terminal": 0,
     "Mesh.Algorithm": _FRONTAL_FOR_QUADS,

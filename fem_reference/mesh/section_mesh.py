@@ -16,7 +16,8 @@ from fem_reference.mesh.section_outline import (
     section_outline,
 )
 
-SHRINK, SHRINKS = 1 / 4, 8
+SHRINK = 1 / 4
+SHRINKS = 8
 """Ratio of successive distances of mesh lines from an edge of the tractions, and number of lines.
 
 The stress varies like the root of the distance from the edge. A smallest element of 4^-8 = 1.5e-5

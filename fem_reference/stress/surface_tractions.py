@@ -29,7 +29,8 @@ from fem_reference.fields import Increment
 # The smooth factor near the edge is fitted without the last element with pressure. Hat functions
 # that do not end at the edge have oscillating errors, with a factor of -0.3 from ring to ring. A
 # line and this oscillation are fitted to FITTED elements before the last.
-FITTED, OSCILLATION = 8, -0.3
+FITTED = 8
+OSCILLATION = -0.3
 FEWEST_RINGS = 4
 # Indices among r, θ and z of the components whose harmonics q_r, q_theta, the shear along the load
 # and the pressure have. Tractions with angles have no shear along the load.

@@ -110,7 +110,9 @@ def frictional_state(
     strain      bulk strain of the lower body since first contact, equal in all directions [1]
     """
     x, a = end.rings.x, end.radius
-    start_radius, force, depth = 0.0, 0.0, 0.0
+    start_radius = 0.0
+    force = 0.0
+    depth = 0.0
     if before is not None:
         start_radius, force, depth = before.end.radius, before.end.load, before.end.approach
     r, nothing = a * x, np.zeros_like(x)
@@ -134,14 +136,19 @@ def frictional_state(
     work = 0.5 * (force + end.load) * (end.approach - depth)
     work -= 0.5 * more * end.integrate_over_contact((shear + end.shear) * r)
     return FrictionalState(
-        end, target, slip, start_radius, mid_stick_radius, stick_radius,
+        end,
+        target,
+        slip,
+        start_radius,
+        mid_stick_radius,
+        stick_radius,
         (before.work if before else 0.0) + work,
         (before.dissipated if before else 0.0) + end.integrate_over_contact(rubbing),
         (before.uncertainty if before else 0.0) + end.integrate_over_contact(open_),
         power,
         iterations,
         strain,
-    )  # fmt: skip
+    )
 
 
 def stick_radius_ratio(end: FrictionalContact) -> float:

@@ -59,7 +59,8 @@ from radial.output_points import target as target_of
 COUNT = 64  # rings, without those of the dense regions at the stick border, axis and edge
 # GROWTH: largest ratio of the contact radii of two successive solves. FIRST: radius of the first
 # solve over that at the end of the first increment.
-GROWTH, FIRST = 1.1, 0.03
+GROWTH = 1.1
+FIRST = 0.03
 MAX_LAID = 3  # largest number of layouts of rings that follow the stick radius
 REST = 1e-11  # slip below this multiple of the approach is round-off
 MIDDLE = 0.5  # initial guess of the stick radius over the contact radius
@@ -178,9 +179,14 @@ class FrictionalSteps(StepsOnRings):
             """
             nonlocal like
             like = frictional_contact(
-                self.coupling, self.scene.indenter, radius, rings, self.friction,
-                radial_displacement(radius * rings.places), _guess_slip_signs(like, rings),
-            )  # fmt: skip
+                self.coupling,
+                self.scene.indenter,
+                radius,
+                rings,
+                self.friction,
+                radial_displacement(radius * rings.places),
+                _guess_slip_signs(like, rings),
+            )
             return like
 
         return solve

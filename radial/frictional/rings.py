@@ -28,9 +28,14 @@ SHARED = 0.08
 NEAREST = 6.0  # largest |log(c/(a - c))|, which limits how near c is to axis and edge
 # Ratio of the widths of adjacent rings towards axis and edge (GRADED) and towards the stick border
 # (TOWARDS), and numbers of these rings: FINEST at the stick border, AT_AXIS, AT_EDGE.
-GRADED, TOWARDS, FINEST = 0.5, 0.6, 9
-AT_AXIS, AT_EDGE = 4, 6
-POINTS, WAVE_POINTS = 14, 6  # Gauss points of an element
+GRADED = 0.5
+TOWARDS = 0.6
+FINEST = 9
+AT_AXIS = 4
+AT_EDGE = 6
+# Gauss points of an element
+POINTS = 14
+WAVE_POINTS = 6
 CACHED = 64
 # Positions outside the contact at which displacements are computed, over the contact radius.
 OUTSIDE = 1 + np.array([0.01, 0.03, 0.08, 0.2, 0.4, 0.7, 1.1, 1.6, 2.5, 4.0])
@@ -271,10 +276,14 @@ def _create_rings(place: int, count: int) -> Rings:
     sliding = c + (1 - c) * np.sin(np.pi / 2 * np.arange(beyond + 1) / beyond)
     near = TOWARDS ** np.arange(FINEST)
     step_in, step_out = inner[-1] - inner[-2], sliding[1] - sliding[0]
-    x = np.concatenate([
-        inner, sliding,
-        inner[1] * GRADED ** np.arange(1, AT_AXIS),
-        1 - (1 - sliding[-2]) * GRADED ** np.arange(1, AT_EDGE),
-        c - step_in * near[1:], c + step_out * near[1:],
-    ])  # fmt: skip
+    x = np.concatenate(
+        [
+            inner,
+            sliding,
+            inner[1] * GRADED ** np.arange(1, AT_AXIS),
+            1 - (1 - sliding[-2]) * GRADED ** np.arange(1, AT_EDGE),
+            c - step_in * near[1:],
+            c + step_out * near[1:],
+        ]
+    )
     return Rings(np.unique(x))

@@ -158,9 +158,14 @@ def frictional_contact(
     frictionless_displacement = coupling.frictionless_displacement(contact, rings)
     smooth = pressure(contact, rings.x)
     found, sliding = _solve_stick_and_slip(
-        response, rings.count, friction, smooth[1:-1],
-        (before - frictionless_displacement)[1 : rings.count], guess[1:-1], rings.x[1:-1],
-    )  # fmt: skip
+        response,
+        rings.count,
+        friction,
+        smooth[1:-1],
+        (before - frictionless_displacement)[1 : rings.count],
+        guess[1:-1],
+        rings.x[1:-1],
+    )
     n = rings.count
     p, q, approach_change = found[:n], found[n:-1], float(found[-1])
     normal_displacement = response.zz @ p + response.zr @ q
@@ -181,9 +186,14 @@ def frictional_contact(
 
 
 def _solve_stick_and_slip(
-    response: RingResponse, n: int, friction: CoulombFriction, smooth: Array,
-    stick_displacement: Array, guess: Signs, places: Array,
-) -> tuple[Array, Signs]:  # fmt: skip
+    response: RingResponse,
+    n: int,
+    friction: CoulombFriction,
+    smooth: Array,
+    stick_displacement: Array,
+    guess: Signs,
+    places: Array,
+) -> tuple[Array, Signs]:
     """Solve for pressure change, radial shear and slip zone of a contact of given radius.
 
     The pressure change Δp is the pressure minus that of the frictionless contact. The method is

@@ -52,7 +52,8 @@ if TYPE_CHECKING:
 ROUND_OFF = 1e-12
 SMOOTH = 1e-9  # G(1) below this multiple of the approach is round-off: the edge is smooth
 ELSEWHERE = "solve it with the semi-analytical solver"
-FEWEST_ORDERS, MAX_ORDERS = 8, 256
+FEWEST_ORDERS = 8
+MAX_ORDERS = 256
 # Number of points at which the error of the contact equation is evaluated.
 PLACES = 40
 

@@ -22,14 +22,18 @@ if TYPE_CHECKING:
     from contact_scene.geometry import ShapedBody
 
 
-FEWEST, MOST = 16, 2048  # least and largest number of points at which the gap is evaluated
+# least and largest number of points at which the gap is evaluated
+FEWEST = 16
+MOST = 2048
 # Round-off of a coefficient of the gap over the largest coefficient, divided by the number of
 # points.
 ROUND_OFF = 1e-15
 ANGLES = 16
 # A gap with breaks: number of even Legendre polynomials of S, points of the gap between two breaks,
 # and quadrature points between two breaks.
-PIECEWISE_ORDERS, PIECE, PIECE_ANGLES = 128, 8, 8
+PIECEWISE_ORDERS = 128
+PIECE = 8
+PIECE_ANGLES = 8
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,9 @@ from contact_scene.checks.axisymmetric import ELSEWHERE
 from contact_scene.solver_errors import UnsupportedScene
 from radial.stress.loaded_circle import LoadedCircle
 
-RADII, ANGLES = 241, 360  # grid of a circle; the error of linear interpolation is about 1e-5
+# grid of a circle; the error of linear interpolation is about 1e-5
+RADII = 241
+ANGLES = 360
 FEWEST = 4  # least number of rings that determine the edge
 HARMONICS = 3  # highest angular harmonic of the fit
 STEPS = 20  # of Newton's method, for the zeros of p²
@@ -171,9 +173,10 @@ def _least_squares(
 
         s, angle  coordinates s = 1 - r²/a² and θ of the points (…)
         """
-        return np.stack([
-            np.cos(m * angle) * s**k for m in range(HARMONICS + 1) for k in range(powers + 1)
-        ], axis=-1)  # fmt: skip
+        return np.stack(
+            [np.cos(m * angle) * s**k for m in range(HARMONICS + 1) for k in range(powers + 1)],
+            axis=-1,
+        )
 
     root = np.sqrt(weights)
     found = np.linalg.lstsq(

@@ -93,9 +93,13 @@ def bessel_of_order(orders: Sequence[Array], m: int) -> Array:
 
 
 def _inverse_transform(
-    descent: Descent, level: Level, sources: NDArray[np.inexact], orders: Sequence[Array],
-    turns: Complex, count: int,
-) -> Array:  # fmt: skip
+    descent: Descent,
+    level: Level,
+    sources: NDArray[np.inexact],
+    orders: Sequence[Array],
+    turns: Complex,
+    count: int,
+) -> Array:
     """Sum waves to displacement and stress that layers add at one depth (9, n).
 
     The fields are u_r, u_θ, u_z, σ_rr, θθ, zz, θz, rz, rθ. The sums are over the wavenumbers κ and
@@ -141,8 +145,15 @@ def _inverse_transform(
         in_2 = -(half + st) @ bessel_of_order(orders, m - 2)[:count]
         apart = (out_2 + in_2) / 2
         polar = (
-            (out + in_) / 2, (out - in_) / 2j, W, mean + apart, mean - apart, n,
-            (out_z - in_z) / 2j, (out_z + in_z) / 2, (out_2 - in_2) / 2j,
-        )  # fmt: skip
+            (out + in_) / 2,
+            (out - in_) / 2j,
+            W,
+            mean + apart,
+            mean - apart,
+            n,
+            (out_z - in_z) / 2j,
+            (out_z + in_z) / 2,
+            (out_2 - in_2) / 2j,
+        )
         total += (np.stack(polar) * turn).real
     return total

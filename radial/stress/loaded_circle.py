@@ -18,7 +18,9 @@ Complex = NDArray[np.complex128]
 
 # PANEL: Gauss points of a panel. LOAD_POINTS: points of the integral of the load. HARMONICS:
 # highest harmonic of the load, large enough against aliasing.
-PANEL, LOAD_POINTS, HARMONICS = 16, 128, 15
+PANEL = 16
+LOAD_POINTS = 128
+HARMONICS = 15
 
 
 @dataclass(frozen=True, eq=False)

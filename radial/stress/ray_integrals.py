@@ -19,7 +19,9 @@ from radial.stress.loaded_circle import LoadedCircle
 from semi_analytical.frf.stack import HalfSpace
 
 SURFACE = 1e-8  # points at smaller depths over the radius are on the surface
-ANGLES, POINTS = 8, 6  # Gauss points of a panel of angles and of a ray
+# Gauss points of a panel of angles and of a ray
+ANGLES = 8
+POINTS = 6
 WIDER = 4.0  # largest ratio of adjacent panels
 LEAST = 1e-7  # least width of a panel of a ray, and of a panel of angles
 MAX_AT_ONCE = 1 << 18  # quadrature points in a block
@@ -108,9 +110,15 @@ def _interval_ends(smallest: Array, count: int) -> Array:
 
 
 def _integrate_all_rays(
-    circle: LoadedCircle, material: HalfSpace, x: Array, y: Array, depth: float,
-    angles: tuple[Array, Array] | None, count: int, fineness: int,
-) -> Array:  # fmt: skip
+    circle: LoadedCircle,
+    material: HalfSpace,
+    x: Array,
+    y: Array,
+    depth: float,
+    angles: tuple[Array, Array] | None,
+    count: int,
+    fineness: int,
+) -> Array:
     """Compute displacement and stress below a loaded circle, for points with equal quadrature.
 
     The shape is (9, n): u_x, u_y, u_z over the radius of the circle, then σ_xx, yy, zz, yz, xz, xy
@@ -220,15 +228,22 @@ def _point_force_fields(material: HalfSpace, d: Array, depth: float) -> tuple[Ar
     by_s = (
         move * (1 / R + d * d / R**3 + g * (1 / sum_ - d * d / (R * sum_**2))),
         -move * (d * z / R**3 + g * d / (R * sum_)),
-        unit * (
+        unit
+        * (
             3 * d**3 / R**5
-            + g * d * (3 / (R * sum_**2) - 1 / R**3 - d * d / (R**3 * sum_**2)
-                       - 2 * d * d / (R**2 * sum_**3))
+            + g
+            * d
+            * (
+                3 / (R * sum_**2)
+                - 1 / R**3
+                - d * d / (R**3 * sum_**2)
+                - 2 * d * d / (R**2 * sum_**3)
+            )
         ),
         unit * g * d * (1 / (R * sum_**2) - 1 / R**3),
         unit * 3 * d * z * z / R**5,
         -unit * 3 * d * d * z / R**5,
-    )  # fmt: skip
+    )
     by_t = (move * (1 / R + g / sum_), unit * g * d / (R * sum_**2))
     return (*by_p, *by_s, *by_t)
 
@@ -256,10 +271,15 @@ def _integrate_each_ray(
     c, s = cos[..., None], sin[..., None]
     along, across = c * q_x + s * q_y, c * q_y - s * q_x
     integrands = (
-        pu * p + su * along, tu * across, pw * p + sw * along,
-        pss * p + sss * along, ptt * p + stt * along, pzz * p + szz * along,
-        psz * p + ssz * along, tst * across,
-    )  # fmt: skip
+        pu * p + su * along,
+        tu * across,
+        pw * p + sw * along,
+        pss * p + sss * along,
+        ptt * p + stt * along,
+        pzz * p + szz * along,
+        psz * p + ssz * along,
+        tst * across,
+    )
     return np.stack([np.sum(integrand, axis=-1) for integrand in integrands])
 
 
@@ -286,11 +306,18 @@ def _finite_part(
     q_x, q_y, p = here[..., None]
     along, across = cos * q_x + sin * q_y, cos * q_y - sin * q_x
     nothing = np.zeros_like(left)
-    return np.stack([
-        nothing, nothing, nothing,
-        left * unit * (g * p + 2 * (1 + nu) * along), -left * unit * g * p, nothing,
-        nothing, left * unit * g * across,
-    ])  # fmt: skip
+    return np.stack(
+        [
+            nothing,
+            nothing,
+            nothing,
+            left * unit * (g * p + 2 * (1 + nu) * along),
+            -left * unit * g * p,
+            nothing,
+            nothing,
+            left * unit * g * across,
+        ]
+    )
 
 
 def _sum_over_rays(rays: Array, cos: Array, sin: Array, weight: Array) -> Array:
@@ -305,8 +332,14 @@ def _sum_over_rays(rays: Array, cos: Array, sin: Array, weight: Array) -> Array:
     u_s, u_t, u_z, ss, tt, zz, sz, st = rays * weight
     c2, s2, cs = cos * cos, sin * sin, cos * sin
     each = (
-        cos * u_s - sin * u_t, sin * u_s + cos * u_t, u_z,
-        c2 * ss + s2 * tt - 2 * cs * st, s2 * ss + c2 * tt + 2 * cs * st, zz,
-        sin * sz, cos * sz, cs * (ss - tt) + (c2 - s2) * st,
-    )  # fmt: skip
+        cos * u_s - sin * u_t,
+        sin * u_s + cos * u_t,
+        u_z,
+        c2 * ss + s2 * tt - 2 * cs * st,
+        s2 * ss + c2 * tt + 2 * cs * st,
+        zz,
+        sin * sz,
+        cos * sz,
+        cs * (ss - tt) + (c2 - s2) * st,
+    )
     return np.stack([np.sum(part, axis=-1) for part in each])

@@ -98,8 +98,17 @@ def _cartesian_components(polar: Array, cos: Array, sin: Array) -> Array:
     mean, half = (rr + tt) / 2, (rr - tt) / 2
     c2, s2 = cos * cos - sin * sin, 2 * sin * cos
     apart = half * c2 - rt * s2
-    return np.stack([
-        cos * u_r - sin * u_t, sin * u_r + cos * u_t, u_z,
-        mean + apart, mean - apart, zz,
-        sin * rz + cos * tz, cos * rz - sin * tz, half * s2 + rt * c2,
-    ], axis=1)  # fmt: skip
+    return np.stack(
+        [
+            cos * u_r - sin * u_t,
+            sin * u_r + cos * u_t,
+            u_z,
+            mean + apart,
+            mean - apart,
+            zz,
+            sin * rz + cos * tz,
+            cos * rz - sin * tz,
+            half * s2 + rt * c2,
+        ],
+        axis=1,
+    )

@@ -23,7 +23,8 @@ from contact_scene.array_types import Array
 
 # The upward recurrence loses about 1e-13 if the highest order times arccosh χ is below UPWARDS. The
 # downward recurrence starts at an order where Q is below round-off.
-UPWARDS, ROUND_OFF = 3.0, 18.0
+UPWARDS = 3.0
+ROUND_OFF = 18.0
 
 
 def equal_order_kernels(highest: int, r: Array, s: Array, apart: Array) -> Array:

@@ -97,7 +97,11 @@ def _layer_matrices(
             p, q, z = (1 if m else -1) * fields[abs(m - 1)], fields[m + 1], fields[m]
             raised = z.T * half
             total += (
-                (p.T * mean) @ p, (q.T * mean) @ q, (p.T * apart) @ q,
-                (z.T * c22) @ z, raised @ p, -raised @ q,
-            )  # fmt: skip
+                (p.T * mean) @ p,
+                (q.T * mean) @ q,
+                (p.T * apart) @ q,
+                (z.T * c22) @ z,
+                raised @ p,
+                -raised @ q,
+            )
     return found

@@ -24,10 +24,12 @@ Numbers = NDArray[np.int64]
 # Pairs of quadrature points: element of r, element of s, r, s, s - r and weights.
 Pairs = tuple[Numbers, Numbers, Array, Array, Array, Array]
 
-SAME, TOUCHING = 26, (14, 12)
+SAME = 26
+TOUCHING = (14, 12)
 # Range of the distance of two elements (in elements), and number of Gauss points per direction.
 APART = ((2, 4, 11), (4, 9, 7))
-FAR, FAR_POINTS = 9, 5
+FAR = 9
+FAR_POINTS = 5
 WAVE_POINTS = 6
 CACHED = 8
 # The downward recurrence of Bessel functions starts at this number of orders above the highest one,

@@ -23,7 +23,8 @@ LEAST = 0.75  # least distance of an evenly spaced ring from an edge, in widths 
 GROWTH = 1.4  # ratio of the widths of adjacent rings outside the largest contact
 # Outermost radius over the contact radius without friction, and its increase per unit of µ, because
 # friction shifts the contact edge.
-REACH, BY_FRICTION = 1.15, 0.5
+REACH = 1.15
+BY_FRICTION = 0.5
 POINTS = 6  # Gauss points of an element
 
 

@@ -21,12 +21,15 @@ from radial.tangential.stick_border import stick_area
 FINER = 16  # subdivisions of an element, to find the border of the stick zone
 # Nodes for the fit of p² at the contact edge. BESIDE_EDGE: largest distance from the last node with
 # pressure over the radius of this node. FITTED: least number.
-BESIDE_EDGE, FITTED = 0.15, 4
+BESIDE_EDGE = 0.15
+FITTED = 4
 FEWEST = 2  # least number of rings within a contact that resolve its edge
 # INVERSES, ROOM: least number and total size [byte] of cached inverses of the compliance, for
 # contacts with a changing number of rings. ROUND_OFF: relative norm below which the angles cannot
 # represent a component of a harmonic.
-INVERSES, ROOM, ROUND_OFF = 3, 1 << 23, 1e-12
+INVERSES = 3
+ROOM = 1 << 23
+ROUND_OFF = 1e-12
 
 
 @dataclass(frozen=True, eq=False)

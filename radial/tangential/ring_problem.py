@@ -29,7 +29,9 @@ from radial.tangential.stiffness_inverse import StiffnessInverse
 # Predictor from the last increment. REST: relative change of the loads that is round-off. FURTHEST:
 # largest ratio of this increment to the last one (above 2, so that round-off does not decide at 2).
 # ASIDE: largest relative deviation from the direction of the last increment.
-REST, FURTHEST, ASIDE = 1e-6, 2.1, 0.5
+REST = 1e-6
+FURTHEST = 2.1
+ASIDE = 0.5
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,8 @@ ON_HARMONICS = (-0.1913, 1.0209, 0.3219, 0.3288)
 # The ratio of d at the second and third sticking point from the border distinguishes the powers: at
 # most 0.54 for 3/2 and at least 0.7 for 1/2. For 3/2, the ratio of d at the last two sticking
 # points is AT_NEXT if the border is at the next point.
-GAINING, AT_NEXT = 0.66, 0.3
+GAINING = 0.66
+AT_NEXT = 0.3
 DEEP = 3  # number of sticking points required on rings, see `deep` of `_border_positions`
 UNTOLD = 0.5  # position of the border between two points without sufficient data
 

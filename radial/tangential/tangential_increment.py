@@ -128,9 +128,15 @@ def _prescribed_or_computed(
 
 
 def tangential_state(
-    points: ContactPoints, friction: CoulombFriction, end: PointState, last: PointState | None,
-    slip: Array, prescribed: Loads, before: TangentialState | None, smooth: float | None,
-) -> TangentialState:  # fmt: skip
+    points: ContactPoints,
+    friction: CoulombFriction,
+    end: PointState,
+    last: PointState | None,
+    slip: Array,
+    prescribed: Loads,
+    before: TangentialState | None,
+    smooth: float | None,
+) -> TangentialState:
     """Compute slip, stick area and energies at the end of an increment from its solved tractions.
 
     points      points of the contact (rings × angles)
@@ -179,10 +185,18 @@ def tangential_state(
         dissipated += float(np.sum(rubbing * passed, axis=0) @ areas)
     open_ = np.hypot(*(end.shear - start)) * np.hypot(*passed)
     return TangentialState(
-        end, points.circle, prescribed, radius, start_radius, stick_through, stick_radius,
-        slip - passed, forces, dissipated,
+        end,
+        points.circle,
+        prescribed,
+        radius,
+        start_radius,
+        stick_through,
+        stick_radius,
+        slip - passed,
+        forces,
+        dissipated,
         (before.uncertainty if before else 0.0) + float(open_ @ areas),
-    )  # fmt: skip
+    )
 
 
 def residuals_of(

@@ -58,7 +58,8 @@ Pair = tuple[float, float]
 
 # The contact radii at the ends of the load steps are found with this number of increments per load
 # step, and with this number of layouts of rings.
-SETTLING, SETTLED = 8, 2
+SETTLING = 8
+SETTLED = 2
 NARROW = 2.0  # contacts with fewer rings get dense rings at their edge
 # Number of projections of the output shear onto its friction limit. They change the force by 2e-6
 # of the friction limit.

@@ -30,7 +30,8 @@ from radial.response.quadrature import unit_gauss
 POINTS = 48
 # PANELS: number of panels, down to t = 2^-26. NODES: Chebyshev points of a panel, whose
 # interpolation has an error of 1e-16.
-PANELS, NODES = 26, 26
+PANELS = 26
+NODES = 26
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,8 @@ from semi_analytical.operator.domain import ReducedDomain
 # weight, so that the choice among equally distant points does not matter (mirror symmetry).
 NEIGHBOURS = 5
 # Lower bounds of the slope inside over that at the edge, and of 1 - κ s.
-MIN_SLOPE_RATIO, MIN_JACOBIAN = 0.1, 0.3
+MIN_SLOPE_RATIO = 0.1
+MIN_JACOBIAN = 0.3
 
 
 @dataclass(frozen=True)

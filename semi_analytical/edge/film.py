@@ -38,7 +38,8 @@ Response = Callable[[Field], Field]
 
 # Step and ranges of the logarithms of wavenumbers and distances, scaled by the thickness.
 STEP = 0.05
-WAVES, DISTANCES = (log(1e-8), log(1e8)), (log(1e-5), log(1e6))
+WAVES = (log(1e-8), log(1e8))
+DISTANCES = (log(1e-5), log(1e6))
 # Half the number of terms of the numerical Laplace inversion (Abate and Whitt 1995), error 1e-7.
 TERMS = 14
 # Distance from the edge over the width of a square beyond which two points yield its mean.
@@ -174,9 +175,9 @@ class FilmLaw:
         """
         root, step = np.sqrt(s), 0.02
         here, after, before = (self.over_root(s * f, c) for f in (1.0, 1 + step, 1 - step))
-        return np.stack([
-            root * here, (here / 2 + (after - before) / (2 * step)) / root, root, 0.5 / root
-        ])  # fmt: skip
+        return np.stack(
+            [root * here, (here / 2 + (after - before) / (2 * step)) / root, root, 0.5 / root]
+        )
 
     def _law_integrals(self, s: Field, c: Field) -> Field:
         """Integrate the edge pressure law of layered bodies, √s, and their derivatives from 0 to s.
@@ -192,12 +193,14 @@ class FilmLaw:
         first, second, third = self._interpolate_ratios(s)
         bent = c * s / 1.5
         of_root = s * root / 1.5
-        return np.stack([
-            of_root * (second + bent * (third - second)),
-            root * (first + bent * (second - first)),
-            of_root,
-            root,
-        ])  # fmt: skip
+        return np.stack(
+            [
+                of_root * (second + bent * (third - second)),
+                root * (first + bent * (second - first)),
+                of_root,
+                root,
+            ]
+        )
 
 
 def _euler_weights() -> Field:

@@ -30,7 +30,8 @@ from semi_analytical.operator.domain import WINDOW, ReducedDomain
 # Depth of the cells along the edge, in cells.
 ALONG = 1.5
 # Newton steps without and with an edge of the previous iteration.
-STEPS, STEPS_AGAIN = 5, 2
+STEPS = 5
+STEPS_AGAIN = 2
 # Least logarithmic derivative of the ratio. At the first plateau of the pressure on a film the data
 # hardly depend on the edge, and Newton's method would overshoot.
 MIN_SENSITIVITY = -0.7

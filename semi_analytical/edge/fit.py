@@ -38,7 +38,9 @@ class Stencil:
     width: float
 
 
-NARROW, WIDE, WIDER = Stencil(3, 1.7), Stencil(5, 2.5), Stencil(6, 3.0)
+NARROW = Stencil(3, 1.7)
+WIDE = Stencil(5, 2.5)
+WIDER = Stencil(6, 3.0)
 
 
 @dataclass(frozen=True)

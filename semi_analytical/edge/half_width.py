@@ -11,7 +11,8 @@ from contact_scene.array_types import Array, Mask
 
 # Strips of the fit, counted from the edge. The tractions of the outermost strips differ from the
 # means of the exact ones.
-FIRST, COUNT = 3, 8
+FIRST = 3
+COUNT = 8
 LEAST_COUNT = 4  # for a parabola with a residual
 # Largest distance of the root from the border of the outermost strip, in strips. The strip is in
 # contact if its centre is, to the error of its neighbours.

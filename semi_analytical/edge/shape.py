@@ -30,7 +30,8 @@ MAX_FIT_DEPTH = 3.5
 # Largest depth that is distinguished, in cells. Fits use shallower cells.
 DEEP = 13
 # Largest step towards the edge, and largest distance of the edge point, in cells.
-LONGEST_STEP, FARTHEST = 1.0, 2.0
+LONGEST_STEP = 1.0
+FARTHEST = 2.0
 REFITS = 3
 # Offsets to the cell itself, to side neighbours and to corner neighbours (2, 9, 1).
 STEPS = np.array([[0, 1, -1, 0, 0, 1, 1, -1, -1], [0, 0, 0, 1, -1, 1, -1, 1, -1]])[..., None]

@@ -29,11 +29,13 @@ from semi_analytical.operator.domain import WINDOW, ReducedDomain
 THICK = 1.9
 # Depths up to which subcells come from fits, and from second differences with weights that
 # decrease to zero. Deeper cells have slopes only, with an error of 1/500.
-FITTED, INSIDE = 2.5, 5.5
+FITTED = 2.5
+INSIDE = 5.5
 # Stencils wider than for exact means damp the spread of errors between cells. On films narrow fits
 # near a plateau of the pressure yield oscillating edges. A variable exponent is valid in the slip
 # zone only, which is often narrow.
-STENCIL, OF_FILM = Stencil(4, 2.2), WIDER
+STENCIL = Stencil(4, 2.2)
+OF_FILM = WIDER
 # Distance in cells by which the edge must pass a cell centre before the cell changes sides.
 # Without this margin cells alternate between both sides and the iteration does not converge.
 PASSED = 0.01
@@ -197,9 +199,15 @@ def fit_edge(
     if film is None:
         # Fits of other cells lag behind: φ and its weights are theirs, and a change alternates.
         shape = edge_shape(
-            scaled, region, STENCIL, rings=0, exponent=exponent, depth=depth, domain=domain,
+            scaled,
+            region,
+            STENCIL,
+            rings=0,
+            exponent=exponent,
+            depth=depth,
+            domain=domain,
             before=before.fits if before and same else None,
-        )  # fmt: skip
+        )
     else:
         line = before.line if before else None
         stencil = STENCIL if isinstance(exponent, np.ndarray) else OF_FILM

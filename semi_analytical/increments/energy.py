@@ -183,9 +183,12 @@ def add_increment_energy(
     work, worked, unresolved = _load_work(before, after), spent.input_work, spent.unresolved
     uncertain = spent.uncertain
     if (
-        work is None or dissipated is None or worked is None or unresolved is None
+        work is None
+        or dissipated is None
+        or worked is None
+        or unresolved is None
         or uncertain is None
-    ):  # fmt: skip
+    ):
         return Energy(elastic, None, None, None, None, max(spent.largest, elastic))
     work += worked
     unresolved += unresolved_work(before, after, cell_area)

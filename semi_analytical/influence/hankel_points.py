@@ -17,7 +17,8 @@ SMALLEST_PHASE = 1e-18
 # The integrand is multiplied by a window that falls around alpha r = FADE_CENTRE. The integral
 # beyond cancels, because the FRF is analytic in a sector about the real axis. The width suffices
 # for poles 30 degrees off the axis (see the tests).
-FADE_CENTRE, FADE_WIDTH = 96.0, 16.0
+FADE_CENTRE = 96.0
+FADE_WIDTH = 16.0
 
 
 def hankel_points(r: float, limit: float) -> tuple[Array, Array]:

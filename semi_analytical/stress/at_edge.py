@@ -23,9 +23,11 @@ Spacing = tuple[float, float]
 # Half side in cells of the box in which phi is one quadratic.
 BOX = 2
 # Subcells along a side of a cell: beyond the box, and in the box at a depth of one cell.
-PARTS, PARTS_AT_A_CELL = 4, 6
+PARTS = 4
+PARTS_AT_A_CELL = 6
 # Batch sizes: observers, and pairs of observer and subcell.
-OBSERVERS, SEEN = 64, 1 << 15
+OBSERVERS = 64
+SEEN = 1 << 15
 
 
 def stress_at_surface(

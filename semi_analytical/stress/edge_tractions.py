@@ -19,10 +19,12 @@ from semi_analytical.edge.shape import EdgeShape, distance_to, edge_shape
 from semi_analytical.stress.patch import PATCH
 
 # Depth of the cells that are divided into subcells, and their largest distance from the contact.
-TAKEN_APART, CUT = 3.5, 1.5
+TAKEN_APART = 3.5
+CUT = 1.5
 # Weight of the ratio of shear to pressure in slipping cells that are no data of the shape, and in
 # sticking cells.
-UNSURE, STUCK = 0.05, 1e-8
+UNSURE = 0.05
+STUCK = 1e-8
 
 
 @dataclass(frozen=True)

@@ -32,12 +32,17 @@ CORRECTED_STENCILS = ((NARROW, 1), (Stencil(4, 2.2), 1))
 # Comparison of the fits: number of points; they count where the tensile stress is within 1 - LARGE
 # of its maximum, relative to the size of stress; and the largest accepted difference. Beyond it the
 # stress at cell centres is nearer to the true one, as at a stiff film about one cell thick.
-COMPARED, LARGE, TOO_FAR_APART = 32, 0.8, 0.1
+COMPARED = 32
+LARGE = 0.8
+TOO_FAR_APART = 0.1
 # Least ratio of shear to pressure in slipping cells, relative to the largest; and the width in
 # cells of the annulus in which all cells must slip.
-SLIPPING, SLIPPING_RINGS = 0.999, 2.5
+SLIPPING = 0.999
+SLIPPING_RINGS = 2.5
 # Region of the correction in cells: distance from the edge, depth below it, and least depth > 0.
-BESIDE, BELOW, SHALLOWEST = 4.0, 4.0, 0.25
+BESIDE = 4.0
+BELOW = 4.0
+SHALLOWEST = 0.25
 # Signs of the components of stress at the mirror image about x = 0.
 SIGNS_ALONG_X = np.array([-1.0 if axes.count("x") == 1 else 1.0 for axes in FIELDS[STRESS]])[
     :, None, None

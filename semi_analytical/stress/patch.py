@@ -15,7 +15,8 @@ from semi_analytical.stress.components import STRESS
 from semi_analytical.stress.rectangle import half_space_response
 
 # Half sides of the patch and of the nodes of interpolation, in cells.
-PATCH, NODES = 8, 2
+PATCH = 8
+NODES = 2
 
 
 def stress_from_beyond(

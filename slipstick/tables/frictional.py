@@ -30,7 +30,9 @@ from radial.plan import PATH_INCREMENTS
 from slipstick.tables.table import RowValues
 
 # Units of the Hertz contact on the substrate: a_H = p_H = δ_H = 1, E*_2 = π/2, W = 2π/3.
-BALL, MODULUS, FORCE = Paraboloid(radius=1.0, material=RIGID), pi / 2, 2 * pi / 3
+BALL = Paraboloid(radius=1.0, material=RIGID)
+MODULUS = pi / 2
+FORCE = 2 * pi / 3
 CACHED = 16  # number of cached contacts
 # Error of the stick radius of the radial solver, in contact radii.
 FRONT = 1e-3

@@ -10,7 +10,8 @@ from verification.problems.cattaneo_mindlin import TWISTED, sheared
 from verification.problems.indentation import WEAK
 from verification.problems.problem import HERTZ
 
-PUSHED, PRESSED = sheared("pushed", (0.5,)), WEAK.problem(4)
+PUSHED = sheared("pushed", (0.5,))
+PRESSED = WEAK.problem(4)
 TABULATED = ("tabulated_pressure_error", "radial_shear_error")
 CASES = (  # problem, load step, norms on cells, norms on rings
     (PUSHED, 0, ("pressure_l1", "pressure_l2"), ("pressure_l2",)),

@@ -39,7 +39,9 @@ ON_ELEMENTS = Solver("slipstick, finite elements")
 ON_RADII = Solver("slipstick, radial")
 # On the coarsest level: cells per side, elements over the contact radius, and rings. Fields are
 # linear between rings, and scalars do not depend on them.
-CELLS, ELEMENTS, RINGS = 32, 16, 32
+CELLS = 32
+ELEMENTS = 16
+RINGS = 32
 INCREMENTS = 10  # on the coarsest level, of load steps that prescribe none
 HARMONICS = 8
 TOLERANCE = 1e-8
@@ -101,9 +103,11 @@ def scalar_result(posed: Posed, key: Key, steps: Sequence[State]) -> float | Non
 
 PER_INTERVAL = 4  # points of Gauss between two rings
 TRACTIONS = {
-    "pressure": "pressure", "shear_x": "shear_along_load", "shear_radial": "shear_radial",
+    "pressure": "pressure",
+    "shear_x": "shear_along_load",
+    "shear_radial": "shear_radial",
     "shear_around": "shear_circumferential",
-}  # fmt: skip
+}
 
 
 def answer_on_rings(posed: Posed, steps: Any, h: float) -> Answer:
@@ -209,9 +213,12 @@ def answer_on_radii(posed: Posed, level: int) -> Answer:
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 # Names of displacement by traction in the challenge, and of the influence coefficients.
 MOVED = {
-    "u_z_by_pressure": "zz", "u_x_by_shear_x": "xx", "u_y_by_shear_y": "yy",
-    "u_x_by_shear_y": "xy", "u_z_by_shear_x": "zx",
-}  # fmt: skip
+    "u_z_by_pressure": "zz",
+    "u_x_by_shear_x": "xx",
+    "u_y_by_shear_y": "yy",
+    "u_x_by_shear_y": "xy",
+    "u_z_by_shear_x": "zx",
+}
 
 
 def stress_at(result: Result, end: Increment, places: Vector) -> Vector:

@@ -195,18 +195,21 @@ def coated_paraboloid(
     )
     of_study = (
         Refined(
-            APPROACH, 2.0, 5e-5,
+            APPROACH,
+            2.0,
+            5e-5,
             "order 2 as for the homogeneous body; the cap is the figure required at 256 x 256",
         ),
         Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), EDGE),
-    )  # fmt: skip
+    )
     orders = (
         Falls(PRESSURE_L2, 1.0, "as for the homogeneous body: the square-root edge"),
         Falls(
-            CENTRAL_PRESSURE, 2.0,
+            CENTRAL_PRESSURE,
+            2.0,
             "as for the homogeneous body: the cells lie h/√2 from the axis",
         ),
-    )  # fmt: skip
+    )
     mean = Falls(APPROACH, 2.0, "as for the homogeneous body: the errors at the edge cancel")
     return case(
         "coated_paraboloid",
@@ -229,31 +232,40 @@ def coated_paraboloid(
             compare_runs(
                 f"constant_of_{row.what.name}",
                 f"{row.what.label}: error over that of the uncoated body, less 1",
-                (study.levels[-1], bare.levels[-1]), partial(_error_ratio, row.what), 0.3,
+                (study.levels[-1], bare.levels[-1]),
+                partial(_error_ratio, row.what),
+                0.3,
                 "the same scheme must have the same error constant, apart from the effect of the "
-                "pressure profile", "errors on equal grids per contact radius",
+                "pressure profile",
+                "errors on equal grids per contact radius",
             )
             for row in (*orders, mean)
         ),
         charts=(
             profile(
-                followed, "coated_profile",
+                followed,
+                "coated_profile",
                 "Pressure next to y = 0 under a coating of E1/E2 = 2",
                 f"Computed pressure on {cells_label(cells[-1])} cells, the semi-closed solution, "
                 "and their difference, in units of the peak pressure without coating.",
-                "p / p_H", HERTZ.peak_pressure, PRESSURE,
+                "p / p_H",
+                HERTZ.peak_pressure,
+                PRESSURE,
             ),
             convergence(
-                followed, orders, "coated_convergence",
+                followed,
+                orders,
+                "coated_convergence",
                 "Convergence of the coated and the uncoated contact",
                 "Relative errors against cell side, for the coating of E1/E2 = 2 and for the "
                 "homogeneous body. Orders are equal and constants nearly equal, because the "
                 "coefficients of the coated body are as exact as the closed form.",
-                also=(APPROACH,), beside={"uncoated": bare},
+                also=(APPROACH,),
+                beside={"uncoated": bare},
             ),
         ),
         shows=("(8)", "coatings"),
-    )  # fmt: skip
+    )
 
 
 def unlike_ratios(film: float, substrate: float) -> Problem:
@@ -293,9 +305,14 @@ def _normal_response(stack: Stack, k: Field) -> Field:
 
 def _semi_closed(scene: Any, exact: LayeredIndentation) -> Problem:
     return Problem(
-        scene, (exact,), exact.contact_radius, FREDHOLM, ReferenceKind.SEMI_CLOSED,
-        SEMI_CLOSED_ERROR, equations=(FREDHOLM_EQUATION,),
-    )  # fmt: skip
+        scene,
+        (exact,),
+        exact.contact_radius,
+        FREDHOLM,
+        ReferenceKind.SEMI_CLOSED,
+        SEMI_CLOSED_ERROR,
+        equations=(FREDHOLM_EQUATION,),
+    )
 
 
 def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
@@ -384,10 +401,11 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
     pairs = {
         "elastic ball on the coating": (ball(material=hard), coated(coating)),
         "coated ball on another coating": (
-            ball(film(0.5, 0.3), material=hard), coated(film(4.0, 0.5), film(0.25, 0.2)),
+            ball(film(0.5, 0.3), material=hard),
+            coated(film(4.0, 0.5), film(0.25, 0.2)),
         ),
         "soft film on a hard one": (rigid_ball(), coated(film(0.5, 0.2), film(4.0, 0.3))),
-    }  # fmt: skip
+    }
     problems = {
         name: hertzian(pressed(name, *bodies)) for name, bodies in (same | homogeneous).items()
     } | {
@@ -422,15 +440,19 @@ def layered_identities(level: Level = Level.QUICK, cells: int = 128) -> Case:
         ),
         quantities=tuple(
             compare_runs(
-                "same_pressure", "largest difference of the pressure over the largest pressure",
-                (other, first), pressure_difference, 1e-7, "the solver's tolerance, times ten",
+                "same_pressure",
+                "largest difference of the pressure over the largest pressure",
+                (other, first),
+                pressure_difference,
+                1e-7,
+                "the solver's tolerance, times ten",
                 "equivalent descriptions of the same bodies",
             )
             for other in others
         ),
         no_order=IDENTITY,
         shows=("(8)", "(14)"),
-    )  # fmt: skip
+    )
 
 
 @dataclass(frozen=True)
@@ -504,9 +526,10 @@ class ThinLayer:
             "different length scales"
         )
         over_leading_term = error_norm(
-            "load_over_leading_term", "load over the leading term for a >> h",
+            "load_over_leading_term",
+            "load over the leading term for a >> h",
             lambda result, *_: normal_force(result) / self.leading_load,
-        )  # fmt: skip
+        )
         return (
             Within(FORCE, 4e-4, why),
             Within(CENTRAL_PRESSURE, 4e-4, why),
@@ -523,15 +546,20 @@ class ThinLayer:
         """
         digits = 1e-6
         return Quantity(
-            "semi_closed_load", "load over the leading term, from the semi-closed solution", "",
-            self.name, lambda: self.exact.load / self.leading_load,
+            "semi_closed_load",
+            "load over the leading term, from the semi-closed solution",
+            "",
+            self.name,
+            lambda: self.exact.load / self.leading_load,
             Reference(
-                self.load_ratio, ReferenceKind.SEMI_CLOSED,
+                self.load_ratio,
+                ReferenceKind.SEMI_CLOSED,
                 "computed outside this program: two settings agree to the digits given",
                 0.5 * digits,
             ),
-            Required(digits, "the digits that are given"), runs=(),
-        )  # fmt: skip
+            Required(digits, "the digits that are given"),
+            runs=(),
+        )
 
 
 def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
@@ -549,7 +577,7 @@ def thin_layer(level: Level = Level.QUICK, cells: int = 0) -> Case:
         ThinLayer(0.3, 5.0, 1.104343),
         ThinLayer(0.3, 20.0, 1.024688),
         ThinLayer(0.5, 10.0, 2.233304),
-    )  # fmt: skip
+    )
     return case(
         "thin_layer",
         "Thin layers on a rigid base",
@@ -624,12 +652,19 @@ def film_stiffness(level: Level = Level.QUICK) -> Case:
         "response of this program and the semi-closed integral equation.",
         quantities=tuple(
             Quantity(
-                name, meaning, "", f"h/a = {depth:g}", partial(measure, depth),
+                name,
+                meaning,
+                "",
+                f"h/a = {depth:g}",
+                partial(measure, depth),
                 closed_form(
                     exact(depth),
                     "Gao, Chiu and Lee 1992, first order in the difference of film and substrate",
                 ),
-                leaves, 1.0, "1", runs=(),
+                leaves,
+                1.0,
+                "1",
+                runs=(),
             )
             for depth in (0.1, 0.5, 1.0, 3.0)
             for name, (meaning, measure, exact) in derivatives.items()
@@ -641,7 +676,7 @@ def film_stiffness(level: Level = Level.QUICK) -> Case:
         ),
         no_order="derivatives of a semi-closed solution: no grid is refined",
         shows=("coatings",),
-    )  # fmt: skip
+    )
 
 
 def fem_coated(
@@ -688,9 +723,12 @@ def fem_coated(
         *(judged(one, judged_rows) for one in ladders),
         charts=tuple(
             profile(
-                one, f"fem_coated_{number}", f"Pressure over the radius, {name}",
+                one,
+                f"fem_coated_{number}",
+                f"Pressure over the radius, {name}",
                 "Pressure by finite elements, the semi-closed solution, and their difference.",
-                "p / p_H", HERTZ.peak_pressure,
+                "p / p_H",
+                HERTZ.peak_pressure,
                 PRESSURE,
             )
             for number, (row, name, one) in enumerate(zip(rows, names, ladders, strict=True), 1)
@@ -698,7 +736,7 @@ def fem_coated(
         no_order="the solver fits its meshes to the contact, whose edge has any position in an "
         "element; fem_hertz judges orders with prescribed positions of the edge",
         shows=("finite elements", "coatings"),
-    )  # fmt: skip
+    )
 
 
 WITHIN = 0.995  # radii up to which pressures are compared: at the edge they have no finite slope
@@ -859,31 +897,49 @@ def layered_reference(level: Level = Level.QUICK) -> Case:
         "is shown.",
         quantities=(
             Quantity(
-                "scalars", "largest error of C₁₁, C₂₂, C_sh, each relative to itself, and of C₁₂ "
-                "relative to √(C₁₁C₂₂)", "", f"{len(FRF_ROWS)} rows",
-                partial(_worst_frf_error, 0), exact(frf, 1e-24), required, 1.0, "1", runs=(),
+                "scalars",
+                "largest error of C₁₁, C₂₂, C_sh, each relative to itself, and of C₁₂ "
+                "relative to √(C₁₁C₂₂)",
+                "",
+                f"{len(FRF_ROWS)} rows",
+                partial(_worst_frf_error, 0),
+                exact(frf, 1e-24),
+                required,
+                1.0,
+                "1",
+                runs=(),
             ),
             Quantity(
-                "matrix", "largest error of an entry relative to the largest entry", "",
-                f"{len(FRF_ROWS)} rows", partial(_worst_frf_error, 1), exact(frf, 1e-24),
-                required, 1.0, "1", runs=(),
+                "matrix",
+                "largest error of an entry relative to the largest entry",
+                "",
+                f"{len(FRF_ROWS)} rows",
+                partial(_worst_frf_error, 1),
+                exact(frf, 1e-24),
+                required,
+                1.0,
+                "1",
+                runs=(),
             ),
             Quantity(
-                "influence_coefficients", "largest error relative to the loaded cell's own "
-                "displacement", "",
+                "influence_coefficients",
+                "largest error relative to the loaded cell's own displacement",
+                "",
                 f"{len(COEFFICIENT_ROWS)} rows",
                 lambda: max(map(_coefficient_error, COEFFICIENT_ROWS)),
                 # Both programs, which share nothing, agree to rounding: the record is better than
                 # the 1e-12 that its integrals were asked for.
                 exact(COEFFICIENT_SOURCE, 1e-15),
                 Required(1e-14, "twenty times the rounding error"),
-                1.0, "1", runs=(),
+                1.0,
+                "1",
+                runs=(),
             ),
         ),
         equations=(FREQUENCY_RESPONSE,),
         no_order="both sides are exact in the wavenumber, or quadratures to rounding",
         shows=("(7)", "(8)", "(9)", "(10)", "(11)", "(12)", "(13)"),
-    )  # fmt: skip
+    )
 
 
 def frf_laws(level: Level = Level.QUICK) -> Case:
@@ -906,14 +962,21 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
         "violations.",
         quantities=tuple(
             Quantity(
-                law.name, f"{law.number}: {law.statement}", "", f"{law.draws} bodies",
+                law.name,
+                f"{law.number}: {law.statement}",
+                "",
+                f"{law.draws} bodies",
                 partial(worst_violation, law),
                 identity(0.0, f"property {law.number} of elastic layered half-spaces"),
                 Required(
-                    law.allowed, "bound of the law" if law.allowed == 1 else "rounding, or the "
-                    "law's own next order",
+                    law.allowed,
+                    "bound of the law"
+                    if law.allowed == 1
+                    else "rounding, or the law's own next order",
                 ),
-                1.0, "1", runs=(),
+                1.0,
+                "1",
+                runs=(),
             )
             for law in laws
         ),
@@ -924,4 +987,4 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
         ),
         no_order="laws of the response itself, in which nothing converges",
         shows=("(7)", "(12)", "(14)"),
-    )  # fmt: skip
+    )

@@ -79,12 +79,17 @@ def pushed(parts: Sequence[float]) -> Problem:
     ends = tuple(Stiffness(HERTZ.normal_stiffness, slope) for slope in slopes)
     scales = {OVER_STICK: slopes[0]}
     return replace(
-        known, scene=_requested(known.scene), ends=ends, source=SOURCE, scales=scales, equations=(
+        known,
+        scene=_requested(known.scene),
+        ends=ends,
+        source=SOURCE,
+        scales=scales,
+        equations=(
             r"\frac{dW}{d\delta} = 2 E^* a,\quad \frac{dT}{d\Delta} = 2 G^* a "
             r"\left(1 - \frac{|T|}{\mu W}\right)^{1/3},\quad "
             r"\frac{1}{G^*} = \sum \frac{2 - \nu}{4 G}",
         ),
-    )  # fmt: skip
+    )
 
 
 def twisted() -> Problem:

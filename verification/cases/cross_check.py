@@ -202,24 +202,32 @@ class Contact:
         """
         measures: dict[str, tuple[str, Callable[[int, Any, Any], float], float, str]] = {
             "pressure": (
-                "∫|Δp| dA / ∫p dA on the line of the load", partial(self.apart, "pressure"), 2e-3,
+                "∫|Δp| dA / ∫p dA on the line of the load",
+                partial(self.apart, "pressure"),
+                2e-3,
                 HAND,
             ),
             "approach": (
                 "approach, relative",
                 lambda k, one, other: abs(one.steps[k].approach / other.steps[k].approach - 1),
-                2e-4, HAND,
+                2e-4,
+                HAND,
             ),
-        }  # fmt: skip
+        }
         if self.friction:
             measures["shear"] = (
-                "∫|Δq| dA / ∫µp dA on the line of the load", partial(self.apart, "shear"), 1e-2,
+                "∫|Δq| dA / ∫µp dA on the line of the load",
+                partial(self.apart, "shear"),
+                1e-2,
                 ASKED,
-            )  # fmt: skip
+            )
         if self.harmonics:  # otherwise the stick radius is known to one element only
             measures["stick_area"] = (
-                "stick area over contact area", _stick_apart, 3e-2, ASKED,
-            )  # fmt: skip
+                "stick area over contact area",
+                _stick_apart,
+                3e-2,
+                ASKED,
+            )
             measures["shift"] = ("shift, relative", shift_apart, 1.5e-3, HAND)
         parts = (0.0, *PARTS) if self.harmonics else (0.0,)
         return tuple(
@@ -227,17 +235,19 @@ class Contact:
                 f"{name}_difference" + (f"_at_{part:g}" if self.harmonics else ""),
                 f"difference of two solvers: {meaning}"
                 + (f", at {part:g} µW" if self.harmonics else ""),
-                (one.label, other.label), partial(difference, step),
+                (one.label, other.label),
+                partial(difference, step),
                 allowed * (ON_FEW_RINGS if name == "shear" and self.harmonics and rings else 1.0),
                 because,
-                "the other solver, on the same increments", ReferenceKind.OTHER_SOLVER,
+                "the other solver, on the same increments",
+                ReferenceKind.OTHER_SOLVER,
             )
             for one, other in combinations(self.runs, 2)
             for rings in (isinstance(other, RadiiRun),)
             for step, part in enumerate(parts)
             for name, (meaning, difference, allowed, because) in measures.items()
             if part or name != "shift"
-        )  # fmt: skip
+        )
 
     def stress_apart(self, one: Any, other: Any) -> float:
         """Compute the largest stress difference between cells and finite elements, over the peak
@@ -387,10 +397,14 @@ def cross_check(level: Level = Level.QUICK, given: tuple[Contact, ...] = ()) -> 
                 "stress_difference",
                 "largest difference of a component of the stress over p₀: on the axis from 0.1 "
                 "to 3 contact radii, above the interface and below it",
-                (first.runs[0].label, first.runs[1].label), first.stress_apart, 5e-3,
+                (first.runs[0].label, first.runs[1].label),
+                first.stress_apart,
+                5e-3,
                 "set by hand: five times the error of the stress recovery of elements, against "
                 "Huber's stress on an equally fine mesh",
-                "the other solver, on the same increments", ReferenceKind.OTHER_SOLVER, 1e-3,
+                "the other solver, on the same increments",
+                ReferenceKind.OTHER_SOLVER,
+                1e-3,
             ),
         ),
         charts=(
@@ -413,14 +427,15 @@ def cross_check(level: Level = Level.QUICK, given: tuple[Contact, ...] = ()) -> 
         no_order="two solvers are compared on one discretisation; orders are judged in cases "
         "with a known solution",
         shows=("figure 3", "figure 4", "coated friction"),
-    )  # fmt: skip
+    )
 
 
 LEFT_OF_CORRECTION = 1 / 20
 NAME = "external_code_calculix"
 # The recorded ball: W [N], R [mm], E [MPa], ν. Its gap is measured on the moved surface, which
 # raises the load by (1-2ν)(1+ν) p_H / 2E.
-MODULUS, RATIO = 210e3, 0.3
+MODULUS = 210e3
+RATIO = 0.3
 RECORDED_BALL = PointContact.under_load(10.0, 1800.0, MODULUS / (1 - RATIO**2))
 MOVED_GAP = (1 - 2 * RATIO) * (1 + RATIO) * RECORDED_BALL.peak_pressure / (2 * MODULUS)
 
@@ -524,7 +539,8 @@ def recorded(name: str) -> Recorded:
 
 FIRST = 0.1  # Hertz radii; nearer to the axis are its bore and, with friction, a cusp
 EDGE = 3 / 16  # Hertz radii, three elements of the coarser mesh; its edge ripples that far
-FORCE_ERROR, TRACTION_ERROR = 2e-4, 1e-3
+FORCE_ERROR = 2e-4
+TRACTION_ERROR = 1e-3
 OURS = (
     "twice the root sum of squares of the recorded uncertainty and that of this program: "
     f"{FORCE_ERROR:g} of the force, {TRACTION_ERROR:g} of p_H and µp_H, as for the semi-closed "
@@ -586,10 +602,11 @@ def _recorded_parts(name: str, of: Recorded, cells: int, elements: int) -> tuple
     return tuple(
         judged(replace(ladder, problem=answer), (within,))
         for ladder in (
-            on_elements(problem, (elements,), of=name), on_cells(problem, (cells,), of=name)
+            on_elements(problem, (elements,), of=name),
+            on_cells(problem, (cells,), of=name),
         )
         for answer, within in rows
-    )  # fmt: skip
+    )
 
 
 def _traction_row(
@@ -615,9 +632,11 @@ def _traction_row(
         return float(np.max(np.abs(found - known.values[:, None]))) / part
 
     what = error_norm(
-        name, f"largest difference of the {name} from {FIRST:g} to {last:.2g} a_H, over {unit}",
-        largest_difference, unit,
-    )  # fmt: skip
+        name,
+        f"largest difference of the {name} from {FIRST:g} to {last:.2g} a_H, over {unit}",
+        largest_difference,
+        unit,
+    )
     within = Within(what, 2 * math.hypot(uncertainty, TRACTION_ERROR), OURS)
     return replace(problem, uncertainty=uncertainty), within
 

@@ -116,10 +116,17 @@ FINE = 40  # points of the closed form per branch
 
 # Marked states of the loop: name, loading step, T/µW.
 STATES = (
-    ("A", 2, 0.45), ("B", 2, 0.9),
-    ("C", 3, 0.45), ("D", 3, 0.0), ("E", 3, -0.45), ("F", 3, -0.9),
-    ("G", 4, -0.45), ("H", 4, 0.0), ("I", 4, 0.45), ("J", 4, 0.9),
-)  # fmt: skip
+    ("A", 2, 0.45),
+    ("B", 2, 0.9),
+    ("C", 3, 0.45),
+    ("D", 3, 0.0),
+    ("E", 3, -0.45),
+    ("F", 3, -0.9),
+    ("G", 4, -0.45),
+    ("H", 4, 0.0),
+    ("I", 4, 0.45),
+    ("J", 4, 0.9),
+)
 BRANCHES = {2: "loading", 3: "unloading", 4: "reloading"}
 
 
@@ -176,12 +183,14 @@ def loading_history_chart(result: Result) -> Chart:
         curves=(
             curve("", time, force, series=0),
             curve(
-                "states of figure 2", [t for t, _, _ in marked], [f for _, f, _ in marked],
+                "states of figure 2",
+                [t for t, _, _ in marked],
+                [f for _, f, _ in marked],
                 Look.MARKS,
             ),
         ),
         notes=tuple(marked),
-    )  # fmt: skip
+    )
     return Chart(
         name="paper_figure_1",
         title="Figure 1 of the paper: the loading history in a fretting loop",
@@ -231,11 +240,16 @@ def tractions_chart(result: Result, exact: ExactLoop) -> Chart:
         ]
         bounds = [curve("± µp / µp₀", x, limit, Look.BOUND), curve("", x, -limit, Look.BOUND)]
         panels.append(
-            (Panel(
-                x_label="x / a" if step == max(BRANCHES) else "", y_label="qₓ / µp₀",
-                curves=(*bounds, *grey, *colour), title=branch, height=1.4,
-            ),)
-        )  # fmt: skip
+            (
+                Panel(
+                    x_label="x / a" if step == max(BRANCHES) else "",
+                    y_label="qₓ / µp₀",
+                    curves=(*bounds, *grey, *colour),
+                    title=branch,
+                    height=1.4,
+                ),
+            )
+        )
     return Chart(
         name="paper_figure_2",
         title="Figure 2 of the paper: contact tractions in a fretting loop",
@@ -307,10 +321,12 @@ def _cycle_rows() -> tuple[Row, ...]:
         source="first law",
     )
     amplitude = Observable(
-        "slip_amplitude", "half the range of slip in the cycle, maximum over the contact", "m",
+        "slip_amplitude",
+        "half the range of slip in the cycle, maximum over the contact",
+        "m",
         lambda result, *_: loop_cycle(result).largest_slip,
         lambda exact: float(exact.cycled.slip_amplitude(HERTZ.contact_radius)),
-    )  # fmt: skip
+    )
     amplitude_error = error_norm(
         "largest_slip_amplitude_error",
         "largest difference of half the range of slip in the contact",
@@ -326,48 +342,58 @@ def _cycle_rows() -> tuple[Row, ...]:
         over=OVER_LARGEST_WAY,
     )
     f1 = Observable(
-        "ruiz_f1", "largest shear times slip amplitude", "Pa m",
+        "ruiz_f1",
+        "largest shear times slip amplitude",
+        "Pa m",
         lambda result, *_: float(np.max(loop_cycle(result).ruiz_f1)),
-        lambda exact: float(exact.cycled.largest_f1), source=ruiz,
-    )  # fmt: skip
+        lambda exact: float(exact.cycled.largest_f1),
+        source=ruiz,
+    )
     f2 = Observable(
-        "ruiz_f2", "largest shear times slip amplitude times tensile stress of the surface",
+        "ruiz_f2",
+        "largest shear times slip amplitude times tensile stress of the surface",
         "Pa^2 m",
         lambda result, *_: largest_f2(result),
-        lambda exact: float(exact.cycled.largest_f2), source=ruiz,
-    )  # fmt: skip
+        lambda exact: float(exact.cycled.largest_f2),
+        source=ruiz,
+    )
     rows = (
         Within(LARGEST_SHEAR_ERROR, shear_allowed, ASKED),
         Within(LARGEST_SHIFT_ERROR, 1e-4, ASKED),
         Within(
-            LARGEST_STICK_RADIUS_ERROR, part_of_side(0.2),
+            LARGEST_STICK_RADIUS_ERROR,
+            part_of_side(0.2),
             "a fifth of a cell, as for cattaneo_mindlin",
         ),
         Within(ENERGY_PER_CYCLE, 5e-4, ASKED),
         Within(imbalance, 1e-6, ASKED),
         Within(
-            amplitude, part_of_side(1.5),
+            amplitude,
+            part_of_side(1.5),
             "slip is largest at the edge, and is known at cells through which the edge passes: "
             "up to half a cell from the edge, where its relative error is three times that "
             "distance over the radius",
         ),
         Within(
-            amplitude_error, 1e-3,
+            amplitude_error,
+            1e-3,
             "the accuracy target of the shear on 256 cells; both errors fall with the power 3/2 "
             "of the cell",
         ),
         Within(
-            distance_error, 1e-3,
+            distance_error,
+            1e-3,
             "as for the slip amplitude, of which it is five times: once in the first loading, "
             "twice in each half cycle",
         ),
         Within(f1, 1e-3, "as for the slip amplitude: both factors are known at the same cells"),
         Within(
-            f2, 3e-2,
+            f2,
+            3e-2,
             "the maximum is 0.03 a from the edge, where the shear ends as a square root and the "
             "stress of cells of constant shear has an error of the order of the root of the cell",
         ),
-    )  # fmt: skip
+    )
     return tuple(replace(row, each=True) for row in rows)
 
 
@@ -451,26 +477,33 @@ def paper_fretting_loop(level: Level = Level.QUICK) -> Case:
         Within(LARGEST_SHIFT_ERROR, 0.01, band),
         Within(ENERGY_PER_CYCLE, 0.02, band),
         reported(
-            "transverse_shear", "largest |q_y| / µp₀ at the end of the first loading", "",
+            "transverse_shear",
+            "largest |q_y| / µp₀ at the end of the first loading",
+            "",
             lambda result: transverse_shear(result.steps[LOADED - 1], FRICTION),
         ),
         reported(
-            "largest_transverse_shear", "largest |q_y| / µp₀ of any increment", "",
+            "largest_transverse_shear",
+            "largest |q_y| / µp₀ of any increment",
+            "",
             lambda result: np.max([transverse_shear(i, FRICTION) for i in result.increments]),
         ),
         reported(
             "slip_direction_deviation",
             "largest angle between shear and x axis in the slip ring, end of the first loading",
-            "°", lambda result: slip_traction_angle(result.steps[LOADED - 1], FRICTION),
+            "°",
+            lambda result: slip_traction_angle(result.steps[LOADED - 1], FRICTION),
             "zero in the closed form: the angle between its slip and its traction would be of "
             "this size",
         ),
         reported(
-            "shift_at_amplitude", "shift at 0.9 µW over the closed form's, less one", "",
+            "shift_at_amplitude",
+            "shift at 0.9 µW over the closed form's, less one",
+            "",
             lambda result: shift_along_x(result.steps[LOADED - 1]) / exact.end.shift - 1,
             "the vector law makes the contact stiffer",
         ),
-    )  # fmt: skip
+    )
 
     def drawn(results: Mapping[str, Any]) -> Any:
         return results[run.judged.run.label]
@@ -506,11 +539,9 @@ LOOP = fretting_loop_problem(
 )
 # Tolerances of shift, energy and shear at 64 elements per radius; their order of convergence.
 ORDER = 1.5
-OF_SHIFT, OF_ENERGY, OF_SHEAR = (
-    scaled_tolerance(5e-4, ORDER),
-    scaled_tolerance(1e-3, ORDER),
-    scaled_tolerance(1e-2, ORDER),
-)
+OF_SHIFT = scaled_tolerance(5e-4, ORDER)
+OF_ENERGY = scaled_tolerance(1e-3, ORDER)
+OF_SHEAR = scaled_tolerance(1e-2, ORDER)
 WHY = (
     "set by hand: 5e-4 of the shift, 1e-3 of the energy and 1e-2 of µp_H at 64 elements per "
     "radius; on other meshes scaled by the order 3/2 of cusps at moving edges"
@@ -617,35 +648,40 @@ def fem_partial_slip(
         *(Within(SHIFT.at(*stop, "µW"), OF_SHIFT, WHY) for stop in also_by_cells.items()),
         *(
             Within(
-                STICK_RADIUS.at(*stop, "µW"), part_of_side(0.1),
+                STICK_RADIUS.at(*stop, "µW"),
+                part_of_side(0.1),
                 "a tenth of an element: the edge is extrapolated from the last values",
             )
             for stop in also_by_cells.items()
         ),
         Within(ENERGY.at(5, STOPPED[5], "µW"), OF_ENERGY, WHY),
-    )  # fmt: skip
+    )
     falls = (
         Falls(
-            SHEAR.over_stops(listed), ORDER,
+            SHEAR.over_stops(listed),
+            ORDER,
             f"{SQUARE_ROOTS}: an error of O(√h) on rings one element wide leaves O(h^3/2) in L1",
         ),
         Falls(
-            SHIFT.over_stops(listed), 2.0,
+            SHIFT.over_stops(listed),
+            2.0,
             "the shift is the difference of two approaches, of the contact and of the stick zone "
             "(Cattaneo); each has an error of h²/R times a number that depends on the position "
             "of the edge in its element",
         ),
         Falls(
-            WORK.over_stops(listed), 2.0,
+            WORK.over_stops(listed),
+            2.0,
             "the difference of the area below the curve of approach over load from its "
             "trapezium: the error is that of the approaches at its ends",
         ),
-    )  # fmt: skip
+    )
     stick_of_loop = Within(
-        LARGEST_STICK_RADIUS_ERROR, part_of_side(0.2),
+        LARGEST_STICK_RADIUS_ERROR,
+        part_of_side(0.2),
         "a fifth of an element: the edge is extrapolated from the last values, which an older "
         "edge nearby disturbs",
-    )  # fmt: skip
+    )
     return case(
         "fem_partial_slip",
         "Finite elements: fretting loop",
@@ -660,17 +696,23 @@ def fem_partial_slip(
         charts=(
             *(
                 _loop_profile(
-                    mesh, step, f"fem_partial_slip_{name}", name,
+                    mesh,
+                    step,
+                    f"fem_partial_slip_{name}",
+                    name,
                     f"Shear by finite elements and by the closed form at {force} µW, and their "
                     "difference.",
                 )
                 for step, name, force in (
-                    (LOADED, "loaded", "0.9"), (LOADED + 1, "reversed", "-0.9"),
+                    (LOADED, "loaded", "0.9"),
+                    (LOADED + 1, "reversed", "-0.9"),
                 )
             ),
             *(
                 convergence(
-                    one, falls, "fem_partial_slip_convergence",
+                    one,
+                    falls,
+                    "fem_partial_slip_convergence",
                     "Convergence under a tangential force",
                     f"Errors at {listed}, root mean square, against the side of an element over "
                     "the contact radius.",
@@ -682,7 +724,7 @@ def fem_partial_slip(
         limits=(ACROSS,),
         no_order="" if orders else "orders are judged above the quick level",
         shows=("finite elements", "load history"),
-    )  # fmt: skip
+    )
 
 
 def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
@@ -704,12 +746,13 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
         for stop in TORQUE_PARTS.items()
         for row in (
             Within(
-                TWIST.at(*stop, SLIDING), lambda rung: 2 * OF_SHIFT(rung),
+                TWIST.at(*stop, SLIDING),
+                lambda rung: 2 * OF_SHIFT(rung),
                 "twice the tolerance of the shift of the loop, for the same reason",
             ),
             Within(SHEAR_AROUND.at(*stop, SLIDING), OF_SHEAR, WHY),
         )
-    )  # fmt: skip
+    )
     return case(
         "fem_penalty_slip",
         "Finite elements with a penalty: fretting loop and torsion",
@@ -721,15 +764,19 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
         charts=(
             _loop_profile(of_loop, LOADED, "fem_penalty_slip_loop", "at 0.9 µW", gauss),
             profile(
-                ball, "fem_penalty_slip_torsion",
-                f"Shear over the radius, at {TORQUE_PARTS[2]:g} {SLIDING}", gauss, "q / µp₀",
-                TWISTED.scale(OVER_LIMIT), shear_around(2),
+                ball,
+                "fem_penalty_slip_torsion",
+                f"Shear over the radius, at {TORQUE_PARTS[2]:g} {SLIDING}",
+                gauss,
+                "q / µp₀",
+                TWISTED.scale(OVER_LIMIT),
+                shear_around(2),
             ),
         ),
         limits=(ACROSS,),
         no_order=JUDGED_BY.format("fem_partial_slip and fem_torsion"),
         shows=("penalty",),
-    )  # fmt: skip
+    )
 
 
 def _shear_of_circle(result: Any, step: int, problem: Problem) -> float:
@@ -864,9 +911,12 @@ def radial_tangential(level: Level = Level.QUICK) -> Case:
         "shear", "mean error of q_x over the contact{when}", _shear_of_circle, OVER_LIMIT
     )
     at_reversals = error_norm(
-        "shift_at_reversals", "largest error of the shift at the reversals", _shift_at_reversals,
-        unit="m", over=OVER_SLIDING_SHIFT,
-    )  # fmt: skip
+        "shift_at_reversals",
+        "largest error of the shift at the reversals",
+        _shift_at_reversals,
+        unit="m",
+        over=OVER_SLIDING_SHIFT,
+    )
     of_loop = (
         Within(at_reversals, 5e-4, of_rings),
         Within(
@@ -883,9 +933,10 @@ def radial_tangential(level: Level = Level.QUICK) -> Case:
     scene = pressed.scene.model_copy(update={"loading": (*pressed.scene.loading, push)})
     coated = replace(pressed, scene=scene, ends=(COATED, None))
     of_pressing = Within(
-        replace(APPROACH, step=0), 5e-6,
+        replace(APPROACH, step=0),
+        5e-6,
         "set by hand: rings laid out for a tangential load, 20 increments",
-    )  # fmt: skip
+    )
     at_last = Within(
         shear.at(3, stops[3], "µW"), 5e-3, "accuracy target of the radial solver, for the mean"
     )

@@ -112,7 +112,8 @@ from verification.problems.problem import (
 from verification.quantities import shear_of, shift_along_x
 
 # Range of log(c/a) in which doubles differ from 0 (for the square) and from 1.
-SMALLEST, LARGEST = -340.0, -(2.0**-52)
+SMALLEST = -340.0
+LARGEST = -(2.0**-52)
 
 
 def stick_ratio(friction: float, dundurs_beta: float) -> float:
@@ -145,14 +146,17 @@ def stick_ratio(friction: float, dundurs_beta: float) -> float:
 
 
 PRESSURE = error_norm(
-    "pressure", "largest error of the pressure from {between} of the radius, over p_H",
-    field_errors.tabulated_pressure_error, "p_H, the peak pressure without friction",
-)  # fmt: skip
+    "pressure",
+    "largest error of the pressure from {between} of the radius, over p_H",
+    field_errors.tabulated_pressure_error,
+    "p_H, the peak pressure without friction",
+)
 SHEAR = error_norm(
-    "shear", "largest error of the shear from {between} of the radius, {but}over µp_H",
+    "shear",
+    "largest error of the shear from {between} of the radius, {but}over µp_H",
     field_errors.radial_shear_error,
     OVER_LIMIT,
-)  # fmt: skip
+)
 SHEAR_AT_EDGE = error_norm(
     "shear_at_stick_edge",
     "the same within two cells of the stick edge",
@@ -196,10 +200,12 @@ def _interpolation_weights(to: int, of: int) -> Field:
 
 ONE = "1"
 STICK_PART = Observable(
-    "stick_radius", "stick radius over contact radius", "",
+    "stick_radius",
+    "stick radius over contact radius",
+    "",
     lambda result, *_: stick_radius(result) / contact_radius(result),
     lambda exact: float(exact.stick_part),
-)  # fmt: skip
+)
 
 
 def _profile_drawings(
@@ -219,28 +225,31 @@ def _profile_drawings(
     fields = {
         "pressure": ("p / p_H", of.problem.scale(OVER_PEAK), DRAWN_PRESSURE),
         "shear": (
-            "|q| / µp_H", of.problem.scale(OVER_LIMIT),
+            "|q| / µp_H",
+            of.problem.scale(OVER_LIMIT),
             Drawn(
                 lambda end: np.hypot(*shear_of(end)),
                 lambda exact: lambda r: np.abs(exact.shear(r)),
             ),
         ),
         "outward shear": (
-            "q / µp_H", of.problem.scale(OVER_LIMIT),
+            "q / µp_H",
+            of.problem.scale(OVER_LIMIT),
             Drawn(lambda end: end.shear_radial, lambda exact: exact.shear),
         ),
-    }  # fmt: skip
+    }
     count = of.problem.scene.loading[0].increments
     return [
         profile(
-            of, f"{name}_{one.file_name}" + ("_pressure" if field == "pressure" else ""),
+            of,
+            f"{name}_{one.file_name}" + ("_pressure" if field == "pressure" else ""),
             f"{field.capitalize()} over the radius, {one.name}",
             f"{field.capitalize()} by {by} after {count} increments, the reference, and their "
             "difference. The shear depends on the whole load history.",
             *fields[field],
         )
         for field in drawn
-    ]  # fmt: skip
+    ]
 
 
 def frictional_indentation(level: Level = Level.QUICK) -> Case:
@@ -382,13 +391,15 @@ class Refined:
             levels = [results[run.label] for run in self.runs]
             pairs = list(zip(levels, levels[self.apart :], strict=False))
             return convergence_chart(
-                name, title, caption,
+                name,
+                title,
+                caption,
                 [self.size(coarse) for coarse, _ in pairs],
                 {one.of.value: [one.error(*pair) for pair in pairs] for one in self.changes},
                 {one.of.value: one.expected for one in self.changes},
                 self.x_label,
                 {of.value: len(pairs) - count for of, count in self.left_out.items()},
-            )  # fmt: skip
+            )
 
         return draw
 
@@ -446,16 +457,16 @@ def _increment_size(result: Any) -> float:
 # superposition of Spence's punches, with δ R = 1.04015 a² (δ: approach, a: contact radius).
 HALF = Indentation(
     {
-        "mu": 0.2986, "c_over_a": 0.49972, "a_over_aH": 0.97037,
+        "mu": 0.2986,
+        "c_over_a": 0.49972,
+        "a_over_aH": 0.97037,
         "delta_over_deltaH": 1.04015 * 0.97037**2,
     },
     "ν = 0, µ = 0.2986",
     "half",
-    Body(
-        material=IsotropicMaterial(young_modulus=CONTACT_MODULUS, poisson_ratio=0.0)
-    ),
+    Body(material=IsotropicMaterial(young_modulus=CONTACT_MODULUS, poisson_ratio=0.0)),
     "self-similar (Spence 1975), to five digits",
-)  # fmt: skip
+)
 FIVE_DIGITS = 0.5e-5 / 0.49972
 KEPT_SLIP = (
     "slip keeps its direction while the contact grows; the errors of the increments in the stick "
@@ -520,31 +531,47 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
         "leaves O(h^3/2) in L1"
     )
     meshes = Refined(
-        tuple(_half_on_cells(count, 20) for count in cells), Refinement.MESH,
-        lambda result: result.grid.spacing[0] / HALF.contact_radius, "cell side / contact radius",
+        tuple(_half_on_cells(count, 20) for count in cells),
+        Refinement.MESH,
+        lambda result: result.grid.spacing[0] / HALF.contact_radius,
+        "cell side / contact radius",
         (
             change(
-                Followed.SHEAR, "shear (L1) with 20 increments", _shear_change, 1.5, edges,
+                Followed.SHEAR,
+                "shear (L1) with 20 increments",
+                _shear_change,
+                1.5,
+                edges,
                 name="shear_in_cells",
             ),
         ),
         apart=2,
-    )  # fmt: skip
+    )
     paths = Refined(
-        tuple(_half_on_cells(128, count) for count in increments), Refinement.INCREMENTS,
-        _increment_size, "1 / increments",
+        tuple(_half_on_cells(128, count) for count in increments),
+        Refinement.INCREMENTS,
+        _increment_size,
+        "1 / increments",
         (
             change(
-                Followed.APPROACH, "approach on 128 x 128 cells", _approach_change, 2.0, KEPT_SLIP,
+                Followed.APPROACH,
+                "approach on 128 x 128 cells",
+                _approach_change,
+                2.0,
+                KEPT_SLIP,
                 name="approach_in_increments",
             ),
             change(
-                Followed.SHEAR, "shear (L1) on 128 x 128 cells", _shear_change, 1.5, FIXED_SHEAR,
+                Followed.SHEAR,
+                "shear (L1) on 128 x 128 cells",
+                _shear_change,
+                1.5,
+                FIXED_SHEAR,
                 name="shear_in_increments",
             ),
         ),
         apart=2,
-    )  # fmt: skip
+    )
     series = () if level is Level.QUICK else (meshes, paths)
     return case(
         "indentation_refinement",
@@ -557,27 +584,39 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
         orders=tuple(order for one in series for order in one.orders),
         quantities=(
             compare_runs(
-                "approach", "relative error of the approach, extrapolated from 8 and 16 "
-                "increments with second order", (few.label, many.label), _approach_error, 2e-4,
-                "accuracy target of frictional_indentation, there on 256 x 256 cells", HALF.source,
-                ReferenceKind.SEMI_CLOSED, FIVE_DIGITS,
+                "approach",
+                "relative error of the approach, extrapolated from 8 and 16 "
+                "increments with second order",
+                (few.label, many.label),
+                _approach_error,
+                2e-4,
+                "accuracy target of frictional_indentation, there on 256 x 256 cells",
+                HALF.source,
+                ReferenceKind.SEMI_CLOSED,
+                FIVE_DIGITS,
             ),
             compare_runs(
-                "stick_radius", "relative error of the stick radius, extrapolated from 8 and 16 "
-                "increments", (few.label, many.label), _stick_error,
+                "stick_radius",
+                "relative error of the stick radius, extrapolated from 8 and 16 increments",
+                (few.label, many.label),
+                _stick_error,
                 # Half a cell of the quick grid, over the stick radius.
                 0.5 * WINDOW_PER_RADIUS / 64 / HALF.stick_part,
                 "half a cell: the stick edge moves by cells from increment to increment",
-                HALF.source, ReferenceKind.SEMI_CLOSED, FIVE_DIGITS,
+                HALF.source,
+                ReferenceKind.SEMI_CLOSED,
+                FIVE_DIGITS,
             ),
         ),
         charts=(
             meshes.chart(
-                "indentation_cells", "Smaller cells",
+                "indentation_cells",
+                "Smaller cells",
                 "Change on grids finer by about √2 with 20 increments, against cell side.",
             ),
             paths.chart(
-                "indentation_increments", "Smaller increments",
+                "indentation_increments",
+                "Smaller increments",
                 "Change by twice the increments on 128 x 128 cells.",
             ),
         )
@@ -590,7 +629,7 @@ def indentation_refinement(level: Level = Level.QUICK) -> Case:
         equations=HALF.problem(1).equations,
         no_order="" if series else "orders are judged above the quick level",
         shows=("increments",),
-    )  # fmt: skip
+    )
 
 
 def sheared_increments(
@@ -628,7 +667,8 @@ def sheared_increments(
             scene.model_copy(
                 update={
                     "loading": (
-                        pressing(count), LoadStep(tangential_force=push, increments=count),
+                        pressing(count),
+                        LoadStep(tangential_force=push, increments=count),
                     )
                 }
             ),
@@ -636,20 +676,24 @@ def sheared_increments(
             edge=edge,
         )
         for count in counts
-    )  # fmt: skip
+    )
     backward = (
         "the direction of slip and the friction limit change during an increment, which takes "
         "both at its end: the backward Euler rule"
     )
     paths = Refined(
-        runs, Refinement.INCREMENTS, _increment_size, "1 / increments of a step",
+        runs,
+        Refinement.INCREMENTS,
+        _increment_size,
+        "1 / increments of a step",
         (
             change(Followed.SHIFT, "tangential shift", _shift_change, 1.0, backward, name="shift"),
             change(Followed.SHEAR, "shear (L1)", _shear_change, 1.0, backward),
             change(Followed.APPROACH, "approach", _approach_change, 1.0, backward),
         ),
-        apart=1, left_out={Followed.APPROACH: 1},
-    )  # fmt: skip
+        apart=1,
+        left_out={Followed.APPROACH: 1},
+    )
     return case(
         "sheared_increments",
         "Tangential loading of a coupled contact in smaller increments",
@@ -662,17 +706,22 @@ def sheared_increments(
         orders=paths.orders if several else (),
         quantities=(
             compare_runs(
-                "shift", f"change of the shift from {counts[-2]} to {counts[-1]} increments",
-                (runs[-2].label, runs[-1].label), _shift_change, 2e-2 * 4 / counts[-2],
+                "shift",
+                f"change of the shift from {counts[-2]} to {counts[-1]} increments",
+                (runs[-2].label, runs[-1].label),
+                _shift_change,
+                2e-2 * 4 / counts[-2],
                 "2 % from 4 to 8 increments, and half of that with each further doubling: first "
                 "order",
-                "the same solver with half the increments", ReferenceKind.OWN_REFINEMENT,
+                "the same solver with half the increments",
+                ReferenceKind.OWN_REFINEMENT,
                 coarse=runs[-2].label,
             ),
         ),
         charts=(
             paths.chart(
-                "sheared_increments", "Smaller increments under a tangential force",
+                "sheared_increments",
+                "Smaller increments under a tangential force",
                 f"Change with twice the increments on {cells} x {cells} cells. Lines connect the "
                 "levels that are judged; other levels are points.",
             ),
@@ -693,7 +742,7 @@ def sheared_increments(
         ),
         no_order="" if several else "orders are judged above the quick level",
         shows=("increments", "coated friction"),
-    )  # fmt: skip
+    )
 
 
 NO_SLIP_SOURCE = "Mossakovskii 1963; Spence 1968: (1 - ν) ln(3 - 4ν) / (1 - 2ν)"
@@ -729,9 +778,14 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
     punch = FlatPunch(radius=HERTZ.contact_radius, material=RIGID)
 
     def run(
-        label: str, title: str, indenter: Any, nu: float, friction: Any, count: int,
+        label: str,
+        title: str,
+        indenter: Any,
+        nu: float,
+        friction: Any,
+        count: int,
         edge: EdgeCorrection = "last",
-    ) -> Run:  # fmt: skip
+    ) -> Run:
         scene = pressed(title, indenter, half_space(nu), pressing(count), friction=friction)
         return Run(label, scene, grid, edge=edge)
 
@@ -749,13 +803,18 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
     balls = {
         nu: [
             run(
-                f"ball, ν = {nu:g}, {count} increments, edge off", "Rigid ball that does not slip",
-                rigid_ball(), nu, NO_SLIP_FRICTION, count, "off",
+                f"ball, ν = {nu:g}, {count} increments, edge off",
+                "Rigid ball that does not slip",
+                rigid_ball(),
+                nu,
+                NO_SLIP_FRICTION,
+                count,
+                "off",
             )
             for count in (few, many)
         ]
         for nu in (() if level is Level.QUICK else NO_SLIP_RATIOS)
-    }  # fmt: skip
+    }
 
     def text(nu: float) -> str:
         return f"{nu:g}".replace(".", "_")
@@ -768,28 +827,39 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
         "Mossakovskii. The coupling is strong: a plain alternating iteration between pressure "
         "and shear hardly converges.",
         runs=(
-            *bonded.values(), *smooth.values(), *(pair[0] for pair in balls.values()),
+            *bonded.values(),
+            *smooth.values(),
+            *(pair[0] for pair in balls.values()),
             *(pair[1] for pair in balls.values()),
         ),
         quantities=(
             *(
                 compare_runs(
-                    f"punch_nu_{text(nu)}", f"ν = {nu:g}: load factor of the bonded over the "
-                    "smooth punch, relative error",
-                    (bonded[nu].label, smooth[nu].label), partial(_factor_error, nu), 1e-3,
+                    f"punch_nu_{text(nu)}",
+                    f"ν = {nu:g}: load factor of the bonded over the smooth punch, relative error",
+                    (bonded[nu].label, smooth[nu].label),
+                    partial(_factor_error, nu),
+                    1e-3,
                     "the singular edge leaves errors of the order of a cell in both stiffnesses",
-                    NO_SLIP_SOURCE, ReferenceKind.CLOSED_FORM, ROUNDING,
+                    NO_SLIP_SOURCE,
+                    ReferenceKind.CLOSED_FORM,
+                    ROUNDING,
                 )
                 for nu in NO_SLIP_RATIOS
             ),
             *(
                 compare_runs(
-                    f"ball_nu_{text(nu)}", f"ν = {nu:g}: approach of the ball, extrapolated from "
+                    f"ball_nu_{text(nu)}",
+                    f"ν = {nu:g}: approach of the ball, extrapolated from "
                     f"{few} and {many} increments, relative error",
-                    (pair[0].label, pair[1].label), partial(_bonded_ball_error, nu), 2e-4,
+                    (pair[0].label, pair[1].label),
+                    partial(_bonded_ball_error, nu),
+                    2e-4,
                     "accuracy target of the coupled solver; first order in the increment",
                     # Eight digits of both factors.
-                    NO_SLIP_BALL_SOURCE, ReferenceKind.SEMI_CLOSED, 1e-7,
+                    NO_SLIP_BALL_SOURCE,
+                    ReferenceKind.SEMI_CLOSED,
+                    1e-7,
                 )
                 for nu, pair in balls.items()
             ),
@@ -800,7 +870,7 @@ def no_slip_indentation(level: Level = Level.QUICK) -> Case:
         ),
         no_order="errors of both stiffnesses cancel in their ratio, and scatter from grid to grid",
         shows=("known solutions", "hard contacts"),
-    )  # fmt: skip
+    )
 
 
 def spence_example(level: Level = Level.QUICK) -> Case:
@@ -846,32 +916,46 @@ def spence_example(level: Level = Level.QUICK) -> Case:
         runs=(run,),
         quantities=(
             Quantity(
-                "approach", "approach of the bodies since first touch", "m", run.label, approach,
+                "approach",
+                "approach of the bodies since first touch",
+                "m",
+                run.label,
+                approach,
                 published(0.09874 * mm, 0.5e-5 * mm),
                 Required(2e-4, "four times half a digit of what is printed"),
             ),
             Quantity(
-                "peak_pressure", "largest pressure of any cell", "Pa", run.label, peak_pressure,
+                "peak_pressure",
+                "largest pressure of any cell",
+                "Pa",
+                run.label,
+                peak_pressure,
                 published(0.02392 * megapascal, 0.5e-5 * megapascal),
                 Required(1e-3, "both codes take the mean over the same cell"),
             ),
             Quantity(
-                "stick_ratio", "√(cells that stick / cells in contact)", "", run.label, counted,
+                "stick_ratio",
+                "√(cells that stick / cells in contact)",
+                "",
+                run.label,
+                counted,
                 published(
                     sqrt(stick_cells / contact_cells),
                     0.5 / sqrt(stick_cells * contact_cells),  # one cell of the stick zone
                 ),
                 Required(
-                    0.1 * side / radius, "both codes count cells: a tenth of a cell, where one "
-                    "cell was the target"
-                ), 1.0, "the contact radius",
+                    0.1 * side / radius,
+                    "both codes count cells: a tenth of a cell, where one cell was the target",
+                ),
+                1.0,
+                "the contact radius",
             ),
         ),
         limits=("The published output has four to five digits.",),
         equations=HALF.problem(1).equations,
         no_order="the published example has one grid",
         shows=("known solutions", "other codes"),
-    )  # fmt: skip
+    )
 
 
 def _mesh_level(one: Indentation, elements: int, increments: int) -> RefinementLevels:
@@ -958,20 +1042,22 @@ def fem_increments(level: Level = Level.QUICK) -> Case:
             SectionRun(f"{count} increments", HALF.problem(count).scene, mesh)
             for count in (2, 3, 4, 6, 8, 12)
         ),
-        Refinement.INCREMENTS, _increment_size, "1 / increments",
+        Refinement.INCREMENTS,
+        _increment_size,
+        "1 / increments",
         (
             change(Followed.APPROACH, "approach", _approach_change, 2.0, KEPT_SLIP),
             change(
-                Followed.CONTACT_RADIUS, "contact radius",
-                lambda coarse, fine: abs(contact_radius(coarse) / contact_radius(fine) - 1), 2.0,
+                Followed.CONTACT_RADIUS,
+                "contact radius",
+                lambda coarse, fine: abs(contact_radius(coarse) / contact_radius(fine) - 1),
+                2.0,
                 KEPT_SLIP,
             ),
-            change(
-                Followed.SHEAR, "shear (L1)", _shear_change_on_rings, 1.5, FIXED_SHEAR, slowly
-            ),
+            change(Followed.SHEAR, "shear (L1)", _shear_change_on_rings, 1.5, FIXED_SHEAR, slowly),
         ),
         apart=2,
-    )  # fmt: skip
+    )
     return case(
         "fem_increments",
         "Finite elements: indentation with friction in smaller increments",
@@ -1014,21 +1100,23 @@ def fem_penalty_indentation(level: Level = Level.QUICK) -> Case:
         Within(SHEAR, 3e-2, PENALTY),
         Reported(
             error_norm(
-                "by_newton", "increments that took Newton's method",
+                "by_newton",
+                "increments that took Newton's method",
                 lambda result, *_: float(sum(i.path == "newton" for i in result.increments)),
             ),
             "all: no other method is required",
         ),
         Reported(
             error_norm(
-                "systems", "linear iterations per increment",
+                "systems",
+                "linear iterations per increment",
                 lambda result, *_: (
                     sum(i.iterations for i in result.increments) / len(result.increments)
                 ),
             ),
             "two passes each: penalty alone, then one augmentation",
         ),
-    )  # fmt: skip
+    )
     meshes = {
         one: on_springs(
             _mesh_level(one, finest(level), FEW), f"{one.name}, {FEW} increments, penalty"
@@ -1100,7 +1188,9 @@ def _goodman_problem(title: str, nu: float, ratio: float, increments: int) -> Pr
     )
 
 
-INNERMOST, BESIDE = 0.05, 0.05  # radii where shear is not compared: at the axis, near the front
+# radii where shear is not compared: at the axis, near the front
+INNERMOST = 0.05
+BESIDE = 0.05
 
 
 def _mean_shear(result: Any, _: int, problem: Problem) -> float:
@@ -1136,28 +1226,36 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
         Within(CONTACT_RADIUS, 1e-6, why),
         Within(
             Observable(
-                "stick_radius", "stick radius", "m", lambda result, *_: stick_radius(result),
-                lambda one: one.stick_part * one.contact_radius, OVER_HERTZ_RADIUS,
+                "stick_radius",
+                "stick radius",
+                "m",
+                lambda result, *_: stick_radius(result),
+                lambda one: one.stick_part * one.contact_radius,
+                OVER_HERTZ_RADIUS,
                 scalar=("stick_radius", 0),
             ),
-            1e-3, why,
+            1e-3,
+            why,
         ),
         Within(
             error_norm(
                 "mean_shear",
                 f"mean error of the shear from {INNERMOST:g} a on, away from the stick edge",
-                _mean_shear, OVER_LIMIT,
+                _mean_shear,
+                OVER_LIMIT,
             ),
-            1e-4, why,
+            1e-4,
+            why,
         ),
-    )  # fmt: skip
+    )
     # Nearly without coupling; the error of Goodman's solution is about β².
     nu = 0.49
     beta = (1 - 2 * nu) / (2 * (1 - nu))
     of_goodman = Within(
-        replace(STICK_PART, name="stick_part", over=ONE), 1e-3,
+        replace(STICK_PART, name="stick_part", over=ONE),
+        1e-3,
         f"accuracy target of the stick radius; {beta**2:.0e} is the error of Goodman's solution",
-    )  # fmt: skip
+    )
     return case(
         "radial_indentation",
         "Radial solver: indentation with friction",
@@ -1183,4 +1281,4 @@ def radial_indentation(level: Level = Level.QUICK) -> Case:
         ),
         no_order="judged at the increments of the case, not on several numbers of them",
         shows=("radial solver", "coated friction"),
-    )  # fmt: skip
+    )

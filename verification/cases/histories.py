@@ -210,13 +210,15 @@ def _rotation_comparison(
     cells    number of cells per side for which `allowed` holds
     """
     return compare_runs(
-        f"turned_by_{degrees:g}", "difference of shift and dissipated energy after a rotation of "
-        f"{degrees:g}°",
-        (one.label, other.label), partial(motion_apart, degrees),
+        f"turned_by_{degrees:g}",
+        f"difference of shift and dissipated energy after a rotation of {degrees:g}°",
+        (one.label, other.label),
+        partial(motion_apart, degrees),
         allowed * cells / other.grid.cells[0],
         f"set by hand: about four times the error of {cells} square cells at the edges of "
-        "contact and stick zone, proportional to the cell side on other grids", ISOTROPIC,
-    )  # fmt: skip
+        "contact and stick zone, proportional to the cell side on other grids",
+        ISOTROPIC,
+    )
 
 
 def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
@@ -243,11 +245,13 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
 
     changes = (
         run(
-            f"{way} at constant T", f"Normal force {word} at constant tangential force", along,
+            f"{way} at constant T",
+            f"Normal force {word} at constant tangential force",
+            along,
             LoadStep(normal_force=part * NORMAL_FORCE, increments=4),
         )
         for way, word, part in (("unloading", "reduced", 0.6), ("loading", "raised", 1.4))
-    )  # fmt: skip
+    )
     straight = run("turning", "Tangential force turning by a right angle", *turning)
     quarter, oblique = (
         run(
@@ -266,22 +270,30 @@ def load_paths(level: Level = Level.QUICK, cells: int = 0) -> Case:
         runs=(*changes, straight, quarter, oblique),
         quantities=(
             compare_runs(
-                "turned_by_90", "difference of pressure, shear and shift after a rotation by a "
-                "right angle",
-                (quarter.label, straight.label), after_quarter, EXACT,
-                TURNS_INTO_ITSELF + ANSWERED, ISOTROPIC,
+                "turned_by_90",
+                "difference of pressure, shear and shift after a rotation by a right angle",
+                (quarter.label, straight.label),
+                after_quarter,
+                EXACT,
+                TURNS_INTO_ITSELF + ANSWERED,
+                ISOTROPIC,
             ),
             _rotation_comparison(oblique, straight, 30.0, 3e-4, 64),
         ),
-        limits=("Small residuals show that the equations are solved, not that the equations are "
-        "correct.",),
+        limits=(
+            "Small residuals show that the equations are solved, not that the equations are "
+            "correct.",
+        ),
         equations=(ROTATION,),
         no_order=IDENTITY,
         shows=("(4)", "load history"),
-    )  # fmt: skip
+    )
 
 
-PRESSED, PUSHED, BACK = 1, 2, 3  # loading steps
+# loading steps
+PRESSED = 1
+PUSHED = 2
+BACK = 3
 
 
 @dataclass(frozen=True)
@@ -444,9 +456,14 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
     level  amount of computation: quick, standard or full
     sizes  numbers of cells per side, elements per radius and harmonics; default: those of the level
     """
-    cells, elements, harmonics = sizes or {
-        Level.QUICK: (32, 16, 4), Level.STANDARD: (64, 32, 8), Level.FULL: (128, 64, 12),
-    }[level]  # fmt: skip
+    cells, elements, harmonics = (
+        sizes
+        or {
+            Level.QUICK: (32, 16, 4),
+            Level.STANDARD: (64, 32, 8),
+            Level.FULL: (128, 64, 12),
+        }[level]
+    )
     bare = CoupledContact("homogeneous, µ = 0.3", Body(material=SUBSTRATE), 0.3)
     filmed = CoupledContact("coated, µ = 0.1", FILMED, 0.1)
     runs = [bare.run(cells), bare.run(cells, 30.0), bare.run(cells, 90.0)]
@@ -475,8 +492,11 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
         runs=(*runs, *films, section),
         findings=tuple(
             Finding(
-                "led_by_motion_iterations", "iterations of the history with prescribed motion", "",
-                label, again.iterations,
+                "led_by_motion_iterations",
+                "iterations of the history with prescribed motion",
+                "",
+                label,
+                again.iterations,
                 "cost of the solve for led_by_motion, in addition to the runs of this case; the "
                 "motions are known only after the run",
             )
@@ -485,36 +505,56 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
         quantities=(
             *(
                 Quantity(
-                    name, meaning, "", label, measure, identity(0.0, source),
-                    Required(allowed, because), 1.0, scale,
+                    name,
+                    meaning,
+                    "",
+                    label,
+                    measure,
+                    identity(0.0, source),
+                    Required(allowed, because),
+                    1.0,
+                    scale,
                 )
                 for label, again in repeated.items()
                 for name, meaning, measure, source, allowed, because, scale in (
                     (
-                        "led_by_motion", "difference from the same history with prescribed "
+                        "led_by_motion",
+                        "difference from the same history with prescribed "
                         "approach and shift, in any increment: pressure, shear; infinite if the "
-                        "solver does not complete that history", again.difference,
+                        "solver does not complete that history",
+                        again.difference,
                         "force and motion are conjugate: the kind of control has no effect",
-                        100 * SOLVER_TOLERANCE, carried, "the pressure",
+                        100 * SOLVER_TOLERANCE,
+                        carried,
+                        "the pressure",
                     ),
                     (
-                        "laws_led_by_motion", "largest violation of a law of contact and friction, "
+                        "laws_led_by_motion",
+                        "largest violation of a law of contact and friction, "
                         "or fraction of the energy unaccounted for, in the history with prescribed "
-                        "motion; infinite if the solver does not complete it", again.violation,
+                        "motion; infinite if the solver does not complete it",
+                        again.violation,
                         "the laws do not depend on the kind of control",
                         OTHER_NORMS * SOLVER_TOLERANCE,
-                        "as for every run", "dimensionless",
+                        "as for every run",
+                        "dimensionless",
                     ),
                 )
             ),
             *(
                 compare_runs(
-                    "turned_by_90", f"{contact.name}: difference of pressure, shear and shift "
-                    "after a rotation by a right angle", (one.label, other.label), after_quarter,
-                    100 * SOLVER_TOLERANCE, TURNS_INTO_ITSELF + carried, ISOTROPIC,
+                    "turned_by_90",
+                    f"{contact.name}: difference of pressure, shear and shift "
+                    "after a rotation by a right angle",
+                    (one.label, other.label),
+                    after_quarter,
+                    100 * SOLVER_TOLERANCE,
+                    TURNS_INTO_ITSELF + carried,
+                    ISOTROPIC,
                 )
                 for contact, one, other in (
-                    (bare, runs[2], runs[0]), (filmed, films[1], films[0]),
+                    (bare, runs[2], runs[0]),
+                    (filmed, films[1], films[0]),
                 )
             ),
             _rotation_comparison(runs[1], runs[0], 30.0, 5e-3, 32),
@@ -523,7 +563,8 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
                     f"{name}_{'pushed' if step == PUSHED else 'back'}",
                     f"difference of the {words} after the "
                     f"{'push' if step == PUSHED else 'reversal'}, relative",
-                    (section.label, runs[0].label), partial(apart, step, number),
+                    (section.label, runs[0].label),
+                    partial(apart, step, number),
                     allowed * 32 / cells,
                     "set by hand: about three times the error of both on the quick "
                     "discretisations, proportional to the cell side on others; a loop without "
@@ -539,10 +580,12 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
         equations=(ROTATION,),
         no_order=IDENTITY,
         shows=("load history",),
-    )  # fmt: skip
+    )
 
 
-MU, PART = 0.2, 0.6  # coefficient of friction, and tangential force over µW
+# coefficient of friction, and tangential force over µW
+MU = 0.2
+PART = 0.6
 PUSH = LoadStep(tangential_force=(PART * MU * NORMAL_FORCE, 0.0), increments=2)
 
 
@@ -593,8 +636,11 @@ def same_surface(level: Level = Level.QUICK) -> Case:
         other  changed indenter, body, friction, or rotation of the load in degrees
         """
         chosen: dict[str, Any] = {
-            "indenter": rigid_ball(), "body": FILMED, "friction": MU, "degrees": 0.0,
-        } | other  # fmt: skip
+            "indenter": rigid_ball(),
+            "body": FILMED,
+            "friction": MU,
+            "degrees": 0.0,
+        } | other
         scene = Scene(
             title=f"Rigid ball on a coated body, pressed and pushed: {what}",
             indenter=chosen["indenter"],
@@ -609,44 +655,90 @@ def same_surface(level: Level = Level.QUICK) -> Case:
 
     by_numbers = run("told by numbers", "numbers")
     by_heights = run(
-        "ball as a map of heights", "heights",
+        "ball as a map of heights",
+        "heights",
         indenter=HeightMap(file=heights, spacing=square.spacing, material=RIGID),
-    )  # fmt: skip
+    )
     everywhere = run(
-        "the same friction in every cell", "friction",
+        "the same friction in every cell",
+        "friction",
         friction=mapped(np.full(square.cells, MU)),
-    )  # fmt: skip
+    )
     patchy = run("patchy friction", "patches", friction=mapped(patches))
     mirrored = run(
-        "patchy friction mirrored", "mirrored patches", friction=mapped(patches[::-1]),
+        "patchy friction mirrored",
+        "mirrored patches",
+        friction=mapped(patches[::-1]),
         degrees=180.0,
-    )  # fmt: skip
+    )
     narrow = run(
         "cells longer along y", "long cells", SurfaceGrid((cells, cells), (width, longer * width))
     )
     wide = run(
-        "cells longer along x", "wide cells",
-        SurfaceGrid((cells, cells), (longer * width, width)), degrees=90.0,
-    )  # fmt: skip
+        "cells longer along x",
+        "wide cells",
+        SurfaceGrid((cells, cells), (longer * width, width)),
+        degrees=90.0,
+    )
     whole = run("homogeneous body", "homogeneous body", body=Body(material=hard))
     through = run(
-        "coating on its own material", "coating on its own material",
+        "coating on its own material",
+        "coating on its own material",
         body=Body(material=hard, layers=FILMED.layers),
-    )  # fmt: skip
+    )
     same, all_fields = "the same surface", "difference of all fields"
     pairs: tuple[tuple[str, str, Run, Run, Difference, float, str, str], ...] = (
-        ("heights", f"ball as a map of heights: {all_fields}", by_heights, by_numbers,
-         as_it_is, ROUNDING,
-         "heights at cell centres equal the gap there, bit for bit", same),
-        ("friction", f"constant map of friction: {all_fields}", everywhere, by_numbers,
-         as_it_is, EXACT, ANSWERED, same),
-        ("mirror", f"mirrored patches of friction: {all_fields}", mirrored,
-         patchy, in_mirror, EXACT, ANSWERED, "a reflection at x = 0 maps one to the other"),
-        ("turned_by_90", "rectangular cells, rotated with the load: difference of pressure, "
-        "shear and shift", wide, narrow, after_quarter, EXACT, ANSWERED, ISOTROPIC),
-        ("one_material", f"coating on its own material: {all_fields} from those of a homogeneous "
-         "body", through, whole, as_it_is, EXACT, ANSWERED, "the same body"),
-    )  # fmt: skip
+        (
+            "heights",
+            f"ball as a map of heights: {all_fields}",
+            by_heights,
+            by_numbers,
+            as_it_is,
+            ROUNDING,
+            "heights at cell centres equal the gap there, bit for bit",
+            same,
+        ),
+        (
+            "friction",
+            f"constant map of friction: {all_fields}",
+            everywhere,
+            by_numbers,
+            as_it_is,
+            EXACT,
+            ANSWERED,
+            same,
+        ),
+        (
+            "mirror",
+            f"mirrored patches of friction: {all_fields}",
+            mirrored,
+            patchy,
+            in_mirror,
+            EXACT,
+            ANSWERED,
+            "a reflection at x = 0 maps one to the other",
+        ),
+        (
+            "turned_by_90",
+            "rectangular cells, rotated with the load: difference of pressure, shear and shift",
+            wide,
+            narrow,
+            after_quarter,
+            EXACT,
+            ANSWERED,
+            ISOTROPIC,
+        ),
+        (
+            "one_material",
+            f"coating on its own material: {all_fields} from those of a homogeneous body",
+            through,
+            whole,
+            as_it_is,
+            EXACT,
+            ANSWERED,
+            "the same body",
+        ),
+    )
     return case(
         "same_surface",
         "Equivalent descriptions of one surface",
@@ -664,19 +756,24 @@ def same_surface(level: Level = Level.QUICK) -> Case:
                 for name, meaning, one, other, difference, allowed, because, source in pairs
             ),
             compare_runs(
-                "square_cells", "rectangular cells: difference of approach, shift and energy "
-                "from those of square cells, relative", (narrow.label, by_numbers.label),
-                scalars_apart, 1.5e-3 * 33 / cells,
+                "square_cells",
+                "rectangular cells: difference of approach, shift and energy "
+                "from those of square cells, relative",
+                (narrow.label, by_numbers.label),
+                scalars_apart,
+                1.5e-3 * 33 / cells,
                 "set by hand: about three times the error of cells longer by a third on a 33 x "
                 "33 grid, proportional to the cell side on others",
                 # At first order the error of the square cells is three times the difference.
-                "the same contact", ReferenceKind.OWN_REFINEMENT, 0.75e-3 * 33 / cells,
+                "the same contact",
+                ReferenceKind.OWN_REFINEMENT,
+                0.75e-3 * 33 / cells,
             ),
         ),
         equations=(ROTATION,),
         no_order=IDENTITY,
         shows=("effects",),
-    )  # fmt: skip
+    )
 
 
 def forced_effects(level: Level = Level.QUICK) -> Case:
@@ -728,16 +825,19 @@ def forced_effects(level: Level = Level.QUICK) -> Case:
             compare_runs(
                 name.replace(" ", "_"),
                 f"{name}: largest difference of pressure, shear, approach and shift",
-                (planned.label, forced.label), as_it_is, EXACT,
+                (planned.label, forced.label),
+                as_it_is,
+                EXACT,
                 "both solves leave residuals up to the solver's tolerance, amplified a few times "
-                "in the tractions", "effects that vanish change nothing",
+                "in the tractions",
+                "effects that vanish change nothing",
             )
             for name, (planned, forced) in pairs.items()
         ),
         equations=(r"\mathbf{C}_{xz} = 0 \Rightarrow p\ \text{and}\ \mathbf{q}\ \text{uncoupled}",),
         no_order=IDENTITY,
         shows=("effects",),
-    )  # fmt: skip
+    )
 
 
 @dataclass(frozen=True)
@@ -846,24 +946,40 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
         quantities=(
             *(
                 compare_runs(
-                    "exchanged", f"{name}: {same}", (one.label, other.label), difference, EXACT,
-                    ANSWERED, source,
+                    "exchanged",
+                    f"{name}: {same}",
+                    (one.label, other.label),
+                    difference,
+                    EXACT,
+                    ANSWERED,
+                    source,
                 )
                 for name, one, other, difference in compared
             ),
             Quantity(
-                "exchanged", f"{pairs[0].name}, by the radial solver: {same}", "",
-                f"{pairs[0].name}, rings", by_radial_solver, identity(0.0, source),
-                Required(EXACT, ANSWERED), 1.0, "the other's", runs=(),
+                "exchanged",
+                f"{pairs[0].name}, by the radial solver: {same}",
+                "",
+                f"{pairs[0].name}, rings",
+                by_radial_solver,
+                identity(0.0, source),
+                Required(EXACT, ANSWERED),
+                1.0,
+                "the other's",
+                runs=(),
             ),
         ),
-        limits=("Both results of a pair could have the same error; frictional_indentation judges "
-        "one of them.",),
-        equations=(r"p(\mathbf{x}) \to p(-\mathbf{x}),\quad \mathbf{q}(\mathbf{x}) \to "
-                   r"\mathbf{q}(-\mathbf{x})",),
+        limits=(
+            "Both results of a pair could have the same error; frictional_indentation judges "
+            "one of them.",
+        ),
+        equations=(
+            r"p(\mathbf{x}) \to p(-\mathbf{x}),\quad \mathbf{q}(\mathbf{x}) \to "
+            r"\mathbf{q}(-\mathbf{x})",
+        ),
         no_order=IDENTITY,
         shows=("unlike bodies",),
-    )  # fmt: skip
+    )
 
 
 def _load_vector(increment: Any, name: str) -> Field:
@@ -928,30 +1044,37 @@ def led_histories(level: Level = Level.QUICK) -> Case:
 
     scenes = {
         "pressed": scene(
-            "Ball led by force, approach and force", ball,
+            "Ball led by force, approach and force",
+            ball,
             LoadStep(normal_force=0.5 * NORMAL_FORCE, increments=2),
             LoadStep(approach=HERTZ.approach, increments=4),
             LoadStep(normal_force=0.7 * NORMAL_FORCE, increments=3),
         ),
         "pushed": scene(
-            "Ball led by push, shift and push", ball, held,
+            "Ball led by push, shift and push",
+            ball,
+            held,
             LoadStep(tangential_force=(0.4 * limit, 0.0), increments=2),
             LoadStep(tangential_shift=(0.5 * SLIDING_SHIFT, 0.0), increments=4),
             LoadStep(tangential_force=(0.1 * limit, 0.0), increments=3),
         ),
         "twisted": scene(
-            "Ball led by torque, twist and torque", ball, held,
+            "Ball led by torque, twist and torque",
+            ball,
+            held,
             LoadStep(torque=0.4 * SLIDING_TORQUE, increments=2),
             LoadStep(twist=0.5 * LARGEST.twist, increments=4),
             LoadStep(torque=0.1 * SLIDING_TORQUE, increments=3),
         ),
         "tilted": scene(
-            "Punch led by moment, tilt and moment", punch, held,
+            "Punch led by moment, tilt and moment",
+            punch,
+            held,
             LoadStep(moment=(0.5 * arm * NORMAL_FORCE, arm * NORMAL_FORCE), increments=2),
             LoadStep(tilt=(slope, 0.5 * slope), increments=4),
             LoadStep(moment=(-arm * NORMAL_FORCE, 0.0), increments=3),
         ),
-    }  # fmt: skip
+    }
     grid = square_grid(48 * 2**level, 1.3 * HERTZ.contact_radius)
     mesh = per_radius(16 * 2**level, HERTZ.contact_radius)
     upright = ("pressed", "pushed", "twisted")  # finite elements keep the indenter upright
@@ -977,19 +1100,27 @@ def led_histories(level: Level = Level.QUICK) -> Case:
         quantities=(
             *(
                 Quantity(
-                    "off_the_way", "largest distance of the prescribed quantity from the linear "
-                    "ramp of its step, over the larger of its ends", "", run.label,
-                    partial(off_the_way, run.scene), linear,
+                    "off_the_way",
+                    "largest distance of the prescribed quantity from the linear "
+                    "ramp of its step, over the larger of its ends",
+                    "",
+                    run.label,
+                    partial(off_the_way, run.scene),
+                    linear,
                     Required(
                         1e-6, "forces are met to the tolerance of the solver, motions exactly"
                     ),
-                    1.0, "1",
+                    1.0,
+                    "1",
                 )
                 for run in runs
             ),
             *(
                 Quantity(
-                    "increments", "increments of all steps", "", run.label,
+                    "increments",
+                    "increments of all steps",
+                    "",
+                    run.label,
                     lambda result: float(len(result.increments)),
                     Reference(named(run), linear.kind, "the scene prescribes them"),
                     Required(1e-9, "a number of increments is met or not"),
@@ -998,15 +1129,20 @@ def led_histories(level: Level = Level.QUICK) -> Case:
             ),
             *(
                 Quantity(
-                    "force_at_approach", "largest relative difference of the force from Hertz's at "
-                    "the approach of any increment", "", run.label, _hertz_force_error,
+                    "force_at_approach",
+                    "largest relative difference of the force from Hertz's at "
+                    "the approach of any increment",
+                    "",
+                    run.label,
+                    _hertz_force_error,
                     closed_form(0.0, "Hertz 1882; Johnson 1985, ch. 4", 1.0),
                     Required(
                         # Error of the smallest contact at the quick level (7 cells or elements).
                         3e-3 / 4**level,
                         "set by hand on the quick grid and mesh, of order 2 on others",
                     ),
-                    1.0, "1",
+                    1.0,
+                    "1",
                 )
                 for run in runs
                 if run.scene == scenes["pressed"]
@@ -1015,7 +1151,7 @@ def led_histories(level: Level = Level.QUICK) -> Case:
         equations=(r"W = \tfrac{4}{3} E^* \sqrt{R} \, \delta^{3/2}",),
         no_order="judged on one grid: hertz_point judges the order of the force at an approach",
         shows=("prescribed motion", "load history"),
-    )  # fmt: skip
+    )
 
 
 def fem_far_field(level: Level = Level.QUICK) -> Case:
@@ -1061,16 +1197,20 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
         runs=tuple(runs.values()),
         quantities=tuple(
             compare_runs(
-                name, f"{name} of the punch, {way}: relative difference",
-                (runs[way, near].label, runs[way, far].label), partial(apart, number),
+                name,
+                f"{name} of the punch, {way}: relative difference",
+                (runs[way, near].label, runs[way, far].label),
+                partial(apart, number),
                 near**-power,
                 f"the resultant is known on the box; the next term falls with the power {power} "
-                "of the radius over the box", "the same contact in a larger box",
-                ReferenceKind.OWN_REFINEMENT, far**-power,
+                "of the radius over the box",
+                "the same contact in a larger box",
+                ReferenceKind.OWN_REFINEMENT,
+                far**-power,
             )
             for name, (way, power, number) in numbers.items()
         ),
         equations=(r"\mathbf{u} = \mathbf{u}_\mathrm{Boussinesq-Cerruti}(W, T, M) + O(a^n/R^n)",),
         no_order="the allowed difference is itself the power law of the box",
         shows=("finite elements",),
-    )  # fmt: skip
+    )

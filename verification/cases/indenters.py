@@ -113,37 +113,43 @@ ROWS = (
     Within(PEAK_PRESSURE, {128: 1.5e-4, 256: 4e-5}, ASKED),
     Within(APPROACH, {128: 5e-5, 256: 5e-5}, ASKED, name="required_approach"),
     Refined(
-        APPROACH, 2.0, 5e-5,
+        APPROACH,
+        2.0,
+        5e-5,
         "order 2: the pressure's error has zero mean; the cap is the figure required of the "
         "coarser grids",
     ),
     Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), EDGE),
     Falls(
-        PRESSURE_L2, 1.0,
+        PRESSURE_L2,
+        1.0,
         "at the edge the pressure rises as a square root: an error of O(√h) on a ring one cell "
         "wide leaves O(h) in L2",
     ),
     Falls(
-        PEAK_PRESSURE, 2.0,
+        PEAK_PRESSURE,
+        2.0,
         "even counts of cells put the centre h/√2 from the next cell centre, where the exact "
         "pressure is lower by p0 h²/4a²",
     ),
     Falls(
-        CONTACT_RADIUS, 1.0,
+        CONTACT_RADIUS,
+        1.0,
         "pressures that are constant on cells and collocated at their centres extend the contact "
         "by the same fraction of a cell, 0.06, on every grid",
         NotYetAsymptotic(
             0.15, "a second term counts on coarse grids: 1.12 up to 256 cells, 1.08 up to 512"
         ),
     ),
-)  # fmt: skip
+)
 # One grid of each size scatters too much, because circles divide the cells in different ways.
 MEAN = (
     Falls(
-        APPROACH, 2.0,
+        APPROACH,
+        2.0,
         "a weighted mean of the displacement: the errors at the edge alternate and cancel",
     ),
-)  # fmt: skip
+)
 
 
 def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
@@ -169,13 +175,20 @@ def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
         *(judged(on_cells(BALL, some, offsets=UNLIKE), MEAN) for some in (shifted,) if some),
         charts=(
             profile(
-                grids, "hertz_profile", "Pressure next to y = 0",
+                grids,
+                "hertz_profile",
+                "Pressure next to y = 0",
                 f"Computed pressure on {grids.judged.run.label} cells, Hertz's pressure, and "
                 "their difference, which is confined to the cells at the edge of the contact.",
-                "p / p₀", HERTZ.peak_pressure, PRESSURE,
+                "p / p₀",
+                HERTZ.peak_pressure,
+                PRESSURE,
             ),
             convergence(
-                grids, ROWS, "hertz_convergence", "Convergence of the Hertz contact",
+                grids,
+                ROWS,
+                "hertz_convergence",
+                "Convergence of the Hertz contact",
                 "Relative errors against cell side. The pressure falls with the first power of h "
                 "because of the square-root edge; approach and peak pressure fall with the second.",
                 also=(APPROACH,),
@@ -183,7 +196,7 @@ def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
         ),
         limits=("Pointwise errors at the edge fall as O(√h) only and are not judged.",),
         shows=("(1)", "(3)", "(5)", "(7)", "p_H", "known solutions"),
-    )  # fmt: skip
+    )
 
 
 ARC = SphereContact.under_load(NORMAL_FORCE, RADIUS, CONTACT_MODULUS)
@@ -211,17 +224,21 @@ def hertz_exact_sphere(level: Level = Level.QUICK) -> Case:
     )
     rows = (
         Refined(
-            APPROACH, 2.0, 1e-5,
+            APPROACH,
+            2.0,
+            1e-5,
             "order 2 as for the paraboloid; the cap is a third of the difference from Hertz's "
             "approach, so that the two can be distinguished",
         ),
         Refined(
-            PEAK_PRESSURE, 2.0, 4e-5,
+            PEAK_PRESSURE,
+            2.0,
+            4e-5,
             "order 2: distance of the centre from the next cell centre; the cap is the figure "
             "required of the paraboloid at 256 x 256",
         ),
         Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), "as for the paraboloid"),
-    )  # fmt: skip
+    )
     return case(
         "hertz_exact_sphere",
         "Ball with its exact arc",
@@ -243,11 +260,13 @@ def hertz_approach_control(level: Level = Level.QUICK) -> Case:
     """
     rows = (
         Refined(
-            FORCE, 2.0, 7.5e-5,
+            FORCE,
+            2.0,
+            7.5e-5,
             "order 2, as the approach under force; the cap is its 5e-5 times 3/2, the exponent of "
             "Hertz's law",
         ),
-    )  # fmt: skip
+    )
     return case(
         "hertz_approach_control",
         "Hertz point contact, approach prescribed",
@@ -303,18 +322,23 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
     level  amount of computation: quick, standard or full
     """
     cells, elements = {
-        Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 128),
-    }[level]  # fmt: skip
+        Level.QUICK: (128, 32),
+        Level.STANDARD: (256, 64),
+        Level.FULL: (512, 128),
+    }[level]
     down = LoadStep(normal_force=PART * NORMAL_FORCE)
     # Grids and meshes are laid out for the larger contact.
     problem = replace(
         BALL,
         scene=pressed(
             "Ball on a half-space, pressed and unloaded",
-            paraboloid(STEEL), BALL.scene.body, pressing(), down,
+            paraboloid(STEEL),
+            BALL.scene.body,
+            pressing(),
+            down,
         ),
         ends=(HERTZ, UNLOADED),
-    )  # fmt: skip
+    )
     stored = replace(
         number("elastic_energy", "energy stored in both bodies"),
         value=lambda exact: 0.4 * exact.load * exact.approach,
@@ -328,21 +352,23 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
     on_grid = (
         Within(APPROACH, on_smaller(5e-5, 2), why),
         Within(
-            CONTACT_RADIUS, lambda rung: part_of_side(0.1)(rung) / SMALLER,
+            CONTACT_RADIUS,
+            lambda rung: part_of_side(0.1)(rung) / SMALLER,
             "a tenth of a cell, as for hertz_point",
         ),
         Within(PEAK_PRESSURE, on_smaller(1.5e-4, 2), why),
         Within(stored, on_smaller(1e-4, 2), twice),
-    )  # fmt: skip
+    )
     on_mesh = (
         Within(APPROACH, on_smaller(1e-4, 2), because(2)),
         Within(
-            CONTACT_RADIUS, lambda rung: min(2e-3, on_smaller(5e-4, 1)(rung)),
+            CONTACT_RADIUS,
+            lambda rung: min(2e-3, on_smaller(5e-4, 1)(rung)),
             "as for fem_hertz: the edge is known to 1/30 of an element",
         ),
         Within(PEAK_PRESSURE, on_smaller(1e-4, 2), because(2)),
         Within(stored, on_smaller(2e-4, 2), twice),
-    )  # fmt: skip
+    )
     films = {
         way: replace(
             BALL,
@@ -354,7 +380,7 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
             "pressed and unloaded": (pressing(), down),
             "pressed by the smaller force": (down,),
         }.items()
-    }  # fmt: skip
+    }
     grids = [named(f"coated, {way}", on_cells(one, (cells,))) for way, one in films.items()]
     meshes = [
         named(f"coated, {way}, elements", with_edge_at(one, (elements,)))
@@ -372,9 +398,11 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
         runs=tuple(pair[k].judged.run for k in (0, 1) for pair in (grids, meshes)),
         quantities=tuple(
             compare_runs(
-                "path_independence", "difference of pressure and approach from those of a single "
+                "path_independence",
+                "difference of pressure and approach from those of a single "
                 "loading by the smaller force",
-                (back.levels[0], once.levels[0]), _pressure_and_approach,
+                (back.levels[0], once.levels[0]),
+                _pressure_and_approach,
                 10 * SOLVER_TOLERANCE,
                 "residuals of two solves, amplified a few times in the tractions",
                 "without friction the contact does not depend on the load path",
@@ -383,7 +411,7 @@ def hertz_unloading(level: Level = Level.QUICK) -> Case:
         ),
         no_order=JUDGED_BY.format("hertz_point and fem_hertz"),
         shows=("(5)", "load history"),
-    )  # fmt: skip
+    )
 
 
 def dissimilar_bodies(level: Level = Level.QUICK) -> Case:
@@ -443,13 +471,15 @@ def hertz_elliptical(level: Level = Level.QUICK) -> Case:
     )
     rows = (
         Refined(
-            PEAK_PRESSURE, 2.0, 1.5e-4,
+            PEAK_PRESSURE,
+            2.0,
+            1.5e-4,
             "order 2; the cap is the figure required of hertz_point at 128 x 128",
         ),
         Refined(APPROACH, 2.0, 5e-5, "order 2; the cap is the figure required of hertz_point"),
         Refined(mean_radius, 1.0, part_of_side(0.1), f"{EDGE} along the longer axis"),
         Falls(PRESSURE_L2, 1.0, "square-root edge, as for the circle"),
-    )  # fmt: skip
+    )
     grids = on_cells(BARREL, refinement(32, 256 if level is Level.QUICK else 512))
     return case(
         "hertz_elliptical",
@@ -460,38 +490,45 @@ def hertz_elliptical(level: Level = Level.QUICK) -> Case:
         judged(grids, rows),
         charts=(
             profile(
-                grids, "elliptical_profile", "Pressure along the long axis of the ellipse",
+                grids,
+                "elliptical_profile",
+                "Pressure along the long axis of the ellipse",
                 "Computed pressure on the row of cells next to y = 0, the exact pressure, and "
                 "their difference.",
-                "p / p₀", EXACT.peak_pressure,
+                "p / p₀",
+                EXACT.peak_pressure,
             ),
         ),
         shows=("(3)", "known solutions", "shapes"),
-    )  # fmt: skip
+    )
 
 
 ON_MESHES = (
     Within(PEAK_PRESSURE, scaled_tolerance(1e-4, 2), because(2)),
     Within(APPROACH, scaled_tolerance(1e-4, 2), because(2)),
     Within(
-        CONTACT_RADIUS, scaled_tolerance(2e-4, 1),
+        CONTACT_RADIUS,
+        scaled_tolerance(2e-4, 1),
         "the edge is known to 1/70 of an element; the accuracy target is 2e-3 at 64 per radius",
     ),
     Within(PRESSURE_WITHIN, scaled_tolerance(2e-3, 2), because(2)),
     Falls(
-        PRESSURE_L2, 1.0,
+        PRESSURE_L2,
+        1.0,
         "at the edge hat functions do not represent a square root: an error of O(√h) on a ring "
         "one element wide leaves O(h) in L2",
     ),
     Falls(
-        PEAK_PRESSURE, 2.0,
+        PEAK_PRESSURE,
+        2.0,
         "the error of hat functions at the square-root edge is O(h²) of the load",
     ),
     Falls(
-        APPROACH, 2.0,
+        APPROACH,
+        2.0,
         "the energy is stationary with respect to the edge of the contact, which is known to O(h)",
     ),
-)  # fmt: skip
+)
 
 
 def fem_hertz(
@@ -523,13 +560,20 @@ def fem_hertz(
         judged(meshes, ON_MESHES),
         charts=(
             profile(
-                meshes, "fem_hertz_profile", "Pressure over the radius",
+                meshes,
+                "fem_hertz_profile",
+                "Pressure over the radius",
                 "Pressure by finite elements, Hertz's pressure, and their difference: a ripple "
                 "of the last elements at the edge.",
-                "p / p₀", HERTZ.peak_pressure, PRESSURE,
+                "p / p₀",
+                HERTZ.peak_pressure,
+                PRESSURE,
             ),
             convergence(
-                meshes, ON_MESHES, "fem_hertz_convergence", "Convergence of the finite elements",
+                meshes,
+                ON_MESHES,
+                "fem_hertz_convergence",
+                "Convergence of the finite elements",
                 "Relative errors, root mean square over the positions of the edge in its "
                 "element, against the element side over the contact radius.",
                 also=(CONTACT_RADIUS,),
@@ -544,7 +588,7 @@ def fem_hertz(
             "order.",
         ),
         shows=("finite elements", "known solutions"),
-    )  # fmt: skip
+    )
 
 
 def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
@@ -565,26 +609,31 @@ def fem_penalty_hertz(level: Level = Level.QUICK) -> Case:
     k = factor * elements * BALL.radius / meshed(BALL.radius, elements)
     error = APPROACH.error(BALL)
     law = Quantity(
-        "error_law", "error of the approach without augmentation, times k = c a/h", "",
-        springs.judged.run.label, lambda result: error(result) * k,
+        "error_law",
+        "error of the approach without augmentation, times k = c a/h",
+        "",
+        springs.judged.run.label,
+        lambda result: error(result) * k,
         Reference(
-            1 / pi, ReferenceKind.THEORY,
+            1 / pi,
+            ReferenceKind.THEORY,
             "springs of stiffness ε in series with Hertz's contact, to first order: the approach "
             "grows by d/dW of their energy ∫p²/2ε dA, which is p₀/2ε; the next order is 1/k of it",
             1 / (pi * k),
         ),
         Required(0.05, "set by hand: the next order in 1/k and the error of the mesh"),
-    )  # fmt: skip
+    )
     rows = (
         Within(PEAK_PRESSURE, 2e-3, PENALTY),
         Within(
-            APPROACH, scaled_tolerance(1e-4, 2),
+            APPROACH,
+            scaled_tolerance(1e-4, 2),
             "as without a penalty: an augmentation removes the contribution 1/πk of the springs; "
             f"{because(2)}",
         ),
         Within(CONTACT_RADIUS, part_of_side(0.1), "a tenth of an element: the last points ripple"),
         Within(PRESSURE_WITHIN, scaled_tolerance(2e-3, 2), because(2)),
-    )  # fmt: skip
+    )
     of_springs = (
         Within(PEAK_PRESSURE, 2e-3, PENALTY, name="peak_pressure_of_springs"),
         Within(APPROACH, 2e-3, PENALTY, name="approach_of_springs"),
@@ -622,17 +671,20 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
     grids = on_cells(CONE, cells)
     rows = (
         Refined(
-            APPROACH, 2.0, 1e-4,
+            APPROACH,
+            2.0,
+            1e-4,
             "order 2: the apex lies between cells and shifts the load of a few of them; the cap "
             "is twice the target of the ball",
         ),
         Refined(CONTACT_RADIUS, 1.0, part_of_side(0.1), EDGE),
-    )  # fmt: skip
+    )
     order = Falls(
-        PRESSURE_L1, 1.5,
+        PRESSURE_L1,
+        1.5,
         "at the edge O(√h) on a ring one cell wide; the logarithm at the apex is O(1) in a few "
         "cells, O(h²)",
-    )  # fmt: skip
+    )
     return case(
         "cone_contact",
         "Cone on a half-space",
@@ -642,15 +694,18 @@ def cone_contact(level: Level = Level.QUICK) -> Case:
         judged(on_cells(CONE, cells, offsets=UNLIKE), (order,)),
         charts=(
             profile(
-                grids, "cone_profile", "Pressure next to y = 0",
+                grids,
+                "cone_profile",
+                "Pressure next to y = 0",
                 "Computed pressure, exact pressure, and their difference, in units of the mean "
                 "pressure.",
-                "p / mean p", mean_pressure(CONE),
+                "p / mean p",
+                mean_pressure(CONE),
             ),
         ),
         limits=("The pressure of the cells at the apex is an average of an infinite peak.",),
         shows=("known solutions", "shapes"),
-    )  # fmt: skip
+    )
 
 
 def flat_punch(level: Level = Level.QUICK) -> Case:
@@ -666,10 +721,11 @@ def flat_punch(level: Level = Level.QUICK) -> Case:
     rows = (
         Within(APPROACH, part_of_side(0.5), f"half a cell over the radius: {STAIRCASE}"),
         Within(
-            CENTRAL_PRESSURE, part_of_side(1.0),
+            CENTRAL_PRESSURE,
+            part_of_side(1.0),
             f"one cell over the radius: pressure goes as 1/radius², and {STAIRCASE}",
         ),
-    )  # fmt: skip
+    )
     return case(
         "flat_punch",
         "Flat punch on a half-space",
@@ -678,7 +734,9 @@ def flat_punch(level: Level = Level.QUICK) -> Case:
         judged(grids, rows),
         charts=(
             convergence(
-                grids, (Falls(APPROACH, 1.0, STAIRCASE),), "flat_punch_convergence",
+                grids,
+                (Falls(APPROACH, 1.0, STAIRCASE),),
+                "flat_punch_convergence",
                 "Convergence of the flat punch",
                 "Relative errors against cell side, with a line of slope one.",
                 also=(CENTRAL_PRESSURE,),
@@ -687,7 +745,7 @@ def flat_punch(level: Level = Level.QUICK) -> Case:
         no_order="first order in the cell side with scatter: the division of cells by the circle "
         "differs from grid to grid",
         shows=("known solutions", "shapes"),
-    )  # fmt: skip
+    )
 
 
 # Oblique to the grid, and a little less than the third of the radius at which the punch lifts off.
@@ -779,7 +837,9 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
             Within(
                 # The slope along an axis is a rotation about the other one.
                 Observable(
-                    f"tilt_{axis}", f"slope along {axis}", "rad",
+                    f"tilt_{axis}",
+                    f"slope along {axis}",
+                    "rad",
                     partial(_vector_component, "tilt", 1 - along),
                     partial(_exact_slope, along),
                     scalar=("tilt", 1 - along),
@@ -793,12 +853,15 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
         Within(APPROACH, part_of_side(0.5), f"half a cell over the radius: {STAIRCASE}"),
         Within(
             error_norm(
-                "inner_pressure", "largest |p - p_exact| / p_exact within half the radius",
-                _inner_error, "p_exact",
+                "inner_pressure",
+                "largest |p - p_exact| / p_exact within half the radius",
+                _inner_error,
+                "p_exact",
             ),
-            part_of_side(1.5), "as the tilt",
+            part_of_side(1.5),
+            "as the tilt",
         ),
-    )  # fmt: skip
+    )
     grids = on_cells(problem, refinement(32, 128 if level is Level.QUICK else 256), PUNCH_WINDOW)
     finest = grids.judged.run
     assert isinstance(finest, Run)
@@ -812,16 +875,20 @@ def tilted_punch(level: Level = Level.QUICK) -> Case:
         runs=(Run("given tilt", tilted, finest.grid),),
         quantities=(
             compare_runs(
-                "both_controls", "prescribed moment against prescribed tilt, by the stiffnesses: "
-                "load over approach and moment over tilt", (finest.label, "given tilt"),
-                _stiffness_difference, 1e-6,
+                "both_controls",
+                "prescribed moment against prescribed tilt, by the stiffnesses: "
+                "load over approach and moment over tilt",
+                (finest.label, "given tilt"),
+                _stiffness_difference,
+                1e-6,
                 "the whole face is in contact: the response is linear to the "
-                "tolerance of the solver", "linearity of a contact that does not change",
+                "tolerance of the solver",
+                "linearity of a contact that does not change",
             ),
         ),
         no_order="first order in the cell side with scatter, as in flat_punch",
         shows=("(1)", "(3)", "tilt and torsion"),
-    )  # fmt: skip
+    )
 
 
 MOVED = (8, 5)  # cells between the tip and the force, along x and y
@@ -887,9 +954,15 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
     ) -> Quantity:
         reference = Reference(value, ReferenceKind.IDENTITY, source, ROUNDING * abs(value))
         return Quantity(
-            name, meaning, unit, run, partial(_vector_component, *scalar), reference,
-            Required(1e-6, ROLLED), scalar=(*scalar, -1),
-        )  # fmt: skip
+            name,
+            meaning,
+            unit,
+            run,
+            partial(_vector_component, *scalar),
+            reference,
+            Required(1e-6, ROLLED),
+            scalar=(*scalar, -1),
+        )
 
     return case(
         "eccentric_ball",
@@ -902,31 +975,47 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         quantities=(
             *(
                 rolled(
-                    f"tilt_{axis}", f"slope along {axis}", "rad", "beside",
-                    ("tilt", 1 - along), roll[along],
+                    f"tilt_{axis}",
+                    f"slope along {axis}",
+                    "rad",
+                    "beside",
+                    ("tilt", 1 - along),
+                    roll[along],
                 )
                 for along, axis in enumerate("xy")
             ),
             rolled(
-                "moment_of_given_tilt", "moment M_y at the prescribed tilt", "N m",
-                "given tilt", ("moment", 1), NORMAL_FORCE * e[0],
+                "moment_of_given_tilt",
+                "moment M_y at the prescribed tilt",
+                "N m",
+                "given tilt",
+                ("moment", 1),
+                NORMAL_FORCE * e[0],
             ),
             *(
                 compare_runs(
-                    f"fields{suffix}", "largest difference of pressure and shear, shifted, over "
+                    f"fields{suffix}",
+                    "largest difference of pressure and shear, shifted, over "
                     "the largest pressure and the largest friction limit",
-                    (f"beside{suffix}", f"centred{suffix}"), _shifted_field_difference, 1e-5,
-                    ROLLED, source,
+                    (f"beside{suffix}", f"centred{suffix}"),
+                    _shifted_field_difference,
+                    1e-5,
+                    ROLLED,
+                    source,
                 )
                 for suffix in ("", ", unlike bodies")
             ),
             compare_runs(
-                "approach", "approach at the origin plus the rise of the tip by rolling, against "
-                "the approach of the centred ball", ("beside", "centred"),
+                "approach",
+                "approach at the origin plus the rise of the tip by rolling, against "
+                "the approach of the centred ball",
+                ("beside", "centred"),
                 lambda beside, centred: abs(
                     (beside.steps[-1].approach + drop) / centred.steps[-1].approach - 1
                 ),
-                1e-6, ROLLED, source,
+                1e-6,
+                ROLLED,
+                source,
             ),
         ),
         equations=(
@@ -934,7 +1023,7 @@ def eccentric_ball(level: Level = Level.QUICK) -> Case:
         ),
         no_order=IDENTITY,
         shows=("(1)", "tilt and torsion"),
-    )  # fmt: skip
+    )
 
 
 def _mid_pressure_error(result: Any, step: int, problem: Problem) -> float:
@@ -991,13 +1080,15 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
     # On meshes coarser than 22 elements per radius the second term makes 0.8 of that order.
     fine = replace(punches, followed=tuple(rung for rung in punches.rungs if rung.count >= 22))
     of_fine = Falls(
-        CENTRAL_PRESSURE, 1.0, rim,
+        CENTRAL_PRESSURE,
+        1.0,
+        rim,
         NotYetAsymptotic(
             0.15,
             "the error is A h - B h² with B = 3.5 A / a: neighbouring meshes from 22 elements "
             "per radius on have the orders 0.86, 0.90, 0.93",
         ),
-    )  # fmt: skip
+    )
     caption = "Relative errors against the side of an element over the contact radius."
     return case(
         "fem_classical",
@@ -1009,13 +1100,20 @@ def fem_classical(level: Level = Level.QUICK) -> Case:
         judged(fine, () if level is Level.QUICK else (of_fine,)),
         charts=(
             convergence(
-                punches, (*of_punch, of_fine), "fem_classical_convergence",
-                "Convergence of the punch", caption,
+                punches,
+                (*of_punch, of_fine),
+                "fem_classical_convergence",
+                "Convergence of the punch",
+                caption,
             ),
             convergence(
-                cones, (), "fem_classical_cone", "Convergence of the cone", caption,
+                cones,
+                (),
+                "fem_classical_cone",
+                "Convergence of the cone",
+                caption,
                 also=(APPROACH,),
             ),
         ),
         shows=("finite elements", "known solutions"),
-    )  # fmt: skip
+    )

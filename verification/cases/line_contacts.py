@@ -127,10 +127,11 @@ def line_push(level: Level = Level.QUICK) -> Case:
         Within(SHIFT_X, 1e-5, f"as the peak pressure, {TARGET}"),
         Within(SHEAR, 2e-4, f"as the half width, {TARGET}"),
         Within(
-            replace(ENERGY, unit=PER_LENGTH, source=SOURCE), 5e-4,
+            replace(ENERGY, unit=PER_LENGTH, source=SOURCE),
+            5e-4,
             "slip at the edge, over the width of a strip: twice the error of the half width",
         ),
-    )  # fmt: skip
+    )
     return case(
         "line_push",
         "Line contact: a cylinder pressed and pushed",
@@ -140,14 +141,19 @@ def line_push(level: Level = Level.QUICK) -> Case:
         judged(strips, rows),
         charts=(
             profile(
-                strips, "line_push_profile", "Pressure and shear over µ",
+                strips,
+                "line_push_profile",
+                "Pressure and shear over µ",
                 "Computed and exact pressure after pressing, shear over µ after the push, and "
                 "their differences, in units of the peak pressure.",
-                "p / p₀ and q / µp₀", HERTZ_LINE.peak_pressure,
+                "p / p₀ and q / µp₀",
+                HERTZ_LINE.peak_pressure,
                 Drawn(lambda end: end.pressure, lambda exact: exact.pressure, "p", 0),
                 Drawn(
                     lambda end: end.shear[0] / FRICTION,
-                    lambda exact: lambda x: exact.shear(x) / FRICTION, "q/µ", 1,
+                    lambda exact: lambda x: exact.shear(x) / FRICTION,
+                    "q/µ",
+                    1,
                 ),
             ),
         ),
@@ -158,7 +164,7 @@ def line_push(level: Level = Level.QUICK) -> Case:
         ),
         no_order="the errors depend on the places of the edges within strips",
         shows=("line contacts",),
-    )  # fmt: skip
+    )
 
 
 def _stick_centre(result: Any, step: int, _: Problem) -> float:
@@ -168,9 +174,13 @@ def _stick_centre(result: Any, step: int, _: Problem) -> float:
 
 
 STICK_CENTRE = Observable(
-    "stick_centre", "mean of x over the strips that stick", "m", _stick_centre,
-    lambda end: float(end.stick_centre), OVER_RADIUS,
-)  # fmt: skip
+    "stick_centre",
+    "mean of x over the strips that stick",
+    "m",
+    _stick_centre,
+    lambda end: float(end.stick_centre),
+    OVER_RADIUS,
+)
 HALF_A_STRIP = "half a strip: the zone is made of whole strips"
 STRAINS = (0.1, 0.2)  # distance of the stick zone from the middle, in half widths
 
@@ -186,9 +196,12 @@ def _strained(part: float) -> Problem:
     push = LoadStep(tangential_force=(PUSH, 0.0), bulk_stress=(stress, 0.0, 0.0))
     exact = PushedCylinder(HERTZ_LINE, FRICTION, PUSH, strain)
     return _problem(
-        _cylinder(PRESS, push), HERTZ_LINE, exact,
-        source="Nowell and Hills 1987", across=1.0,
-    )  # fmt: skip
+        _cylinder(PRESS, push),
+        HERTZ_LINE,
+        exact,
+        source="Nowell and Hills 1987",
+        across=1.0,
+    )
 
 
 def line_loop(level: Level = Level.QUICK) -> Case:
@@ -198,9 +211,10 @@ def line_loop(level: Level = Level.QUICK) -> Case:
     """
     loop = on_strips(LOOP, STRIPS, of="loop")
     energy = replace(
-        ENERGY_PER_CYCLE, meaning="energy dissipated from 0.5 µW to -0.5 µW and back",
+        ENERGY_PER_CYCLE,
+        meaning="energy dissipated from 0.5 µW to -0.5 µW and back",
         unit=PER_LENGTH,
-    )  # fmt: skip
+    )
     strained = [on_strips(_strained(part), STRIPS, of=f"e = {part:g} a") for part in STRAINS]
     rows = (
         Within(STICK_CENTRE, 0.5 * STRIPS_WINDOW / STRIPS, HALF_A_STRIP),
@@ -217,10 +231,7 @@ def line_loop(level: Level = Level.QUICK) -> Case:
         *(
             judged(
                 of,
-                [
-                    replace(row, name=f"{row.what.name}_at_{part:g}")
-                    for row in rows
-                ],
+                [replace(row, name=f"{row.what.name}_at_{part:g}") for row in rows],
             )
             for part, of in zip(STRAINS, strained, strict=True)
         ),
@@ -231,12 +242,13 @@ def line_loop(level: Level = Level.QUICK) -> Case:
         ),
         no_order=JUDGED_BY.format("line_push"),
         shows=("line contacts",),
-    )  # fmt: skip
+    )
 
 
 SLOPE = 0.01
 WEDGE = WedgeContact(1e5, SLOPE, CONTACT_MODULUS)
-FLAT, EDGE_RADIUS = 1e-3, 50e-3
+FLAT = 1e-3
+EDGE_RADIUS = 50e-3
 ROUNDED = 1.5 * FLAT
 TILTED_STRIP = FlatStrip(LOAD, FLAT, CONTACT_MODULUS, 0.2 * LOAD * FLAT)
 
@@ -266,9 +278,11 @@ def line_shapes(level: Level = Level.QUICK) -> Case:
     level  amount of computation: quick, standard or full
     """
     wedge = _problem(
-        _shaped(Wedge, WEDGE.load, slope_angle=SLOPE), WEDGE,
-        half_width=WEDGE.contact_radius, source="Johnson 1985, section 5.2",
-    )  # fmt: skip
+        _shaped(Wedge, WEDGE.load, slope_angle=SLOPE),
+        WEDGE,
+        half_width=WEDGE.contact_radius,
+        source="Johnson 1985, section 5.2",
+    )
     rounded = _problem(
         _shaped(
             Strip,
@@ -283,9 +297,11 @@ def line_shapes(level: Level = Level.QUICK) -> Case:
     press = LoadStep(normal_force=LOAD, moment=(0.0, TILTED_STRIP.moment))
     sharp = _problem(
         _shaped(Strip, LOAD, half_width=FLAT).model_copy(update={"loading": (press,)}),
-        TILTED_STRIP, half_width=FLAT, across=1.0,
+        TILTED_STRIP,
+        half_width=FLAT,
+        across=1.0,
         source="Sadowsky 1928; Johnson 1985, section 2.8",
-    )  # fmt: skip
+    )
     of_flat = (
         Within(MIDDLE, 1e-5, f"second order with the edge at its best place, {TARGET}"),
         Within(TILT, 2e-5, "twice the error of the pressure, whose moment it is"),
@@ -321,7 +337,8 @@ def line_shapes(level: Level = Level.QUICK) -> Case:
 SLIDING = SlidingCylinder(LOAD, RADIUS, STEEL.plane_strain_modulus, 0.3, 0.5 * 0.4 / 0.7)
 THIN = IsotropicMaterial(young_modulus=1e9, poisson_ratio=0.3)
 UNIAXIAL = 1e9 * 0.7 / (1.3 * 0.4)
-HALF, THICKNESS = 1e-3, 1e-3 / 80
+HALF = 1e-3
+THICKNESS = 1e-3 / 80
 THIN_PEAK = UNIAXIAL * HALF**2 / (2 * RADIUS * THICKNESS)
 
 
@@ -339,9 +356,13 @@ def _middle(result: Any, step: int, _: Problem) -> float:
 
 
 MIDDLE_OF_CONTACT = Observable(
-    "middle", "distance of the middle of the contact from the apex", "m", _middle,
-    lambda end: float(end.distance_of_middle), OVER_RADIUS,
-)  # fmt: skip
+    "middle",
+    "distance of the middle of the contact from the apex",
+    "m",
+    _middle,
+    lambda end: float(end.distance_of_middle),
+    OVER_RADIUS,
+)
 
 
 def line_unlike(level: Level = Level.QUICK) -> Case:
@@ -357,22 +378,29 @@ def line_unlike(level: Level = Level.QUICK) -> Case:
             friction=SLIDING.friction,
             indenter=rigid,
         ),
-        HERTZ_LINE, SLIDING,
-        half_width=SLIDING.contact_radius, source="Johnson 1985, section 8.2",
-    )  # fmt: skip
+        HERTZ_LINE,
+        SLIDING,
+        half_width=SLIDING.contact_radius,
+        source="Johnson 1985, section 8.2",
+    )
     body = Body(material=RIGID, layers=(Layer(thickness=THICKNESS, material=THIN),))
     thin = _problem(
         _cylinder(
             LoadStep(normal_force=4 / 3 * THIN_PEAK * HALF),
-            friction=None, indenter=rigid, body=body,
+            friction=None,
+            indenter=rigid,
+            body=body,
         ),
-        SimpleNamespace(peak_pressure=THIN_PEAK), uncertainty=(THICKNESS / HALF) ** 2,
-        half_width=HALF, source="Johnson 1985, section 5.8",
-    )  # fmt: skip
+        SimpleNamespace(peak_pressure=THIN_PEAK),
+        uncertainty=(THICKNESS / HALF) ** 2,
+        half_width=HALF,
+        source="Johnson 1985, section 5.8",
+    )
     along = _problem(
-        _cylinder(PRESS, LoadStep(tangential_force=(0.0, PUSH))), HERTZ_LINE,
+        _cylinder(PRESS, LoadStep(tangential_force=(0.0, PUSH))),
+        HERTZ_LINE,
         SimpleNamespace(shift=ALONG, stick_radius=PUSHED.stick_radius),
-    )  # fmt: skip
+    )
     strip = STRIPS_WINDOW / STRIPS
     return case(
         "line_unlike",

@@ -172,9 +172,12 @@ def _slip_error(result: Any, step: int, problem: Problem) -> float:
 
 
 SLIP = error_norm(
-    "slip", "mean difference of the slip in the contact{when}", _slip_error, unit="m",
+    "slip",
+    "mean difference of the slip in the contact{when}",
+    _slip_error,
+    unit="m",
     over=OVER_SLIDING_SHIFT,
-)  # fmt: skip
+)
 
 
 def _stop_rows(step: int, part: float) -> tuple[Row, ...]:
@@ -188,20 +191,24 @@ def _stop_rows(step: int, part: float) -> tuple[Row, ...]:
     """
     return (
         Within(
-            SHEARS[part], 2e-3,
+            SHEARS[part],
+            2e-3,
             "required of the fretting loop at 128 x 128, which includes this state",
         ),
         Refined(STICK_RADIUS.at(step, part, "µW"), 1.0, part_of_side(0.2), STICK_BORDER),
         Within(
-            SHIFT.at(step, part, "µW"), 3e-5,
+            SHIFT.at(step, part, "µW"),
+            3e-5,
             "four times the error of 128 cells; 1e-4 is required of the fretting loop",
         ),
         Refined(
-            SLIP.at(step, part, "µW"), 1.5, 1e-4,
+            SLIP.at(step, part, "µW"),
+            1.5,
+            1e-4,
             "order 3/2 of the shear's L1 error; the cap is the accuracy target of the shift, "
             "which includes the slip",
         ),
-    )  # fmt: skip
+    )
 
 
 def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
@@ -225,18 +232,20 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
     edges = f"{SQUARE_ROOTS}: an error of O(√h) on rings one cell wide leaves O(h^3/2) in L1"
     order = Falls(SHEAR.at(1 if quick else LOOPED, STOPS[LOOPED], "µW"), 1.5, edges)
     energy = Within(
-        ENERGY.at(LOOPED, STOPS[LOOPED], "µW"), 1e-4,
+        ENERGY.at(LOOPED, STOPS[LOOPED], "µW"),
+        1e-4,
         "four times the error of 128 cells; 5e-4 is required of the fretting loop's cycle",
-    )  # fmt: skip
+    )
     stopped = "0.3, 0.6, 0.9 and 0.99 µW"
     means = (
         Falls(
-            SHIFT.over_stops(stopped), 2.5,
+            SHIFT.over_stops(stopped),
+            2.5,
             "the shift is the difference of two approaches, of the contact and of the stick zone "
             "(Cattaneo), with the same error of 0.04 h²/R; the remaining error depends on the "
             "division of cells by circles, O(h^5/2)",
         ),
-    )  # fmt: skip
+    )
     shifted = [] if quick or cells else [on_cells(CATTANEO, refinement(32, 256), offsets=OFFSETS)]
     return case(
         "cattaneo_mindlin",
@@ -250,15 +259,20 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
         *(judged(one, means) for one in shifted),
         charts=(
             profile(
-                grids, "cattaneo_profiles", "Shear next to y = 0",
+                grids,
+                "cattaneo_profiles",
+                "Shear next to y = 0",
                 f"Computed shear on {grids.judged.run.label} cells at four tangential forces, "
                 "the closed form, and their difference, which is largest at the stick edge and "
                 "at the contact edge.",
-                "qₓ / µp₀", FRICTION * HERTZ.peak_pressure,
+                "qₓ / µp₀",
+                FRICTION * HERTZ.peak_pressure,
                 *shears_along_x(STOPS),
             ),
             convergence(
-                grids, (replace(order, what=SHEARS[STOPS[LOOPED]]),), "cattaneo_convergence",
+                grids,
+                (replace(order, what=SHEARS[STOPS[LOOPED]]),),
+                "cattaneo_convergence",
                 "Convergence of the shear",
                 "Σ|q - q_exact| / Σµp against cell side for four tangential forces, with a line of "
                 "the expected slope 3/2.",
@@ -266,7 +280,9 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
             ),
             *(
                 convergence(
-                    one, means, "cattaneo_convergence_of_means",
+                    one,
+                    means,
+                    "cattaneo_convergence_of_means",
                     "Convergence of shift and dissipated energy",
                     "Errors at all four tangential forces, root mean square over grids in "
                     "several positions; single errors change sign.",
@@ -276,7 +292,7 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
             ),
         ),
         shows=("(2)", "(4)", "(11)", "known solutions"),
-    )  # fmt: skip
+    )
 
 
 def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
@@ -285,11 +301,9 @@ def shears_along_x(stops: dict[int, float]) -> list[Drawn]:
     stops  tangential force over µW, by index of the load step
     """
     return [
-        Drawn(
-            lambda end: shear_of(end)[0], lambda exact: exact.shear, f"{part:g} µW", step
-        )
+        Drawn(lambda end: shear_of(end)[0], lambda exact: exact.shear, f"{part:g} µW", step)
         for step, part in stops.items()
-    ]  # fmt: skip
+    ]
 
 
 def _under_cone(*parts: float) -> Problem:
@@ -345,18 +359,21 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
         for step, part in stops.items()
         for row in (
             Within(
-                SHEAR.at(step, part, "µW"), 4e-3,
+                SHEAR.at(step, part, "µW"),
+                4e-3,
                 "twice the accuracy target of the ball at 128 x 128: cells average the infinite "
                 "peak at the apex",
             ),
             Refined(stick.at(step, part, "µW"), 1.0, part_of_side(0.2), STICK_BORDER),
             Refined(
-                SHIFT.at(step, part, "µW"), 2.0, 1e-4,
+                SHIFT.at(step, part, "µW"),
+                2.0,
+                1e-4,
                 "order 2 and cap as for the approach of the frictionless cone, to which the "
                 "shift is proportional",
             ),
         )
-    )  # fmt: skip
+    )
     return case(
         "sheared_cone",
         "Partial slip under a cone",
@@ -367,15 +384,19 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
         judged(followed, (Falls(SHEAR.at(1, stops[1], "µW"), 1.5, SQUARE_ROOTS),)),
         charts=(
             profile(
-                grids, "sheared_cone_profiles", "Shear next to y = 0",
+                grids,
+                "sheared_cone_profiles",
+                "Shear next to y = 0",
                 "Computed shear under the cone, the superposition of two pressures, and their "
                 "difference, in units of µ times the mean pressure. The infinite peaks at the "
                 "apex cancel.",
-                "qₓ / (µ mean p)", FRICTION * mean_pressure(CONE), *shears_along_x(stops),
+                "qₓ / (µ mean p)",
+                FRICTION * mean_pressure(CONE),
+                *shears_along_x(stops),
             ),
         ),
         shows=("known solutions", "shapes"),
-    )  # fmt: skip
+    )
 
 
 def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
@@ -392,22 +413,27 @@ def near_sliding(level: Level = Level.QUICK, cells: int = 0) -> Case:
     materials = {"ν = 0": NU_ZERO, "ν = 0.3": STEEL}
     of_step = (
         Within(
-            SHIFT, 4e-4,
+            SHIFT,
+            4e-4,
             "the stick zone is a few cells wide or less: its force and with it the shift is "
             "known to a fraction of that of a cell; four times the error of the narrowest stick "
             "zone",
         ),
-    )  # fmt: skip
+    )
     of_sliding = (
         Within(
             Observable(
-                "sliding_force", "tangential force while sliding", "N",
+                "sliding_force",
+                "tangential force while sliding",
+                "N",
                 lambda result, step, _: force_along_x(result.steps[step]),
-                lambda limit: float(limit), scalar=("tangential_force", 0),
+                lambda limit: float(limit),
+                scalar=("tangential_force", 0),
             ),
-            1e-7, "ten times the solver's tolerance, for sums over all cells",
+            1e-7,
+            "ten times the solver's tolerance, for sums over all cells",
         ),
-    )  # fmt: skip
+    )
     return case(
         "near_sliding",
         "Gross slip and the approach to it",
@@ -470,7 +496,8 @@ def _sliding_problem(material: IsotropicMaterial) -> Problem:
 
 # The body is incompressible, so that pressing causes no shear, and the disc sticks completely.
 RUBBER = IsotropicMaterial(young_modulus=3e6, poisson_ratio=0.5)
-PUNCH, PUNCH_FORCE = 5e-3, 10.0
+PUNCH = 5e-3
+PUNCH_FORCE = 10.0
 
 
 @dataclass(frozen=True)
@@ -537,11 +564,12 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
     shear = error_norm("shear", "∫|q - q_exact| dA / µW{when}", _shear_error, "µW")
     across = error_norm("shear_across", "largest |q_y| / µp_H{when}", _shear_across, OVER_LIMIT)
     beyond = error_norm(
-        "shift_over_mindlin", "shift{when} over Mindlin's, less one, ν = 0.3",
+        "shift_over_mindlin",
+        "shift{when} over Mindlin's, less one, ν = 0.3",
         lambda result, step, problem: (
             shift_along_x(result.steps[step]) / problem.ends[step].shift - 1
         ),
-    )  # fmt: skip
+    )
     rows = tuple(
         row
         for stop in STOPS.items()
@@ -550,11 +578,12 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
             Within(shear.at(*stop, "µW"), scaled_tolerance(6e-3, cusp), because(cusp)),
             Within(across.at(*stop, "µW"), scaled_tolerance(3e-3, 1.0), because(1.0)),
             Within(
-                STICK_RADIUS.at(*stop, "µW"), part_of_side(1.0),
+                STICK_RADIUS.at(*stop, "µW"),
+                part_of_side(1.0),
                 "an element: stick and slip are determined ring by ring",
             ),
         )
-    )  # fmt: skip
+    )
     beside_mindlin = tuple(
         row
         for stop in STOPS.items()
@@ -590,9 +619,11 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
     exact, steel, disc = (
         _points_level(of, problem, elements, over)
         for of, problem, over in (
-            ("ν = 0", CATTANEO, 0.99), ("ν = 0.3", alike, 0.99), ("disc", bonded, 1.0),
+            ("ν = 0", CATTANEO, 0.99),
+            ("ν = 0.3", alike, 0.99),
+            ("disc", bonded, 1.0),
         )
-    )  # fmt: skip
+    )
     of_disc = Within(
         replace(SHIFT, over=""), scaled_tolerance(5e-4, rim), because(rim), name="shift_of_disc"
     )

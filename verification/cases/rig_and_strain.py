@@ -144,7 +144,8 @@ class EccentricContact:
 
 OVER_FORCE = "µW"
 # Stiffness of the rig [N/m], and shift of the actuator, in turn positive and negative [m].
-STIFFNESS, ACTUATED = 100e6, 1.5e-6
+STIFFNESS = 100e6
+ACTUATED = 1.5e-6
 AT_ENDS = {1: 1.0, 2: -1.0, 3: 1.0}  # of the largest shift of the actuator, by loading step
 # Accepted error of force and shift; 24 rings, 16 elements and 64 x 64 cells have smaller errors.
 ON_ALL = 1e-3
@@ -220,9 +221,12 @@ def _spring_loop_problem() -> Problem:
 
 
 FORCE = number(
-    "force", "tangential force{when}", quantity="tangential_force_x", exact="tangential_force",
+    "force",
+    "tangential force{when}",
+    quantity="tangential_force_x",
+    exact="tangential_force",
     over=OVER_FORCE,
-)  # fmt: skip
+)
 
 
 def _work_at_contact(result: Any, step: int, _: Problem) -> float:
@@ -246,9 +250,12 @@ def _work_observable() -> Observable:
     shift at gross slip.
     """
     return Observable(
-        "work_at_contact", "work of T on the contact until the end, over µW and its shift", "",
-        _work_at_contact, _exact_work,
-    )  # fmt: skip
+        "work_at_contact",
+        "work of T on the contact until the end, over µW and its shift",
+        "",
+        _work_at_contact,
+        _exact_work,
+    )
 
 
 def _exact_work(end: Sprung) -> float:
@@ -349,7 +356,8 @@ def series_spring(level: Level = Level.QUICK) -> Case:
 
 # Along x and y, and strain over that of e = a µ/R [1].
 SHAPES = {"ball": (18e-3, 18e-3), "barrel across": (10e-3, 40e-3), "barrel along": (40e-3, 10e-3)}
-ECCENTRICITY, SHEARED = 0.14, 0.5
+ECCENTRICITY = 0.14
+SHEARED = 0.5
 
 
 def eccentric(name: str) -> Problem:
@@ -438,14 +446,17 @@ def eccentric_contact(level: Level = Level.QUICK) -> Case:
         judged(orders, (order,)),
         charts=(
             profile(
-                ladders["ball"], "eccentric_shear", "Shear next to y = 0",
-                "Computed shear, the closed form, and their difference.", "qₓ / µp₀",
+                ladders["ball"],
+                "eccentric_shear",
+                "Shear next to y = 0",
+                "Computed shear, the closed form, and their difference.",
+                "qₓ / µp₀",
                 FRICTION * HERTZ.peak_pressure,
                 Drawn(lambda end: shear_of(end)[0], lambda exact: exact.shear),
             ),
         ),
         shows=("bulk strain",),
-    )  # fmt: skip
+    )
 
 
 STRAIN = 3e-4
@@ -502,9 +513,12 @@ def _added_stress(layer: int) -> Observable:
 
     name = ("layer", "base")[layer]
     return Observable(
-        f"stress_of_{name}", f"stress along a uniaxial strain in the {name}", "Pa", measure,
+        f"stress_of_{name}",
+        f"stress along a uniaxial strain in the {name}",
+        "Pa",
+        measure,
         lambda end: float(end[layer]),
-    )  # fmt: skip
+    )
 
 
 def strained_ball(level: Level = Level.QUICK) -> Case:

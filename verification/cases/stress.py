@@ -71,8 +71,14 @@ from verification.problems.problem import (
 
 Field = NDArray[np.float64]
 
-XX, YY, ZZ, YZ, XZ = 0, 1, 2, 3, 4
-A, P0, NU = HERTZ.contact_radius, HERTZ.peak_pressure, STEEL.poisson_ratio
+XX = 0
+YY = 1
+ZZ = 2
+YZ = 3
+XZ = 4
+A = HERTZ.contact_radius
+P0 = HERTZ.peak_pressure
+NU = STEEL.poisson_ratio
 HAMILTON_EQUATION = (
     r"\sigma_{ij}(\mathbf{x}) = \int G_{ijk}(\mathbf{x} - \mathbf{x}') \, t_k(\mathbf{x}') \, dA',"
     r"\quad \mathbf{t} = (\mu p, 0, p),\quad p = p_0 \sqrt{1 - r^2/a^2}"
@@ -212,24 +218,55 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
     Hamilton, and with continuity at the interface. All levels are equal.
     """
     closed: tuple[tuple[str, str, str, Callable[[], float]], ...] = (
-        ("hertz_axis", "largest error of σ_zz and σ_xx on the axis, over p₀",
-         "Huber 1904; Johnson 1985, ch. 3.4", lambda: _largest_over_peak(_axis_errors(256)[:, :2])),
-        ("sliding_axis", "largest error of τ_xz on the axis, over p₀",
-         "Hamilton 1983, on the axis", lambda: _largest_over_peak(_axis_errors(256)[:, 2])),
-        ("hertz_off_axis", "largest error of σ_zz and σ_yy in the plane y = 0 at depths from 0.2 "
-         "a, over p₀", "Huber 1904", _off_axis_error),
-        ("sliding_below", "largest error of the six stress components below pressure and shear, "
-        "at depths of 0.5 a and a over the whole window, over p₀", "Hamilton 1983",
-         _sliding_stress_error),
-    )  # fmt: skip
+        (
+            "hertz_axis",
+            "largest error of σ_zz and σ_xx on the axis, over p₀",
+            "Huber 1904; Johnson 1985, ch. 3.4",
+            lambda: _largest_over_peak(_axis_errors(256)[:, :2]),
+        ),
+        (
+            "sliding_axis",
+            "largest error of τ_xz on the axis, over p₀",
+            "Hamilton 1983, on the axis",
+            lambda: _largest_over_peak(_axis_errors(256)[:, 2]),
+        ),
+        (
+            "hertz_off_axis",
+            "largest error of σ_zz and σ_yy in the plane y = 0 at depths from 0.2 a, over p₀",
+            "Huber 1904",
+            _off_axis_error,
+        ),
+        (
+            "sliding_below",
+            "largest error of the six stress components below pressure and shear, "
+            "at depths of 0.5 a and a over the whole window, over p₀",
+            "Hamilton 1983",
+            _sliding_stress_error,
+        ),
+    )
     laws: tuple[tuple[str, str, str, Callable[[], float], str], ...] = (
-        ("interface_continuity", "largest jump of σ_zz, σ_xz, σ_yz over p₀ and of u over its "
-         "largest value", "displacement and traction are continuous", _interface_jump, "1"),
-        ("in_plane_jump", "σ_xx above minus the value that the strains below require, over p₀",
-         "in-plane strains are continuous", _in_plane_jump, "p₀"),
-        ("surface_tractions", "σ_zz, σ_xz at z = 0 against the tractions, over p₀",
-         "the boundary condition", _surface_traction_error, "p₀"),
-    )  # fmt: skip
+        (
+            "interface_continuity",
+            "largest jump of σ_zz, σ_xz, σ_yz over p₀ and of u over its largest value",
+            "displacement and traction are continuous",
+            _interface_jump,
+            "1",
+        ),
+        (
+            "in_plane_jump",
+            "σ_xx above minus the value that the strains below require, over p₀",
+            "in-plane strains are continuous",
+            _in_plane_jump,
+            "p₀",
+        ),
+        (
+            "surface_tractions",
+            "σ_zz, σ_xz at z = 0 against the tractions, over p₀",
+            "the boundary condition",
+            _surface_traction_error,
+            "p₀",
+        ),
+    )
     required = "required of subsurface stress by the project's accuracy targets"
     return case(
         "subsurface_stress",
@@ -242,15 +279,31 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
         quantities=(
             *(
                 Quantity(
-                    name, meaning, "", "256x256", measure, closed_form(0.0, source, 1.0),
-                    Required(1e-4, required), 1.0, "p₀", runs=(),
+                    name,
+                    meaning,
+                    "",
+                    "256x256",
+                    measure,
+                    closed_form(0.0, source, 1.0),
+                    Required(1e-4, required),
+                    1.0,
+                    "p₀",
+                    runs=(),
                 )
                 for name, meaning, source, measure in closed
             ),
             *(
                 Quantity(
-                    name, meaning, "", "coated, 64x64", measure, identity(0.0, source),
-                    Required(1e-10, required), 1.0, scale, runs=(),
+                    name,
+                    meaning,
+                    "",
+                    "coated, 64x64",
+                    measure,
+                    identity(0.0, source),
+                    Required(1e-10, required),
+                    1.0,
+                    scale,
+                    runs=(),
                 )
                 for name, meaning, source, measure, scale in laws
             ),
@@ -258,7 +311,7 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
         equations=(HAMILTON_EQUATION,),
         no_order="judged on one grid",
         shows=("stress",),
-    )  # fmt: skip
+    )
 
 
 # σ1 on the trailing edge under the same sliding, over Hertz's p0 of the substrate: the pressure of
@@ -409,14 +462,26 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
     hamilton, quick = "Hamilton and Goodman 1966; Johnson 1985, section 7.1", level is Level.QUICK
     # The uncertainty of the expected zero is that of the closed form: rounding, or one integral.
     fitted: tuple[tuple[str, str, Reference, Callable[[], float]], ...] = (
-        ("line", "largest error of σ_xx(x, 0) within 4 cells of either edge, over p₀",
-         closed_form(0.0, "Hamilton and Goodman 1966; Cerruti", 1.0), _edge_line_error),
-        ("below", "largest error of all components a cell below, within 3 cells of the edge, over "
-         "p₀", Reference(0.0, ReferenceKind.SEMI_CLOSED, "Hamilton 1983, as one integral", 1e-10),
-         _error_a_cell_below),
-        ("surface", "largest error of all components at the surface within 3 cells of the edge, "
-         "without shear, over p₀", closed_form(0.0, "Huber 1904", 1.0), _surface_error),
-    )  # fmt: skip
+        (
+            "line",
+            "largest error of σ_xx(x, 0) within 4 cells of either edge, over p₀",
+            closed_form(0.0, "Hamilton and Goodman 1966; Cerruti", 1.0),
+            _edge_line_error,
+        ),
+        (
+            "below",
+            "largest error of all components a cell below, within 3 cells of the edge, over p₀",
+            Reference(0.0, ReferenceKind.SEMI_CLOSED, "Hamilton 1983, as one integral", 1e-10),
+            _error_a_cell_below,
+        ),
+        (
+            "surface",
+            "largest error of all components at the surface within 3 cells of the edge, "
+            "without shear, over p₀",
+            closed_form(0.0, "Huber 1904", 1.0),
+            _surface_error,
+        ),
+    )
     return case(
         "edge_stress",
         "Stress at the edge of a sliding contact",
@@ -427,34 +492,56 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
         quantities=(
             *(
                 Quantity(
-                    f"trailing_edge_{cells}", "σ₁ on the trailing edge over p₀", "",
+                    f"trailing_edge_{cells}",
+                    "σ₁ on the trailing edge over p₀",
+                    "",
                     f"{cells}x{cells}",
                     partial(
-                        _trailing_edge_tension_on_cells, Body(material=STEEL),
-                        paraboloid(STEEL), cells,
+                        _trailing_edge_tension_on_cells,
+                        Body(material=STEEL),
+                        paraboloid(STEEL),
+                        cells,
                     ),
-                    closed_form(exact, hamilton), Required(allowed, required), exact, "its value",
+                    closed_form(exact, hamilton),
+                    Required(allowed, required),
+                    exact,
+                    "its value",
                     runs=(),
                 )
                 for cells, allowed in ((128, 5e-3), (256, 2e-3))
             ),
             *(
                 Quantity(
-                    name, meaning, "", "128x128", measure, reference, Required(5e-4, own), 1.0,
-                    "p₀", runs=(),
+                    name,
+                    meaning,
+                    "",
+                    "128x128",
+                    measure,
+                    reference,
+                    Required(5e-4, own),
+                    1.0,
+                    "p₀",
+                    runs=(),
                 )
                 for name, meaning, reference, measure in (fitted[:2] if quick else fitted)
             ),
             *(
                 Quantity(
-                    f"coated_{ratio:g}_{thickness:g}", "σ₁ on the trailing edge over Hertz's p₀",
-                    "", "128x128",
+                    f"coated_{ratio:g}_{thickness:g}",
+                    "σ₁ on the trailing edge over Hertz's p₀",
+                    "",
+                    "128x128",
                     partial(
-                        _trailing_edge_tension_on_cells, coated(film(ratio, thickness)),
-                        rigid_ball(), 128,
+                        _trailing_edge_tension_on_cells,
+                        coated(film(ratio, thickness)),
+                        rigid_ball(),
+                        128,
                     ),
                     Reference(value, ReferenceKind.SEMI_CLOSED, BY_RAYS, 1e-6),
-                    Required(1e-2, required), value, "its value", runs=(),
+                    Required(1e-2, required),
+                    value,
+                    "its value",
+                    runs=(),
                 )
                 for (ratio, thickness), value in COATED.items()
                 if thickness < 1 or not quick
@@ -466,7 +553,7 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
         ),
         no_order="the edge has any position in its cells: errors scatter from grid to grid",
         shows=("stress",),
-    )  # fmt: skip
+    )
 
 
 STUCK = partial_slip(STEEL, 0.6 * FRICTION_LIMIT).stick_radius / A
@@ -568,43 +655,59 @@ def radial_stress(level: Level = Level.QUICK) -> Case:
                 error_norm(
                     f"below_{depth:g}",
                     f"largest error of all components {depth:g} a below the surface",
-                    partial(_partial_slip_stress_error, depth), "p₀",
+                    partial(_partial_slip_stress_error, depth),
+                    "p₀",
                 ),
-                5e-3, "set by hand: the error of 24 rings at the front of the shear",
+                5e-3,
+                "set by hand: the error of 24 rings at the front of the shear",
             )
             for depth in (0.1, 0.5)
         ),
         Within(
             error_norm(
-                "trailing_edge", "error of σ₁ on the trailing edge", _error_of_tension,
+                "trailing_edge",
+                "error of σ₁ on the trailing edge",
+                _error_of_tension,
                 "its value",
             ),
-            5e-3, "required of tensile stress at the edge by the project's accuracy targets",
+            5e-3,
+            "required of tensile stress at the edge by the project's accuracy targets",
         ),
-    )  # fmt: skip
+    )
     of_twist = Within(
         error_norm(
-            "torque", f"error of the torque transmitted {CARRIED:g} a below", _error_of_torque,
-            "its value", source="equilibrium",
+            "torque",
+            f"error of the torque transmitted {CARRIED:g} a below",
+            _error_of_torque,
+            "its value",
+            source="equilibrium",
         ),
-        5e-4, f"set by hand: linear interpolation between {RINGS_SHOWN} rings of the slip "
-        "contribution",
-    )  # fmt: skip
+        5e-4,
+        f"set by hand: linear interpolation between {RINGS_SHOWN} rings of the slip contribution",
+    )
     of_coating = Within(
         Observable(
-            "trailing_edge", "σ₁ on the trailing edge over Hertz's p₀", "", _tension_by_rays,
+            "trailing_edge",
+            "σ₁ on the trailing edge over Hertz's p₀",
+            "",
+            _tension_by_rays,
             lambda value: float(value),
         ),
-        2e-4, "set by hand: the error of points on rays and between radii",
-    )  # fmt: skip
+        2e-4,
+        "set by hand: the error of points on rays and between radii",
+    )
     slides = {
         "E1/E2 = {:g}, h = {:g} a_H".format(*of): Problem(
             # The ball is pressed without friction. The stress is that of gross slip.
-            pressed("Sliding", rigid_ball(), coated(film(*of))), (value,), A, BY_RAYS,
-            ReferenceKind.SEMI_CLOSED, 1e-6 / value,
+            pressed("Sliding", rigid_ball(), coated(film(*of))),
+            (value,),
+            A,
+            BY_RAYS,
+            ReferenceKind.SEMI_CLOSED,
+            1e-6 / value,
         )
         for of, value in COATED.items()
-    }  # fmt: skip
+    }
     return case(
         "radial_stress",
         "Stress below shear on rings and angles",

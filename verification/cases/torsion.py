@@ -94,16 +94,24 @@ MASING = "Lubkin 1951, with Masing's rule for the reversal"
 WITHIN = 0.995  # radii up to which shear is compared: at the edge it has no finite slope
 LOOP_TWISTS = tuple(
     replace(
-        TWIST, name=f"twist_{name}", meaning=f"twist after step {step + 1} of the loop", step=step,
-        over=OVER_TWIST, source=MASING,
+        TWIST,
+        name=f"twist_{name}",
+        meaning=f"twist after step {step + 1} of the loop",
+        step=step,
+        over=OVER_TWIST,
+        source=MASING,
     )
     for step, name in {1: "loaded", 2: "unloaded", 3: "reversed", 4: "closed"}.items()
-)  # fmt: skip
+)
 ENERGY_PER_CYCLE = Observable(
-    "energy_per_cycle", "energy dissipated from the first to the second torque of + 0.9", "J",
+    "energy_per_cycle",
+    "energy dissipated from the first to the second torque of + 0.9",
+    "J",
     lambda result, *_: energy_between(result, 2, 5),
-    lambda end: float(end.energy_per_cycle), source=MASING, scalar=("energy_per_cycle", 0),
-)  # fmt: skip
+    lambda end: float(end.energy_per_cycle),
+    source=MASING,
+    scalar=("energy_per_cycle", 0),
+)
 TORQUE = number("torque", "torque at the twist of 0.9 of the limit", exact="moment")
 
 
@@ -170,18 +178,21 @@ def torsion(level: Level = Level.QUICK) -> Case:
             for stop in TORQUE_PARTS.items()
             for row in (
                 Refined(
-                    TWIST.at(*stop, SLIDING), 1.5, 5e-3,
+                    TWIST.at(*stop, SLIDING),
+                    1.5,
+                    5e-3,
                     f"order 1.5 as the shear; the cap: {HALF_A_PER_CENT}",
                 ),
                 Refined(STICK_RADIUS.at(*stop, SLIDING), 1.0, part_of_side(0.25), QUARTER),
                 Within(
-                    shears[stop[0]], 2e-3,
+                    shears[stop[0]],
+                    2e-3,
                     "as required of the Cattaneo-Mindlin shear on these grids",
                 ),
             )
         ),
         Falls(shears[2], 1.5, f"{SQUARE_ROOTS}, as in the Cattaneo-Mindlin case"),
-    )  # fmt: skip
+    )
     of_loop = (
         *(
             Within(twist, 1e-4, f"four times the error of 128 cells; {HALF_A_PER_CENT}")
@@ -190,11 +201,12 @@ def torsion(level: Level = Level.QUICK) -> Case:
         Within(ENERGY_PER_CYCLE, 2e-4, f"four times the error of 128 cells; {HALF_A_PER_CENT}"),
     )
     of_given_twist = Within(
-        TORQUE, 3e-5,
+        TORQUE,
+        3e-5,
         "a quarter of the tolerance of a twist: near the limit the torque hardly depends on the "
         "twist",
         name="torque_of_given_twist",
-    )  # fmt: skip
+    )
     stuck_work = error_norm(
         "stuck_work",
         "energy dissipated by the stuck punch",
@@ -206,13 +218,14 @@ def torsion(level: Level = Level.QUICK) -> Case:
     )
     of_punch = (
         Within(
-            TWIST, part_of_side(1.5),
+            TWIST,
+            part_of_side(1.5),
             "the twist is proportional to 1/radius³, and the staircase of cells at the rim "
             "changes the effective radius by up to half a cell",
             name="stuck_twist",
         ),
         Within(stuck_work, 1e-12, "µ is twice the coefficient at which the rim slips"),
-    )  # fmt: skip
+    )
     return case(
         "torsion",
         "Torsion with partial slip",
@@ -226,14 +239,17 @@ def torsion(level: Level = Level.QUICK) -> Case:
         judged(named("stuck punch", punches), of_punch),
         charts=(
             convergence(
-                balls, of_ball, "torsion_convergence", "Convergence of torsion",
+                balls,
+                of_ball,
+                "torsion_convergence",
+                "Convergence of torsion",
                 "Σ|q - q_exact| / Σµp against cell side for three torques, with a line of the "
                 "expected slope 3/2.",
                 also=(shears[1], shears[3]),
             ),
         ),
         shows=("(2)", "(4)", "known solutions", "tilt and torsion"),
-    )  # fmt: skip
+    )
 
 
 # Relative error of the semi-closed solution: its difference from the closed form for thick layers
@@ -303,12 +319,14 @@ def torsion_coated(level: Level = Level.QUICK) -> Case:
         for stop in COATED_PARTS.items()
         for row in (
             Refined(
-                TWIST.at(*stop, SLIDING), 1.5, 5e-3,
+                TWIST.at(*stop, SLIDING),
+                1.5,
+                5e-3,
                 f"order 1.5 as without layers; the cap: {HALF_A_PER_CENT}",
             ),
             Refined(STICK_RADIUS.at(*stop, SLIDING), 1.0, part_of_side(0.25), QUARTER),
         )
-    )  # fmt: skip
+    )
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     return case(
         "torsion_coated",
@@ -357,19 +375,22 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
         for row in (
             Within(TWIST.at(*stop, SLIDING), scaled_tolerance(2e-3, 1.5), cusp),
             Within(
-                STICK_RADIUS.at(*stop, SLIDING), part_of_side(0.1),
+                STICK_RADIUS.at(*stop, SLIDING),
+                part_of_side(0.1),
                 "a tenth of an element: the edge is extrapolated from the last values",
             ),
             Within(SHEAR_AROUND.at(*stop, SLIDING), scaled_tolerance(5e-3, 1.5), cusp),
         )
-    )  # fmt: skip
+    )
     of_punch = (
         Within(
-            TWIST, scaled_tolerance(1e-3, 1), f"set by hand: 1e-3 at 64 elements per radius; {rim}",
+            TWIST,
+            scaled_tolerance(1e-3, 1),
+            f"set by hand: 1e-3 at 64 elements per radius; {rim}",
             name="stuck_twist",
         ),
         Falls(TWIST, 1.0, rim),
-    )  # fmt: skip
+    )
     return case(
         "fem_torsion",
         "Finite elements: torsion",
@@ -380,15 +401,19 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
         judged(on_elements(STUCK, levels(level), of="stuck punch"), of_punch),
         charts=tuple(
             profile(
-                balls, f"fem_torsion_{step}", f"Shear over the radius at {part:g} {SLIDING}",
+                balls,
+                f"fem_torsion_{step}",
+                f"Shear over the radius at {part:g} {SLIDING}",
                 "Circumferential shear by finite elements, the closed form, and their "
                 "difference: a cusp at the stick edge.",
-                "q / µp₀", TWISTED.scale(OVER_LIMIT), shear_around(step),
+                "q / µp₀",
+                TWISTED.scale(OVER_LIMIT),
+                shear_around(step),
             )
             for step, part in TORQUE_PARTS.items()
         ),
         shows=("finite elements", "tilt and torsion"),
-    )  # fmt: skip
+    )
 
 
 def _exact_rows(*observables: Observable, error: float = ROUNDING) -> Iterator[Within]:
@@ -408,9 +433,11 @@ def radial_torsion(level: Level = Level.QUICK) -> Case:
     coated balls with a Fredholm integral equation. All levels are equal.
     """
     shear = error_norm(
-        "shear", f"largest error of the shear up to {WITHIN:g} a{{when}}", _largest_shear_error,
+        "shear",
+        f"largest error of the shear up to {WITHIN:g} a{{when}}",
+        _largest_shear_error,
         "µp_H, or the shear at half the radius of the punch",
-    )  # fmt: skip
+    )
     stick = replace(STICK_RADIUS, over="")
     of_coated = _exact_rows(
         *_observables_at_parts(COATED_PARTS, TWIST, stick), error=SEMI_CLOSED_ERROR
@@ -575,18 +602,23 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
     elements = {Level.QUICK: 16, Level.STANDARD: 24, Level.FULL: 32}[level]
     scenes = {
         "torsion": _coated_ball_scene(
-            "Ball twisted on a coating", _torque_step(0.5, 6), _torque_step(-0.2, 6),
+            "Ball twisted on a coating",
+            _torque_step(0.5, 6),
+            _torque_step(-0.2, 6),
             _torque_step(0.2, 4, normal_force=1.2 * NORMAL_FORCE),
         ),
         "beside": _coated_ball_scene(
             "Ball twisted and pushed on a coating",
-            _torque_step(0.4, 4), _force_step(0.5, 0.0, 4), _torque_step(-0.1, 4),
+            _torque_step(0.4, 4),
+            _force_step(0.5, 0.0, 4),
+            _torque_step(-0.1, 4),
         ),
         "turning": _coated_ball_scene(
             "Ball on a coating pushed along x, then y",
-            _force_step(*TURNING[0], 4), _force_step(*TURNING[1], 6),
+            _force_step(*TURNING[0], 4),
+            _force_step(*TURNING[1], 6),
         ),
-    }  # fmt: skip
+    }
     of_twist = "accuracy target of the rings at any number of increments"
     mean_shear = error_norm(
         "mean_shear", "mean error of q_θ over the contact{when}", _mean_shear_error, OVER_LIMIT
@@ -624,23 +656,31 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
     of_coated = (
         Within(
             motion,
-            7e-4, f"set by hand: errors of about {ERROR_OF_CELLS:g} each of 64 cells along a side "
+            7e-4,
+            f"set by hand: errors of about {ERROR_OF_CELLS:g} each of 64 cells along a side "
             "and of the rings",
         ),
         Within(
             error_norm(
-                "stated", "largest difference of motions, radii and energies", _apart_of_stated,
+                "stated",
+                "largest difference of motions, radii and energies",
+                _apart_of_stated,
                 "the sum of both stated errors",
             ),
-            1.0, "both solvers state their errors",
+            1.0,
+            "both solvers state their errors",
         ),
-    )  # fmt: skip
+    )
 
     def beside_cells(scene: Scene, uncertainty: float) -> Problem:
         return Problem(
-            scene, (lambda: _solve_on_cells(scene, cells),), HERTZ.contact_radius,
-            f"{cells}² cells", ReferenceKind.OTHER_SOLVER, uncertainty,
-        )  # fmt: skip
+            scene,
+            (lambda: _solve_on_cells(scene, cells),),
+            HERTZ.contact_radius,
+            f"{cells}² cells",
+            ReferenceKind.OTHER_SOLVER,
+            uncertainty,
+        )
 
     return case(
         "radial_turning",
@@ -662,7 +702,8 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
         *(
             judged(
                 on_elements(
-                    beside_cells(scene, 64 / cells * ERROR_OF_CELLS), (elements,),
+                    beside_cells(scene, 64 / cells * ERROR_OF_CELLS),
+                    (elements,),
                     of=f"{name} on elements",
                 ),
                 (of_elements,),
@@ -671,9 +712,16 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
         ),
         quantities=(
             Quantity(
-                "turned", "difference of the shift after a quarter turn", "", "the radial solver",
-                _rotated_shift_error, identity(0.0, "a rotated scene has rotated results"),
-                Required(1e-10, "points are mapped to points"), 1.0, "the shift", runs=(),
+                "turned",
+                "difference of the shift after a quarter turn",
+                "",
+                "the radial solver",
+                _rotated_shift_error,
+                identity(0.0, "a rotated scene has rotated results"),
+                Required(1e-10, "points are mapped to points"),
+                1.0,
+                "the shift",
+                runs=(),
             ),
         ),
         limits=(
@@ -682,4 +730,4 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
         ),
         no_order="judged on the rings that the solver chooses, not on several numbers of rings",
         shows=("(6)", "radial solver", "tilt and torsion"),
-    )  # fmt: skip
+    )

@@ -65,11 +65,14 @@ LEVELS = (1.0, 2.0, 4.0)
 BESIDE = (1.0, -6.0, 8.0)
 LIMIT = 5.0
 # u_num = √(c² + s²) = ½ by s² = 14 ε² on 3 - 2 levels; with u_ref it is 13/10, and U twice that.
-SLOPE, SCATTER, OF_REFERENCE = 0.3, 0.4, 1.2
+SLOPE = 0.3
+SCATTER = 0.4
+OF_REFERENCE = 1.2
 EPSILON = SCATTER / sqrt(14)
 U = 2.6
 # Student's t with one degree of freedom: quantiles of 97.5 % (two-sided 95 %) and 95 %.
-STUDENT, ONE_SIDED = 1 / np.tan(np.pi / 40), 1 / np.tan(np.pi / 20)
+STUDENT = 1 / np.tan(np.pi / 40)
+ONE_SIDED = 1 / np.tan(np.pi / 20)
 HAND = "worked by hand"
 TO_ROUNDING = Required(1e-9, "the same numbers to rounding")
 PRINTED = Required(0.05, "two digits are printed")
@@ -104,8 +107,14 @@ def worked_examples(level: Level = Level.QUICK) -> Case:
         runs=(),
         quantities=tuple(
             Quantity(
-                name, meaning, "", "by hand", measure,
-                closed_form(value, HAND), tolerance, runs=(),
+                name,
+                meaning,
+                "",
+                "by hand",
+                measure,
+                closed_form(value, HAND),
+                tolerance,
+                runs=(),
             )
             for name, meaning, measure, value, tolerance in _EXAMPLES
         ),
@@ -115,7 +124,7 @@ def worked_examples(level: Level = Level.QUICK) -> Case:
         ),
         no_order="arithmetic by hand",
         shows=("statistics",),
-    )  # fmt: skip
+    )
 
 
 def _judge_example() -> Verdict:
@@ -131,10 +140,15 @@ def _judge_example() -> Verdict:
     known: Any = {rung.label: rung for rung in rungs}
     finest = rungs[0]
     quantity = Quantity(
-        "value", "a value", "", finest.label, lambda result: float(result.value),
+        "value",
+        "a value",
+        "",
+        finest.label,
+        lambda result: float(result.value),
         Reference(finest.value - 2 * U, ReferenceKind.CLOSED_FORM, HAND, OF_REFERENCE),
-        Derived(tuple(rung.label for rung in reversed(rungs)), 1.0, 1e9, HAND), scale=2.0,
-    )  # fmt: skip
+        Derived(tuple(rung.label for rung in reversed(rungs)), 1.0, 1e9, HAND),
+        scale=2.0,
+    )
     runs: Any = tuple(rungs)
     return judge_quantity(quantity, Case("by_hand", "", "", runs, (quantity,)), known)
 
@@ -166,36 +180,78 @@ def _example_errors() -> list[float]:
 
 
 _EXAMPLES: tuple[tuple[str, str, Callable[[], float], float, Required], ...] = (
-    ("derived_tolerance", "tolerance U = 2 √(c² + s² + u_ref²), s² = 14 ε²",
-     lambda: _judge_example().allowed * _judge_example().scale, U, TO_ROUNDING),
-    ("printed_tolerance", "tolerance, as printed in the text of a failed verdict",
-     lambda: _printed_number(failure_text(_judge_example())), U, PRINTED),
-    ("printed_uncertainty", "uncertainty of the reference over the scale, as printed",
-     lambda: _printed_number(uncertainty_text(_judge_example())), OF_REFERENCE / 2, PRINTED),
-    ("limit", "limit of four levels on a line, with the deviation ε",
-     partial(_extrapolate_example, 0), LIMIT, TO_ROUNDING),
+    (
+        "derived_tolerance",
+        "tolerance U = 2 √(c² + s² + u_ref²), s² = 14 ε²",
+        lambda: _judge_example().allowed * _judge_example().scale,
+        U,
+        TO_ROUNDING,
+    ),
+    (
+        "printed_tolerance",
+        "tolerance, as printed in the text of a failed verdict",
+        lambda: _printed_number(failure_text(_judge_example())),
+        U,
+        PRINTED,
+    ),
+    (
+        "printed_uncertainty",
+        "uncertainty of the reference over the scale, as printed",
+        lambda: _printed_number(uncertainty_text(_judge_example())),
+        OF_REFERENCE / 2,
+        PRINTED,
+    ),
+    (
+        "limit",
+        "limit of four levels on a line, with the deviation ε",
+        partial(_extrapolate_example, 0),
+        LIMIT,
+        TO_ROUNDING,
+    ),
     # The two finest levels alone have the limit a + 8 ε. Of the fit, s² = 14 ε²/2, times the
     # element of the inverse of [[Σ1/h², Σ1/h], [Σ1/h, 4]] = [[85/64, 15/8], [15/8, 4]].
-    ("uncertainty_of_the_limit", "standard uncertainty of the limit: √(7 · 256/115 + 8²) ε",
-     partial(_extrapolate_example, 1), EPSILON * hypot(sqrt(7 * 256 / 115), 8), TO_ROUNDING),
-    ("interval_of_the_order", "half-width of the order's 95 % interval: t √(6 ε² / 2 ln²2)",
-     lambda: observed_order(LEVELS, _example_errors()).half_width,
-     STUDENT * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
-    ("margin_of_the_order", "one-sided 95 % margin of the order: t₁ √(6 ε² / 2 ln²2)",
-     lambda: observed_order(LEVELS, _example_errors()).margin,
-     ONE_SIDED * EPSILON * sqrt(3) / log(2), TO_ROUNDING),
-    ("interval_of_the_line", "half-width of the line's 95 % band in its middle: t √(6 ε² / 3)",
-     lambda: error_line(LEVELS, _example_errors()).reach, STUDENT * EPSILON * sqrt(2), TO_ROUNDING),
-)  # fmt: skip
+    (
+        "uncertainty_of_the_limit",
+        "standard uncertainty of the limit: √(7 · 256/115 + 8²) ε",
+        partial(_extrapolate_example, 1),
+        EPSILON * hypot(sqrt(7 * 256 / 115), 8),
+        TO_ROUNDING,
+    ),
+    (
+        "interval_of_the_order",
+        "half-width of the order's 95 % interval: t √(6 ε² / 2 ln²2)",
+        lambda: observed_order(LEVELS, _example_errors()).half_width,
+        STUDENT * EPSILON * sqrt(3) / log(2),
+        TO_ROUNDING,
+    ),
+    (
+        "margin_of_the_order",
+        "one-sided 95 % margin of the order: t₁ √(6 ε² / 2 ln²2)",
+        lambda: observed_order(LEVELS, _example_errors()).margin,
+        ONE_SIDED * EPSILON * sqrt(3) / log(2),
+        TO_ROUNDING,
+    ),
+    (
+        "interval_of_the_line",
+        "half-width of the line's 95 % band in its middle: t √(6 ε² / 3)",
+        lambda: error_line(LEVELS, _example_errors()).reach,
+        STUDENT * EPSILON * sqrt(2),
+        TO_ROUNDING,
+    ),
+)
 
 
 Field = NDArray[np.float64]
 
-CELLS, COARSE = 24, 16
+CELLS = 24
+COARSE = 16
 MARGIN = 1.2  # half the window over Hertz's radius
-ARM, ACROSS = 1e-5, 2e-5  # moments M_x and M_y over the normal force [m]
+# moments M_x and M_y over the normal force [m]
+ARM = 1e-5
+ACROSS = 2e-5
 TORQUE = 5e-3
-PUSH, ASIDE = 50.0, 20.0
+PUSH = 50.0
+ASIDE = 20.0
 
 
 def _push_step(along: float) -> LoadStep:
@@ -265,24 +321,36 @@ def written_files(level: Level = Level.QUICK) -> Case:
         runs=(),
         quantities=(
             _file_check(
-                "loads", "largest difference of normal force, tangential force, torque and "
+                "loads",
+                "largest difference of normal force, tangential force, torque and "
                 "moments in the table from the sums of the tractions, over the largest of each",
-                loads, 10 * SOLVER_TOLERANCE, "equilibrium, met to the tolerance of the solver",
+                loads,
+                10 * SOLVER_TOLERANCE,
+                "equilibrium, met to the tolerance of the solver",
             ),
             _file_check(
-                "columns", "largest difference of a column of the table from the data set of "
+                "columns",
+                "largest difference of a column of the table from the data set of "
                 "this name, over its largest value",
-                columns, 1e-15, "the same numbers, written twice",
+                columns,
+                1e-15,
+                "the same numbers, written twice",
             ),
             _file_check(
-                "place_of_f1", "relative difference of Ruiz's first parameter at the tabulated "
-                "position from its largest value", place_of_f1, 1e-12, "the same cell",
+                "place_of_f1",
+                "relative difference of Ruiz's first parameter at the tabulated "
+                "position from its largest value",
+                place_of_f1,
+                1e-12,
+                "the same cell",
             ),
             _file_check(
-                "sides_of_an_interface", "largest excess of the stress on a side of the "
+                "sides_of_an_interface",
+                "largest excess of the stress on a side of the "
                 "interface over that of the adjacent layer or base",
-                sides_of_an_interface, 1e-12, "a maximum over a part is at most that over the "
-                "whole",
+                sides_of_an_interface,
+                1e-12,
+                "a maximum over a part is at most that over the whole",
             ),
         ),
         equations=(
@@ -291,16 +359,24 @@ def written_files(level: Level = Level.QUICK) -> Case:
         ),
         no_order="numbers of one run, written twice",
         shows=("files",),
-    )  # fmt: skip
+    )
 
 
 def _file_check(
     name: str, meaning: str, measure: Callable[[], float], allowed: float, because: str
 ) -> Quantity:
     return Quantity(
-        name, meaning, "", "files", measure, identity(0.0, "consistency of the files"),
-        Required(allowed, because), 1.0, "1", runs=(),
-    )  # fmt: skip
+        name,
+        meaning,
+        "",
+        "files",
+        measure,
+        identity(0.0, "consistency of the files"),
+        Required(allowed, because),
+        1.0,
+        "1",
+        runs=(),
+    )
 
 
 @cache

@@ -131,17 +131,27 @@ def torsion() -> Challenge:
         shear = tabulated(end.shear, end.stick_radius, end.contact_radius)
         fields.append(
             AskedField(
-                "shear_around", step, "shear traction on the lower body around the z axis, "
-                "positive along +y at +x", shear, "L1", FRICTION_LIMIT, shear.total,
+                "shear_around",
+                step,
+                "shear traction on the lower body around the z axis, positive along +y at +x",
+                shear,
+                "L1",
+                FRICTION_LIMIT,
+                shear.total,
                 uncertainty=TABLE_ERROR,
             )
-        )  # fmt: skip
+        )
     parts = ", ".join(f"{part:g}" for part in TORQUE_PARTS.values())
     return Challenge(
-        "torsion", "Lubkin: pressed, then twisted",
+        "torsion",
+        "Lubkin: pressed, then twisted",
         f"{TWISTED.scene.title}: twisted by {parts} of the torque at which all slips.",
-        TWISTED.scene, TWISTED.source, tuple(values), tuple(fields), SMALL,
-    )  # fmt: skip
+        TWISTED.scene,
+        TWISTED.source,
+        tuple(values),
+        tuple(fields),
+        SMALL,
+    )
 
 
 def torsion_loop() -> Challenge:
@@ -156,14 +166,28 @@ def torsion_loop() -> Challenge:
     ]
     last, energy = len(TORSION_LOOP.ends), TORSION_LOOP.ends[-1].energy_per_cycle
     values.append(
-        AskedValue("energy_per_cycle", last, "J", "energy lost to friction between the ends of "
-                   f"load steps 2 and {last}", energy, energy, "itself", uncertainty=1e-9, since=2)
-    )  # fmt: skip
+        AskedValue(
+            "energy_per_cycle",
+            last,
+            "J",
+            f"energy lost to friction between the ends of load steps 2 and {last}",
+            energy,
+            energy,
+            "itself",
+            uncertainty=1e-9,
+            since=2,
+        )
+    )
     return Challenge(
-        "torsion_loop", "A ball twisted to and fro", f"{TORSION_LOOP.scene.title}.",
-        TORSION_LOOP.scene, "Lubkin 1951, with Masing's rule for the reversal", tuple(values), (),
+        "torsion_loop",
+        "A ball twisted to and fro",
+        f"{TORSION_LOOP.scene.title}.",
+        TORSION_LOOP.scene,
+        "Lubkin 1951, with Masing's rule for the reversal",
+        tuple(values),
+        (),
         SMALL,
-    )  # fmt: skip
+    )
 
 
 def pressed_with_friction(one: Indentation) -> Challenge:
@@ -184,21 +208,46 @@ def pressed_with_friction(one: Indentation) -> Challenge:
     pressure = interpolate_profile(one, "p_over_pH", r) * HERTZ.peak_pressure
     shear = interpolate_profile(one, "q_over_mu_pH", r) * limit
     points = (
-        AskedPoints("pressure", 1, "Pa", "pressure, positive in compression", places, pressure,
-                    HERTZ.peak_pressure, "p_H", uncertainty=PROFILE_ERROR),
-        AskedPoints("shear_radial", 1, "Pa", "shear traction on the lower body, positive outward",
-                    places, shear, limit, OVER_LIMIT, uncertainty=PROFILE_ERROR),
-    )  # fmt: skip
+        AskedPoints(
+            "pressure",
+            1,
+            "Pa",
+            "pressure, positive in compression",
+            places,
+            pressure,
+            HERTZ.peak_pressure,
+            "p_H",
+            uncertainty=PROFILE_ERROR,
+        ),
+        AskedPoints(
+            "shear_radial",
+            1,
+            "Pa",
+            "shear traction on the lower body, positive outward",
+            places,
+            shear,
+            limit,
+            OVER_LIMIT,
+            uncertainty=PROFILE_ERROR,
+        ),
+    )
     radius = one.stick_part * a
     numbers = (
-        approach(one.approach, REFERENCE_ERROR), contact_radius(a, REFERENCE_ERROR),
+        approach(one.approach, REFERENCE_ERROR),
+        contact_radius(a, REFERENCE_ERROR),
         stick_radius(radius, 1, STICK_ERROR),
-    )  # fmt: skip
+    )
     return Challenge(
-        f"frictional_indentation/{one.file_name}", f"Pressed with friction: {one.name}",
+        f"frictional_indentation/{one.file_name}",
+        f"Pressed with friction: {one.name}",
         f"{scene.title}. The shear remembers the whole way there: the force grows from zero.",
-        scene, one.source, numbers, (), SMALL, points=points,
-    )  # fmt: skip
+        scene,
+        one.source,
+        numbers,
+        (),
+        SMALL,
+        points=points,
+    )
 
 
 def interpolate_profile(
@@ -231,15 +280,25 @@ def stuck_punch(nu: float) -> Challenge:
     The required approach is that of the frictionless punch divided by Mossakovskii's factor.
     """
     punch = FlatPunch(radius=PUNCH_RADIUS, material=RIGID)
-    scene = pressed("Flat punch that does not slip", punch, half_space(nu), pressing(1),
-                    friction=NO_SLIP_FRICTION)  # fmt: skip
+    scene = pressed(
+        "Flat punch that does not slip",
+        punch,
+        half_space(nu),
+        pressing(1),
+        friction=NO_SLIP_FRICTION,
+    )
     factor = (1 - nu) * log(3 - 4 * nu) / (1 - 2 * nu)
     smooth = FlatPunchContact(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE)
     return Challenge(
-        f"full_stick/punch_nu={nu:g}", f"A punch that sticks all over, ν = {nu:g}",
-        f"{scene.title}: so much friction that no place slips, ν = {nu:g}.", scene, NO_SLIP_SOURCE,
-        (approach(smooth.approach / factor),), (), SMALL,
-    )  # fmt: skip
+        f"full_stick/punch_nu={nu:g}",
+        f"A punch that sticks all over, ν = {nu:g}",
+        f"{scene.title}: so much friction that no place slips, ν = {nu:g}.",
+        scene,
+        NO_SLIP_SOURCE,
+        (approach(smooth.approach / factor),),
+        (),
+        SMALL,
+    )
 
 
 def stuck_ball(nu: float) -> Challenge:
@@ -248,22 +307,39 @@ def stuck_ball(nu: float) -> Challenge:
 
     The approach and the contact radius are required.
     """
-    scene = pressed("Rigid ball that does not slip", rigid_ball(), half_space(nu), pressing(),
-                    friction=NO_SLIP_FRICTION)  # fmt: skip
+    scene = pressed(
+        "Rigid ball that does not slip",
+        rigid_ball(),
+        half_space(nu),
+        pressing(),
+        friction=NO_SLIP_FRICTION,
+    )
     over_a_squared, over_load = NO_SLIP_BALL[nu]
     a = HERTZ.contact_radius / over_load ** (1 / 3)
     approached = HERTZ.approach * over_a_squared / over_load ** (2 / 3)
     return Challenge(
-        f"full_stick/ball_nu={nu:g}", f"A ball that sticks all over, ν = {nu:g}",
+        f"full_stick/ball_nu={nu:g}",
+        f"A ball that sticks all over, ν = {nu:g}",
         f"{scene.title}: so much friction that no place slips once it is touched, ν = {nu:g}.",
-        scene, NO_SLIP_BALL_SOURCE, (approach(approached, 1e-7), contact_radius(a, 1e-7)), (),
+        scene,
+        NO_SLIP_BALL_SOURCE,
+        (approach(approached, 1e-7), contact_radius(a, 1e-7)),
+        (),
         SMALL,
-    )  # fmt: skip
+    )
 
 
 def _required_twist(step: int, value: float, scale: float, over: str) -> AskedValue:
-    return AskedValue("twist", step, "rad", "rotation of the indenter about z relative to far "
-                      "points of the body, right-handed", value, scale, over, Grade.C)  # fmt: skip
+    return AskedValue(
+        "twist",
+        step,
+        "rad",
+        "rotation of the indenter about z relative to far points of the body, right-handed",
+        value,
+        scale,
+        over,
+        Grade.C,
+    )
 
 
 # Coefficient of friction µ of the sliding ball.
@@ -272,14 +348,25 @@ SLIDING = 0.3
 SLID = 1e-3
 PLACES = 1e-3 * np.array(
     [
-        (0, 0, 0.1), (0, 0, 0.2), (0, 0, 0.4), (0.2, 0, 0.1), (-0.3, 0, 0.1), (-0.4, 0, 0.1),
-        (0.2, 0.1, 0.2), (-0.1, 0.3, 0.15), (0.4, 0.2, 0.3), (0.1, -0.3, 0.2), (0.1, 0.1, 0.6),
+        (0, 0, 0.1),
+        (0, 0, 0.2),
+        (0, 0, 0.4),
+        (0.2, 0, 0.1),
+        (-0.3, 0, 0.1),
+        (-0.4, 0, 0.1),
+        (0.2, 0.1, 0.2),
+        (-0.1, 0.3, 0.15),
+        (0.4, 0.2, 0.3),
+        (0.1, -0.3, 0.2),
+        (0.1, 0.1, 0.6),
     ]
-)  # fmt: skip
+)
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 PATCH_SOURCE = "references/influence_coefficients.json: inverse transform, 1e-12"
 # Thickness of the layer, traction on the patch, and shear modulus of the substrate [SI].
-THICKNESS, TRACTION, SUBSTRATE = 1e-3, 1e6, 80e9
+THICKNESS = 1e-3
+TRACTION = 1e6
+SUBSTRATE = 80e9
 # Displacement component and direction of the traction, by component of the reference rows.
 MOVED = {
     "zz": ("u_z_by_pressure", "displacement along z under pressure on the patch"),
@@ -307,17 +394,32 @@ def sliding_stress() -> Challenge:
     x, y, z = PLACES.T
     stress = hamilton_stress(x, y, z, HERTZ.contact_radius, p0, SLIDING * p0, STEEL.poisson_ratio)
     return Challenge(
-        "sliding_stress", "Hamilton: stress below a sliding ball",
+        "sliding_stress",
+        "Hamilton: stress below a sliding ball",
         f"{scene.title}: pressed, then moved along x so far that every place slips that way. "
         "Stress in the lower body, tension positive, at places around the contact as it was "
-        "before the ball moved: small strains leave it there.", scene,
-        "Hamilton 1983, as one integral of the potentials", (), (), SMALL,
+        "before the ball moved: small strains leave it there.",
+        scene,
+        "Hamilton 1983, as one integral of the potentials",
+        (),
+        (),
+        SMALL,
         points=tuple(
-            AskedPoints(f"stress_{name}", 2, "Pa", f"σ_{name}, tension positive", PLACES, stress[n],
-                        p0, "p_H", Grade.B, uncertainty=1e-5)
+            AskedPoints(
+                f"stress_{name}",
+                2,
+                "Pa",
+                f"σ_{name}, tension positive",
+                PLACES,
+                stress[n],
+                p0,
+                "p_H",
+                Grade.B,
+                uncertainty=1e-5,
+            )
             for n, name in enumerate(COMPONENTS)
         ),
-    )  # fmt: skip
+    )
 
 
 def layered_patches() -> Iterator[Challenge]:
@@ -341,12 +443,26 @@ def layered_patches() -> Iterator[Challenge]:
             f"A layer of {THICKNESS:g} m on a half-space. No contact: on the square "
             f"|x|, |y| < {side / 2:g} m of its surface acts a uniform traction of {TRACTION:g} Pa, "
             "pressure along +z or shear along +x or +y, one at a time.",
-            Patch(_layered_body(own[0]), side, TRACTION), PATCH_SOURCE, (), (), SMALL, points=tuple(
-                AskedPoints(name, 1, "m", meaning, places, values[key], scale,
-                            "the largest u_z_by_pressure", Grade.B)
+            Patch(_layered_body(own[0]), side, TRACTION),
+            PATCH_SOURCE,
+            (),
+            (),
+            SMALL,
+            points=tuple(
+                AskedPoints(
+                    name,
+                    1,
+                    "m",
+                    meaning,
+                    places,
+                    values[key],
+                    scale,
+                    "the largest u_z_by_pressure",
+                    Grade.B,
+                )
                 for key, (name, meaning) in MOVED.items()
             ),
-        )  # fmt: skip
+        )
 
 
 def _layered_body(row: dict[str, float]) -> Body:
@@ -360,7 +476,8 @@ def _layered_body(row: dict[str, float]) -> Body:
 
 # Slopes that close the gap at positive y and x. The punch remains in contact everywhere, with its
 # load at 0.24 radii from the axis. The contact of the ball stays in the window.
-PUNCH_TILT, BALL_TILT = (0.004, 0.003), (0.008, 0.005)
+PUNCH_TILT = (0.004, 0.003)
+BALL_TILT = (0.008, 0.005)
 WORDS = (
     "The tilt (φ_x, φ_y) is given: slopes that close the gap at positive y and at positive x, so "
     "that h = h_i + u_z - approach - φ_x y - φ_y x. Approach is that of the origin."
@@ -381,9 +498,14 @@ def tilted_punch() -> Challenge:
     exact = TiltedPunch(PUNCH_RADIUS, CONTACT_MODULUS, NORMAL_FORCE, force_at)
     punch = FlatPunch(radius=PUNCH_RADIUS, material=STEEL)
     return _tilted_challenge(
-        "tilted_punch", "A flat punch pressed and tilted", punch, PUNCH_TILT,
-        "Galin's theorem; Sneddon 1951, § 52", force_at, (approach(exact.approach),),
-    )  # fmt: skip
+        "tilted_punch",
+        "A flat punch pressed and tilted",
+        punch,
+        PUNCH_TILT,
+        "Galin's theorem; Sneddon 1951, § 52",
+        force_at,
+        (approach(exact.approach),),
+    )
 
 
 def tilted_ball() -> Challenge:
@@ -394,11 +516,14 @@ def tilted_ball() -> Challenge:
     """
     drop = 0.5 * RADIUS * (BALL_TILT[0] ** 2 + BALL_TILT[1] ** 2)
     return _tilted_challenge(
-        "tilted_ball", "A ball pressed and tilted", paraboloid(STEEL), BALL_TILT,
+        "tilted_ball",
+        "A ball pressed and tilted",
+        paraboloid(STEEL),
+        BALL_TILT,
         "Hertz 1882, below the place where the slope is zero",
         (RADIUS * BALL_TILT[1], RADIUS * BALL_TILT[0]),
         (approach(HERTZ.approach - drop), contact_radius(HERTZ.contact_radius)),
-    )  # fmt: skip
+    )
 
 
 def _tilted_challenge(
@@ -415,11 +540,18 @@ def _tilted_challenge(
     arm = max(force_at)
     moments = (
         AskedValue(
-            f"moment_{axis}", 1, "N m", f"Σ p {other} Δ, over all places", NORMAL_FORCE * at,
-            NORMAL_FORCE * arm, "the larger moment", Grade.C, uncertainty=CLOSED,
+            f"moment_{axis}",
+            1,
+            "N m",
+            f"Σ p {other} Δ, over all places",
+            NORMAL_FORCE * at,
+            NORMAL_FORCE * arm,
+            "the larger moment",
+            Grade.C,
+            uncertainty=CLOSED,
         )
         for axis, other, at in (("x", "y", force_at[1]), ("y", "x", force_at[0]))
-    )  # fmt: skip
+    )
     return Challenge(
         name, title, f"{title}. {WORDS}", scene, source, (*values, *moments), (), SMALL
     )
@@ -471,11 +603,17 @@ def changing_loads() -> Iterator[Challenge]:
             f"{scene.title}. Each load step is a straight path from the preceding loads to its "
             "own: pressed by 0.8 kN; 1 kN and 50 N along x; 50 N along y added; 0.9 kN "
             "and (20, 60) N; a torque of 6 N mm about z.",
-            scene, content["source"],
-            tuple(_changing_load_value(step, name, value, ends) for step, values in ends.items()
-                  for name, value in values.items()),
-            (), SMALL, shares="the scene: two solvers of this program agree within the uncertainty",
-        )  # fmt: skip
+            scene,
+            content["source"],
+            tuple(
+                _changing_load_value(step, name, value, ends)
+                for step, values in ends.items()
+                for name, value in values.items()
+            ),
+            (),
+            SMALL,
+            shares="the scene: two solvers of this program agree within the uncertainty",
+        )
 
 
 def _changing_load_value(
@@ -499,9 +637,16 @@ def _changing_load_value(
         if other.startswith(kind)
     )
     return AskedValue(
-        name, int(step), UNITS[name], MEANINGS[name], value, scale, f"the largest {kind}", Grade.C,
+        name,
+        int(step),
+        UNITS[name],
+        MEANINGS[name],
+        value,
+        scale,
+        f"the largest {kind}",
+        Grade.C,
         uncertainty=load_reference("changing_loads")["uncertainty"][name],
-    )  # fmt: skip
+    )
 
 
 # Shift [length] by tangential force over µW. Mean of two solvers, which differ by 1e-4: 128 x 128
@@ -521,22 +666,32 @@ def paper_figure() -> Challenge:
     title = "Coated body under a rigid ball, pressed with friction, then sheared"
     scene = pressed(title, rigid_ball(), COATED.body, pressing(), *pushes, friction=FRICTION)
     return Challenge(
-        "paper_figure_4", title,
+        "paper_figure_4",
+        title,
         f"{title}. Pressing leaves radial shear, and the way there matters: every force grows "
-        "in proportion to time.", scene,
+        "in proportion to time.",
+        scene,
         f"{COATED.source}; the shifts by slipstick's finite elements and cells, which agree",
-        (approach(COATED.approach, REFERENCE_ERROR), *_figure_shifts()), (), SMALL,
+        (approach(COATED.approach, REFERENCE_ERROR), *_figure_shifts()),
+        (),
+        SMALL,
         "for the approach nothing; the shifts are what two of them agree on",
-    )  # fmt: skip
+    )
 
 
 def _figure_shifts() -> Iterator[AskedValue]:
     for step, shift in enumerate(SHIFTS.values(), start=2):
         yield AskedValue(
-            "shift_x", step, "m",
+            "shift_x",
+            step,
+            "m",
             "tangential shift of the indenter along +x, relative to far points of the body",
-            shift, shift, "itself", Grade.C, uncertainty=UNCERTAINTY,
-        )  # fmt: skip
+            shift,
+            shift,
+            "itself",
+            Grade.C,
+            uncertainty=UNCERTAINTY,
+        )
 
 
 # Tangential force over µW at the ends of the load steps.
@@ -560,15 +715,21 @@ def challenges() -> dict[str, Challenge]:
         hertz_elliptical(),
         _pressed_challenge("cone_contact", "A cone on a half-space", CONE, None),
         Challenge(
-            "flat_punch", "A flat punch on a half-space", _problem_text(PUNCH), PUNCH.scene,
-            PUNCH.source, (approach(PUNCH.ends[0].approach),), (), SMALL,
+            "flat_punch",
+            "A flat punch on a half-space",
+            _problem_text(PUNCH),
+            PUNCH.scene,
+            PUNCH.source,
+            (approach(PUNCH.ends[0].approach),),
+            (),
+            SMALL,
         ),
         *(cattaneo_mindlin(), loop(), tilted_punch(), tilted_ball(), *coated_balls()),
         *(torsion(), torsion_loop()),
         *map(pressed_with_friction, (WEAK, STRONG, NO_POISSON_BALL, COATED)),
         *(stuck(nu) for nu in NO_SLIP_RATIOS for stuck in (stuck_punch, stuck_ball)),
         *(paper_figure(), sliding_stress(), *layered_patches(), *changing_loads()),
-    )  # fmt: skip
+    )
     return {one.name: one for one in every}
 
 
@@ -599,10 +760,12 @@ def coated_balls() -> Iterator[Challenge]:
         exact = solved_here(problem).ends[0]
         yield _pressed_challenge(
             f"coated_paraboloid/E1_over_E2={row['E1_over_E2']:g}",
-            problem.scene.title, problem, fitted(exact.pressure, exact.contact_radius, SERIES),
+            problem.scene.title,
+            problem,
+            fitted(exact.pressure, exact.contact_radius, SERIES),
             shares="of the numbers nothing; the pressure is of a semi-closed solution that takes "
             "the layers' frequency response from ours",
-        )  # fmt: skip
+        )
 
 
 def cattaneo_mindlin() -> Challenge:
@@ -618,9 +781,15 @@ def cattaneo_mindlin() -> Challenge:
         values += _shift_and_stick_radius(step, end, end.sliding_shift)
         fields.append(_required_shear(step, _partial_slip_shear(end), end.tangential_force))
     return Challenge(
-        "cattaneo_mindlin", "Cattaneo and Mindlin: pressed, then sheared",
-        _problem_text(problem), problem.scene, problem.source, tuple(values), tuple(fields), SMALL,
-    )  # fmt: skip
+        "cattaneo_mindlin",
+        "Cattaneo and Mindlin: pressed, then sheared",
+        _problem_text(problem),
+        problem.scene,
+        problem.source,
+        tuple(values),
+        tuple(fields),
+        SMALL,
+    )
 
 
 def loop() -> Challenge:
@@ -647,16 +816,26 @@ def loop() -> Challenge:
     first = 1 + len(QUARTERS)
     values.append(
         AskedValue(
-            "energy_per_cycle", 1 + len(turns), "J",
+            "energy_per_cycle",
+            1 + len(turns),
+            "J",
             f"energy lost to friction between the ends of load steps {first} and {1 + len(turns)}",
-            energy, energy, "itself", since=first,
+            energy,
+            energy,
+            "itself",
+            since=first,
         )
-    )  # fmt: skip
+    )
     return Challenge(
-        "fretting_loop", "A fretting loop: sheared to and fro under a constant load",
-        _problem_text(problem), problem.scene, "Mindlin and Deresiewicz 1953", tuple(values),
-        tuple(fields), SMALL,
-    )  # fmt: skip
+        "fretting_loop",
+        "A fretting loop: sheared to and fro under a constant load",
+        _problem_text(problem),
+        problem.scene,
+        "Mindlin and Deresiewicz 1953",
+        tuple(values),
+        tuple(fields),
+        SMALL,
+    )
 
 
 def _pressed_challenge(
@@ -685,17 +864,41 @@ def _pressed_challenge(
         peak = float(pressure.terms[0].coefficient)
         meaning = "pressure at the centre, positive, extrapolated as you like"
         values.append(
-            AskedValue("central_pressure", 1, "Pa", meaning, peak, peak, "itself", required=False,
-                       uncertainty=u)
-        )  # fmt: skip
+            AskedValue(
+                "central_pressure",
+                1,
+                "Pa",
+                meaning,
+                peak,
+                peak,
+                "itself",
+                required=False,
+                uncertainty=u,
+            )
+        )
         fields.append(
-            AskedField("pressure", 1, "pressure, positive in compression, zero outside the contact",
-                       pressure, "L2", NORMAL_FORCE, NORMAL_FORCE, uncertainty=u)
-        )  # fmt: skip
+            AskedField(
+                "pressure",
+                1,
+                "pressure, positive in compression, zero outside the contact",
+                pressure,
+                "L2",
+                NORMAL_FORCE,
+                NORMAL_FORCE,
+                uncertainty=u,
+            )
+        )
     return Challenge(
-        name, title, _problem_text(problem), problem.scene, problem.source, tuple(values),
-        tuple(fields), SMALL if problem.radius < 0.4 * SMALL else LARGE, shares,
-    )  # fmt: skip
+        name,
+        title,
+        _problem_text(problem),
+        problem.scene,
+        problem.source,
+        tuple(values),
+        tuple(fields),
+        SMALL if problem.radius < 0.4 * SMALL else LARGE,
+        shares,
+    )
 
 
 def _problem_text(problem: Problem) -> str:
@@ -704,18 +907,27 @@ def _problem_text(problem: Problem) -> str:
 
 def _shift_and_stick_radius(step: int, end: Any, sliding: float) -> Iterator[AskedValue]:
     yield AskedValue(
-        "shift_x", step, "m",
+        "shift_x",
+        step,
+        "m",
         "tangential shift of the indenter along +x, relative to far points of the body",
-        end.shift, sliding, "the shift at gross sliding",
-    )  # fmt: skip
+        end.shift,
+        sliding,
+        "the shift at gross sliding",
+    )
     yield stick_radius(end.stick_radius, step)
 
 
 def _required_shear(step: int, halves: HalfEllipsoids, force: float) -> AskedField:
     return AskedField(
-        "shear_x", step, "shear traction along x on the lower body, along +x where the indenter "
-        "pulls that way", halves, "L1", FRICTION_LIMIT, force,
-    )  # fmt: skip
+        "shear_x",
+        step,
+        "shear traction along x on the lower body, along +x where the indenter pulls that way",
+        halves,
+        "L1",
+        FRICTION_LIMIT,
+        force,
+    )
 
 
 def _partial_slip_shear(end: PartialSlip, times: float = 1.0) -> HalfEllipsoids:

@@ -98,9 +98,11 @@ def _toml_value(value: Any) -> str:
 
 POINTS = "points.csv"
 SCHEMA = "slipstick-challenge/1"
-MANIFEST, ANSWERS, LEVELS, SOLVER, FIELDS = (
-    "manifest.json", "answers.csv", "levels.csv", "solver.toml", "fields",
-)  # fmt: skip
+MANIFEST = "manifest.json"
+ANSWERS = "answers.csv"
+LEVELS = "levels.csv"
+SOLVER = "solver.toml"
+FIELDS = "fields"
 ANSWER_COLUMNS = ("level", "load_step", "quantity", "value", "unit", "u")
 POINT_COLUMNS = ("quantity", "load_step", "point", "x [m]", "y [m]", "z [m]")
 # Additional column of the answers, for numbers at given points.
@@ -160,9 +162,18 @@ def digest(text: str) -> str:
 
 def _required_quantities_csv(challenge: Challenge, *, blind: bool) -> str:
     rows: list[Sequence[Any]] = [
-        ("quantity", "load_step", "unit", "norm", "scale", "scale_name", "grade", "required",
-         "meaning")
-    ]  # fmt: skip
+        (
+            "quantity",
+            "load_step",
+            "unit",
+            "norm",
+            "scale",
+            "scale_name",
+            "grade",
+            "required",
+            "meaning",
+        )
+    ]
     for v in challenge.values:
         scale = "" if blind else f"{v.scale:.10g}"
         required = "yes" if v.required else "no"
@@ -184,8 +195,9 @@ def _empty_answers(challenge: Challenge) -> list[Sequence[Any]]:
     rows = [("1", v.step, v.quantity, "", v.unit, "", "") for v in challenge.values]
     return rows + [
         ("1", p.step, p.quantity, "", p.unit, "", n)
-        for p in challenge.points for n in range(1, 1 + len(p.places))
-    ]  # fmt: skip
+        for p in challenge.points
+        for n in range(1, 1 + len(p.places))
+    ]
 
 
 def _point_rows(challenge: Challenge) -> Iterator[Sequence[Any]]:
@@ -205,12 +217,14 @@ def _problem_text(challenge: Challenge) -> str:
         "radius knows the answer.\n"
     )
     return _template_text("problem.md").format(
-        title=challenge.title, problem=challenge.problem,
+        title=challenge.title,
+        problem=challenge.problem,
         steps="\n".join(steps) or "1. the tractions as told above",
-        window=window if steps else "", source=challenge.source,
+        window=window if steps else "",
+        source=challenge.source,
         fields=_field_instructions(challenge),
         shares=challenge.shares or "nothing",
-    )  # fmt: skip
+    )
 
 
 def _field_instructions(challenge: Challenge) -> str:
@@ -400,7 +414,8 @@ ENERGY = Kind(
     unit_factors(**{"J": "1", "mJ": "1e-3", "uJ": "1e-6", "N m": "1", "N mm": "1e-3"}),
 )
 KINDS = {"m": LENGTH, "Pa": PRESSURE, "J": ENERGY, "N m": MOMENT, "rad": ROTATION}
-SOLVED, GAVE_UP = "solved", "gave up"
+SOLVED = "solved"
+GAVE_UP = "gave up"
 
 
 def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]]:
@@ -440,11 +455,14 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
     fields = read_fields(directory, challenge, levels)
     answers = tuple(
         Answer(
-            scalars=values[name], points=at_places[name], fields=fields.get(name, {}),
-            label=name, **level,
+            scalars=values[name],
+            points=at_places[name],
+            fields=fields.get(name, {}),
+            label=name,
+            **level,
         )
         for name, level in levels.items()
-    )  # fmt: skip
+    )
     if not any(a.scalars or a.points or a.fields or a.gave_up for a in answers):
         raise Refused(f"{file}: no value is filled in; there is nothing to judge")
     return challenge, solver, answers

@@ -310,9 +310,16 @@ def _judge_point_areas(asked: AskedField, field: Field, level: str, bound: float
             of = f"{has / should:.4g} of what it should be" if should else f"{has:.3g}, not 0"
             status, because = Status.FAIL, f"{sums}: {of}"
         yield Row(
-            f"{asked.quantity}: {name}", asked.step, level, status, because,
-            has, should, missed, allowed,
-        )  # fmt: skip
+            f"{asked.quantity}: {name}",
+            asked.step,
+            level,
+            status,
+            because,
+            has,
+            should,
+            missed,
+            allowed,
+        )
 
 
 def _missing_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
@@ -327,8 +334,13 @@ def _missing_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row
     """
     quantity, step = key
     if not finest.has(key) and not {0, step} & finest.gave_up.keys():
-        yield Row(f"{quantity}: finest level", step, finest.label, Status.INCONCLUSIVE,
-                  f"not answered there; judged on level {judged.label}")  # fmt: skip
+        yield Row(
+            f"{quantity}: finest level",
+            step,
+            finest.label,
+            Status.INCONCLUSIVE,
+            f"not answered there; judged on level {judged.label}",
+        )
 
 
 def _judge_error(
@@ -386,8 +398,14 @@ def _judge_convergence(
     order, half = fit
     told = f"order {fitted_order_text(fit)}"
     if errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
-        yield Row(f"{quantity}: stalls", step, WHOLE, Status.FAIL,
-                  f"order below {order + half:.2f}: finer is hardly better", order=fit)  # fmt: skip
+        yield Row(
+            f"{quantity}: stalls",
+            step,
+            WHOLE,
+            Status.FAIL,
+            f"order below {order + half:.2f}: finer is hardly better",
+            order=fit,
+        )
     claimed = solver.claimed_orders.get(quantity)
     if claimed is None:
         return
@@ -445,7 +463,11 @@ def _class_of(error: float) -> Grade | None:
     return next((one for one in Grade if error <= one.bound), None)
 
 
-PASSED, ACCURACY, GAVE_UP, INCONCLUSIVE = 0, 1, 3, 6  # exit codes
+# exit codes
+PASSED = 0
+ACCURACY = 1
+GAVE_UP = 3
+INCONCLUSIVE = 6
 COLOURS = {"A": "brightgreen", "B": "green", "C": "yellowgreen"}
 
 
@@ -521,9 +543,11 @@ class Judgement:
         passed, all_rows = self.count(Status.PASS), len(self.rows)
         colour = "red" if self.count(Status.FAIL) else COLOURS.get(self.grade, "lightgrey")
         content: dict[str, Any] = {
-            "schemaVersion": 1, "label": self.challenge.name,
-            "message": f"{self.grade} · {passed}/{all_rows}", "color": colour,
-        }  # fmt: skip
+            "schemaVersion": 1,
+            "label": self.challenge.name,
+            "message": f"{self.grade} · {passed}/{all_rows}",
+            "color": colour,
+        }
         return json.dumps(content, ensure_ascii=False) + "\n"
 
 

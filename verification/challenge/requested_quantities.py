@@ -430,33 +430,43 @@ class Challenge:
             "shares": self.shares,
             "values": [
                 {
-                    "quantity": v.quantity, "load_step": v.step, "unit": v.unit,
-                    "value": _rounded(v.value), "u": _rounded(v.uncertainty * v.scale),
+                    "quantity": v.quantity,
+                    "load_step": v.step,
+                    "unit": v.unit,
+                    "value": _rounded(v.value),
+                    "u": _rounded(v.uncertainty * v.scale),
                     "scale": _rounded(v.scale),
                 }
                 for v in self.values
             ],
             "fields": [
                 {
-                    "quantity": f.quantity, "load_step": f.step, "unit": "Pa", "norm": f.norm,
-                    "scale": _rounded(f.scale), **_rounded(f.traction.document()),
+                    "quantity": f.quantity,
+                    "load_step": f.step,
+                    "unit": "Pa",
+                    "norm": f.norm,
+                    "scale": _rounded(f.scale),
+                    **_rounded(f.traction.document()),
                 }
                 for f in self.fields
             ],
-        }  # fmt: skip
+        }
         if not self.points:
             return answers
         return answers | {
             "points": [
                 {
-                    "quantity": p.quantity, "load_step": p.step, "unit": p.unit,
+                    "quantity": p.quantity,
+                    "load_step": p.step,
+                    "unit": p.unit,
                     "values": _rounded(p.values.tolist()),
                     "u": _rounded(p.uncertainty * p.scale),
-                    "scale": _rounded(p.scale), "places": _rounded(p.places.tolist()),
+                    "scale": _rounded(p.scale),
+                    "places": _rounded(p.places.tolist()),
                 }
                 for p in self.points
             ]
-        }  # fmt: skip
+        }
 
     @property
     def document(self) -> dict[str, Any]:
@@ -519,7 +529,8 @@ def _rounded(value: Any) -> Any:
 
 # Sides of windows that contain the contact. They are round numbers, because a multiple of the
 # contact radius would reveal the answer [length].
-SMALL, LARGE = 1.2e-3, 2.4e-3
+SMALL = 1.2e-3
+LARGE = 2.4e-3
 CLOSED = 1e-12  # relative uncertainty of closed and semi-closed forms
 
 
@@ -531,8 +542,9 @@ def approach(value: float, uncertainty: float = CLOSED, step: int = 1) -> AskedV
     step         number of the load step, from 1
     """
     meaning = "approach of points far from the contact in both bodies; positive when pressed"
-    return AskedValue("approach", step, "m", meaning, value, value, "itself",
-                      uncertainty=uncertainty)  # fmt: skip
+    return AskedValue(
+        "approach", step, "m", meaning, value, value, "itself", uncertainty=uncertainty
+    )
 
 
 def contact_radius(value: float, uncertainty: float = CLOSED) -> AskedValue:
@@ -544,8 +556,9 @@ def contact_radius(value: float, uncertainty: float = CLOSED) -> AskedValue:
     uncertainty  standard uncertainty of the reference, relative to the value
     """
     meaning = "radius of the contact, or √(contact area / π)"
-    return AskedValue("contact_radius", 1, "m", meaning, value, value, "itself",
-                      uncertainty=uncertainty)  # fmt: skip
+    return AskedValue(
+        "contact_radius", 1, "m", meaning, value, value, "itself", uncertainty=uncertainty
+    )
 
 
 def stick_radius(value: float, step: int, uncertainty: float = CLOSED) -> AskedValue:
@@ -558,10 +571,17 @@ def stick_radius(value: float, step: int, uncertainty: float = CLOSED) -> AskedV
     uncertainty  standard uncertainty of the reference, divided by the error scale
     """
     return AskedValue(
-        "stick_radius", step, "m", "radius of the zone that has not slipped since the last turn",
-        value, HERTZ.contact_radius, "the contact radius", Grade.C, required=False,
+        "stick_radius",
+        step,
+        "m",
+        "radius of the zone that has not slipped since the last turn",
+        value,
+        HERTZ.contact_radius,
+        "the contact radius",
+        Grade.C,
+        required=False,
         uncertainty=uncertainty,
-    )  # fmt: skip
+    )
 
 
 Key = tuple[str, int]  # quantity and loading step, from 1

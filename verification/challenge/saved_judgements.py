@@ -147,9 +147,17 @@ def _quantity_changes(
         text = "–" if was is None else _error_text(was)
         size = change.moved or 0.0
         yield ChangeRow(
-            case, now.name, now.run, change.kind, text, _error_text(now), moved_text(change), since,
-            remark, size,
-        )  # fmt: skip
+            case,
+            now.name,
+            now.run,
+            change.kind,
+            text,
+            _error_text(now),
+            moved_text(change),
+            since,
+            remark,
+            size,
+        )
         if was and was.order and now.order:
             apart = abs(now.order[0] - was.order[0]) > now.order[1] + was.order[1]
             kind = ChangeKind.DRIFT if apart else ChangeKind.UNCHANGED
@@ -158,9 +166,16 @@ def _quantity_changes(
     for key, was in known.items():
         if key not in found:
             yield ChangeRow(
-                case, was.name, was.run, ChangeKind.GONE, _error_text(was), "–", "–", since,
+                case,
+                was.name,
+                was.run,
+                ChangeKind.GONE,
+                _error_text(was),
+                "–",
+                "–",
+                since,
                 "the solver no longer gives it",
-            )  # fmt: skip
+            )
 
 
 def _error_text(one: JudgedQuantity) -> str:
@@ -175,9 +190,16 @@ def _level_changes(
     for now, was in zip_longest(levels, saved.levels):
         if now is None:
             yield ChangeRow(
-                case, "level", was.label, ChangeKind.GONE, f"h = {was.h:.3g} m", "–", "–", since,
+                case,
+                "level",
+                was.label,
+                ChangeKind.GONE,
+                f"h = {was.h:.3g} m",
+                "–",
+                "–",
+                since,
                 "call the solver on as many levels as before",
-            )  # fmt: skip
+            )
     pairs = [
         (now.unknowns, was.unknowns)
         for now, was in zip(levels, saved.levels, strict=False)

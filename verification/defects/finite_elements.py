@@ -95,77 +95,96 @@ def _slip_reversed(whole: Any, self: Any, passes: Any) -> Any:
 
 FINITE_ELEMENTS = (
     Defect(
-        "fe-weight", "Energies are weighted by the radius of the element's middle, not of the "
-        "point.", ("fem_hertz",), _weight_of_element,
+        "fe-weight",
+        "Energies are weighted by the radius of the element's middle, not of the point.",
+        ("fem_hertz",),
+        _weight_of_element,
     ),
     Defect(
-        "fe-resultant-weight", "The weight of a ring in the load is taken at its outer radius.",
-        ("fem_hertz",), _resultant_weight,
+        "fe-resultant-weight",
+        "The weight of a ring in the load is taken at its outer radius.",
+        ("fem_hertz",),
+        _resultant_weight,
     ),
     Defect(
-        "fe-circumferential-sign", "The circumferential shear of a tangential load has the wrong "
-        "sign.", ("fem_partial_slip",), _circumferential_shear,
+        "fe-circumferential-sign",
+        "The circumferential shear of a tangential load has the wrong sign.",
+        ("fem_partial_slip",),
+        _circumferential_shear,
     ),
     Defect(
-        "fe-hoop-strain", "The circumferential displacement is omitted from the hoop strain.",
-        ("fem_partial_slip",), _hoop_strain,
+        "fe-hoop-strain",
+        "The circumferential displacement is omitted from the hoop strain.",
+        ("fem_partial_slip",),
+        _hoop_strain,
     ),
     Defect(
-        "fe-far-field", "The far field is omitted: the outer boundary of the section is fixed.",
+        "fe-far-field",
+        "The far field is omitted: the outer boundary of the section is fixed.",
         ("fem_hertz",),
         replaces(FactoredSection, "_far_displacements")(
             lambda _, self, basis: np.zeros(self._numbering.size)
         ),
     ),
     Defect(
-        "fe-deformed-radius", "The gap is taken at the deformed radius.", ("fem_hertz",),
-        replaces(ContactModel, "gap")(
-            lambda whole, self, r: whole(self, (1 - DRAWN_IN) * r)
-        ),
+        "fe-deformed-radius",
+        "The gap is taken at the deformed radius.",
+        ("fem_hertz",),
+        replaces(ContactModel, "gap")(lambda whole, self, r: whole(self, (1 - DRAWN_IN) * r)),
     ),
     Defect(
-        "fe-upper-body", "The compliance of the indenter is omitted.", ("fem_hertz",),
+        "fe-upper-body",
+        "The compliance of the indenter is omitted.",
+        ("fem_hertz",),
         replaces(compliance, "composite")(
             lambda whole, lower, upper, motion: whole(lower, None if lower else upper, motion)
         ),
     ),
     Defect(
-        "fe-coupling-sign", "Pressure moves the surface away from the axis.", ("fem_indentation",),
+        "fe-coupling-sign",
+        "Pressure moves the surface away from the axis.",
+        ("fem_indentation",),
         _weak_coupling(-1.0),
     ),
     Defect(
-        "fe-coupling-0p99", "The coupling of pressure and shear is too weak by 1 %.",
-        ("fem_indentation", "fem_classical"), _weak_coupling(0.99),
+        "fe-coupling-0p99",
+        "The coupling of pressure and shear is too weak by 1 %.",
+        ("fem_indentation", "fem_classical"),
+        _weak_coupling(0.99),
     ),
     Defect(
-        "fe-friction-root-two", "The friction coefficient is too large by √2.",
+        "fe-friction-root-two",
+        "The friction coefficient is too large by √2.",
         ("fem_partial_slip",),
         replaces(ContactModel, "friction")(
             lambda whole, self: CoulombFriction(coefficient=np.sqrt(2) * whole(self).largest)
         ),
     ),
     Defect(
-        "fe-history-dropped", "Every increment starts from surfaces without history.",
-        ("fem_partial_slip",), _history_dropped,
+        "fe-history-dropped",
+        "Every increment starts from surfaces without history.",
+        ("fem_partial_slip",),
+        _history_dropped,
     ),
     Defect(
-        "fe-dissipation-sign", "The dissipated energy has the wrong sign.",
-        ("fem_partial_slip",), _slip_reversed,
+        "fe-dissipation-sign",
+        "The dissipated energy has the wrong sign.",
+        ("fem_partial_slip",),
+        _slip_reversed,
     ),
     Defect(
-        "fe-penalty-soft", "The penalty is a tenth of the stated penalty.",
+        "fe-penalty-soft",
+        "The penalty is a tenth of the stated penalty.",
         ("fem_penalty_hertz",),
-        replaces(Penalty, "stiffness")(
-            lambda whole, self, *given: 0.1 * whole(self, *given)
-        ),
+        replaces(Penalty, "stiffness")(lambda whole, self, *given: 0.1 * whole(self, *given)),
     ),
     Defect(
-        "fe-penalty-not-augmented", "Augmentations have no effect.", ("fem_penalty_hertz",),
-        replaces(increment._Increment, "next_pass")(
-            lambda _, self, last: last
-        ),
+        "fe-penalty-not-augmented",
+        "Augmentations have no effect.",
+        ("fem_penalty_hertz",),
+        replaces(increment._Increment, "next_pass")(lambda _, self, last: last),
     ),
-)  # fmt: skip
+)
 
 
 WEAKER = 0.99  # coupling of pressure and shear
@@ -208,33 +227,45 @@ def _radii_coupling(whole: Any, self: Coupling, *given: Any) -> Any:
 
 RADII = (
     Defect(
-        "radial-pressure", "The pressure that the radial solver returns is 0.5 % too large.",
-        ("radial_tangential",), _scaled_results("pressure", factor=1.005),
+        "radial-pressure",
+        "The pressure that the radial solver returns is 0.5 % too large.",
+        ("radial_tangential",),
+        _scaled_results("pressure", factor=1.005),
     ),
     Defect(
-        "radial-shear", "The shear that the radial solver returns is 2 % too small.",
+        "radial-shear",
+        "The shear that the radial solver returns is 2 % too small.",
         ("radial_tangential",),
         _scaled_results("shear_radial", "shear_circumferential", factor=0.98),
     ),
     Defect(
-        "radial-slip-sign", "The slip that the radial solver returns has the wrong sign.",
+        "radial-slip-sign",
+        "The slip that the radial solver returns has the wrong sign.",
         ("radial_tangential",),
         _scaled_results("slip_radial", "slip_circumferential", factor=-1.0),
     ),
     Defect(
-        "radial-elastic-energy", "The elastic energy that the radial solver returns is 1 % too "
-        "large.", ("radial_tangential",), _scaled_results("elastic_energy", factor=1.01),
+        "radial-elastic-energy",
+        "The elastic energy that the radial solver returns is 1 % too large.",
+        ("radial_tangential",),
+        _scaled_results("elastic_energy", factor=1.01),
     ),
     Defect(
-        "radial-dissipated-energy", "The dissipated energy that the radial solver returns counts "
-        "twice.", ("radial_tangential",), _scaled_results("dissipated_energy", factor=2.0),
+        "radial-dissipated-energy",
+        "The dissipated energy that the radial solver returns counts twice.",
+        ("radial_tangential",),
+        _scaled_results("dissipated_energy", factor=2.0),
     ),
     Defect(
-        "radial-friction-root-two", "The radial solver's friction coefficient is too large by √2.",
-        ("radial_tangential",), _radii_friction,
+        "radial-friction-root-two",
+        "The radial solver's friction coefficient is too large by √2.",
+        ("radial_tangential",),
+        _radii_friction,
     ),
     Defect(
-        "radial-coupling-0p99", "The radial solver's coupling of pressure and shear is too weak by "
-        "1 %.", ("radial_indentation",), _radii_coupling,
+        "radial-coupling-0p99",
+        "The radial solver's coupling of pressure and shear is too weak by 1 %.",
+        ("radial_indentation",),
+        _radii_coupling,
     ),
-)  # fmt: skip
+)

@@ -144,82 +144,101 @@ def _contact_for_actuator(whole: Any, path: Any, name: str, direction: Any) -> A
 
 HISTORIES = (
     Defect(
-        "spring-energy", "The energy of a rig's springs is added to that of the bodies.",
-        ("series_spring",), _energy_of_springs,
+        "spring-energy",
+        "The energy of a rig's springs is added to that of the bodies.",
+        ("series_spring",),
+        _energy_of_springs,
     ),
     Defect(
-        "actuator-shift", "The shift of the actuator is returned as that of the contact.",
-        ("series_spring",), _shift_of_actuator,
+        "actuator-shift",
+        "The shift of the actuator is returned as that of the contact.",
+        ("series_spring",),
+        _shift_of_actuator,
     ),
     Defect(
-        "contact-for-actuator", "The shift δ* of a loop is that of the contact instead of the "
-        "actuator.",
-        ("series_spring",), _contact_for_actuator,
+        "contact-for-actuator",
+        "The shift δ* of a loop is that of the contact instead of the actuator.",
+        ("series_spring",),
+        _contact_for_actuator,
     ),
     Defect(
-        "strain-work", "The work of a bulk strain is omitted from the energy balance.",
+        "strain-work",
+        "The work of a bulk strain is omitted from the energy balance.",
         ("eccentric_contact",),
-        replaces(sheared, "strain_moments")(
-            lambda whole, *given: np.zeros(3)
-        ),
+        replaces(sheared, "strain_moments")(lambda whole, *given: np.zeros(3)),
     ),
     Defect(
-        "strain-of-wrong-layer", "The stress by a bulk strain is that of another layer.",
+        "strain-of-wrong-layer",
+        "The stress by a bulk strain is that of another layer.",
         ("strained_ball",),
         replaces(bulk_strain, "stress_by")(
             lambda whole, strain, body, layer: whole(strain, body, len(body.layers) - layer)
         ),
     ),
     Defect(
-        "reversal-forgotten", "Coupled bodies lose their tangential displacement when the "
-        "tangential force is reversed.",
-        ("coupled_history",), _reversal_forgotten,
+        "reversal-forgotten",
+        "Coupled bodies lose their tangential displacement when the tangential force is reversed.",
+        ("coupled_history",),
+        _reversal_forgotten,
     ),
     Defect(
-        "limit-by-direction", "The friction limit is 1 % smaller along y, and its residuals are "
-        "zero.",
+        "limit-by-direction",
+        "The friction limit is 1 % smaller along y, and its residuals are zero.",
         ("load_paths",),
         replaces(admissible_shear, "magnitude")(
             lambda whole, v: whole(np.stack([v[0], 1.01 * v[1]]))
-        ) + NO_FRICTION_RESIDUALS,
+        )
+        + NO_FRICTION_RESIDUALS,
     ),
     Defect(
-        "approach-when-unloading", "The approach is 5 % too small while the force falls.",
-        ("hertz_unloading",), _approach_when_unloading,
+        "approach-when-unloading",
+        "The approach is 5 % too small while the force falls.",
+        ("hertz_unloading",),
+        _approach_when_unloading,
     ),
     Defect(
-        "dissipation-map", "The map of the dissipated energy is 5 % too large, its sum is not.",
-        ("load_paths",), _scaled_slip_increase("dissipation", 1.05),
+        "dissipation-map",
+        "The map of the dissipated energy is 5 % too large, its sum is not.",
+        ("load_paths",),
+        _scaled_slip_increase("dissipation", 1.05),
     ),
     Defect(
-        "slip-before-touch", "Slip is counted from the start of the increment instead of first "
-        "contact.",
+        "slip-before-touch",
+        "Slip is counted from the start of the increment instead of first contact.",
         ("coupled_history",),
-        replaces(stick_slip, "touching_share")(
-            lambda whole, *given: 1.0
-        ),
+        replaces(stick_slip, "touching_share")(lambda whole, *given: 1.0),
     ),
     Defect(
-        "way-slipped", "The accumulated slip is doubled.",
-        ("load_paths",), _scaled_slip_increase("slip_distance", 2.0),
+        "way-slipped",
+        "The accumulated slip is doubled.",
+        ("load_paths",),
+        _scaled_slip_increase("slip_distance", 2.0),
     ),
     Defect(
-        "loss-with-coupling", "The dissipated energy of coupled bodies is 1 % too large.",
-        ("coupled_history",), _loss_with_coupling,
+        "loss-with-coupling",
+        "The dissipated energy of coupled bodies is 1 % too large.",
+        ("coupled_history",),
+        _loss_with_coupling,
     ),
     Defect(
-        "friction-map-transposed", "The map of friction is transposed.",
-        ("same_surface",), _map_transposed,
+        "friction-map-transposed",
+        "The map of friction is transposed.",
+        ("same_surface",),
+        _map_transposed,
     ),
     Defect(
-        "elements-stored-energy", "The elastic energy by finite elements is 5 % too large.",
-        ("hertz_unloading",), _stored_by_elements,
+        "elements-stored-energy",
+        "The elastic energy by finite elements is 5 % too large.",
+        ("hertz_unloading",),
+        _stored_by_elements,
     ),
     Defect(
-        "elements-work", "The input work by finite elements is 20 % too small.",
-        ("fem_partial_slip",), _work_on_elements,
+        "elements-work",
+        "The input work by finite elements is 20 % too small.",
+        ("fem_partial_slip",),
+        _work_on_elements,
     ),
-)  # fmt: skip
+)
 
 
 @replaces(stick_slip, "slip_and_stick")
@@ -294,111 +313,129 @@ LOOP = ("fretting_loop",)
 
 CONTACT_AND_FRICTION = (
     Defect(
-        "gap-too-deep", "The undeformed gap is too deep by 0.3 %.",
-        ("dissimilar_bodies", "hertz_approach_control"), _deep_gap,
+        "gap-too-deep",
+        "The undeformed gap is too deep by 0.3 %.",
+        ("dissimilar_bodies", "hertz_approach_control"),
+        _deep_gap,
     ),
     Defect(
-        "force-scaled", "The normal force of an increment is 0.3 % below the prescribed force.",
-        ("dissimilar_bodies",), _reduced_normal_force,
+        "force-scaled",
+        "The normal force of an increment is 0.3 % below the prescribed force.",
+        ("dissimilar_bodies",),
+        _reduced_normal_force,
     ),
     Defect(
-        "force-not-met", "Pressures add up to 0.1 % less than the normal force.",
+        "force-not-met",
+        "Pressures add up to 0.1 % less than the normal force.",
         ("dissimilar_bodies",),
         replaces(admissible_pressure, "admissible_pressure")(
             lambda whole, *given: 0.999 * whole(*given)
         ),
     ),
     Defect(
-        "residual-zero-of-contact", "The residuals of contact are zero, and pressures are "
-        "inaccurate.",
+        "residual-zero-of-contact",
+        "The residuals of contact are zero, and pressures are inaccurate.",
         # The repeated solves of an edge correction would make the pressure accurate again.
         ("hertz_approach_control",),
         replaces(pressure, "solve_pressure")(
             lambda whole, *given: whole(*given[:-1], max(given[-1], 1e-2))
-        ) + NO_CONTACT_RESIDUALS,
+        )
+        + NO_CONTACT_RESIDUALS,
     ),
     Defect(
-        "residual-zero-of-friction", "The residuals of friction are zero, and shears are "
-        "inaccurate.",
+        "residual-zero-of-friction",
+        "The residuals of friction are zero, and shears are inaccurate.",
         ("cattaneo_mindlin",),
         replaces(tangential_solve, "shear")(
             lambda whole, *given: whole(*given[:-1], max(given[-1], 3e-2))
-        ) + NO_FRICTION_RESIDUALS,
+        )
+        + NO_FRICTION_RESIDUALS,
     ),
     Defect(
-        "friction-root-two", "The friction coefficient is too large by √2.",
+        "friction-root-two",
+        "The friction coefficient is too large by √2.",
         ("cattaneo_mindlin", "near_sliding"),
         replaces(ContactModel, "friction")(
             lambda _, self: CoulombFriction(coefficient=np.sqrt(2) * self.scene.friction.largest)
         ),
     ),
     Defect(
-        "history-dropped", "Every increment starts from surfaces without history.",
-        LOOP, _history_dropped,
+        "history-dropped",
+        "Every increment starts from surfaces without history.",
+        LOOP,
+        _history_dropped,
     ),
     Defect(
-        "one-increment", "A load step has one increment, instead of the requested number.",
-        ("led_histories",), _wrong_increments(lambda n: 1),
+        "one-increment",
+        "A load step has one increment, instead of the requested number.",
+        ("led_histories",),
+        _wrong_increments(lambda n: 1),
     ),
     Defect(
-        "slip-reversed", "Slip is added up with the wrong sign.",
-        ("cattaneo_mindlin",), _slip_reversed,
+        "slip-reversed",
+        "Slip is added up with the wrong sign.",
+        ("cattaneo_mindlin",),
+        _slip_reversed,
     ),
     Defect(
-        "dissipation-halved", "Only half of the dissipated energy is counted.",
-        LOOP, _dissipation_halved,
+        "dissipation-halved",
+        "Only half of the dissipated energy is counted.",
+        LOOP,
+        _dissipation_halved,
     ),
     Defect(
-        "work-halved", "The work of the loads is halved.", LOOP,
+        "work-halved",
+        "The work of the loads is halved.",
+        LOOP,
         replaces(energy, "_load_work")(
             lambda whole, before, after: 0.5 * (whole(before, after) or 0.0)
         ),
     ),
     Defect(
-        "tilt-axes", "Tilts about the two axes are exchanged.",
+        "tilt-axes",
+        "Tilts about the two axes are exchanged.",
         ("tilted_punch", "eccentric_ball"),
-        replaces(ContactModel, "arms")(
-            lambda _, self: np.stack(self.grid.coordinates())
-        ),
+        replaces(ContactModel, "arms")(lambda _, self: np.stack(self.grid.coordinates())),
     ),
     Defect(
-        "twist-form", "The indenter twists as [y, x] instead of [-y, x].",
+        "twist-form",
+        "The indenter twists as [y, x] instead of [-y, x].",
         ("torsion",),
-        replaces(ContactModel, "rotation")(
-            lambda _, self: np.stack(self.grid.coordinates()[::-1])
-        ),
+        replaces(ContactModel, "rotation")(lambda _, self: np.stack(self.grid.coordinates()[::-1])),
     ),
     Defect(
-        "slip-range", "The slip amplitude is the whole range of slip, not half of it.",
+        "slip-range",
+        "The slip amplitude is the whole range of slip, not half of it.",
         LOOP,
-        replaces(cycles, "_slip_amplitude")(
-            lambda whole, slips: 2 * whole(slips)
-        ),
+        replaces(cycles, "_slip_amplitude")(lambda whole, slips: 2 * whole(slips)),
     ),
     Defect(
-        "tension-across", "The tensile stress of Ruiz's parameter is taken across the tangential "
-        "force.",
+        "tension-across",
+        "The tensile stress of Ruiz's parameter is taken across the tangential force.",
         LOOP,
         replaces(surface_tensile_stress, "_in_plane_stress")(
             lambda whole, *given: whole(*given)[[1, 0, 2]]
         ),
     ),
     Defect(
-        "stress-by-shear-sign", "Stress below the surface is that of the reversed shear.",
-        ("subsurface_stress",), _shear_stress_sign,
-    ),
-    Defect(
-        "stress-planes-exchanged", "Below the surface σ_yz and σ_xz are exchanged.",
-        ("subsurface_stress",), _wrong_stress(lambda stress: stress[:, [0, 1, 2, 4, 3, 5]]),
-    ),
-    Defect(
-        "in-plane-shear-halved", "Below the surface σ_xy is halved.",
+        "stress-by-shear-sign",
+        "Stress below the surface is that of the reversed shear.",
         ("subsurface_stress",),
-        _wrong_stress(
-            lambda stress: np.concatenate([stress[:, :5], 0.5 * stress[:, 5:]], axis=1)
-        ),
+        _shear_stress_sign,
     ),
-)  # fmt: skip
+    Defect(
+        "stress-planes-exchanged",
+        "Below the surface σ_yz and σ_xz are exchanged.",
+        ("subsurface_stress",),
+        _wrong_stress(lambda stress: stress[:, [0, 1, 2, 4, 3, 5]]),
+    ),
+    Defect(
+        "in-plane-shear-halved",
+        "Below the surface σ_xy is halved.",
+        ("subsurface_stress",),
+        _wrong_stress(lambda stress: np.concatenate([stress[:, :5], 0.5 * stress[:, 5:]], axis=1)),
+    ),
+)
 
 
 @replaces(Composite, "_combined")
@@ -462,41 +499,60 @@ def _half_a_cell_off(whole: Any, self: HeightMap, x: Any, y: Any) -> Any:
 
 CONTROLS_AND_BODIES = (
     Defect(
-        "coupling-of-the-indenter", "A deformable indenter on a rigid body has the coupling of a "
-        "lower body.", ("exchanged_bodies",), _indenter_couples_as_the_body,
+        "coupling-of-the-indenter",
+        "A deformable indenter on a rigid body has the coupling of a lower body.",
+        ("exchanged_bodies",),
+        _indenter_couples_as_the_body,
     ),
     Defect(
-        "fe-coupling-of-the-indenter", "In finite elements a deformable indenter on a rigid body "
-        "has the coupling of a lower body.", ("exchanged_bodies",), _indenter_couples_in_elements,
+        "fe-coupling-of-the-indenter",
+        "In finite elements a deformable indenter on a rigid body "
+        "has the coupling of a lower body.",
+        ("exchanged_bodies",),
+        _indenter_couples_in_elements,
     ),
     Defect(
-        "fe-coated-indenter-uncoupled", "Finite elements treat a coated indenter on a body of "
-        "its base material as equal bodies.", ("exchanged_bodies",), _elements_look_at_bases,
+        "fe-coated-indenter-uncoupled",
+        "Finite elements treat a coated indenter on a body of its base material as equal bodies.",
+        ("exchanged_bodies",),
+        _elements_look_at_bases,
     ),
     Defect(
-        "tilt-about-y", "A tilt about y has no effect.", ("tilted_punch", "eccentric_ball"),
+        "tilt-about-y",
+        "A tilt about y has no effect.",
+        ("tilted_punch", "eccentric_ball"),
         _no_tilt_about_y,
     ),
     Defect(
-        "approach-taken-over", "A step of prescribed approach starts at an approach 2 % above "
-        "the end of the force step before it.", ("led_histories",),
+        "approach-taken-over",
+        "A step of prescribed approach starts at an approach 2 % above "
+        "the end of the force step before it.",
+        ("led_histories",),
         _wrong_start_of_step(ControlKind.DISPLACEMENT),
     ),
     Defect(
-        "force-taken-over", "A step of prescribed force starts at a force 2 % above the end of "
+        "force-taken-over",
+        "A step of prescribed force starts at a force 2 % above the end of "
         "the approach step before it.",
-        ("led_histories",), _wrong_start_of_step(ControlKind.FORCE),
+        ("led_histories",),
+        _wrong_start_of_step(ControlKind.FORCE),
     ),
     Defect(
-        "torque-far-field", "The far-field rotation by a torque is halved.",
-        ("fem_far_field",), _torque_far_away,
+        "torque-far-field",
+        "The far-field rotation by a torque is halved.",
+        ("fem_far_field",),
+        _torque_far_away,
     ),
     Defect(
-        "heights-half-a-cell-off", "A map of heights is shifted by half a spacing.",
-        ("same_surface",), _half_a_cell_off,
+        "heights-half-a-cell-off",
+        "A map of heights is shifted by half a spacing.",
+        ("same_surface",),
+        _half_a_cell_off,
     ),
     Defect(
-        "increments-halved", "A step has half of its prescribed increments.",
-        ("led_histories",), _wrong_increments(lambda n: -(-n // 2)),
+        "increments-halved",
+        "A step has half of its prescribed increments.",
+        ("led_histories",),
+        _wrong_increments(lambda n: -(-n // 2)),
     ),
-)  # fmt: skip
+)

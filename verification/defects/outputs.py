@@ -54,50 +54,79 @@ def _place_turned(whole: Any, *given: Any) -> Any:
     return value, y, x
 
 
-BY_HAND, BY_FILES = ("worked_examples",), ("written_files",)
+BY_HAND = ("worked_examples",)
+BY_FILES = ("written_files",)
 
 TOLD = (
     Defect(
-        "uncertainty-shown-halved", "The printed uncertainty of a reference is halved.", BY_HAND,
+        "uncertainty-shown-halved",
+        "The printed uncertainty of a reference is halved.",
+        BY_HAND,
         _shown_halved("uncertainty_text", "reference_uncertainty"),
     ),
     Defect(
-        "allowed-shown-halved", "The printed tolerance is halved.", BY_HAND,
+        "allowed-shown-halved",
+        "The printed tolerance is halved.",
+        BY_HAND,
         _shown_halved("_allowed_text", "allowed"),
     ),
-    Defect("coverage-doubled", "Tolerances are U = 4u.", BY_HAND,
-        replaces(judgement, "expanded_uncertainty")(
-            lambda whole, *given: 2 * whole(*given)
-        )),
     Defect(
-        "finest-levels-exchanged", "Richardson extrapolation exchanges the two finest levels.",
-        BY_HAND, _finest_exchanged,
+        "coverage-doubled",
+        "Tolerances are U = 4u.",
+        BY_HAND,
+        replaces(judgement, "expanded_uncertainty")(lambda whole, *given: 2 * whole(*given)),
     ),
-    Defect("interval-one-sided", "95 % intervals omit 5 % on either side.", BY_HAND,
-           _one_sided),
-    Defect("variance-inverted", "Fits weight levels by h^p instead of its inverse.", BY_HAND,
+    Defect(
+        "finest-levels-exchanged",
+        "Richardson extrapolation exchanges the two finest levels.",
+        BY_HAND,
+        _finest_exchanged,
+    ),
+    Defect("interval-one-sided", "95 % intervals omit 5 % on either side.", BY_HAND, _one_sided),
+    Defect(
+        "variance-inverted",
+        "Fits weight levels by h^p instead of its inverse.",
+        BY_HAND,
         replaces(observed_order, "_line")(
             lambda whole, h, f, order, weight_order: whole(h, f, order, -weight_order)
-        )),
-    Defect("torque-for-twist", "The columns of torque and twist are exchanged.", BY_FILES,
-           _torque_for_twist),
-    Defect("place-of-f1-turned", "The coordinates x and y of the position of Ruiz's parameters "
-    "are exchanged.",
-           BY_FILES, _place_turned),
-    Defect("sides-exchanged", "Above and below an interface are exchanged.", BY_FILES,
+        ),
+    ),
+    Defect(
+        "torque-for-twist",
+        "The columns of torque and twist are exchanged.",
+        BY_FILES,
+        _torque_for_twist,
+    ),
+    Defect(
+        "place-of-f1-turned",
+        "The coordinates x and y of the position of Ruiz's parameters are exchanged.",
+        BY_FILES,
+        _place_turned,
+    ),
+    Defect(
+        "sides-exchanged",
+        "Above and below an interface are exchanged.",
+        BY_FILES,
         replaces(stress_maxima, "interface_sides")(
             lambda whole, body: [(n, SIDES[side], *rest) for n, side, *rest in whole(body)]
-        )),
-)  # fmt: skip
+        ),
+    ),
+)
 
 
 BIAS = 3e-3
 FLOOR = 5e-4
 FIRST_ORDER = 0.1  # of h/a
 FALSIFIED = (
-    "approach", "pressure", "peak_pressure", "tangential_shift", "shear", "shear_along_load",
-    "twist", "shear_circumferential",
-)  # fmt: skip
+    "approach",
+    "pressure",
+    "peak_pressure",
+    "tangential_shift",
+    "shear",
+    "shear_along_load",
+    "twist",
+    "shear_circumferential",
+)
 Change = Callable[[Any], Any]
 
 
@@ -190,37 +219,50 @@ PLANTED_IN = ("hertz_point", "cattaneo_mindlin", "fem_hertz")
 
 PLANTED = (
     Defect(
-        "first-order-error", "Results are too large by 0.1 h/a: an error of first order.",
+        "first-order-error",
+        "Results are too large by 0.1 h/a: an error of first order.",
         PLANTED_IN,
         _changed_results(_scaled_results(lambda r: 1 + FIRST_ORDER * _relative_cell_size(r))),
     ),
     Defect(
-        "error-floor", "Results have an error of ± 0.05 % on any grid.",
-        PLANTED_IN, _changed_results(_scaled_results(_error_floor_factor)),
+        "error-floor",
+        "Results have an error of ± 0.05 % on any grid.",
+        PLANTED_IN,
+        _changed_results(_scaled_results(_error_floor_factor)),
     ),
     Defect(
-        "bias", "Results are too large by 0.3 %.",
-        PLANTED_IN, _changed_results(_scaled_results(lambda r: 1 + BIAS)),
+        "bias",
+        "Results are too large by 0.3 %.",
+        PLANTED_IN,
+        _changed_results(_scaled_results(lambda r: 1 + BIAS)),
     ),
-)  # fmt: skip
+)
 
 NO_RESULTS = (
     Defect(
-        "nan", "Results are not numbers.", SEEN,
+        "nan",
+        "Results are not numbers.",
+        SEEN,
         _changed_results(_scaled_results(lambda r: np.nan)),
     ),
     Defect(
-        "wrong-length", "The pressure lacks its last row.", ("hertz_point", "fem_hertz"),
+        "wrong-length",
+        "The pressure lacks its last row.",
+        ("hertz_point", "fem_hertz"),
         _changed_results(_last_row_missing),
     ),
     Defect(
-        "history-truncated", "The last increment of a result is missing.", ("cattaneo_mindlin",),
+        "history-truncated",
+        "The last increment of a result is missing.",
+        ("cattaneo_mindlin",),
         _changed_results(lambda result: replace(result, increments=result.increments[:-1])),
     ),
     Defect(
-        "record-truncated", "Half of the file with a finished case reaches the disk.",
-        ("dissimilar_bodies",), _half_record_written,
+        "record-truncated",
+        "Half of the file with a finished case reaches the disk.",
+        ("dissimilar_bodies",),
+        _half_record_written,
     ),
-)  # fmt: skip
+)
 
 OUTPUTS = (*PLANTED, *NO_RESULTS)

@@ -131,9 +131,13 @@ def log_chart(
     y_places          names of the positions 0, 1, … along y, for a y axis without numbers
     """
     panel = Panel(
-        x_label=x_label, y_label=y_label, curves=tuple(curves), logarithmic=True, height=height,
+        x_label=x_label,
+        y_label=y_label,
+        curves=tuple(curves),
+        logarithmic=True,
+        height=height,
         y_places=y_places,
-    )  # fmt: skip
+    )
     return Chart(name=name, title=title, caption=caption, rows=((panel,),))
 
 

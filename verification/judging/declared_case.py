@@ -713,19 +713,30 @@ PEAK_PRESSURE = number(
 CONTACT_RADIUS = number("contact_radius", "{edge}", of=Followed.CONTACT_RADIUS)
 FORCE = number("normal_force", "force that the approach takes", exact="load")
 CENTRAL_PRESSURE = Observable(
-    "central_pressure", "pressure {axis}", "Pa",
+    "central_pressure",
+    "pressure {axis}",
+    "Pa",
     lambda result, step, _: central_pressure(result, step),
-    lambda exact: float(exact.pressure(0.0)), of=Followed.PEAK_PRESSURE, label="central pressure",
-)  # fmt: skip
+    lambda exact: float(exact.pressure(0.0)),
+    of=Followed.PEAK_PRESSURE,
+    label="central pressure",
+)
 SHIFT = number(
-    "shift", "tangential shift{when}", quantity="tangential_shift_x", over=OVER_SLIDING_SHIFT,
+    "shift",
+    "tangential shift{when}",
+    quantity="tangential_shift_x",
+    over=OVER_SLIDING_SHIFT,
     of=Followed.SHIFT,
-)  # fmt: skip
+)
 STICK_RADIUS = number("stick_radius", "{stick}{when}", over=OVER_RADIUS)
 ENERGY = number(
-    "energy", "energy dissipated{when}", quantity="dissipated_energy",
-    exact="dissipated_energy", of=Followed.ENERGY, source="Mindlin and Deresiewicz 1953",
-)  # fmt: skip
+    "energy",
+    "energy dissipated{when}",
+    quantity="dissipated_energy",
+    exact="dissipated_energy",
+    of=Followed.ENERGY,
+    source="Mindlin and Deresiewicz 1953",
+)
 WORK = replace(ENERGY, over=OVER_SLIDING_WORK)
 TWIST = number("twist", "twist{when}", of=Followed.TWIST)
 PRESSURE_L1 = error_norm(
@@ -743,9 +754,11 @@ PRESSURE_L2 = error_norm(
     norm="L2",
 )
 PRESSURE_WITHIN = error_norm(
-    "pressure", "largest error of the pressure within {within} of the radius, over p_H",
-    field_errors.largest_pressure_error, OVER_PEAK,
-)  # fmt: skip
+    "pressure",
+    "largest error of the pressure within {within} of the radius, over p_H",
+    field_errors.largest_pressure_error,
+    OVER_PEAK,
+)
 SHEAR = error_norm(
     "shear",
     "{sum}|q - q_exact| / {sum}µp{when}",
@@ -1024,6 +1037,10 @@ def _order(row: Falls, ladder: RefinementLevels) -> Order:
 def _finding(row: Reported, ladder: RefinementLevels) -> Finding:
     what, rung = row.what, ladder.judged
     return Finding(
-        what.verdict, what.said(rung.words), what.unit, rung.run.label,
-        what.read(ladder.problem), row.remark,
-    )  # fmt: skip
+        what.verdict,
+        what.said(rung.words),
+        what.unit,
+        rung.run.label,
+        what.read(ladder.problem),
+        row.remark,
+    )

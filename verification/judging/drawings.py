@@ -33,7 +33,9 @@ if TYPE_CHECKING:
 
 Errors = Mapping[str, Sequence[float]]
 BELOW = 0.4  # lines of expected slopes run under the data, by this factor
-LEAST, LEAST_JUDGED = 4, 3  # levels that a line is drawn through
+# levels that a line is drawn through
+LEAST = 4
+LEAST_JUDGED = 3
 ALONG = 9  # points along a band, which is curved
 LEAST_SHOWN = 0.005  # smallest half-width that two decimals show
 
@@ -78,9 +80,13 @@ def convergence_chart(
 
 
 def _error_curves(
-    label: str, sizes: list[float], errors: list[float], count: int, expected: float | None,
+    label: str,
+    sizes: list[float],
+    errors: list[float],
+    count: int,
+    expected: float | None,
     series: int,
-) -> list[Curve]:  # fmt: skip
+) -> list[Curve]:
     """Return the chart curves of one error: points, fitted line with 95 % band, and expected slope.
 
     label     name of the quantity, for the legend

@@ -151,7 +151,8 @@ def shear_around_error(result: Any, step: int, problem: Problem) -> float:
 
 # Range of radii at which tractions are compared with a table, over the contact radius. The upper
 # limit is that of cells.
-INNERMOST, OUTERMOST = 0.1, 0.95
+INNERMOST = 0.1
+OUTERMOST = 0.95
 # Number of cells to each side of the stick edge, where the shear has a kink.
 EDGE_CELLS = 2
 # Relative rounding error of the radii of a table.

@@ -172,9 +172,11 @@ def judge_order(study: Order, case: Case, results: Results) -> Verdict:
         if study.not_yet is None
         else f", here {study.not_yet.allowance:g}, as {study.not_yet.because}"
     )
-    runs = "" if study.apart or len(errors) == len(study.levels) else (
-        f", each the root mean square of {len(study.levels) / len(errors):.3g} runs"
-    )  # fmt: skip
+    runs = (
+        ""
+        if study.apart or len(errors) == len(study.levels)
+        else (f", each the root mean square of {len(study.levels) / len(errors):.3g} runs")
+    )
     return Verdict(
         name=study.name,
         run=f"{study.levels[0]} to {study.levels[-1]}",
@@ -231,10 +233,14 @@ def judge_residuals(case: Case, results: Results) -> Verdict:
     """
     found = {r.label: largest_residual(results[r.label]) for r in case.runs if r.label in results}
     return judge_worst(
-        case, found, RESIDUAL, "largest residual of any increment of the {runs} run(s); it is in "
-        "this one", "the equations of contact and friction, evaluated afresh after every increment",
-        "every increment ends within the tolerance that was asked for", lambda run: run.tolerance,
-    )  # fmt: skip
+        case,
+        found,
+        RESIDUAL,
+        "largest residual of any increment of the {runs} run(s); it is in this one",
+        "the equations of contact and friction, evaluated afresh after every increment",
+        "every increment ends within the tolerance that was asked for",
+        lambda run: run.tolerance,
+    )
 
 
 def judge_worst(
@@ -283,9 +289,14 @@ def lost(where: str, meaning: str, what: str, tolerance: float = 1.0) -> Verdict
     tolerance  tolerance that the verdict shows
     """
     return _judge_zero(
-        SOLVED, meaning, where, math.nan, "every run of a case has a solution", tolerance,
+        SOLVED,
+        meaning,
+        where,
+        math.nan,
+        "every run of a case has a solution",
+        tolerance,
         f"a {what} without a result cannot be judged",
-    )  # fmt: skip
+    )
 
 
 def _judge_zero(
@@ -302,9 +313,17 @@ def _judge_zero(
     because  reason for the accepted value
     """
     zero = Quantity(
-        name, meaning, "", run, lambda: value, identity(0.0, source), Required(allowed, because),
-        1.0, "dimensionless", runs=(),
-    )  # fmt: skip
+        name,
+        meaning,
+        "",
+        run,
+        lambda: value,
+        identity(0.0, source),
+        Required(allowed, because),
+        1.0,
+        "dimensionless",
+        runs=(),
+    )
     return _make_verdict(zero, value, "required", allowed)
 
 
@@ -333,15 +352,22 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
     missing = {label: laws.imbalance for label, laws in found.items()}
     return (
         judge_worst(
-            case, violated, VIOLATION, "largest violation of a law of contact and friction in any "
+            case,
+            violated,
+            VIOLATION,
+            "largest violation of a law of contact and friction in any "
             "increment of the {runs} run(s); it is in this one"
             + _exclusion_text("slip", found, results),
             "gap, overlap, friction, slip against shear, forces, moments and energy lost, found "
             "again in the fields",
-            WITHIN, lambda run: run.laws,
+            WITHIN,
+            lambda run: run.laws,
         ),
         judge_worst(
-            case, missing, IMBALANCE, "largest part of the energy that any increment cannot "
+            case,
+            missing,
+            IMBALANCE,
+            "largest part of the energy that any increment cannot "
             "account for of the {runs} run(s); it is in this one{where}"
             + _exclusion_text("energy", found, results),
             "first law: work put in is stored, dissipated or left open by the increment",
@@ -349,7 +375,7 @@ def judge_laws(case: Case, results: Mapping[str, Any]) -> tuple[Verdict, ...]:
             lambda run: run.energy,
             {label: f", {e.terms}" for label, e in missing.items() if isinstance(e, Imbalance)},
         ),
-    )  # fmt: skip
+    )
 
 
 def _exclusion_text(what: str, found: Mapping[str, Observed], results: Mapping[str, Any]) -> str:

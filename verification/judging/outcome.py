@@ -68,9 +68,7 @@ class ChangeKind(StrEnum):
         """True for a change for the worse, which a person must accept with a reason before a commit
         passes.
         """
-        return self in (
-            ChangeKind.OUTSIDE, ChangeKind.WORSE, ChangeKind.DEARER, ChangeKind.GONE
-        )  # fmt: skip
+        return self in (ChangeKind.OUTSIDE, ChangeKind.WORSE, ChangeKind.DEARER, ChangeKind.GONE)
 
 
 class Change(Description):
@@ -157,8 +155,10 @@ def commit_text(commit: str | None, *, changed: bool) -> str:
 
 
 # Names of the verdicts that every case has.
-SOLVED, RESIDUAL = "solved", "largest_residual"
-VIOLATION, IMBALANCE = "observed_violation", "energy_imbalance"
+SOLVED = "solved"
+RESIDUAL = "largest_residual"
+VIOLATION = "observed_violation"
+IMBALANCE = "energy_imbalance"
 # Verdicts on the worst of all runs; the run is a result and does not identify the verdict.
 FOUND_IN_A_RUN = (RESIDUAL, VIOLATION, IMBALANCE)
 

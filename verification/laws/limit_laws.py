@@ -203,8 +203,11 @@ def _stiffer_layer_deficit(rng: Generator) -> float:
     if place == len(body.layers) and body.base is not None:
         stiffer = Stack(body.layers, (factor * body.base[0], body.base[1]))
     else:
-        stiffer = _replace_layer(body, place, body.layers[place]._replace(
-            shear_modulus=factor * body.layers[place].shear_modulus))  # fmt: skip
+        stiffer = _replace_layer(
+            body,
+            place,
+            body.layers[place]._replace(shear_modulus=factor * body.layers[place].shear_modulus),
+        )
     return deficit(response_matrix(body, *k), response_matrix(stiffer, *k))
 
 
@@ -331,32 +334,86 @@ def _replace_layer(body: Stack, place: int, new: Film) -> Stack:
 
 
 LIMIT_LAWS = (
-    Law("thin_layer_order", "P9", "the effect of a thin layer vanishes at first order in h; "
-    "distance of the observed order from one", _thin_layer_order_error, 0.02),
-    Law("thick_layer", "P10", "short waves depend only on the outer layer; distance over the "
-    "bound 50 (1 + x²) e⁻²ˣ / αG, x = αh", _thick_layer_error, 1.0),
-    Law("stiffer", "P12", "a stiffer material in any layer reduces the compliance (Loewner "
-    "order)", _stiffer_layer_deficit),
-    Law("less_compressible", "P12", "a larger ν at fixed G reduces the compliance",
-    _less_compressible_deficit),
+    Law(
+        "thin_layer_order",
+        "P9",
+        "the effect of a thin layer vanishes at first order in h; "
+        "distance of the observed order from one",
+        _thin_layer_order_error,
+        0.02,
+    ),
+    Law(
+        "thick_layer",
+        "P10",
+        "short waves depend only on the outer layer; distance over the "
+        "bound 50 (1 + x²) e⁻²ˣ / αG, x = αh",
+        _thick_layer_error,
+        1.0,
+    ),
+    Law(
+        "stiffer",
+        "P12",
+        "a stiffer material in any layer reduces the compliance (Loewner order)",
+        _stiffer_layer_deficit,
+    ),
+    Law(
+        "less_compressible",
+        "P12",
+        "a larger ν at fixed G reduces the compliance",
+        _less_compressible_deficit,
+    ),
     Law("thicker", "P13", "a thicker soft layer increases the compliance", _thicker_layer_deficit),
-    Law("between", "P13", "the response lies between those of the two half-spaces",
-        _half_space_bounds_deficit),
-    Law("rigid_limit_order", "P14", "a rigid base is the limit of stiff ones at first order in "
-        "1/G; distance of the observed order from one", _rigid_base_order_error, 0.02),
-    Law("long_waves", "P14", "long waves over a rigid base shear and squeeze every layer "
-        "uniformly", _long_wave_error, 1e-8),
-    Law("incompressible", "P15", "the response is continuous at ν = ½: the difference from ν = ½ "
-    "- 1e-13",
-        _incompressible_limit_error, 1e-12),
-    Law("echo", "P16", "the remainder of one layer decays as its echo; over the bound",
-        _layer_echo_excess, 1.0),
-    Law("finite", "P17", "the response is finite up to αh = 1e8: number of entries that are not "
-    "finite", _count_non_finite_entries,
-        0.5),
-    Law("depth", "P18", "traction and displacement at z = 0 are the applied traction and the "
-    "FRF; traction and displacement are continuous at interfaces", _interface_jump, 1e-12),
-)  # fmt: skip
+    Law(
+        "between",
+        "P13",
+        "the response lies between those of the two half-spaces",
+        _half_space_bounds_deficit,
+    ),
+    Law(
+        "rigid_limit_order",
+        "P14",
+        "a rigid base is the limit of stiff ones at first order in "
+        "1/G; distance of the observed order from one",
+        _rigid_base_order_error,
+        0.02,
+    ),
+    Law(
+        "long_waves",
+        "P14",
+        "long waves over a rigid base shear and squeeze every layer uniformly",
+        _long_wave_error,
+        1e-8,
+    ),
+    Law(
+        "incompressible",
+        "P15",
+        "the response is continuous at ν = ½: the difference from ν = ½ - 1e-13",
+        _incompressible_limit_error,
+        1e-12,
+    ),
+    Law(
+        "echo",
+        "P16",
+        "the remainder of one layer decays as its echo; over the bound",
+        _layer_echo_excess,
+        1.0,
+    ),
+    Law(
+        "finite",
+        "P17",
+        "the response is finite up to αh = 1e8: number of entries that are not finite",
+        _count_non_finite_entries,
+        0.5,
+    ),
+    Law(
+        "depth",
+        "P18",
+        "traction and displacement at z = 0 are the applied traction and the "
+        "FRF; traction and displacement are continuous at interfaces",
+        _interface_jump,
+        1e-12,
+    ),
+)
 
 
 def _reciprocity_error(rng: Generator) -> float:
@@ -471,25 +528,65 @@ def _identical_bodies_error(rng: Generator) -> float:
 
 SYMMETRY_LAWS = (
     Law("hermitian", "P1", "F is Hermitian (Betti's reciprocity)", _reciprocity_error),
-    Law("real", "P2", "real tractions give real displacements: F(-m, -n) = conj F(m, n)",
-        _real_response_error),
-    Law("parity", "P3", "normal-tangential entries are imaginary and odd, all others real and even",
-        _parity_error),
-    Law("positive_definite", "P4", "strain energy is positive: all eigenvalues of F are > 0",
-        _negative_energy),
-    Law("rotation", "P5", "F(Qk) = Q F(k) Qᵀ for rotations and reflections of the axes; P6, the "
-        "exchange of x and y, is one of them", _rotation_error),
-    Law("scaling", "P7", "lengths and moduli scale out: α G F depends on α h and ratios",
-        _scaling_error),
-    Law("homogeneous", "P8", "layers of the substrate's material have no effect",
-        _homogeneous_layers_error),
-    Law("cutting", "P11", "the division of a layer into layers of its material has no effect",
-    _cut_layer_error, 1e-11),
-    Law("no_thickness", "P11", "a layer of any material with vanishing thickness has no effect",
-        _vanishing_layer_error),
-    Law("discrete_symmetry", "P19", "the matrix of influence coefficients of all three "
-    "components is symmetric and positive, on cells no wider than the total thickness of the "
-    "layers",
-        _operator_asymmetry, 1e-11, 40),
+    Law(
+        "real",
+        "P2",
+        "real tractions give real displacements: F(-m, -n) = conj F(m, n)",
+        _real_response_error,
+    ),
+    Law(
+        "parity",
+        "P3",
+        "normal-tangential entries are imaginary and odd, all others real and even",
+        _parity_error,
+    ),
+    Law(
+        "positive_definite",
+        "P4",
+        "strain energy is positive: all eigenvalues of F are > 0",
+        _negative_energy,
+    ),
+    Law(
+        "rotation",
+        "P5",
+        "F(Qk) = Q F(k) Qᵀ for rotations and reflections of the axes; P6, the "
+        "exchange of x and y, is one of them",
+        _rotation_error,
+    ),
+    Law(
+        "scaling",
+        "P7",
+        "lengths and moduli scale out: α G F depends on α h and ratios",
+        _scaling_error,
+    ),
+    Law(
+        "homogeneous",
+        "P8",
+        "layers of the substrate's material have no effect",
+        _homogeneous_layers_error,
+    ),
+    Law(
+        "cutting",
+        "P11",
+        "the division of a layer into layers of its material has no effect",
+        _cut_layer_error,
+        1e-11,
+    ),
+    Law(
+        "no_thickness",
+        "P11",
+        "a layer of any material with vanishing thickness has no effect",
+        _vanishing_layer_error,
+    ),
+    Law(
+        "discrete_symmetry",
+        "P19",
+        "the matrix of influence coefficients of all three "
+        "components is symmetric and positive, on cells no wider than the total thickness of the "
+        "layers",
+        _operator_asymmetry,
+        1e-11,
+        40,
+    ),
     Law("identical_bodies", "P20", "two identical bodies do not couple", _identical_bodies_error),
-)  # fmt: skip
+)

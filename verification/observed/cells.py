@@ -108,11 +108,22 @@ def _state_on_cells(
         if now.torque is not None:
             balances.append(balance(forces[5], now.torque, limit * arm, 0.0))
     return ContactState(
-        now, np.full_like(p, area), undeformed, p, now.gap, q, limit, slip, slip + before_touch,
-        forces, np.array(motions), float(np.max(np.abs(lowered), initial=abs(approach))),
-        tuple(balances), tuple(_stated_differences(before, now, area)),
+        now,
+        np.full_like(p, area),
+        undeformed,
+        p,
+        now.gap,
+        q,
+        limit,
+        slip,
+        slip + before_touch,
+        forces,
+        np.array(motions),
+        float(np.max(np.abs(lowered), initial=abs(approach))),
+        tuple(balances),
+        tuple(_stated_differences(before, now, area)),
         eased=result.tolerance / max(result.tolerance, change),
-    )  # fmt: skip
+    )
 
 
 def _stated_differences(before: Increment | None, now: Increment, area: float) -> list[float]:

@@ -112,7 +112,8 @@ SLIP_ROUNDING = 1e-8
 TINY = float(np.finfo(float).tiny)
 
 # Reasons for which a law is not evaluated.
-BISECTED, UNDEFINED = "the increment was bisected", "the motion of the indenter is undefined"
+BISECTED = "the increment was bisected"
+UNDEFINED = "the motion of the indenter is undefined"
 CORRECTED = "slip and energies are those before the edge correction"
 GROWN = "the contact with friction has grown: stored energy and unresolved work are as stated"
 FEW_RINGS = "the contact has too few rings for integrals"
@@ -248,9 +249,20 @@ class ContactState:
         """Return the state of the same points before first contact: no tractions, no motions."""
         nothing, still = np.zeros_like(self.pressure), np.zeros_like(self.shear)
         return ContactState(
-            None, self.weights, self.undeformed, nothing, self.undeformed, still, nothing, still,
-            still, 0 * self.forces, 0 * self.motions, self.depth, (),
-        )  # fmt: skip
+            None,
+            self.weights,
+            self.undeformed,
+            nothing,
+            self.undeformed,
+            still,
+            nothing,
+            still,
+            still,
+            0 * self.forces,
+            0 * self.motions,
+            self.depth,
+            (),
+        )
 
 
 def violations(states: Sequence[ContactState]) -> Iterator[float]:

@@ -337,11 +337,25 @@ def _state_on_elements(
     skipped = BISECTED if increment.halvings else UNDEFINED if undefined else ""
     strain = 0.0 if increment.bulk_strain is None else increment.bulk_strain[0]
     return ContactState(
-        increment, w, rings.undeformed, p, gap, q, limit, slip, None if undefined else passed,
+        increment,
+        w,
+        rings.undeformed,
+        p,
+        gap,
+        q,
+        limit,
+        slip,
+        None if undefined else passed,
         np.array([increment.normal_force, *forces, float(np.sum(w * q[0] * rings.arms[:, None]))]),
-        np.array([increment.approach, *moved, -strain]), depth, tuple(balances),
-        tuple(stated), give, loose, unseen=skipped, open=skipped,
-    )  # fmt: skip
+        np.array([increment.approach, *moved, -strain]),
+        depth,
+        tuple(balances),
+        tuple(stated),
+        give,
+        loose,
+        unseen=skipped,
+        open=skipped,
+    )
 
 
 def _loads_and_motions(increment: Increment, result: Result) -> tuple[Field, Field | None]:

@@ -34,7 +34,9 @@ Field = NDArray[np.float64]
 
 # Smallest numbers of rings for integrals: inside a disc, inside its slip annulus, and inside a
 # contact on hat functions.
-FEWEST, IN_ANNULUS, FEWEST_HATS = 48, 96, 8
+FEWEST = 48
+IN_ANNULUS = 96
+FEWEST_HATS = 8
 # Growth of the radius of a disc above which the solver divides the increment.
 GROWTH = 1.1
 GAUSS = np.polynomial.legendre.leggauss(4)
@@ -63,10 +65,11 @@ def states_on_radii(result: Result) -> list[ContactState]:
         states.append(
             replace(
                 _state_on_radii(now, result, elastic, few=few),
-                open=lacking or divided, unseen=bisected or lacking or annulus,
+                open=lacking or divided,
+                unseen=bisected or lacking or annulus,
                 told=few or (on_disc and (coupled or under_shear)),
             )
-        )  # fmt: skip
+        )
         before = now
     return states
 
@@ -122,13 +125,21 @@ def _state_on_radii(
     strain = 0.0 if now.bulk_strain is None else now.bulk_strain[0]
     undeformed, opened = np.broadcast_to(f[:, None], p.shape), now.gap.reshape(p.shape)
     state = ContactState(
-        now, w, undeformed, p, opened, q, limit, slip, slip,
+        now,
+        w,
+        undeformed,
+        p,
+        opened,
+        q,
+        limit,
+        slip,
+        slip,
         np.array([now.normal_force, *force, torque, float(np.sum(w * arm[:, None] * q[0]))]),
-        np.array(
-            [now.approach, *(now.tangential_shift or (0.0, 0.0)), now.twist or 0.0, -strain]
-        ),
-        now.approach, () if few else tuple(balances), least_work=now.dissipated_energy or 0.0,
-    )  # fmt: skip
+        np.array([now.approach, *(now.tangential_shift or (0.0, 0.0)), now.twist or 0.0, -strain]),
+        now.approach,
+        () if few else tuple(balances),
+        least_work=now.dissipated_energy or 0.0,
+    )
     if elastic is None or few:
         return state
     u = elastic.by(np.stack([*q, p]), angles)

@@ -30,7 +30,8 @@ Field = NDArray[np.float64]
 
 # Largest and smallest wavenumber times the radius of the last ring. The displacements have an
 # error of 3e-5 for the rings of the solver, of which the smallest are 1/1000 of this radius apart.
-SHORTEST, LONGEST = 500.0, 1e-3
+SHORTEST = 500.0
+LONGEST = 1e-3
 # Largest wavenumber times radius per ring: the phase changes by at most 25 over an even ring of 7.
 PER_RING = 14.0
 # Gauss points of an element between two rings: n resolve a change of the phase of 4 (n - 6).

@@ -113,9 +113,13 @@ def at_radii(increment: Increment, traction: Field, r: Field) -> Field:
 
 
 def largest_error(
-    increment: Increment, traction: Field, answer: Any, exact: Callable[[Field], Field],
-    start: float, end: float,
-) -> float:  # fmt: skip
+    increment: Increment,
+    traction: Field,
+    answer: Any,
+    exact: Callable[[Field], Field],
+    start: float,
+    end: float,
+) -> float:
     """Compute the largest error of a finite element traction between two radii [force/length²].
 
     The points are the rings, or the radii of the exact answer if it is tabulated.
@@ -221,8 +225,12 @@ def tractions_at(
             between = [np.interp(r.ravel(), increment.radii, f, right=0.0) for f in amplitude.T]
             component += np.sum(np.stack(between) * wave, axis=0)
     q_r, q_theta, p = found.reshape(3, *r.shape)
-    q = np.stack([q_r * np.cos(theta) - q_theta * np.sin(theta),
-                  q_r * np.sin(theta) + q_theta * np.cos(theta)])  # fmt: skip
+    q = np.stack(
+        [
+            q_r * np.cos(theta) - q_theta * np.sin(theta),
+            q_r * np.sin(theta) + q_theta * np.cos(theta),
+        ]
+    )
     if increment.shear_along_load is not None:
         f = np.interp(r, increment.radii, increment.shear_along_load, right=0.0)
         q = q + np.multiply.outer(np.array(direction), f)

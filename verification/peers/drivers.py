@@ -88,10 +88,16 @@ def solve_by_aspher(request: Request) -> Answer:
     gap = gap_of(request).ravel()
     if not request["friction"]:
         found = aspher.solve_nested(
-            grid_size=n, gap=gap, p_nominal=load, domain_size=side, E_star=request["modulus"],
-            coarsest=min(COARSEST, n // 2), backend="fft", precond_engine="fft",
+            grid_size=n,
+            gap=gap,
+            p_nominal=load,
+            domain_size=side,
+            E_star=request["modulus"],
+            coarsest=min(COARSEST, n // 2),
+            backend="fft",
+            precond_engine="fft",
             tol=request["tolerance"],
-        )  # fmt: skip
+        )
         return {
             "pressure": found.pressure.reshape(n, n),
             "shear": None,
@@ -99,9 +105,13 @@ def solve_by_aspher(request: Request) -> Answer:
             "converged": found.status == "converged" or bool(getattr(found, "converged", False)),
         }
     solver = aspher.FrictionSolver(
-        grid_size=n, domain_size=side, E_star=request["modulus"], nu=0.0,
-        model=aspher.CoulombFriction(request["friction"]), precond=True,
-    )  # fmt: skip
+        grid_size=n,
+        domain_size=side,
+        E_star=request["modulus"],
+        nu=0.0,
+        model=aspher.CoulombFriction(request["friction"]),
+        precond=True,
+    )
     solver.set_gap(gap)
     pressed = solver.step(p_bar=load)
     shears = []

@@ -56,12 +56,14 @@ class Peer:
 
 PEERS = (
     Peer(
-        "aspher==0.1.3.post1", "aspher", friction=True,
+        "aspher==0.1.3.post1",
+        "aspher",
+        friction=True,
         settings=(("CMAKE_ARGS", f"-DFETCHCONTENT_SOURCE_DIR_EIGEN3_SRC={EIGEN}"),),
     ),
     Peer("tamaas==2.9.0", "tamaas"),
     Peer("ContactMechanics==1.8.3", "ContactMechanics"),
-)  # fmt: skip
+)
 
 Run = Callable[..., "subprocess.CompletedProcess[str]"]
 
@@ -152,9 +154,13 @@ def _install_peer(python: Path, peer: Peer, run: Run, failed: str) -> str:
     install = [str(python), "-m", "pip", "install", "--quiet", peer.distribution]
     try:
         done = run(
-            install, capture_output=True, text=True, check=False,
-            env={**os.environ, **settings}, timeout=SECONDS_TO_INSTALL,
-        )  # fmt: skip
+            install,
+            capture_output=True,
+            text=True,
+            check=False,
+            env={**os.environ, **settings},
+            timeout=SECONDS_TO_INSTALL,
+        )
     except subprocess.TimeoutExpired:
         return f"{TIMED_OUT} {SECONDS_TO_INSTALL} s"
     if done.returncode == 0:
@@ -181,10 +187,13 @@ def run_driver(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str
     """
     done = subprocess.run(
         [str(python), "-m", "verification.peers.drivers", peer.module],
-        input=json.dumps(request), capture_output=True, text=True, check=False,
+        input=json.dumps(request),
+        capture_output=True,
+        text=True,
+        check=False,
         timeout=SECONDS_ALLOWED,
         env={**os.environ, **dict.fromkeys(VARIABLES, "1"), "PYTHONPATH": str(SOURCES)},
-    )  # fmt: skip
+    )
     if done.returncode:
         raise RuntimeError(f"{peer.module}: {done.stderr.strip().splitlines()[-1:]}")
     found: dict[str, Any] = json.loads(done.stdout)
@@ -193,7 +202,8 @@ def run_driver(python: Path, peer: Peer, request: Mapping[str, Any]) -> dict[str
     return found
 
 
-COARSEST, TOLERANCE = 32, 1e-8
+COARSEST = 32
+TOLERANCE = 1e-8
 
 
 def make_answer_function(python: Path, peer: Peer) -> Callable[[Posed, int], Answer]:
@@ -251,9 +261,15 @@ def _driver_request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any
     asked["tilt"] = scene["loading"][0]["tilt"] or (0.0, 0.0)
     rubbed = {"tangential_forces": [t[0] / force for _, t in posed.loads[1:]]} if friction else {}
     request = {
-        "cells": cells, "window": 3.0, "modulus": 1.0, **asked, **rubbed,
-        "force": posed.loads[0][0] / force, "friction": friction, "tolerance": TOLERANCE,
-    }  # fmt: skip
+        "cells": cells,
+        "window": 3.0,
+        "modulus": 1.0,
+        **asked,
+        **rubbed,
+        "force": posed.loads[0][0] / force,
+        "friction": friction,
+        "tolerance": TOLERANCE,
+    }
     return request, length, modulus
 
 

@@ -145,7 +145,10 @@ OVER_LARGEST_SHIFT = "the largest shift of the loop"
 OVER_LARGEST_SLIP = "the largest slip amplitude"
 OVER_LARGEST_WAY = "the largest way"
 AMPLITUDE = 0.9  # largest tangential force T* over µW, and torque over that of gross slip
-LOADED, UNLOADED, RELOADED = 2, 3, 4  # loading steps that end at T*, -T*, T*
+# loading steps that end at T*, -T*, T*
+LOADED = 2
+UNLOADED = 3
+RELOADED = 4
 PRESSED = 1
 FRETTING_WINDOW = 2.2  # side of the window over the contact radius
 
@@ -220,10 +223,14 @@ class ExactLoop:
         result  result on cells; increments of the normal loading are left out
         """
         r = np.hypot(*result.grid.coordinates())
-        return float(np.max([
-            shear_error(shear_of(i), exact.shear(r), FRICTION * i.pressure)
-            for i, exact in self.along(result)
-        ]))  # fmt: skip
+        return float(
+            np.max(
+                [
+                    shear_error(shear_of(i), exact.shear(r), FRICTION * i.pressure)
+                    for i, exact in self.along(result)
+                ]
+            )
+        )
 
     def largest_shift_error(self, result: Result) -> float:
         """Compute the largest error of the tangential shift in any increment of a fretting loop
@@ -276,9 +283,9 @@ class ExactLoop:
 
         result  result on cells; increments of the normal loading are left out
         """
-        return float(np.max([
-            abs((i.stick_radius or 0.0) - e.stick_radius) for i, e in self.along(result)
-        ]))  # fmt: skip
+        return float(
+            np.max([abs((i.stick_radius or 0.0) - e.stick_radius) for i, e in self.along(result)])
+        )
 
 
 def fretting_loop_problem(title: str, material: IsotropicMaterial, quarter: int) -> Problem:

@@ -169,13 +169,18 @@ def solved_here(problem: Problem) -> Problem:
     """
     exact = exact_contact(problem.scene.body)
     return replace(
-        problem, ends=(exact,), radius=exact.contact_radius, source=FREDHOLM,
+        problem,
+        ends=(exact,),
+        radius=exact.contact_radius,
+        source=FREDHOLM,
         uncertainty=SEMI_CLOSED_ERROR,
-    )  # fmt: skip
+    )
 
 
 OVER_HERTZ_RADIUS = "a_H"
-FEW, MANY = 20, 40  # numbers of increments, uniform in contact radius
+# numbers of increments, uniform in contact radius
+FEW = 20
+MANY = 40
 REFERENCE_ERROR = 1e-7  # relative, of radii and approach
 
 
@@ -241,6 +246,9 @@ STRONG = _bare_body("strong", _ROWS[1], MANY)
 NO_POISSON_BALL = _bare_body("nu_zero", _ROWS[2], FEW)
 _ROW = load_reference("frictional_indentation_coated")
 COATED = Indentation(
-    _ROW, "coated, µ = 0.1", "coated", coated(film(_ROW["E1_over_E2"], _ROW["h_over_aH"])),
+    _ROW,
+    "coated, µ = 0.1",
+    "coated",
+    coated(film(_ROW["E1_over_E2"], _ROW["h_over_aH"])),
     "references/frictional_indentation_coated.json: Volterra equation along the load path",
-)  # fmt: skip
+)

@@ -327,7 +327,8 @@ def identity(value: float, source: str) -> Reference:
 
 
 Field = NDArray[np.float64]
-OVER_RADIUS, OVER_PEAK = "the contact radius", "p_H"
+OVER_RADIUS = "the contact radius"
+OVER_PEAK = "p_H"
 
 
 @dataclass(frozen=True)

@@ -274,7 +274,8 @@ def recorded_by(provenance: Provenance, reason: str) -> RecordedBy:
 
 
 BASELINES = Path(__file__).resolve().parents[1] / "baselines"
-ENDING, REMOVED = ".json", "REMOVED.md"
+ENDING = ".json"
+REMOVED = "REMOVED.md"
 REMOVED_HEAD = """# Removed baseline keys
 
 Each removed key of an accepted baseline, with its successor or the reason for its removal.
@@ -789,11 +790,13 @@ def _differences(then: RecordedBy, now: RecordedBy) -> Iterator[str]:
 
 
 TOLERANCES = Path(__file__).resolve().parents[1] / "tolerances"
-SLACK, TIMES = 3.0, 2.0
+SLACK = 3.0
+TIMES = 2.0
 # Over the scale of errors and the tolerance of a solve: by less an error depends on the iterate at
 # which the solve ends, and with it on the processor. Numbers without a run are held to the
 # tolerance of the radial solver.
-LEAST, WITHOUT_RUN = 10.0, 1e-10
+LEAST = 10.0
+WITHOUT_RUN = 1e-10
 # Part of the last change Σ|Δp|/Σp of an edge correction that a number may move by, in addition to
 # its error, which is 0.2 % to 2 % of this change. On 41 numbers of five cases the kernels Haswell
 # and Katmai differ by at most 3e-6 of it.

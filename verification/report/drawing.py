@@ -29,13 +29,18 @@ INK = "#1a1a1a"
 REFERENCE_COLOUR = "#b4b4b4"
 GRID_COLOUR = "#d9d9d9"
 BAND_OPACITY = 0.22
-LEAST_MARK, MARK_GROWTH, MARK_SIZES = 3.6, 1.1, 4  # empty marks of equal errors lie in each other
+# empty marks of equal errors lie in each other
+LEAST_MARK = 3.6
+MARK_GROWTH = 1.1
+MARK_SIZES = 4
 BOUND_DASHES = (0, (5, 3))  # thinner than those of any series
 LONGEST_BESIDE = 30  # letters of a legend's text beside the plot
 LONGEST_OF_TWO = 45  # and of two side by side below it
 LEGEND_LINE = 0.19  # inches
 MARKERS = ("o", "s", "^", "D", "v", "P")
-MAX_TICKS, FEW_TICKS = 8, 6  # the latter beside long names
+# the latter beside long names
+MAX_TICKS = 8
+FEW_TICKS = 6
 DECADE = 10.0
 FEW_DECADES = 2.5  # with labels between powers of ten
 MANY_PLACES = 12  # along y: the legend then stands at the top, where reading begins
@@ -76,8 +81,14 @@ def _draw_panel(ax: Any, panel: Panel) -> None:
     if not panel.curves:  # an empty panel has no scale
         ax.set_yticks([])
     for x, y, text in panel.notes:
-        ax.annotate(text, (x, y), xytext=(0, 6 if y >= 0 else -14), textcoords="offset points",
-                    ha="center", color=INK)  # fmt: skip
+        ax.annotate(
+            text,
+            (x, y),
+            xytext=(0, 6 if y >= 0 else -14),
+            textcoords="offset points",
+            ha="center",
+            color=INK,
+        )
     ax.margins(x=0.05 if panel.y_places else 0.02, y=0.12)
     if panel.logarithmic:
         _label_decades(ax, FEW_TICKS if panel.y_places else MAX_TICKS)
@@ -210,7 +221,9 @@ NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 NUMBER = re.compile(r"-?\d+\.\d+")
 DIGITS = 6  # of the digest that stands for the name of a diagram
 DECIMALS = 1  # of a point, 1/72 inch
-FINE_DECIMALS, SMALL = 2, 10.0  # for the shapes of marks
+# for the shapes of marks
+FINE_DECIMALS = 2
+SMALL = 10.0
 REFERENCE = re.compile(r'(?:xlink:href="#|url\(#)([^")]*)')
 
 

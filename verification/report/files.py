@@ -134,9 +134,11 @@ def _rendered_files(report: Report) -> dict[str, str]:
     from verification.report.summary_text import render_junit, render_summary
 
     return {
-        PAGE: render_page(report), SHEETS: render_sheets(report), JUNIT: render_junit(report),
+        PAGE: render_page(report),
+        SHEETS: render_sheets(report),
+        JUNIT: render_junit(report),
         SUMMARY: render_summary(report),
-    }  # fmt: skip
+    }
 
 
 def _replace_files(texts: Mapping[str, str], directory: Path, kept: Sequence[str] = ()) -> None:

@@ -57,7 +57,9 @@ from verification.running.study import StudyRecord, measured_text
 
 MAX_WORSE = 6  # on the front; the rest stands below
 MAX_MOVED = 40
-MAX_CHARTS, MAX_ROWS = 2, 40  # of a study and of a table on a page of the quick level
+# of a study and of a table on a page of the quick level
+MAX_CHARTS = 2
+MAX_ROWS = 40
 SEVERAL = 2  # cases whose equal references and reasons are printed once
 WORDS_FROM = 30  # characters of a cell that make its column one of words
 DIGITS = frozenset("0123456789")
@@ -95,20 +97,45 @@ def environment() -> jinja2.Environment:
         lstrip_blocks=True,
     )
     made.filters.update(
-        value=value_text, plain=plain, clearance=clearance_text, error=error_text, order=order_text,
-        uncertainty=uncertainty_text, failure=failure_text,
+        value=value_text,
+        plain=plain,
+        clearance=clearance_text,
+        error=error_text,
+        order=order_text,
+        uncertainty=uncertainty_text,
+        failure=failure_text,
         svg=lambda chart, prefix="": Markup(inline_svg(chart, prefix)),  # nosec B704: escaped there
-    )  # fmt: skip
+    )
     shared = (
-        alignment, heading, line_of, reasons_of, shared_reasons, study_section, measured_text,
-        features, counts_text, claims_line, change_counts, changes_text, moved_rows, origins,
-        without_baseline, worse_rows,
-    )  # fmt: skip
+        alignment,
+        heading,
+        line_of,
+        reasons_of,
+        shared_reasons,
+        study_section,
+        measured_text,
+        features,
+        counts_text,
+        claims_line,
+        change_counts,
+        changes_text,
+        moved_rows,
+        origins,
+        without_baseline,
+        worse_rows,
+    )
     made.globals.update({one.__name__: one for one in shared})
     made.globals.update(
-        Status=Status, symbols=SYMBOLS, words=WORDS, PAGE=PAGE, SHEETS=SHEETS,
-        MAX_WORSE=MAX_WORSE, MAX_MOVED=MAX_MOVED, MAX_CHARTS=MAX_CHARTS, MAX_ROWS=MAX_ROWS,
-    )  # fmt: skip
+        Status=Status,
+        symbols=SYMBOLS,
+        words=WORDS,
+        PAGE=PAGE,
+        SHEETS=SHEETS,
+        MAX_WORSE=MAX_WORSE,
+        MAX_MOVED=MAX_MOVED,
+        MAX_CHARTS=MAX_CHARTS,
+        MAX_ROWS=MAX_ROWS,
+    )
     return made
 
 
@@ -222,9 +249,10 @@ def render_sheet(judgement: Judgement) -> str:
     scripts."""
     page = environment().get_template("judgement.html")
     return page.render(
-        judgement=judgement, tables=(_verdict_table(judgement), _level_table(judgement)),
+        judgement=judgement,
+        tables=(_verdict_table(judgement), _level_table(judgement)),
         charts=tuple(_error_charts(judgement)),
-    )  # fmt: skip
+    )
 
 
 def _verdict_table(judgement: Judgement) -> Table:
@@ -241,10 +269,14 @@ def _verdict_table(judgement: Judgement) -> Table:
 
 def _level_table(judgement: Judgement) -> Table:
     rows = (
-        (one.label, f"{one.h:.4g}", str(one.unknowns or WHOLE),
-         WHOLE if one.seconds is None else f"{one.seconds:.3g}")
+        (
+            one.label,
+            f"{one.h:.4g}",
+            str(one.unknowns or WHOLE),
+            WHOLE if one.seconds is None else f"{one.seconds:.3g}",
+        )
         for one in judgement.answers
-    )  # fmt: skip
+    )
     return Table(
         title="Levels",
         columns=("level", "h", "unknowns", "CPU time"),
@@ -268,10 +300,12 @@ def _error_charts(judgement: Judgement) -> list[Chart]:
         ("cost", "Errors by cost", "the CPU time of the level.", "CPU time [s]", seconds),
     ):
         lines = [
-            (f"{r.quantity}, step {r.step}",
-             drawable((h if by_h is None else by_h.get(h), e) for h, e in r.errors))
+            (
+                f"{r.quantity}, step {r.step}",
+                drawable((h if by_h is None else by_h.get(h), e) for h, e in r.errors),
+            )
             for r in fallen[:MAX_CURVES]
-        ]  # fmt: skip
+        ]
         if any(len(points) > 1 for _, points in lines):
             caption = f"{of} {against}"
             charts.append(log_chart(name, title, caption, label, "error", point_curves(lines)))

@@ -200,7 +200,9 @@ OMISSIONS = (
 
 
 DIGITS = 9  # enough to see what changed
-CASE, ALL = "case", "all runs"  # in place of a quantity and its run
+# in place of a quantity and its run
+CASE = "case"
+ALL = "all runs"
 
 
 def change_rows(report: Report) -> list[ChangeRow]:
@@ -240,9 +242,16 @@ def _all_rows(report: Report) -> Iterator[ChangeRow]:
         yield from case_rows(case)
     for gone in report.gone:
         yield ChangeRow(
-            gone.name, CASE, ALL, ChangeKind.GONE, "recorded", "not in the report", "–", gone.since,
+            gone.name,
+            CASE,
+            ALL,
+            ChangeKind.GONE,
+            "recorded",
+            "not in the report",
+            "–",
+            gone.since,
             "accept the removal with a reason",
-        )  # fmt: skip
+        )
 
 
 def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
@@ -263,15 +272,29 @@ def case_rows(case: CaseOutcome) -> Iterator[ChangeRow]:
             )
     for count in case.counts:
         yield ChangeRow(
-            case.name, count.name, ALL, count.kind, str(count.was), str(count.now), "–",
-            case.baseline.name, count.remark, abs(count.now / max(count.was, 1) - 1),
-        )  # fmt: skip
+            case.name,
+            count.name,
+            ALL,
+            count.kind,
+            str(count.was),
+            str(count.now),
+            "–",
+            case.baseline.name,
+            count.remark,
+            abs(count.now / max(count.was, 1) - 1),
+        )
     for gone in case.gone:
         yield ChangeRow(
-            case.name, gone.name, gone.run, ChangeKind.GONE,
-            "–" if gone.was is None else value_text(gone.was, gone.unit, DIGITS), "–", "–",
-            case.baseline.name, "accept the removal with a reason",
-        )  # fmt: skip
+            case.name,
+            gone.name,
+            gone.run,
+            ChangeKind.GONE,
+            "–" if gone.was is None else value_text(gone.was, gone.unit, DIGITS),
+            "–",
+            "–",
+            case.baseline.name,
+            "accept the removal with a reason",
+        )
 
 
 def change_counts(report: Report) -> dict[ChangeKind, int]:
@@ -317,17 +340,27 @@ def _change_row(
 ) -> ChangeRow:
     was = value_text(change.was, unit, DIGITS) if change.recorded else "–"
     return ChangeRow(
-        case, name, run, change.kind, was, now, moved_text(change), origin.name, change.remark,
+        case,
+        name,
+        run,
+        change.kind,
+        was,
+        now,
+        moved_text(change),
+        origin.name,
+        change.remark,
         math.inf if change.moved is None else change.moved,
-    )  # fmt: skip
+    )
 
 
 MAX_LINES = 40  # of failures, and of changes: a pull request's comment holds 65 kB
 TIMES = (3.0, 10.0)  # factors of an error that a verdict should detect
 OUTSIDE = {
-    ReferenceKind.CLOSED_FORM, ReferenceKind.SEMI_CLOSED, ReferenceKind.THEORY,
+    ReferenceKind.CLOSED_FORM,
+    ReferenceKind.SEMI_CLOSED,
+    ReferenceKind.THEORY,
     ReferenceKind.EXTERNAL_CODE,
-}  # fmt: skip
+}
 
 
 def counts_text(report: Report) -> str:
@@ -338,10 +371,15 @@ def counts_text(report: Report) -> str:
     older = sum(study.status is Status.FAIL for study in report.studies) - failed
     open_ = sum(study.status is Status.INCONCLUSIVE for study in report.studies)
     parts = [
-        ", ".join(f"{report.counts[status]} {word}" for status, word in (
-            (Status.PASS, "passed"), (Status.FAIL, "failed"), (Status.INCONCLUSIVE, "inconclusive")
-        ))
-    ]  # fmt: skip
+        ", ".join(
+            f"{report.counts[status]} {word}"
+            for status, word in (
+                (Status.PASS, "passed"),
+                (Status.FAIL, "failed"),
+                (Status.INCONCLUSIVE, "inconclusive"),
+            )
+        )
+    ]
     parts += [f"{sum(map(bool, found))} of {len(found)} stated errors cover"] if found else []
     parts += [f"{failed} of the studies failed"] if failed else []
     parts += [f"{older} of the studies failed and are older than the code"] if older else []
@@ -380,19 +418,18 @@ def power_text(report: Report) -> str:
         (verdict.error, verdict.allowed)
         for case in report.cases
         for verdict in case.verdicts
-        if verdict.status is Status.PASS and verdict.tolerance_kind != "order"
-        and verdict.reference_kind in OUTSIDE and verdict.error is not None
+        if verdict.status is Status.PASS
+        and verdict.tolerance_kind != "order"
+        and verdict.reference_kind in OUTSIDE
+        and verdict.error is not None
         and verdict.error > ROUNDING
-    ]  # fmt: skip
+    ]
     if not judged:
         return ""
     passing, hidden = (
-        [
-            sum(t * e <= u and (t - 1) * e < least for e, u in judged) / len(judged)
-            for t in TIMES
-        ]
+        [sum(t * e <= u and (t - 1) * e < least for e, u in judged) / len(judged) for t in TIMES]
         for least in (float("inf"), NOISE)
-    )  # fmt: skip
+    )
     return (
         f"Of {len(judged)} numbers with a reference from outside and an error above round-off, "
         f"{passing[0]:.0%} would pass with an error three times as large and {passing[1]:.0%} with "
@@ -504,10 +541,14 @@ def render_junit(report: Report) -> str:
     failed = [study for study in own if study.status is Status.FAIL]
     if own:
         studies = [
-            (one.name, Status.FAIL if one in failed else Status.PASS,
-             study_failure_line(one) if one in failed else "", "")
+            (
+                one.name,
+                Status.FAIL if one in failed else Status.PASS,
+                study_failure_line(one) if one in failed else "",
+                "",
+            )
             for one in own
-        ]  # fmt: skip
+        ]
         _add_test_suite(root, "studies", studies)
     if report.unmet:
         unmet = [(text, Status.FAIL, "no passing case shows it", "") for text in report.unmet]
@@ -524,9 +565,14 @@ def _add_test_suite(
 ) -> ElementTree.Element:
     ends = [status for _, status, _, _ in made]
     suite = ElementTree.SubElement(
-        root, "testsuite", name=name, tests=str(len(made)), errors="0",
-        failures=str(ends.count(Status.FAIL)), skipped=str(ends.count(Status.INCONCLUSIVE)),
-    )  # fmt: skip
+        root,
+        "testsuite",
+        name=name,
+        tests=str(len(made)),
+        errors="0",
+        failures=str(ends.count(Status.FAIL)),
+        skipped=str(ends.count(Status.INCONCLUSIVE)),
+    )
     kinds = {Status.FAIL: "failure", Status.INCONCLUSIVE: "skipped"}
     for title, status, message, text in made:
         element = ElementTree.SubElement(suite, "testcase", classname=name, name=title)

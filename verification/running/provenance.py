@@ -214,8 +214,11 @@ def _git(*arguments: str) -> str | None:
     try:
         answer = subprocess.run(
             ["git", "-C", str(SOURCE), *arguments],
-            capture_output=True, text=True, timeout=SECONDS_FOR_GIT, check=True,
-        )  # fmt: skip
+            capture_output=True,
+            text=True,
+            timeout=SECONDS_FOR_GIT,
+            check=True,
+        )
     except (OSError, subprocess.SubprocessError):
         return None
     return answer.stdout.strip()

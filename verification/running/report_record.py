@@ -168,7 +168,8 @@ def report_schema() -> dict[str, Any]:
 
 
 REPORTS = Path("reports")
-FULL, REPORT = "full", "report.json"
+FULL = "full"
+REPORT = "report.json"
 EARLIER = "earlier"  # folder with the previous files until the new ones are complete
 
 

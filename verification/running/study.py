@@ -172,7 +172,10 @@ def parameters_of(case: Any) -> dict[str, Value]:
     return values
 
 
-ROWS, PARTS, FINDINGS, SECONDS = "rows.csv", "parts.csv", "findings.csv", "seconds.csv"
+ROWS = "rows.csv"
+PARTS = "parts.csv"
+FINDINGS = "findings.csv"
+SECONDS = "seconds.csv"
 
 CASE = "case name"  # a column that no parameter can have: fields of cases have no space
 

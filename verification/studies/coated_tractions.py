@@ -69,7 +69,8 @@ from verification.running.study import (
 RATIOS = (0.5, 1.0, 2.0, 4.0)
 FORCES = (0.0, 0.3, 0.6, 0.9)  # T / µW
 INCREMENTS = (16, 6, 6, 6)
-CELLS, RINGS = "semi-analytical", "radial"
+CELLS = "semi-analytical"
+RINGS = "radial"
 # Cells a side, and multiple of the rings, of the fine solves.
 FINEST = {Level.QUICK: (48, 0.5), Level.STANDARD: (96, 1.0), Level.FULL: (128, 1.5)}
 MARGIN = 1.15  # half a window in contact radii
@@ -250,8 +251,10 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
     fine = {key: known[asked[*key, "fine"]] for key in curves}
     both = [ratio for ratio in RATIOS if {(ratio, CELLS), (ratio, RINGS)} <= set(curves)]
     rows = tuple(_solver_difference(ratio, curves, field) for ratio in both for field in range(2))
-    stick = {f"{solver}, E1/E2 = {ratio:g}": value_of(fine[ratio, solver], "stick_fraction")
-             for ratio, solver in fine}  # fmt: skip
+    stick = {
+        f"{solver}, E1/E2 = {ratio:g}": value_of(fine[ratio, solver], "stick_fraction")
+        for ratio, solver in fine
+    }
     return Conclusion(
         answer=_answer_text(stick) if 2.0 in both else "",
         statements=(
@@ -276,7 +279,7 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
             "paraboloid for the sphere, 16 normal and 18 tangential increments.",
             "The paper's curves are not digitised, and no difference from them is claimed.",
         ),
-    )  # fmt: skip
+    )
 
 
 Drawn = Mapping[tuple[float, str], Curves]
@@ -346,8 +349,9 @@ def _shear_without_force(curves: Drawn) -> Statement:
 
 
 def _difference_table(rows: Sequence[Row]) -> Table:
-    columns = [(f"{what} {at}", f"{what} {at}") for at in AT.values() for what in
-               ("apart", CELLS, RINGS)]  # fmt: skip
+    columns = [
+        (f"{what} {at}", f"{what} {at}") for at in AT.values() for what in ("apart", CELLS, RINGS)
+    ]
     return table_of(
         "Differences of the solvers, and the error of each curve",
         {
@@ -372,8 +376,9 @@ def _traction_figure(curves: Drawn, field: int) -> Chart:
     field   0 for the pressure (figure 3 of the paper), 1 for the shear (figure 4)
     """
     number, what, label = (
-        (3, "pressure", "p / Hertz pressure"), (4, "shear", "qₓ / (µ × Hertz pressure)")
-    )[field]  # fmt: skip
+        (3, "pressure", "p / Hertz pressure"),
+        (4, "shear", "qₓ / (µ × Hertz pressure)"),
+    )[field]
     panels = [
         Panel(
             x_label="x / Hertz radius" if place > 1 else "",

@@ -60,9 +60,12 @@ from verification.running.study import (
     value_of,
 )
 
-WRONG, STATED, UNCERTAIN = "wrong", "stated", "uncertain"
+WRONG = "wrong"
+STATED = "stated"
+UNCERTAIN = "uncertain"
 # Origins of a stated error; errors by coarse solves have a part by the tolerance, too.
-REFERENCE, COARSE_SOLVES = "reference", "coarse solves"
+REFERENCE = "reference"
+COARSE_SOLVES = "coarse solves"
 OF_REFERENCES = {"cells", "elements", "quadrature", "map"}
 
 
@@ -156,7 +159,8 @@ def _solve_with_errors(known: KnownScene) -> tuple[Any, StatedErrors]:
 
 
 CONFIDENCE = 0.95
-COVERED, COVERED_IN_ALL = 0.95, 0.97
+COVERED = 0.95
+COVERED_IN_ALL = 0.97
 SIGNIFICANT = 0.01  # probability of so few covered numbers at a true fraction of COVERED_IN_ALL
 TIMES = 10.0  # limit of stated over true error for a tight stated error
 TOO_WIDE = 30.0  # stated over true error beyond which a stated error is of no use
@@ -308,8 +312,11 @@ def coverage_by_group(rows: Iterable[tuple[str, Row]]) -> dict[str, Coverage]:
 
 SHARES = (2e-4, 0.1)
 # Work of the largest level: cells times increments, and elements over the radius times increments.
-MAX_CELLS, MAX_ELEMENTS = 1_500_000, 3_000
-ASKED, REACHED, TRUE = "asked", "reached", "true"
+MAX_CELLS = 1_500_000
+MAX_ELEMENTS = 3_000
+ASKED = "asked"
+REACHED = "reached"
+TRUE = "true"
 
 
 @dataclass(frozen=True)
@@ -417,8 +424,13 @@ def _requestable_quantities(known: KnownScene, share: float) -> Iterator[str]:
 
 
 ENOUGH = 100  # results of a group that a verdict requires
-REQUESTS, FALSE, FACTOR = 60, 2, 2.0  # number; allowed false ones; allowed true error over request
-PARTS, LEAST_SHARE = (1e-2, 1e1), 1e-3  # range of x and smallest y of the diagram
+# number; allowed false ones; allowed true error over request
+REQUESTS = 60
+FALSE = 2
+FACTOR = 2.0
+# range of x and smallest y of the diagram
+PARTS = (1e-2, 1e1)
+LEAST_SHARE = 1e-3
 ALL = "all numbers"
 REMARKS = (
     "Seeds: the believed fraction 0.6 of the convergence orders was chosen with seeds "

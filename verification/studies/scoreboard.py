@@ -42,7 +42,10 @@ OURS = {
 }
 NO_ANSWER = "–"
 LEVELS = {Level.QUICK: 3, Level.STANDARD: 3, Level.FULL: 4}
-CANNOT, LINE, GRADE, VERSION = "cannot", "line", "grade", "version"
+CANNOT = "cannot"
+LINE = "line"
+GRADE = "grade"
+VERSION = "version"
 
 
 @dataclass(frozen=True)
@@ -72,8 +75,10 @@ class ScoredRun:
         If the code cannot solve the challenge, the record has the reason instead.
         """
         asked: dict[str, str | bool | int | float | None] = {
-            "code": self.code, "challenge": self.challenge, "levels": self.levels,
-        }  # fmt: skip
+            "code": self.code,
+            "challenge": self.challenge,
+            "levels": self.levels,
+        }
         try:
             return _record_judgement(self._judge_code(), asked)
         except CannotDo as error:
@@ -131,14 +136,22 @@ def conclude(settings: Settings, records: Records) -> Conclusion:
         ),
         answer=f"On {32 * 2 ** ((settings.levels or LEVELS[settings.level]) - 1)} cells a side all "
         "codes with cells of constant traction share one error; who differs is told below.",
-        tables=(board, _cpu_time_table(found, codes),
-                Table(title="Largest errors", columns=("challenge", "quantity", *codes),
-                      rows=tuple(_largest_error_rows(found, codes)), units=NONE)),
+        tables=(
+            board,
+            _cpu_time_table(found, codes),
+            Table(
+                title="Largest errors",
+                columns=("challenge", "quantity", *codes),
+                rows=tuple(_largest_error_rows(found, codes)),
+                units=NONE,
+            ),
+        ),
         remarks=tuple(
             f"{run.code} on {run.challenge}: {record.words[CANNOT]}."
-            for run, record in runs if CANNOT in record.words
+            for run, record in runs
+            if CANNOT in record.words
         ),
-    )  # fmt: skip
+    )
 
 
 def _record_judgement(
@@ -157,9 +170,12 @@ def _record_judgement(
     seconds = sum(answer.seconds or 0.0 for answer in judgement.answers)
     told = {LINE: judgement.line, GRADE: judgement.grade, VERSION: judgement.solver.version}
     return CaseRecord(
-        parameters=asked, words=told,
-        counters=counters, parts=parts, seconds=seconds,
-    )  # fmt: skip
+        parameters=asked,
+        words=told,
+        counters=counters,
+        parts=parts,
+        seconds=seconds,
+    )
 
 
 def _class_text(record: CaseRecord | None) -> str:
@@ -187,15 +203,16 @@ def _cpu_time_table(found: dict[tuple[str, str], CaseRecord], codes: list[str]) 
             (
                 name,
                 *(
-                    plain(record.seconds, 2) if (record := found.get((name, code))) and
-                    CANNOT not in record.words else NO_ANSWER
+                    plain(record.seconds, 2)
+                    if (record := found.get((name, code))) and CANNOT not in record.words
+                    else NO_ANSWER
                     for code in codes
                 ),
             )
             for name in challenges()
         ),
         units=NONE,
-    )  # fmt: skip
+    )
 
 
 def _largest_error_rows(

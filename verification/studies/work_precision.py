@@ -260,7 +260,8 @@ CONTACTS = {c.name: c for c in (HERTZIAN, CATTANEO, COATING, INDENTATION, LOOP)}
 
 # Of the radial solver the fineness is in twelfths of its own; fields are given at so many radii,
 # between which a table is interpolated.
-OWN, TOLD = 12, 512
+OWN = 12
+TOLD = 512
 CELLS = {Level.QUICK: (16, 32, 64, 128), Level.STANDARD: (16, 32, 64, 128, 256)}
 # More where a norm of the field means the edge: without correction the finest grids reach 0.1 %.
 TO_THE_EDGE: dict[str, dict[Level, tuple[int, ...]]] = {
@@ -377,9 +378,10 @@ class PrecisionCase:
             return solve(scene, contact.grid(n), self.tolerance, plan=decided)
         # The edge of the contact lies in the middle of an element on every mesh.
         mesh = FiniteElementDiscretisation(
-            elements_per_radius=n, contact_radius=contact.problem.radius * n / (n + 0.5),
+            elements_per_radius=n,
+            contact_radius=contact.problem.radius * n / (n + 0.5),
             tolerance=self.tolerance,
-        )  # fmt: skip
+        )
         of = fem_reference.Method
         if self.method is Method.ELEMENTS:
             return fem_reference.solve(scene, mesh, of.COMPLEMENTARITY)
@@ -465,12 +467,16 @@ def points_of(
     """
     return tuple(
         Point(
-            case.method.value, f"{case.tolerance:g} {case.penalty:g} {case.increments}", case.text,
-            case.fineness, abs(value_of(record, quantity)), record.seconds,
+            case.method.value,
+            f"{case.tolerance:g} {case.penalty:g} {case.increments}",
+            case.text,
+            case.fineness,
+            abs(value_of(record, quantity)),
+            record.seconds,
         )
         for case, record in known.items()
         if case.contact == contact and quantity in record.measures
-    )  # fmt: skip
+    )
 
 
 def dependable(points: Iterable[Point]) -> tuple[Point, ...]:

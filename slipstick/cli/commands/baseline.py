@@ -79,11 +79,17 @@ def baseline(
     accepted = read_baselines(folder)
     refuse_unknown("baseline", names or (), accepted, f"slipstick maintain baseline --to {folder}")
     rows = [
-        (case, level, commit_text(of.by.commit, changed=of.by.changed), of.by.date[:10],
-         str(len(of.quantities)), of.by.reason)
+        (
+            case,
+            level,
+            commit_text(of.by.commit, changed=of.by.changed),
+            of.by.date[:10],
+            str(len(of.quantities)),
+            of.by.reason,
+        )
         for case in names or accepted
         for level, of in accepted[case].levels.items()
-    ]  # fmt: skip
+    ]
     if rows:
         print_table(("case", "level", "commit", "date", "quantities", "reason"), rows)
     else:

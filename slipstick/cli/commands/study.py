@@ -101,8 +101,13 @@ def option_words(options: Mapping[str, Sequence[object]]) -> list[str]:
 
     options  values by name of the option; None for an absent option
     """
-    return [word for option, of in options.items() for value in of if value is not None
-            for word in (option, str(value))]  # fmt: skip
+    return [
+        word
+        for option, of in options.items()
+        for value in of
+        if value is not None
+        for word in (option, str(value))
+    ]
 
 
 def print_statements(statements: Iterable[Statement]) -> None:

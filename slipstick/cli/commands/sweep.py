@@ -41,7 +41,9 @@ from slipstick.sweep_chart import (
 from verification.running.case_pool import CaseStore
 from verification.running.study import ROWS, CaseRecord, row_files
 
-TABLE, CHART, CASES = "sweep.csv", "sweep.png", "points"
+TABLE = "sweep.csv"
+CHART = "sweep.png"
+CASES = "points"
 
 
 def sweep(

@@ -35,15 +35,28 @@ from contact_scene.friction import FrictionMap
 from contact_scene.geometry import ShapedBody
 from verification.problems.problem import Reference, ReferenceKind
 
-CELLS, ELEMENTS = "semi-analytical", "fem-complementarity"
-APPROACH, PEAK, RADIUS, STICK = "approach", "peak_pressure", "contact_radius", "stick_radius"
-SHIFT, TWIST, TILT = "tangential_shift", "twist", "tilt"
-NORMAL, TANGENTIAL, TORQUE, MOMENT = "normal_force", "tangential_force", "torque", "moment"
-ENERGY, CYCLE, ELASTIC, WORK = (
-    "dissipated_energy", "energy_per_cycle", "elastic_energy", "input_work"
-)  # fmt: skip
-AMPLITUDE, F1, F2 = "slip_amplitude", "ruiz_f1", "ruiz_f2"
-TENSION, MISES = "max_principal", "von_mises"
+CELLS = "semi-analytical"
+ELEMENTS = "fem-complementarity"
+APPROACH = "approach"
+PEAK = "peak_pressure"
+RADIUS = "contact_radius"
+STICK = "stick_radius"
+SHIFT = "tangential_shift"
+TWIST = "twist"
+TILT = "tilt"
+NORMAL = "normal_force"
+TANGENTIAL = "tangential_force"
+TORQUE = "torque"
+MOMENT = "moment"
+ENERGY = "dissipated_energy"
+CYCLE = "energy_per_cycle"
+ELASTIC = "elastic_energy"
+WORK = "input_work"
+AMPLITUDE = "slip_amplitude"
+F1 = "ruiz_f1"
+F2 = "ruiz_f2"
+TENSION = "max_principal"
+MISES = "von_mises"
 STRESSES = (TENSION, MISES)
 # Kinds of judged numbers, each with the registered quantities that count for the kind.
 KINDS = {
@@ -143,12 +156,15 @@ Bodies = tuple[Body, Body]
 Lower = Callable[[Rng, float], Body]
 Pair = Callable[[Rng, float], Bodies]
 
-FEWEST, MOST = 16, 128  # bounds of the number of cells per side
+# bounds of the number of cells per side
+FEWEST = 16
+MOST = 128
 WIDTHS = (2.3, 3.4)  # bounds of the window side over the contact radius
 ELEMENTS_PER_RADIUS = (8, 32)
 STRAINS = (3e-3, 3e-2)  # bounds of contact radius over radius of curvature
 # Height map: number of points per side; side length over the contact radius.
-MAP_POINTS, MAP_WIDTH = 24, 4.0
+MAP_POINTS = 24
+MAP_WIDTH = 4.0
 # Increments of a load step of histories with few increments.
 FEW_INCREMENTS = (2.0, 24.0)
 # Map of friction: number of points per side; side length over the contact radius, enough for

@@ -122,12 +122,14 @@ TURNED = 1e-3  # relative error caused by slip across such a shift
 DOUBLED = 2
 # Factors on the numbers of judged cells per side for the references. The error of the finer solve
 # is 2.5 times the difference of both solves at order 1, and about the difference at order 2.
-FINER, ORDER_ONE = (3.5, 2.5), 2.5
+FINER = (3.5, 2.5)
+ORDER_ONE = 2.5
 # Smallest numbers of increments per step; steps with more increments are scaled in proportion. The
 # limit of many increments is extrapolated from the first two numbers. Its error is the difference
 # from the extrapolation of the last two. The effect of increments on the judged cells differs by
 # the fraction `OTHER_CELLS` from that on fine cells.
-MANY, OTHER_CELLS = (32, 16, 8), 0.07
+MANY = (32, 16, 8)
+OTHER_CELLS = 0.07
 SIMILAR_ERROR = 1e-9
 # Quantities that do not repeat by symmetry at the reversals of a loop.
 PER_CYCLE = (ENERGY, CYCLE, AMPLITUDE, F1, F2)
@@ -197,9 +199,12 @@ class Pressed(NamedTuple):
     @property
     def values(self) -> dict[str, float]:
         return {
-            APPROACH: self.approach, RADIUS: self.radius, PEAK: self.peak,
-            ELASTIC: self.elastic, WORK: self.elastic,
-        }  # fmt: skip
+            APPROACH: self.approach,
+            RADIUS: self.radius,
+            PEAK: self.peak,
+            ELASTIC: self.elastic,
+            WORK: self.elastic,
+        }
 
 
 def pressed(scene: Scene, load: float) -> Pressed:
@@ -356,7 +361,9 @@ class Similar:
 
         forces  tangential forces at the ends of the load steps [force]
         """
-        last, direction, turn = 0.0, 1.0, 0.0
+        last = 0.0
+        direction = 1.0
+        turn = 0.0
         reached, base = np.zeros(4), None
         for force in forces:
             if np.sign(force - last) != direction:
@@ -379,10 +386,16 @@ class Similar:
         values = [self.full.values]
         for force, (shift, stick, lost, stored) in zip(forces, states, strict=True):
             elastic = self.full.elastic + stored
-            values.append({
-                SHIFT: shift, TANGENTIAL: force, STICK: stick, ENERGY: lost,
-                ELASTIC: elastic, WORK: elastic + lost,
-            })  # fmt: skip
+            values.append(
+                {
+                    SHIFT: shift,
+                    TANGENTIAL: force,
+                    STICK: stick,
+                    ENERGY: lost,
+                    ELASTIC: elastic,
+                    WORK: elastic + lost,
+                }
+            )
         if closes(forces):
             values[-1] |= {CYCLE: states[-1][2] - states[0][2]}
         for step, found in enumerate(values, start=1):
@@ -556,12 +569,16 @@ def refined(rng: Rng, posed: Posed) -> KnownScene:
     if any(matters):
         base = _SolvedLevel.of(posed, 1.0, counts)
         cut = [
-            _SolvedLevel.of(posed, 1.0, tuple(
-                max(least, n * least // MANY[-1]) if m else n
-                for n, m in zip(counts, matters, strict=True)
-            ))
+            _SolvedLevel.of(
+                posed,
+                1.0,
+                tuple(
+                    max(least, n * least // MANY[-1]) if m else n
+                    for n, m in zip(counts, matters, strict=True)
+                ),
+            )
             for least in MANY
-        ]  # fmt: skip
+        ]
     return posed.known(_with_known_pressing(posed, _refined_truths(fine, less, base, *cut)))
 
 
@@ -584,9 +601,12 @@ def _with_known_pressing(posed: Posed, truths: Iterable[Truth]) -> Iterator[Trut
             yield truth
         else:
             yield from known(
-                truth.step, "without friction", {truth.quantity: value}, ROUNDING,
+                truth.step,
+                "without friction",
+                {truth.quantity: value},
+                ROUNDING,
                 ReferenceKind.OTHER_SOLVER,
-            )  # fmt: skip
+            )
 
 
 class _SolvedLevel(NamedTuple):
@@ -763,12 +783,14 @@ def _contact_semi_axes(scene: Scene, load: float, a: float) -> tuple[float, floa
 RIGID_ON_BARE, RIGID_ON_COATED, RIGID_ON_FILM = (
     of.below_rigid(body) for body in (of.bare, of.coated, of.film)
 )
-UNLIKE, UNLIKE_COATED = of.unlike(of.bare), of.unlike(of.coated)
+UNLIKE = of.unlike(of.bare)
+UNLIKE_COATED = of.unlike(of.coated)
 ALIKE, ALIKE_COATED, NO_POISSON = (
     of.alike(body) for body in (of.bare, of.coated, of.without_poisson)
 )
 # Largest numbers of cells per contact radius for which the reference on finer cells is affordable.
-PUSHED, COUPLED = 10.0, 7.0
+PUSHED = 10.0
+COUPLED = 7.0
 
 FAMILIES = {
     "balls": Family((of.ball, of.sphere), (RIGID_ON_BARE, UNLIKE), by_rings, 46, stressed=True),

@@ -54,7 +54,10 @@ SOLVERS: Mapping[str, tuple[str, Callable[..., DiscretisedSolver]]] = {
     "radial": ("radial", RingSolver),
 }
 KEYS = {name: mark for name, mark in SCALARS.items() if mark.key} | OF_CYCLES
-ORDER, LARGEST, NATURAL, FLOOR = "order", "largest", "natural", "floor"
+ORDER = "order"
+LARGEST = "largest"
+NATURAL = "natural"
+FLOOR = "floor"
 UNREFINED = "unrefined"
 INCREMENTS: Part = "increments"
 FEWEST_LEVELS = 4
@@ -98,34 +101,55 @@ KINDS: Mapping[Part, Kind] = {
         "cells", "{} cells", "semi_analytical.cells", _EDGES.format("cells"), (8, np.inf), ROOT, 5
     ),
     "elements": Kind(
-        "elements", "{} elements per radius", "fem_reference.elements_per_radius",
-        _EDGES.format("elements"), (FEWEST_ELEMENTS, np.inf), ROOT, 5,
+        "elements",
+        "{} elements per radius",
+        "fem_reference.elements_per_radius",
+        _EDGES.format("elements"),
+        (FEWEST_ELEMENTS, np.inf),
+        ROOT,
+        5,
     ),
     "quadrature": Kind(
-        "rings", "{} times the rings", "the rings by --accuracy", _EDGES.format("rings"),
-        (0.25, np.inf), ROOT, 5,
+        "rings",
+        "{} times the rings",
+        "the rings by --accuracy",
+        _EDGES.format("rings"),
+        (0.25, np.inf),
+        ROOT,
+        5,
     ),
     INCREMENTS: Kind(
-        INCREMENTS, "{} increments", "the increments of the load steps",
+        INCREMENTS,
+        "{} increments",
+        "the increments of the load steps",
         "points change between stick and slip at other places of the load path on each level",
-        ratio=ROOT, count=6,
+        ratio=ROOT,
+        count=6,
     ),
     "penalty": Kind(
-        "overlap", "overlap {}", "fem_reference.overlap",
+        "overlap",
+        "overlap {}",
+        "fem_reference.overlap",
         "the multipliers are updated until the overlap is below its limit, by any factor",
-        (0.0, LARGEST_OVERLAP), 4.0,
+        (0.0, LARGEST_OVERLAP),
+        4.0,
     ),
     "section": Kind(
-        "box", "box of {} radii", "fem_reference.box",
+        "box",
+        "box of {} radii",
+        "fem_reference.box",
         "the elements far from the contact change with the size of the section",
         (SMALLEST_BOX, np.inf),
     ),
     "harmonics": Kind(
-        "harmonics", "{} harmonics", "fem_reference.harmonics",
+        "harmonics",
+        "{} harmonics",
+        "fem_reference.harmonics",
         "the error falls faster than any power of the number of harmonics",
-        (FEWEST_HARMONICS, np.inf), ROOT,
+        (FEWEST_HARMONICS, np.inf),
+        ROOT,
     ),
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)

@@ -173,9 +173,16 @@ def _estimate(
     unrefined = measures.get(UNREFINED, inf)
     floor = max(measures[FLOOR], finite_measures(finest.measures)[FLOOR])
     return Estimate(
-        name, of, run.units[name], finite_measures(run.measures)[name], largest, tuple(effects),
-        floor * largest, unrefined * largest, finest.words["small"],
-    )  # fmt: skip
+        name,
+        of,
+        run.units[name],
+        finite_measures(run.measures)[name],
+        largest,
+        tuple(effects),
+        floor * largest,
+        unrefined * largest,
+        finest.words["small"],
+    )
 
 
 def finite_measures(measures: Mapping[str, float | None]) -> dict[str, float]:

@@ -44,7 +44,8 @@ from verification.studies.refinement.limits import Effect, Estimate, estimates
 Levels: TypeAlias = Sequence[tuple[str, Sequence[CaseRecord]]]
 # Accuracy whose cost is shown beside that of the scene, if the user requires none.
 USUAL = "0.1%"
-SCENE, CHOSEN = "this scene", "setting of --accuracy"
+SCENE = "this scene"
+CHOSEN = "setting of --accuracy"
 MOST_PANELS = 4
 PANEL_HEIGHT = 1.3
 REMARKS = (
@@ -316,11 +317,12 @@ def _work_charts(
     if panels:
         panels[-1] = panels[-1].model_copy(update={"x_label": "CPU time of a solve / s"})
         yield stacked(
-            "work", "What accuracy costs",
+            "work",
+            "What accuracy costs",
             "Error bound of each level over its CPU time, relative to the largest value in the "
             "history. A curve refines one parameter; it levels off at the errors of the others.",
             *panels,
-        )  # fmt: skip
+        )
 
 
 def _work_curves(

@@ -167,10 +167,20 @@ class StabilityCell:
 
 NOT_OF_REVOLUTION = (Surface.TWO_SPOTS, Surface.ROUGH, Surface.PATCHY, Surface.GREASED)
 SHORT = {
-    "friction": "mu", "push": "T", "modulus_ratio": "E", "thickness": "h", "poisson_ratio": "nu",
-    "base_ratio": "base", "path": "", "surface": "", "load": "W", "length": "a", "modulus": "Pa",
-    "cells": "N", "solver": "",
-}  # fmt: skip
+    "friction": "mu",
+    "push": "T",
+    "modulus_ratio": "E",
+    "thickness": "h",
+    "poisson_ratio": "nu",
+    "base_ratio": "base",
+    "path": "",
+    "surface": "",
+    "load": "W",
+    "length": "a",
+    "modulus": "Pa",
+    "cells": "N",
+    "solver": "",
+}
 
 
 class Verdict(StrEnum):
@@ -366,11 +376,12 @@ def views(level: Level, cells: int) -> tuple[View, ...]:
     return tuple(
         asked.view(level, cells, solvers)
         for solvers, all_asked in (
-            ((Solver.SEMI_ANALYTICAL,), OF_SURFACES), (sections, OF_SECTIONS)
+            ((Solver.SEMI_ANALYTICAL,), OF_SURFACES),
+            (sections, OF_SECTIONS),
         )
         for asked in all_asked
         if level >= asked.least
-    )  # fmt: skip
+    )
 
 
 def study_cells(level: Level, cells: int) -> tuple[StabilityCell, ...]:
@@ -385,73 +396,117 @@ def study_cells(level: Level, cells: int) -> tuple[StabilityCell, ...]:
 
 OF_SURFACES = (
     Asked(
-        "friction", "Friction and force on a homogeneous body under a rigid ball, T in one step",
-        "push", "friction",
+        "friction",
+        "Friction and force on a homogeneous body under a rigid ball, T in one step",
+        "push",
+        "friction",
         {"friction": (1e-6, 0.1, 1.0, 2.0, 5.0), "push": (0.0, 0.5, 0.9, 0.99999)},
         {
             "friction": (1e-6, 0.01, 0.1, 0.3, 0.5, 1.0, 2.0, 5.0),
             "push": (0.0, 0.3, 0.6, 0.9, 0.99, 0.9999, 0.99999),
         },
-        (BARE,), (UNCOATED,),
+        (BARE,),
+        (UNCOATED,),
     ),
     Asked(
-        "coating", f"Stiffness and thickness of the coating, T = {HARD_PUSH:g} µW in one step",
-        "modulus_ratio", "thickness",
+        "coating",
+        f"Stiffness and thickness of the coating, T = {HARD_PUSH:g} µW in one step",
+        "modulus_ratio",
+        "thickness",
         {
             "modulus_ratio": (1e-3, 0.05, 0.5, 4.0, 20.0, 1e3),
-            "thickness": (0.01, 0.1, 1.0, 10.0), "friction": (0.3,),
+            "thickness": (0.01, 0.1, 1.0, 10.0),
+            "friction": (0.3,),
         },
         {
-            "modulus_ratio":
-                (1e-6, 1e-3, 0.05, 0.5, 1.0, 2.0, 4.0, 20.0, 100.0, 1e3, 1e4, 1e5, 1e6),
-            "thickness": (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0), "friction": (0.1, 1.0),
+            "modulus_ratio": (
+                1e-6,
+                1e-3,
+                0.05,
+                0.5,
+                1.0,
+                2.0,
+                4.0,
+                20.0,
+                100.0,
+                1e3,
+                1e4,
+                1e5,
+                1e6,
+            ),
+            "thickness": (0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0),
+            "friction": (0.1, 1.0),
         },
         (HARD,),
     ),
     Asked(
-        "poisson", "Poisson's ratio of the coating, incompressible included",
-        "modulus_ratio", "poisson_ratio",
+        "poisson",
+        "Poisson's ratio of the coating, incompressible included",
+        "modulus_ratio",
+        "poisson_ratio",
         {
-            "modulus_ratio": (0.05, 1.0, 1e3), "poisson_ratio": (0.0, 0.499, 0.5),
+            "modulus_ratio": (0.05, 1.0, 1e3),
+            "poisson_ratio": (0.0, 0.499, 0.5),
             "thickness": (0.01,),
         },
         {
             "modulus_ratio": (1e-3, 0.05, 0.5, 1.0, 2.0, 20.0, 1e3),
-            "poisson_ratio": (-0.5, 0.0, 0.3, 0.45, 0.499, 0.5), "thickness": (0.01, 0.1, 1.0),
+            "poisson_ratio": (-0.5, 0.0, 0.3, 0.45, 0.499, 0.5),
+            "thickness": (0.01, 0.1, 1.0),
         },
     ),
     Asked(
-        "paths", "Loading paths", "modulus_ratio", "path",
+        "paths",
+        "Loading paths",
+        "modulus_ratio",
+        "path",
         {"path": tuple(LoadingPath), "modulus_ratio": (0.5, 1.0, 4.0), "friction": (0.1,)},
         {
             "path": tuple(LoadingPath),
-            "modulus_ratio": (1e-3, 0.05, 0.5, 1.0, 2.0, 4.0, 20.0, 1e3), "friction": (0.1, 1.0),
+            "modulus_ratio": (1e-3, 0.05, 0.5, 1.0, 2.0, 4.0, 20.0, 1e3),
+            "friction": (0.1, 1.0),
         },
         (FIRM,),
     ),
     Asked(
-        "surfaces", "Shapes, rough surfaces and uneven friction", "push", "surface",
+        "surfaces",
+        "Shapes, rough surfaces and uneven friction",
+        "push",
+        "surface",
         {
-            "surface": tuple(Surface), "push": (0.5, 0.99), "modulus_ratio": (2.0,),
+            "surface": tuple(Surface),
+            "push": (0.5, 0.99),
+            "modulus_ratio": (2.0,),
             "friction": (0.1,),
         },
         {
-            "surface": tuple(Surface), "push": (0.0, 0.5, 0.9, 0.99),
-            "modulus_ratio": (0.05, 1.0, 2.0, 20.0), "friction": (0.1, 1.0),
+            "surface": tuple(Surface),
+            "push": (0.0, 0.5, 0.9, 0.99),
+            "modulus_ratio": (0.05, 1.0, 2.0, 20.0),
+            "friction": (0.1, 1.0),
         },
     ),
     Asked(
-        "scale", "Nanometres to metres, kilopascals to terapascals", "length", "modulus",
+        "scale",
+        "Nanometres to metres, kilopascals to terapascals",
+        "length",
+        "modulus",
         {"length": (1e-9, 1.0), "modulus": (1e3, 1e12)},
         {"length": (1e-9, 1e-6, 1e-3, 1.0), "modulus": (1e3, 1e6, 1e9, 1e12)},
     ),
     Asked(
-        "light", "Loads so light that few cells touch", "load", "push",
+        "light",
+        "Loads so light that few cells touch",
+        "load",
+        "push",
         {"load": (1e-4, 0.01), "push": (0.6,)},
         {"load": (1e-5, 1e-4, 1e-3, 0.01, 0.1), "push": (0.0, 0.6, 0.99)},
     ),
     Asked(
-        "limits", "At the limit of friction and beyond it", "push", "modulus_ratio",
+        "limits",
+        "At the limit of friction and beyond it",
+        "push",
+        "modulus_ratio",
         {"push": AT_LIMIT, "modulus_ratio": (0.5, 4.0)},
     ),
     # Every combination of five coordinates, shown over two of them for each of two others.
@@ -459,83 +514,109 @@ OF_SURFACES = (
         Asked(
             f"volume-{thickness:g}-{nu:g}".replace(".", "p"),
             f"h/a = {thickness:g}, ν = {nu:g} of the layer; every T/µW in one step",
-            "modulus_ratio", "friction",
+            "modulus_ratio",
+            "friction",
             {
                 "modulus_ratio": (1e-3, 0.05, 0.5, 2.0, 4.0, 20.0, 1e3),
                 "friction": (1e-6, 0.1, 0.3, 1.0, 2.0, 5.0),
                 "push": (0.0, 0.5, 0.9, 0.99, 0.9999),
             },
-            bases=(replace(ORDINARY, thickness=thickness, poisson_ratio=nu),), least=Level.FULL,
+            bases=(replace(ORDINARY, thickness=thickness, poisson_ratio=nu),),
+            least=Level.FULL,
         )
         for thickness, nu in product((0.01, 0.1, 1.0, 10.0), (0.0, 0.3, 0.5))
     ),
-)  # fmt: skip
+)
 
 # Bodies of revolution with uniform friction. Of turning loads one cell stands for all.
 SHAPES = tuple(surface for surface in Surface if surface not in NOT_OF_REVOLUTION)
 PATHS = tuple(path for path in LoadingPath if path is not LoadingPath.CIRCLE)
 OF_SECTIONS = (
     Asked(
-        "elements-friction", "Finite elements: friction and force, T in one step",
-        "push", "friction",
+        "elements-friction",
+        "Finite elements: friction and force, T in one step",
+        "push",
+        "friction",
         {"friction": (0.1, 5.0), "push": (0.5, 0.999)},
         {
             "friction": (1e-6, 0.1, 0.5, 1.0, 2.0, 5.0),
             "push": (0.0, 0.5, 0.9, 0.99, 0.999, 0.9999),
         },
-        (BARE,), (ALIKE,),
+        (BARE,),
+        (ALIKE,),
     ),
     Asked(
         "elements-coating",
         f"Finite elements: stiffness and thickness of the coating, T = {HARD_PUSH:g} µW",
-        "modulus_ratio", "thickness",
+        "modulus_ratio",
+        "thickness",
         {"modulus_ratio": (0.05, 20.0), "thickness": (0.1,), "friction": (0.3,)},
         {
             "modulus_ratio": (1e-6, 1e-3, 0.05, 0.5, 4.0, 20.0, 1e3, 1e6),
-            "thickness": (0.01, 0.1, 1.0, 10.0), "friction": (0.1, 1.0),
+            "thickness": (0.01, 0.1, 1.0, 10.0),
+            "friction": (0.1, 1.0),
         },
         (HARD,),
     ),
     Asked(
-        "elements-poisson", "Finite elements: Poisson's ratio of a coating of a/10",
-        "modulus_ratio", "poisson_ratio",
+        "elements-poisson",
+        "Finite elements: Poisson's ratio of a coating of a/10",
+        "modulus_ratio",
+        "poisson_ratio",
         {"modulus_ratio": (0.05,), "poisson_ratio": (0.5,)},
         {"modulus_ratio": (1e-3, 0.05, 2.0, 1e3), "poisson_ratio": (0.0, 0.3, 0.45, 0.499, 0.5)},
         (replace(ORDINARY, thickness=0.1),),
     ),
     Asked(
-        "elements-paths", "Finite elements: loading paths", "solver", "path",
+        "elements-paths",
+        "Finite elements: loading paths",
+        "solver",
+        "path",
         {"path": PATHS, "modulus_ratio": (2.0,), "friction": (0.1,)},
         {"path": PATHS, "modulus_ratio": (0.05, 0.5, 2.0, 20.0), "friction": (0.1, 1.0)},
-        (FIRM,), (replace(ALIKE, push=FIRM.push),),
+        (FIRM,),
+        (replace(ALIKE, push=FIRM.push),),
     ),
     Asked(
-        "elements-surfaces", "Finite elements: shapes", "solver", "surface",
+        "elements-surfaces",
+        "Finite elements: shapes",
+        "solver",
+        "surface",
         {"surface": (Surface.ALIKE_BALL, Surface.FLAT_PUNCH), "push": (0.99,), "friction": (0.1,)},
         {"surface": SHAPES, "push": (0.0, 0.5, 0.9, 0.99), "friction": (0.1, 1.0, 3.0)},
     ),
     Asked(
-        "elements-scale", "Finite elements: nanometres to metres, kilopascals to terapascals",
-        "length", "modulus",
+        "elements-scale",
+        "Finite elements: nanometres to metres, kilopascals to terapascals",
+        "length",
+        "modulus",
         {"length": (1e-9,), "modulus": (1e3,)},
         {"length": (1e-9, 1e-6, 1.0), "modulus": (1e3, 1e6, 1e12)},
     ),
     Asked(
-        "elements-light", "Finite elements: loads far below that of the coordinates",
-        "load", "push",
+        "elements-light",
+        "Finite elements: loads far below that of the coordinates",
+        "load",
+        "push",
         {"load": (1e-3,), "push": (0.6,)},
         {"load": (1e-5, 1e-3, 0.1), "push": (0.0, 0.6, 0.99)},
     ),
     Asked(
-        "elements-limits", "Finite elements: at the limit of friction and beyond it",
-        "push", "surface",
+        "elements-limits",
+        "Finite elements: at the limit of friction and beyond it",
+        "push",
+        "surface",
         {"push": AT_LIMIT, "surface": (Surface.BALL, Surface.ALIKE_BALL)},
     ),
     Asked(
-        "elements-refused", "Finite elements: one of each kind that they cannot pose",
-        "path", "surface", {},
+        "elements-refused",
+        "Finite elements: one of each kind that they cannot pose",
+        "path",
+        "surface",
+        {},
         bases=(
-            replace(ORDINARY, surface=Surface.ROUGH), replace(ORDINARY, surface=Surface.PATCHY),
+            replace(ORDINARY, surface=Surface.ROUGH),
+            replace(ORDINARY, surface=Surface.PATCHY),
             replace(ORDINARY, path=LoadingPath.CIRCLE),
         ),
     ),
@@ -543,14 +624,18 @@ OF_SECTIONS = (
         "elements-volume",
         "Finite elements: h/a from a hundredth to ten, ν of the layer up to ½, every T/µW in one "
         "step",
-        "modulus_ratio", "friction",
+        "modulus_ratio",
+        "friction",
         {
-            "modulus_ratio": (1e-3, 0.05, 2.0, 20.0, 1e3), "thickness": (0.01, 0.1, 10.0),
-            "poisson_ratio": (0.0, 0.5), "friction": (0.3, 2.0, 5.0), "push": (0.5, 0.999),
+            "modulus_ratio": (1e-3, 0.05, 2.0, 20.0, 1e3),
+            "thickness": (0.01, 0.1, 10.0),
+            "poisson_ratio": (0.0, 0.5),
+            "friction": (0.3, 2.0, 5.0),
+            "push": (0.5, 0.999),
         },
         least=Level.FULL,
     ),
-)  # fmt: skip
+)
 
 
 PRESSING = 3  # increments; large increments are the difficult ones
@@ -641,7 +726,9 @@ Field = NDArray[np.float64]
 
 RADIUS = 46.4  # of the ball, over the contact radius: the paper's
 SLOPE = 0.02
-MARGIN, ROUGH_MARGIN = 1.3, 1.6  # half the window over the contact radius
+# half the window over the contact radius
+MARGIN = 1.3
+ROUGH_MARGIN = 1.6
 SPOTS = 0.55  # distance of a spot from the middle, over the contact radius
 SPOTS_FORCE = 0.15  # over that of one ball, so that the spots do not touch
 ROUGHNESS = 0.02  # standard deviation over the approach

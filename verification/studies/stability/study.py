@@ -243,10 +243,18 @@ def _names_text(cells: Iterable[StabilityCell]) -> str:
 
 # Axis labels of the coordinates.
 AXES = {
-    "friction": "µ", "push": "T / µW", "modulus_ratio": "E1/E2", "thickness": "h/a",
-    "poisson_ratio": "ν of the layer", "path": "path", "surface": "surface", "load": "W / W(a)",
-    "length": "a (m)", "modulus": "E2 (Pa)", "solver": "solver",
-}  # fmt: skip
+    "friction": "µ",
+    "push": "T / µW",
+    "modulus_ratio": "E1/E2",
+    "thickness": "h/a",
+    "poisson_ratio": "ν of the layer",
+    "path": "path",
+    "surface": "surface",
+    "load": "W / W(a)",
+    "length": "a (m)",
+    "modulus": "E2 (Pa)",
+    "solver": "solver",
+}
 
 # Classes from best to worst, each with the series whose colour and shape it takes; a place shows
 # the worst of its cells. First the decades of the residual over what is allowed.
@@ -262,7 +270,8 @@ SHAPES = "downward triangle, upward triangle, disc, diamond, square, cross"
 DECADES = (0.01, 0.1)  # upper ends of the first two, over what is allowed
 ENDS = {Verdict.REFUSED: 3, Verdict.NOT_CONVERGED: 4, Verdict.SILENT: 5}
 HALVED = "*"
-HEIGHT_PER_ROW, HEIGHT_OF_AXES = 0.24, 0.5
+HEIGHT_PER_ROW = 0.24
+HEIGHT_OF_AXES = 0.5
 THOUSANDS = 10_000  # from here on the cost is rounded to them
 
 
