@@ -35,6 +35,7 @@ LOAD = "tangential_force"
 PLACE = "x"
 PRESSURE = "pressure"
 SHEAR = "shear"
+STEP = "step"
 # Accepted heads of measured columns, including those of increments.csv and profiles.csv.
 MEASURED: ColumnNames = {
     SHIFT: (
@@ -46,6 +47,7 @@ MEASURED: ColumnNames = {
     PLACE: (units.LENGTH, frozenset({"x"})),
     PRESSURE: (units.PRESSURE, frozenset({"p", "pressure"})),
     SHEAR: (units.PRESSURE, frozenset({"q", "shear", "shear_x"})),
+    STEP: (units.COUNT, frozenset({"step"})),
 }
 # Largest distance of the last shift of a loop from its first, relative to the range: one half if
 # four points go around, and 1 for one branch.
@@ -128,9 +130,10 @@ def comparison(table: Mapping[str, Numbers], run: StoredRun, step: int | None = 
 
     Raises NothingToCompare if the columns of the table or the run do not allow a comparison.
 
-    table  columns by name in SI units: shift and T of a loop, or x with p, q or both of a profile
+    table  columns by name in SI units: shift and T of a loop, or x with p, q or both of a profile,
+           and the load step of each row if the table has several
     run    stored run
-    step   load step at whose end profiles are compared, from 1; the last if None
+    step   load step at whose end profiles are compared, from 1; the last of the run if None
     """
     for motion in (ACTUATOR, SHIFT):
         if {motion, LOAD} <= table.keys():
@@ -144,7 +147,8 @@ def comparison(table: Mapping[str, Numbers], run: StoredRun, step: int | None = 
             theirs = np.stack([table[motion], table[LOAD]])
             return _compare_loops(theirs, run, motion)
     if PLACE in table and {PRESSURE, SHEAR} & table.keys():
-        return _compare_profiles(table, run, step or len(run.summary.steps))
+        step = step or len(run.summary.steps)
+        return _compare_profiles(_rows_of_step(table, step), run, step)
     raise NothingToCompare(
         f"got the columns {', '.join(table) or 'none'}, expected shift or actuator_shift with T (a "
         "loop), or x with p or q (a profile); write heads such as 'shift [um]' and 'T [N]'"
@@ -360,6 +364,23 @@ def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Comparison:
     numbers.append(ComparedNumber("force along the loop", "N", theirs_half, ours_half, error, gap))
     curve = ComparedCurve("shift", "m", "force", "N", theirs.about_centre, ours.about_centre)
     return Comparison(tuple(numbers), (curve,))
+
+
+def _rows_of_step(table: Mapping[str, Numbers], step: int) -> Mapping[str, Numbers]:
+    """Return the rows of a load step; all rows of a table without a column of load steps.
+
+    Raises NothingToCompare if the table has no row of the load step.
+    """
+    if STEP not in table:
+        return table
+    rows = table[STEP] == step
+    if not np.any(rows):
+        found = ", ".join(f"{each:g}" for each in np.unique(table[STEP]))
+        raise NothingToCompare(
+            f"the table has no row of load step {step}: its column 'step' has {found}; "
+            "choose the load step with --step"
+        )
+    return {name: column[rows] for name, column in table.items()}
 
 
 def _compare_profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -> Comparison:

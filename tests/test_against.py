@@ -240,6 +240,20 @@ def test_a_profile_is_compared_at_its_places(place: Path) -> None:
     assert shear[1] / shear[0] == pytest.approx(error, rel=0.05)
 
 
+def test_a_profile_with_several_load_steps_is_compared_step_by_step(place: Path) -> None:
+    """The profiles of a run agree with those of the run at each of its load steps."""
+    profiles = place / "run/profiles.csv"
+    for step in (["--step", "1"], ["--step", "3"], []):
+        found = against(place, profiles, *step)
+        assert float(found["pressure at the places"][3]) == 0.0
+        assert float(found["shear at the places"][3]) == 0.0
+    once = table(place / "once.csv", **{"step": [1, 1], "x [mm]": [0, 0.1], "p [GPa]": [1, 0.5]})
+    ended = outcome("against", once, "run", cwd=place)
+    assert ended.returncode == 2
+    message = "no row of load step 4: its column 'step' has 1; choose the load step with --step"
+    assert message in " ".join(ended.stderr.replace("│", " ").split())
+
+
 def as_lab(place: Path, heads: str) -> Path:
     """The loop of the run as a laboratory writes it: time, shift in µm and force, 3 % too small."""
     moved, _, force = loop(place)

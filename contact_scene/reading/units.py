@@ -39,6 +39,7 @@ _INCH = "0.0254"
 _POUND = "4.4482216152605"
 
 PURE_NUMBER = Kind("", "", MappingProxyType({}))
+COUNT = Kind("", "", unit_factors(**{"": "1"}))  # such as the number of a load step, in a table
 LENGTH = Kind(
     "m",
     '"18 mm"',

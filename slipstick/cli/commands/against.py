@@ -86,7 +86,8 @@ def against(
     """Compare a run with a measured loop or profile.
 
     A loop has the columns shift and T, such as 'shift [um],T [N]'. The last load cycle of the run
-    is compared with it. A profile has x with p, q or both, along y = 0. Other columns are ignored.
+    is compared with it. A profile has x with p, q or both, along y = 0, and may have several load
+    steps with their numbers in a column step. Other columns are ignored.
     The last column of the output is the largest part of the difference that the stated error
     explains.
     """
