@@ -96,6 +96,7 @@ from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
 from verification.closed_forms.flat_punch import ConeContact
 from verification.closed_forms.hertz import EllipticalContact, contact_modulus, tangential_modulus
+from verification.closed_forms.huber_stress import trailing_edge_tension
 from verification.problems.drawn.drawing import Profile
 from verification.problems.drawn.families import Similar
 from verification.problems.problem import surface_of
@@ -881,6 +882,17 @@ def test_stress_near_the_surface_improves_slower_with_cells_than_that_below(monk
     )
     _, (near, below) = stress_errors_module.stress_at(state, depth, depth, [])
     assert near > 1.2 * below > 0
+
+
+@pytest.mark.parametrize(("friction", "count"), [(0.1, 48), (0.6, 32)])
+def test_the_tension_behind_a_sliding_ball_is_covered(friction: float, count: int) -> None:
+    """Its place is the trailing edge, where both the fit of the edge and its evaluation err."""
+    slid = {"tangential_shift": (1e-4, 0.0)}
+    posed = scene(PRESS, slid, indenter=paraboloid(steel()), friction=friction)
+    value, error = largest_tension(package.solve(posed, "semi-analytical", cells(count)))
+    exact = trailing_edge_tension(hertz().peak_pressure, friction, 0.3)
+    assert error.status is ErrorStatus.ESTIMATED
+    assert abs(value - exact) <= size(error) <= 0.01 * exact
 
 
 @pytest.mark.parametrize(("nu", "count"), [(0.2, 32), (0.49, 32), (0.499, 32), (0.47, 100)])
