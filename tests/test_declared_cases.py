@@ -116,7 +116,7 @@ def test_a_figure_follows_the_mesh_by_its_order_and_a_part_of_a_side_the_side() 
 
 # ---- Every verdict of the catalogue can fail.
 
-# Cases that take more than 1.5 s of CPU time, for the night, and cases that take minutes.
+# Cases that take more than 1.5 s of CPU time, for the night.
 LONG = (
     "cattaneo_mindlin",
     "coated_paraboloid",
@@ -154,6 +154,7 @@ LONG = (
     "torsion",
     "torsion_coated",
 )
+# Its judge sums waves in number of the wrong contact radius, which takes hours.
 LEFT_OUT = ("radial_stress",)
 # Verdicts on the number of increments, and on stated errors: wrong numbers have large ones.
 NOT_OF_NUMBERS = ("increments", "stated")
