@@ -59,7 +59,7 @@ class NothingToCompare(ValueError):
     """Error raised for a measured table that has no counterpart in the run."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ComparedNumber:
     """Comparison of one measured number with the computed number of a run, in the unit `unit`.
 
@@ -70,6 +70,10 @@ class ComparedNumber:
                         all points
     of_table            error of the measured number, from the closure of a loop and the distance of
                         its points; None if unknown
+    differences         measured minus computed values at the points of a curve (n,); None for other
+                        numbers
+    uncertainty         validation uncertainty of the difference, two standard deviations; None if
+                        it is not asked for or unknown
     """
 
     name: str
@@ -79,6 +83,8 @@ class ComparedNumber:
     error: float | None
     gap: float
     of_table: float | None = None
+    differences: Numbers | None = None
+    uncertainty: float | None = None
 
     @property
     def ratio(self) -> float | None:
@@ -354,14 +360,18 @@ def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Comparison:
     differences = []
     for cycle in theirs.cycles:
         few, many = sorted((cycle, ours), key=lambda loop: len(loop.shift))
+        sign = 1.0 if few is cycle else -1.0
         differences += [
-            force - np.interp(shift, *finer)
+            sign * (force - np.interp(shift, *finer))
             for (shift, force), finer in zip(few.branches, many.branches, strict=True)
         ]
     theirs_half, ours_half = (float(np.ptp(loop.force)) / 2 for loop in (theirs, ours))
     error = None if of_slope is None else of_slope * float(np.ptp(ours.shift)) / 2
-    gap = _root_mean_square(np.concatenate(differences))
-    numbers.append(ComparedNumber("force along the loop", "N", theirs_half, ours_half, error, gap))
+    along_loop = np.concatenate(differences)
+    along = _compare_curves("force along the loop", "N", theirs_half, ours_half, error, along_loop)
+    # A drift of another course than the subtracted one, after the loops have a common centre.
+    of_drift = float(abs(gaps[1]) + abs(gaps[0]) * theirs.slope) / 2
+    numbers.append(replace(along, of_table=of_drift))
     curve = ComparedCurve("shift", "m", "force", "N", theirs.about_centre, ours.about_centre)
     return Comparison(tuple(numbers), (curve,))
 
@@ -421,9 +431,9 @@ def _compare_profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -
         known = [share for share in shares if share is not None]
         error = sum(known) * largest if len(known) == len(shares) else None
         numbers.append(_compare_number(f"largest {name}", "Pa", measured_largest, largest, error))
-        gap = _root_mean_square(table[name] - ours)
         label = f"{name} at the places"
-        numbers.append(ComparedNumber(label, "Pa", measured_largest, largest, error, gap))
+        apart = table[name] - ours
+        numbers.append(_compare_curves(label, "Pa", measured_largest, largest, error, apart))
     return Comparison(tuple(numbers), tuple(curves))
 
 
@@ -458,6 +468,24 @@ def _compare_number(
     return ComparedNumber(name, unit, measured, computed, error, abs(measured - computed))
 
 
-def _root_mean_square(values: Numbers) -> float:
-    """Return the root mean square of the differences between a measured and a computed curve."""
+def _compare_curves(
+    name: str,
+    unit: str,
+    measured: float,
+    computed: float,
+    error: float | None,
+    differences: Numbers,
+) -> ComparedNumber:
+    """Build the comparison of two curves by the root mean square of their differences.
+
+    measured, computed  largest values of the curves
+    error               stated error of the computed curve; None if unknown
+    differences         measured minus computed values at equal places (n,)
+    """
+    gap = root_mean_square(differences)
+    return ComparedNumber(name, unit, measured, computed, error, gap, differences=differences)
+
+
+def root_mean_square(values: Numbers) -> float:
+    """Return the root mean square of the differences of two curves."""
     return float(np.sqrt(np.mean(values**2)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,22 +11,33 @@ import numpy as np
 from contact_results.directory.atomic_file import atomic_file
 from contact_scene.reading.engineering_units import engineering_unit
 from slipstick.against import ComparedCurve, Comparison
+from slipstick.identification import FittedInput
 
 NUMBERS = "against.json"
 PICTURE = "against.png"
 
 
-def write_comparison(comparison: Comparison, directory: Path, title: str) -> None:
+def write_comparison(
+    comparison: Comparison, directory: Path, title: str, fitted: Sequence[FittedInput] = ()
+) -> None:
     """Write the numbers and the picture of a comparison into a directory, which is created.
 
-    title  title of the picture: names of table and run
+    title   title of the picture: names of table and run
+    fitted  inputs of the scene that were fitted to the table
     """
     directory.mkdir(parents=True, exist_ok=True)
     numbers = {
-        each.name.replace(" ", "_"): asdict(each) | {"ratio": each.ratio, "ours": each.ours}
+        each.name.replace(" ", "_"): {
+            **{name: value for name, value in vars(each).items() if name != "differences"},
+            "ratio": each.ratio,
+            "ours": each.ours,
+        }
         for each in comparison.numbers
     }
-    text = json.dumps({"title": title, "numbers": numbers}, indent=1, ensure_ascii=False) + "\n"
+    record: dict[str, object] = {"title": title, "numbers": numbers}
+    if fitted:
+        record["fitted"] = [vars(one) for one in fitted]
+    text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
     with atomic_file(directory / NUMBERS) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
     draw_curves(comparison.curves, directory / PICTURE, title)

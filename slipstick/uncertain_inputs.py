@@ -23,9 +23,9 @@ from contact_scene.quantities.summary import StepSummary
 from contact_scene.reading.engineering_units import engineering_unit
 from contact_scene.reading.scene_error import Problem, SceneError, shown
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _INPUT = re.compile(
-    rf"\s*(?P<key>[^\s=]+)\s*=\s*(?P<value>{_NUMBER})\s*(?:±|\+/?-)\s*(?P<deviation>{_NUMBER})"
+    rf"\s*(?P<key>[^\s=]+)\s*=\s*(?P<value>{NUMBER})\s*(?:±|\+/?-)\s*(?P<deviation>{NUMBER})"
     r"\s*(?P<unit>[^\s\d.].*?)?\s*"
 )
 EXPECTED = "key=value±deviation, such as body.layers[1].thickness=388±20 um (or +-)"
@@ -48,8 +48,13 @@ class UncertainInput:
 
     def override(self, deviations: int = 0) -> str:
         """Return the argument of `--set` for the value plus a number of deviations."""
-        number = f"{self.value + deviations * self.deviation:.{DIGITS}g}"
-        return f'{self.key}="{number} {self.unit}"' if self.unit else f"{self.key}={number}"
+        return override_text(self.key, self.value + deviations * self.deviation, self.unit)
+
+
+def override_text(key: str, value: float, unit: str) -> str:
+    """Return the argument of `--set` for a value in a unit; the unit is empty for pure numbers."""
+    number = f"{value:.{DIGITS}g}"
+    return f'{key}="{number} {unit}"' if unit else f"{key}={number}"
 
 
 def read_inputs(text: str) -> tuple[UncertainInput, ...]:
@@ -73,6 +78,15 @@ def read_inputs(text: str) -> tuple[UncertainInput, ...]:
         value, deviation = float(match["value"]), float(match["deviation"])
         found[match["key"]] = UncertainInput(match["key"], value, deviation, match["unit"] or "")
     return tuple(found.values())
+
+
+def changed_overrides(inputs: Sequence[UncertainInput]) -> list[tuple[list[str], list[str]]]:
+    """Return the arguments of `--set` for one deviation less and more of each input.
+
+    The other inputs keep their values.
+    """
+    own = [one.override() for one in inputs]
+    return [([*own, one.override(-1)], [*own, one.override(1)]) for one in inputs]
 
 
 @dataclass(frozen=True)

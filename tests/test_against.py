@@ -12,6 +12,7 @@ from command import outcome, rows
 
 from contact_results.files.stored_run import load
 from slipstick.against import ComparedNumber, comparison
+from verification.closed_forms.hertz import PointContact, contact_modulus
 
 SCENE = """
 [indenter]
@@ -76,9 +77,9 @@ def value(text: str) -> float:
     return float(text.partition("±")[0])
 
 
-def loop(place: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def loop(place: Path, run: str = "run") -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Actuator shift, shift and force of the last load cycle, from its first point to its end."""
-    path = place / "run/increments.csv"
+    path = place / run / "increments.csv"
     names = ("actuator_shift_x [m]", "tangential_shift_x [m]", "tangential_force_x [N]")
     actuator, shift, force = (
         np.append(column(path, name, ("2",))[-1], column(path, name, ("3", "4"))) for name in names
@@ -332,3 +333,97 @@ def test_an_output_that_is_a_file_is_refused_before_the_scene_is_solved(place: P
         assert ended.returncode == 2
         assert "loop.csv is a file; --output needs a directory" in ended.stderr
         assert not ended.stdout
+
+
+# ---- Validation uncertainty and identification of inputs.
+
+PRESSED = SCENE.partition("[[loading]]")[0] + "[[loading]]\nnormal_force = '1 kN'\n"
+MODULUS = "material.young_modulus=420 GPa"
+
+
+def hertz_pressure(force: float, x: np.ndarray) -> np.ndarray:
+    """Pressure along x below the indenter of SCENE."""
+    modulus = contact_modulus((420e9, 0.0), (420e9, 0.0))
+    return PointContact.under_load(force, 0.018, modulus).pressure(np.abs(x))
+
+
+def measured_profile(place: Path, noise: float = 0.0) -> tuple[Path, np.ndarray]:
+    """A table of Hertz's pressure under 1.1 kN with scatter, and its places."""
+    (place / "pressed.toml").write_text(PRESSED, encoding="utf-8")
+    x = np.linspace(-0.2e-3, 0.2e-3, 41)
+    pressure = hertz_pressure(1100.0, x)
+    scattered = pressure + noise * np.random.default_rng(5).normal(size=len(x))
+    return table(place / "p.csv", **{"x [m]": x, "p [Pa]": scattered}), x
+
+
+def test_an_input_is_identified_with_both_uncertainties(place: Path) -> None:
+    """The slopes of Hertz's profile by the force give the standard deviation of the force."""
+    noise = 1e7
+    profile, x = measured_profile(place, noise)
+    fitted = ("--fit", "loading[1].normal_force=.7 kN", "-o", "fitted")
+    ended = outcome("against", profile, "pressed.toml", "--solver", "radial", *fitted, cwd=place)
+    assert ended.returncode == 0, ended.stderr
+    record = json.loads((place / "fitted/against.json").read_text(encoding="utf-8"))
+    (found,) = record["fitted"]
+    slope = (hertz_pressure(1102.2, x) - hertz_pressure(1097.8, x)) / 0.004
+    deviation = 1.1 * noise / np.linalg.norm(slope)
+    assert found["unit"] == "kN"
+    assert found["by_scatter"] == pytest.approx(deviation, rel=0.3)
+    assert abs(found["value"] - 1.1) <= 3 * deviation
+    error = record["numbers"]["pressure_at_the_places"]["error"]
+    by_errors = 1.1 * np.sum(np.abs(slope)) * error / (slope @ slope)
+    assert found["by_errors"] == pytest.approx(by_errors, rel=0.05)
+
+
+def test_friction_is_identified_from_a_loop(place: Path) -> None:
+    small = SCENE.replace("increments = 24", "increments = 8").replace("[32, 32]", "[16, 16]")
+    (place / "small.toml").write_text(small, encoding="utf-8")
+    outcome("run", "small.toml", "-o", "small", "--figures", "none", "--no-error", cwd=place)
+    actuator, _, force = loop(place, "small")
+    measured = table(place / "own.csv", **{"actuator_shift [m]": actuator, "T [N]": force})
+    fitted = ("--fit", "friction.coefficient=.12", "-o", "own")
+    ended = outcome("against", measured, "small.toml", *fitted, cwd=place)
+    assert ended.returncode == 0, ended.stderr
+    (found,) = json.loads((place / "own/against.json").read_text(encoding="utf-8"))["fitted"]
+    assert found["value"] == pytest.approx(0.1, abs=1e-5)
+
+
+def test_a_difference_has_its_validation_uncertainty(place: Path) -> None:
+    """The peak pressure grows with the cube root of the force."""
+    profile, _ = measured_profile(place)
+    given = ("--inputs", "loading[1].normal_force=1.1±.03 kN", "--deviation", "2%")
+    ended = outcome(
+        *("against", profile, "pressed.toml", "--solver", "radial", *given, "-o", "compared"),
+        cwd=place,
+    )
+    assert ended.returncode == 0, ended.stderr
+    record = json.loads((place / "compared/against.json").read_text(encoding="utf-8"))
+    one = record["numbers"]["largest_pressure"]
+    parts = (one["error"], 2 * one["computed"] * 0.03 / 1.1 / 3, 2 * 0.02 * one["measured"])
+    assert one["uncertainty"] == pytest.approx(np.linalg.norm(parts), rel=1e-3)
+    assert one["gap"] <= one["uncertainty"]
+    curve = record["numbers"]["pressure_at_the_places"]
+    assert 0.3 < (curve["uncertainty"] / one["uncertainty"]) <= 1.1
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--fit", "friction.coefficient=-1"), "expected key=first value above 0"),
+        (("--fit", "friction.coefficient=.1"), "do not depend on friction.coefficient"),
+        (
+            ("--fit", f"body.{MODULUS}, indenter.{MODULUS}"),
+            "change the curves in the same way",
+        ),
+        (
+            ("--fit", "friction.coefficient=.1", "--inputs", "friction.coefficient=.1±.1"),
+            "got --inputs and --fit",
+        ),
+        (("--deviation", "much"), "--deviation"),
+    ],
+)
+def test_a_fit_without_answer_is_refused(place: Path, options, message) -> None:
+    profile, _ = measured_profile(place)
+    ended = outcome("against", profile, "pressed.toml", "--solver", "radial", *options, cwd=place)
+    assert ended.returncode == 2
+    assert message in " ".join(ended.stderr.replace("│", " ").split())

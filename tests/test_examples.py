@@ -22,7 +22,7 @@ from made_gallery import UnexpectedVerdict, refuse_unexpected  # noqa: E402
 from made_notebooks import notebook  # noqa: E402
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
-LONG = ("granular_path", "identification")
+LONG = ("granular_path",)
 
 
 def assert_runs(script: Path, folder: Path) -> None:

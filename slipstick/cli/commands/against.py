@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any
@@ -11,20 +12,32 @@ from pydantic import TypeAdapter, ValidationError
 
 from contact_results.directory.json_record import first_mistake
 from contact_results.directory.run_directory import refuse_files_above
-from contact_results.files.stored_run import load
+from contact_results.files.stored_run import StoredRun, load
 from contact_results.number_text import Uncertainty, number_text
 from contact_scene import read_scene_file
 from contact_scene.accuracy import accuracy_texts
 from contact_scene.reading.engineering_units import engineering_unit
 from contact_scene.reading.quantity import Share
 from contact_scene.reading.text_table import read_columns
-from slipstick.against import MEASURED, NothingToCompare, comparison, unmet
+from slipstick.against import (
+    MEASURED,
+    Comparison,
+    NothingToCompare,
+    Numbers,
+    comparison,
+    unmet,
+)
 from slipstick.against_files import write_comparison
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import OptionalSolver, SetOption, optional, refuse_with_run
 from slipstick.cli.terminal import print_table
+from slipstick.identification import FittedInput, fit, read_first_values
 from slipstick.solvers.names import SolverName
 from slipstick.solving import save, solve, stated_errors
+from slipstick.uncertain_inputs import changed_overrides, read_inputs
+from slipstick.validation import with_uncertainties
+
+FITTED_HEADS = ("fitted", "first", "value ± scatter", "by errors")
 
 
 def against(
@@ -71,6 +84,35 @@ def against(
             "such as '5%' or 'energy_per_cycle 5%, slope 10%'.",
         ),
     ] = None,
+    inputs: Annotated[
+        str | None,
+        optional(
+            "--inputs",
+            metavar="KEY=VALUE±DEVIATION,...",
+            help="State the validation uncertainty of each difference by these values and standard "
+            "deviations of a scene, such as 'friction.coefficient=.1±.01' (or +-). Each takes two "
+            "more solves.",
+        ),
+    ] = None,
+    deviation: Annotated[
+        str | None,
+        optional(
+            "--deviation",
+            metavar="SHARE",
+            help="Standard deviation of the measured numbers, such as '1%', for the validation "
+            "uncertainty.",
+        ),
+    ] = None,
+    fitted: Annotated[
+        str | None,
+        optional(
+            "--fit",
+            metavar="KEY=VALUE,...",
+            help="Fit these keys of a scene to the table by least squares, from first values such "
+            "as 'friction.coefficient=.1, rig.tangential_stiffness=50 N/um', and compare the "
+            "fitted scene.",
+        ),
+    ] = None,
     output: Annotated[
         Path | None,
         optional(
@@ -89,34 +131,57 @@ def against(
     is compared with it. A profile has x with p, q or both, along y = 0, and may have several load
     steps with their numbers in a column step. Other columns are ignored.
     The last column of the output is the largest part of the difference that the stated error
-    explains.
+    explains. With --inputs or --deviation, a difference has its validation uncertainty: two
+    standard deviations by numerical error, inputs and table.
     """
     if source.is_dir():
-        refuse_with_run({"--set": overrides, "--solver": solver})
+        refuse_with_run(
+            {"--set": overrides, "--solver": solver, "--inputs": inputs, "--fit": fitted}
+        )
+    if inputs is not None and fitted is not None:
+        raise typer.BadParameter("got --inputs and --fit, expected one of them")
     if output is not None:
         refuse_files_above(output)
     chosen = solver or SolverName.SEMI_ANALYTICAL
+    identified: tuple[FittedInput, ...] = ()
     try:
         required = _required_shares(require)
+        scatter = _share("--deviation", deviation)
         measured = read_columns(table, MEASURED, columns)
-        with TemporaryDirectory() as solved:
-            directory = source
-            if not source.is_dir():
-                result: Any = solve(read_scene_file(source, overrides or ()), chosen.value)
-                directory = Path(solved) / "run"
-                save(result, directory, figures="none", errors=stated_errors(result))
-            run = load(directory)
-            if step is not None and step > len(run.summary.steps):
-                raise NothingToCompare(f"got step {step}, expected 1 to {len(run.summary.steps)}")
-            compared = comparison(measured, run, step)
+
+        def compare(changes: Sequence[str], *, errors: bool = True) -> Comparison:
+            contents = read_scene_file(source, [*(overrides or ()), *changes])
+            result: Any = solve(contents, chosen.value)
+            stated = stated_errors(result) if errors else None
+            with TemporaryDirectory() as directory:
+                save(result, Path(directory) / "run", figures="none", errors=stated)
+                return _compare(measured, load(Path(directory) / "run"), step)
+
+        if source.is_dir():
+            compared = _compare(measured, load(source), step)
+        elif fitted is not None:
+            identified, compared = fit(
+                read_first_values(fitted),
+                lambda inputs, errors: compare([one.override for one in inputs], errors=errors),
+            )
+        else:
+            uncertain = () if inputs is None else read_inputs(inputs)
+            compared = compare([one.override() for one in uncertain])
+        if inputs is not None or deviation is not None:
+            changed = [
+                (compare(less, errors=False), compare(more, errors=False))
+                for less, more in changed_overrides(() if inputs is None else read_inputs(inputs))
+            ]
+            compared = with_uncertainties(compared, changed, scatter)
         failures = unmet(compared, required)
     except ValueError as error:
         raise typer.BadParameter(str(error)) from None
     rows = []
     for each in compared.numbers:
         unit = engineering_unit(max(abs(each.measured), abs(each.computed)), each.unit)
-        of_table, of_run = (
-            Uncertainty(error, True) if error else None for error in (each.of_table, each.error)
+        of_table, of_run, apart = (
+            Uncertainty(error, True) if error else None
+            for error in (each.of_table, each.error, each.uncertainty)
         )
         rows.append(
             (
@@ -124,19 +189,50 @@ def against(
                 number_text(each.measured, of_table, unit.size),
                 number_text(each.computed, of_run, unit.size),
                 "–" if each.ratio is None else f"{each.ratio:.4f}",
-                number_text(each.gap, None, unit.size),
+                number_text(each.gap, apart, unit.size),
                 "unknown" if each.ours is None else f"{100 * each.ours:.1f} %",
             )
         )
     heads = ("number", "measured", "computed", "ratio", "difference", "ours\nat most")
     print_table(heads, rows, numbers=True)
+    if identified:
+        typer.echo()
+        print_table(FITTED_HEADS, map(_fitted_row, identified), numbers=True)
     if output is not None:
-        write_comparison(compared, output, f"{table.name} and {source.resolve().name}")
+        write_comparison(compared, output, f"{table.name} and {source.resolve().name}", identified)
         typer.echo(f"\nresults in {output}")
     for sentence in failures:
         typer.echo(f"✗ fail: {sentence}")
     if failures:
         raise typer.Exit(ExitCode.ACCURACY)
+
+
+def _compare(measured: Mapping[str, Numbers], run: StoredRun, step: int | None) -> Comparison:
+    """Compare a measured table with a stored run that has the load step."""
+    if step is not None and step > len(run.summary.steps):
+        raise NothingToCompare(f"got step {step}, expected 1 to {len(run.summary.steps)}")
+    return comparison(measured, run, step)
+
+
+def _fitted_row(one: FittedInput) -> tuple[str, ...]:
+    """Return the row of a fitted input: key, first value, value, and both uncertainties."""
+    name = f"{one.key} ({one.unit})" if one.unit else one.key
+    scatter = Uncertainty(one.by_scatter, True) if one.by_scatter else None
+    by_errors = "unknown" if one.by_errors is None else f"{one.by_errors:.2g}"
+    return name, f"{one.first:g}", number_text(one.value, scatter, 1.0), by_errors
+
+
+def _share(option: str, text: str | None) -> float:
+    """Return the share in the text of an option, such as "1%"; 0 without a text.
+
+    Raises ValueError for a value that is no share.
+    """
+    if text is None:
+        return 0.0
+    try:
+        return TypeAdapter(Share).validate_python(text)
+    except ValidationError as error:
+        raise ValueError(f"{option}: {first_mistake(error)}") from None
 
 
 def _required_shares(text: str | None) -> dict[str, float]:

@@ -120,16 +120,18 @@ def run(
     stopwatch = Stopwatch()
     with stopwatch.phase("read"):
         uncertain: tuple[UncertainInput, ...] = ()
-        changes = list(overrides or ())
+        own: list[str] = []
+        pairs: list[tuple[list[str], list[str]]] = []
         if inputs is not None:
-            from slipstick.uncertain_inputs import read_inputs
+            from slipstick.uncertain_inputs import changed_overrides, read_inputs
 
             uncertain = read_inputs(inputs)
-            changes += [one.override() for one in uncertain]
-        contents = read_scene_file(scene, changes)
+            own = [one.override() for one in uncertain]
+            pairs = changed_overrides(uncertain)
+        contents = read_scene_file(scene, [*(overrides or ()), *own])
         changed = [
-            [read_scene_file(scene, [*changes, one.override(n)]) for n in (-1, 1)]
-            for one in uncertain
+            [read_scene_file(scene, [*(overrides or ()), *changes]) for changes in pair]
+            for pair in pairs
         ]
         request = read_requested_accuracy(contents, accuracy, most_seconds, error=error)
         expectation = read_expectation(

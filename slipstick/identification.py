@@ -1,0 +1,213 @@
+"""Identification of inputs of a scene from a measured loop or profile, by least squares.
+
+The residuals r are the differences of measured and computed curves, relative to the largest
+measured value. Their squares are minimised over the logarithms x of the inputs. With the
+slopes J = dr/dx at the minimum, n points and m inputs:
+
+    variance of x by the scatter of the points = (JᵀJ)⁻¹ rᵀr / (n - m)
+    largest change of x by the errors e of both curves = |J⁺| e
+
+The first line holds for a correct scene and independent points. The errors are those that the run
+states, and those of the measured loop by its drift.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import exp, hypot, inf
+
+import numpy as np
+
+from contact_scene.reading.scene_error import Problem, SceneError, shown
+from contact_scene.solver_errors import SolverError
+from slipstick.against import (
+    ComparedNumber,
+    Comparison,
+    NothingToCompare,
+    Numbers,
+    root_mean_square,
+)
+from slipstick.uncertain_inputs import NUMBER, override_text
+
+_FIRST = re.compile(rf"\s*(?P<key>[^\s=]+)\s*=\s*(?P<value>{NUMBER})\s*(?P<unit>[^\s\d.].*?)?\s*")
+EXPECTED = "key=first value above 0, such as friction.coefficient=.1 or rig.stiffness=50 N/um"
+# Step of a logarithm for its slope: differences of curves that are solved to about 1e-8 keep four
+# digits, and a curve changes its course by about 1e-3.
+STEP = 1e-3
+# Relative change of the inputs that ends the iteration: a tenth of the smallest useful scatter.
+PRECISION = 1e-4
+# Smallest ratio of the singular values of normalised slopes, which have an error of about STEP.
+INDEPENDENT = 10 * STEP
+# Iterations: a fit of two inputs to a loop takes 5 to 8 from values that are off by half.
+MAX_ITERATIONS = 20
+# Residual of each point for inputs with which the scene cannot be solved: the curves are further
+# apart than curves of opposite sign.
+UNSOLVED = 4.0
+
+
+@dataclass(frozen=True)
+class FittedInput:
+    """Value of one key of a scene that fits a measured table best.
+
+    key         key of the scene file
+    unit        unit of all values; empty for a dimensionless key
+    first       value at which the search begins
+    value       value of the best fit
+    by_scatter  standard deviation by the scatter of the points
+    by_errors   largest change by the errors of both curves; None if they are unknown
+    """
+
+    key: str
+    unit: str
+    first: float
+    value: float
+    by_scatter: float | None = None
+    by_errors: float | None = None
+
+    @property
+    def override(self) -> str:
+        """The argument of `--set` for the value."""
+        return override_text(self.key, self.value, self.unit)
+
+
+def read_first_values(text: str) -> tuple[FittedInput, ...]:
+    """Read the keys to fit with their first values, such as "friction.coefficient=.1".
+
+    text  keys with values, separated by commas; a value may have a unit
+
+    Raises SceneError for another text, a value of 0 or less, an infinite one, and a repeated key.
+    """
+    found: dict[str, FittedInput] = {}
+    for item in text.split(","):
+        match = _FIRST.fullmatch(item)
+        if match is None or not 0 < float(match["value"]) < inf or match["key"] in found:
+            raise SceneError([Problem(("--fit",), f"got {shown(item.strip())}", EXPECTED)])
+        first = float(match["value"])
+        found[match["key"]] = FittedInput(match["key"], match["unit"] or "", first, first)
+    return tuple(found.values())
+
+
+def fit(
+    inputs: Sequence[FittedInput],
+    compare: Callable[[Sequence[FittedInput], bool], Comparison],
+) -> tuple[tuple[FittedInput, ...], Comparison]:
+    """Fit inputs of a scene to a measured table.
+
+    Returns the fitted inputs and the comparison of the table with their scene.
+
+    inputs   keys with their first values
+    compare  solves the scene with the values of the inputs and compares the table with it; the
+             second argument is True to compute the stated errors, too
+
+    Raises NothingToCompare if the curves do not determine the inputs, and SceneError or SolverError
+    if the scene is invalid or unsolved with the first values.
+    """
+    from scipy.optimize import least_squares
+
+    def with_values(logarithms: Numbers) -> tuple[FittedInput, ...]:
+        return tuple(
+            FittedInput(one.key, one.unit, one.first, exp(x))
+            for one, x in zip(inputs, logarithms, strict=True)
+        )
+
+    start = np.log([one.first for one in inputs])
+    known = {start.tobytes(): _residuals(compare(inputs, False).numbers)}
+    count = len(known[start.tobytes()])
+    if count <= len(inputs):
+        raise NothingToCompare(f"got {count} points, expected more than inputs to fit")
+
+    def residuals(logarithms: Numbers) -> Numbers:
+        place = logarithms.tobytes()
+        if place not in known:
+            try:
+                known[place] = _residuals(compare(with_values(logarithms), False).numbers)
+            # Such as a Poisson's ratio above one half, gross sliding, or a loop without slip.
+            except (SceneError, SolverError, NothingToCompare):
+                known[place] = np.full(count, UNSOLVED)
+        if len(known[place]) != count:
+            raise NothingToCompare(
+                "the number of increments changes with the fitted inputs; set 'increments' of the "
+                "load steps"
+            )
+        return known[place]
+
+    _refuse_dependent(inputs, least_squares(residuals, start, diff_step=STEP, max_nfev=1).jac)
+    best = least_squares(
+        residuals,
+        start,
+        diff_step=STEP,
+        xtol=PRECISION,
+        ftol=PRECISION**2,
+        max_nfev=MAX_ITERATIONS,
+    )
+    _refuse_dependent(inputs, best.jac)
+    if weak := [one.key for one, each in zip(inputs, best.jac.T, strict=True) if _is_weak(each)]:
+        raise NothingToCompare(f"the curves do not depend on {', '.join(weak)}; do not fit it")
+    if not best.success:
+        raise NothingToCompare(
+            f"the fit does not converge in {MAX_ITERATIONS} iterations; give nearer first values, "
+            "or fit fewer inputs"
+        )
+    inverse = np.linalg.pinv(best.jac)
+    scatter = np.sqrt(np.sum(best.fun**2) / (count - len(inputs)) * np.sum(inverse**2, axis=1))
+    compared = compare(with_values(best.x), True)
+    errors = _residual_errors(compared.numbers)
+    by_errors = None if errors is None else np.abs(inverse) @ errors
+    fitted = tuple(
+        FittedInput(
+            one.key,
+            one.unit,
+            one.first,
+            one.value,
+            one.value * float(scatter[row]),
+            None if by_errors is None else one.value * float(by_errors[row]),
+        )
+        for row, one in enumerate(with_values(best.x))
+    )
+    return fitted, compared
+
+
+def _residuals(numbers: Sequence[ComparedNumber]) -> Numbers:
+    """Return the differences of all curves, each relative to its largest measured value (n,)."""
+    return np.concatenate(
+        [each.differences / each.measured for each in numbers if each.differences is not None]
+    )
+
+
+def _residual_errors(numbers: Sequence[ComparedNumber]) -> Numbers | None:
+    """Return the errors of the residuals by both curves (n,); None if one is unknown."""
+    curves = [each for each in numbers if each.differences is not None]
+    if any(each.error is None for each in curves):
+        return None
+    return np.concatenate(
+        [
+            np.full_like(each.differences, hypot(each.error or 0.0, each.of_table or 0.0))
+            / each.measured
+            for each in curves
+        ]
+    )
+
+
+def _is_weak(slopes: Numbers) -> bool:
+    """Return True if a change of an input by itself changes curves by less than a thousandth.
+
+    slopes  slope of each residual by the logarithm of the input (n,)
+    """
+    return root_mean_square(slopes) < STEP
+
+
+def _refuse_dependent(inputs: Sequence[FittedInput], slopes: Numbers) -> None:
+    """Raise NothingToCompare if inputs change the curves in the same way.
+
+    slopes  slope of each residual by the logarithm of each input (n, m)
+    """
+    strong = [column for column in range(len(inputs)) if not _is_weak(slopes[:, column])]
+    if len(strong) < 2:
+        return
+    directions = slopes[:, strong] / np.linalg.norm(slopes[:, strong], axis=0)
+    singular = np.linalg.svd(directions, compute_uv=False)
+    if singular[-1] < INDEPENDENT * singular[0]:
+        keys = " and ".join(inputs[column].key for column in strong)
+        raise NothingToCompare(f"{keys} change the curves in the same way; fit one of them less")
