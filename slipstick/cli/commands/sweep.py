@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import product
 from math import isnan
 from pathlib import Path
@@ -16,6 +17,7 @@ from contact_results.directory.run_lock import in_sole_use
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.radial_method import radial_method
 from contact_scene import read_scene_file
+from contact_scene.solver_errors import SolverError
 from slipstick.cli.errors import ExitCode
 from slipstick.cli.expect_option import ExpectOption, SaveExpectedOption, read_expectation
 from slipstick.cli.options import (
@@ -44,6 +46,8 @@ from verification.running.study import ROWS, CaseRecord, row_files
 TABLE = "sweep.csv"
 CHART = "sweep.png"
 CASES = "points"
+# Number of points from which a trial solve takes less than a tenth of the sweep.
+LONG_SWEEP = 10
 
 
 def sweep(
@@ -98,7 +102,8 @@ def sweep(
     except SweepError as refused:
         raise typer.BadParameter(str(refused)) from None
     valid = next(point for point in made if not point.invalid)
-    first = read_scene_file(scene, valid.overrides).scene
+    contents = read_scene_file(scene, valid.overrides)
+    first = contents.scene
     listing = "slipstick maintain schema summary"
     known = quantities(first.body, line=first.indenter.is_line)
     refuse_unknown("quantity", names, known, listing)
@@ -108,9 +113,15 @@ def sweep(
         lambda: Source("sweep", scene_keys(first), solver.value),
         error=error,
     )
-    print_pairs([("points", str(len(made))), ("solver", solver.value)])
+    described = [("points", str(len(made))), ("solver", solver.value)]
+    if len(made) >= LONG_SWEEP:
+        with suppress(SolverError):  # which the points report
+            chosen = solver.solver
+            _, text = chosen.time(first, chosen.fineness(contents))
+            described.append(("time", f"for each point {text}"))
     if solver is not SolverName.RADIAL and (how := radial_method(first)):
-        print_pairs([("radial", f"--solver radial can solve this: {how}")])
+        described.append(("radial", f"--solver radial can solve this: {how}"))
+    print_pairs(described)
     output.mkdir(parents=True, exist_ok=True)
     with in_sole_use(output):
         store, cases = CaseStore(output / CASES), {point.name: point for point in made}
