@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from contact_scene import FiniteElementDiscretisation, Scene
+from contact_scene.quantities.load_history import LoadHistory
 from contact_scene.quantities.ring_increment import RingIncrement
 from fem_reference.mesh.section_mesh import SectionMesh
 from fem_reference.plan import Plan
@@ -44,8 +45,8 @@ class Increment(RingIncrement):
     path: str | None = None
 
 
-@dataclass(frozen=True)
-class Result:
+@dataclass(frozen=True, repr=False)
+class Result(LoadHistory[Increment]):
     """Result of a finite-element contact solve: the converged states of all increments.
 
     The scene, the discretisation, the meshes and the contact method of the solve are included.
@@ -73,8 +74,3 @@ class Result:
     def tolerance(self) -> float:
         """Upper limit of every residual at the end of every increment [1]."""
         return self.discretisation.tolerance
-
-    @property
-    def steps(self) -> tuple[Increment, ...]:
-        """Converged state at the end of each completed load step: its last increment."""
-        return tuple(i for i in self.increments if i.index == i.increments_in_step)

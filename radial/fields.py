@@ -6,9 +6,9 @@ Names and signs of the fields are those of CONVENTIONS.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from contact_scene import RadialDiscretisation, Scene
+from contact_scene.quantities.load_history import LoadHistory
 from contact_scene.quantities.ring_increment import RingIncrement
 from radial.plan import Plan
 
@@ -25,8 +25,8 @@ class Increment(RingIncrement):
     """
 
 
-@dataclass(frozen=True)
-class Result:
+@dataclass(frozen=True, repr=False)
+class Result(LoadHistory[Increment]):
     """Result of a solve of a load history: scene, discretisation, plan and all increments.
 
     scene       the solved contact problem, in its normal form
@@ -39,17 +39,13 @@ class Result:
     fineness: RadialDiscretisation
     plan: Plan
     increments: tuple[Increment, ...]
-    solver: ClassVar[str] = "radial"
+
+    @property
+    def solver(self) -> str:
+        """Name of the solver."""
+        return "radial"
 
     @property
     def tolerance(self) -> float:
         """Tolerance of the solve, an upper bound of all residuals of all increments."""
         return self.fineness.tolerance
-
-    @property
-    def steps(self) -> tuple[Increment, ...]:
-        """Contact states at the ends of the load steps, in order.
-
-        They are the last increments of the load steps.
-        """
-        return tuple(i for i in self.increments if i.index == i.increments_in_step)

@@ -5,7 +5,7 @@ y_j).
 """
 
 from dataclasses import dataclass, field
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from contact_scene.quantities.field_metadata import (
     Reported,
 )
 from contact_scene.quantities.increment import ReportedIncrement
+from contact_scene.quantities.load_history import LoadHistory
 from contact_scene.quantities.summary import ContactStatus
 from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.grid import SurfaceGrid
@@ -124,8 +125,8 @@ class Increment(ReportedIncrement):
         return np.asarray(self.dissipation - self.dissipation_before)
 
 
-@dataclass(frozen=True)
-class Result:
+@dataclass(frozen=True, repr=False)
+class Result(LoadHistory[Increment]):
     """Result of the semi-analytical solver: all increments of a load history on one grid.
 
     scene, grid  solved scene, and cells and window of the solution
@@ -139,12 +140,8 @@ class Result:
     tolerance: float
     plan: Plan
     increments: tuple[Increment, ...]
-    solver: ClassVar[str] = "semi_analytical"
 
     @property
-    def steps(self) -> tuple[Increment, ...]:
-        """Increments at the ends of the load steps, one for each load step.
-
-        They are part of all increments of the result.
-        """
-        return tuple(i for i in self.increments if i.index == i.increments_in_step)
+    def solver(self) -> str:
+        """Name of the solver."""
+        return "semi_analytical"

@@ -7,6 +7,7 @@ from typing import Any, get_args
 
 import numpy as np
 import pytest
+from command import rows
 
 import slipstick
 from contact_results.cycles import fretting_cycles
@@ -93,6 +94,27 @@ def test_a_result_comes_back_as_it_was_saved(solver: SolverName, tmp_path: Path)
     cycle = fretting_cycles(result)[-1]
     assert np.array_equal(run.last_cycle["slip_amplitude"].array, cycle.slip_amplitude)
     assert run.summary.steps[-1].slip_amplitude == cycle.largest_slip
+
+
+@pytest.mark.parametrize("solver", SolverName)
+def test_a_result_is_a_table_and_three_lines(solver: SolverName, tmp_path: Path) -> None:
+    """The columns are those of increments.csv; NaN stands for an empty cell."""
+    result: Any = slipstick.solve(SCENE, solver.value, COARSE[solver])
+    slipstick.save(result, tmp_path / "out", figures="none")
+    written = rows(tmp_path / "out/increments.csv")
+    table = result.table()
+    for head in written[0]:
+        name = head.partition(" [")[0]
+        cells = [float(row[head] or "nan") for row in written]
+        if name in table:
+            assert np.array_equal(table[name], cells, equal_nan=True)
+        else:
+            assert np.all(np.isnan(cells)), name
+    first, second, third = repr(result).splitlines()
+    assert first == f"ball, solved by {result.solver}"
+    assert second == f"load steps: 6, increments: {len(result.increments)}"
+    assert "normal force 1 kN" in third
+    assert "tangential force x 60 N" in third
 
 
 def test_a_wrong_name_or_discretisation_is_told_with_what_was_expected() -> None:
