@@ -1,4 +1,4 @@
-"""Layered body: a substrate under perfectly bonded layers."""
+"""Layered body: a substrate under bonded layers."""
 
 from itertools import takewhile
 from math import inf, log
@@ -7,7 +7,11 @@ from pydantic import Field
 
 from contact_scene.material import IsotropicMaterial, Material
 from contact_scene.reading.description import Description
-from contact_scene.reading.quantity import PositiveLength, PositivePressure
+from contact_scene.reading.quantity import (
+    PositiveInterfaceStiffness,
+    PositiveLength,
+    PositivePressure,
+)
 
 # Differences of ln E and of ν below which a grid need not resolve two materials separately.
 NEARLY_EQUAL = 0.1, 0.01
@@ -23,8 +27,26 @@ class InterfaceStrength(Description):
     """Limit of the tensile stress normal to the interface [force/length^2]; absent: no limit."""
 
 
+class InterfaceStiffness(Description):
+    """Springs of a compliant bond: traction on the interface per jump of the displacement.
+
+    The bond is linear: it carries tension, and its sides may overlap by the jump.
+    """
+
+    normal: PositiveInterfaceStiffness | None = None
+    """Normal traction per opening [force/length^3]; absent: the bond does not open."""
+
+    shear: PositiveInterfaceStiffness | None = None
+    """Shear traction per tangential jump [force/length^3]; absent: the bond does not shift."""
+
+    @property
+    def given(self) -> tuple[float, ...]:
+        """Stiffnesses that are given [force/length^3]."""
+        return tuple(each for each in (self.normal, self.shear) if each is not None)
+
+
 class Layer(Description):
-    """Elastic layer of constant thickness, perfectly bonded to the layer or substrate below it."""
+    """Elastic layer of constant thickness, bonded to the layer or substrate below it."""
 
     thickness: PositiveLength
     """Thickness of the layer [length]."""
@@ -34,6 +56,9 @@ class Layer(Description):
 
     interface_strength: InterfaceStrength | None = None
     """Strength of the bond to the layer or substrate below; absent: no limit."""
+
+    interface_stiffness: InterfaceStiffness | None = None
+    """Stiffness of the bond to the layer or substrate below; absent: a rigid bond."""
 
 
 class Body(Description):
@@ -60,8 +85,9 @@ class Body(Description):
     def thinnest(self) -> float:
         """Smallest depth of nearly uniform material in the layered body [length].
 
-        A grid or mesh must resolve this depth. Adjacent layers count as one layer if their
-        materials differ by less than `NEARLY_EQUAL`. The depth is infinite for a uniform body.
+        A grid or mesh must resolve this depth. Adjacent layers with a rigid bond count as one layer
+        if their materials differ by less than `NEARLY_EQUAL`. The depth is infinite for a uniform
+        body.
         """
         return min(map(self._uniform_depth, range(len(self.layers))), default=inf)
 
@@ -69,8 +95,9 @@ class Body(Description):
         materials = (*(other.material for other in self.layers), self.material)
         thickness = (*(other.thickness for other in self.layers), inf)
         equal = [_nearly_equal(materials[layer], other) for other in materials]
-        above = takewhile(equal.__getitem__, range(layer - 1, -1, -1))
-        below = takewhile(equal.__getitem__, range(layer + 1, len(materials)))
+        rigid = [other.interface_stiffness is None for other in self.layers]
+        above = takewhile(lambda n: equal[n] and rigid[n], range(layer - 1, -1, -1))
+        below = takewhile(lambda n: equal[n] and rigid[n - 1], range(layer + 1, len(materials)))
         return thickness[layer] + sum(thickness[other] for other in (*above, *below))
 
 

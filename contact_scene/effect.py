@@ -55,7 +55,13 @@ def layers(scene: Scene) -> Effect:
         for name, body in (("body", scene.body), ("indenter", scene.indenter))
         if body.layers
     ]
-    return Effect("layers", bool(where), " and ".join(where) or "no body has layers")
+    springs = sum(
+        layer.interface_stiffness is not None
+        for body in (scene.body, scene.indenter)
+        for layer in body.layers
+    )
+    bonds = f"; {springs} of the bonds are compliant" if springs else ""
+    return Effect("layers", bool(where), f"{' and '.join(where) or 'no body has layers'}{bonds}")
 
 
 def friction(scene: Scene) -> Effect:

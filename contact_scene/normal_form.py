@@ -5,14 +5,13 @@ All solvers plan and solve the normal form. A scene with such inputs therefore h
 numbers of the scene without them.
 """
 
-from itertools import groupby
 from typing import TypeVar
 
 from contact_scene.body import Body, Layer
 from contact_scene.body_pair import coupling
 from contact_scene.geometry import Ellipsoid, Paraboloid
 from contact_scene.loading import LoadStep
-from contact_scene.material import IsotropicMaterial
+from contact_scene.material import IsotropicMaterial, Material
 from contact_scene.scene import Scene
 from contact_scene.stepping.load_path import (
     LoadRamp,
@@ -27,8 +26,8 @@ Unnamed = dict[str, tuple[str, object]]
 def normal_form(scene: Scene) -> Scene:
     """Return the scene without inputs that have no effect; the same object if there are none.
 
-    - Adjacent layers of one material become one layer. A lowest layer of the substrate's material
-      becomes part of the substrate.
+    - Adjacent layers of one material with a rigid bond become one layer. A lowest layer of the
+      substrate's material becomes part of the substrate if its bond is rigid.
     - An ellipsoid with equal radii becomes a paraboloid.
     - A control that is zero in all load steps becomes the default control of its coordinate (free
       shift, fixed twist, fixed tilt) if both are equal by symmetry or without friction.
@@ -71,23 +70,25 @@ def _elastic(material: IsotropicMaterial) -> IsotropicMaterial:
 
 
 def _merge_equal_layers(body: B) -> B:
-    """Merge adjacent layers of a body that have the same material into one layer.
+    """Merge adjacent layers of a body that have the same material and a rigid bond into one layer.
 
-    A lowest layer that has the material of the substrate becomes part of the substrate. Used for
-    the normal form of a scene, which contains no inputs without effect.
+    A lowest layer that has the material of the substrate, and a rigid bond to it, becomes part of
+    the substrate. Used for the normal form of a scene, which contains no inputs without effect.
 
     body  layered body, which is not changed
     """
     if not body.layers:
         return body
-    equal = groupby(body.layers, key=lambda layer: layer.material)
-    layers = [
-        Layer(thickness=sum(layer.thickness for layer in reversed([*some])), material=material)
-        for material, some in equal
-    ]
-    if layers and layers[-1].material == body.material:
-        layers.pop()
-    return body.model_copy(update={"layers": tuple(layers)})
+    upward: list[Layer] = []
+    material: Material = body.material
+    for layer in reversed(body.layers):
+        if layer.material != material or layer.interface_stiffness is not None:
+            upward.append(layer)
+        elif upward:
+            thickness = upward[-1].thickness + layer.thickness
+            upward[-1] = upward[-1].model_copy(update={"thickness": thickness})
+        material = layer.material
+    return body.model_copy(update={"layers": tuple(reversed(upward))})
 
 
 def _controls_without_effect(scene: Scene, ramps: tuple[LoadRamp, ...]) -> Unnamed:

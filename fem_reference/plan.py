@@ -10,6 +10,7 @@ from contact_scene.body_pair import (
 )
 from contact_scene.bulk_strain import requires_bulk_strain
 from contact_scene.checks.axisymmetric import (
+    ELSEWHERE,
     refuse_coefficient_map,
     refuse_shape,
     refuse_tilt,
@@ -19,6 +20,7 @@ from contact_scene.effect import Effect
 from contact_scene.friction_limit import increments_by_force
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
+from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.growing_contact import grows_without_slip
 from contact_scene.stepping.load_path import along_one_line, first_direction
 
@@ -109,6 +111,7 @@ def plan(scene: Scene, *, penalty: bool = False) -> Plan:
     scene = normal_form(scene)
     refuse_equator(scene)
     refuse_shape(scene)
+    _refuse_compliant_bonds(scene)
     refuse_contrast(
         scene, MAX_CONTRAST, f", and finite elements carry a ratio up to {MAX_CONTRAST:.0e}"
     )
@@ -140,6 +143,17 @@ def plan(scene: Scene, *, penalty: bool = False) -> Plan:
         twists,
         bool(scene.contact_stiffness) and not penalty,
     )
+
+
+def _refuse_compliant_bonds(scene: Scene) -> None:
+    """Raise UnsupportedScene if the bond of a layer is compliant."""
+    for name, body in (("body", scene.body), ("indenter", scene.indenter)):
+        for number, layer in enumerate(body.layers, start=1):
+            if layer.interface_stiffness is not None:
+                raise UnsupportedScene(
+                    f"{name}.layers[{number}].interface_stiffness: the bond is compliant, and "
+                    f"finite elements bond layers rigidly. Remove the key, or {ELSEWHERE}"
+                )
 
 
 def _choose_path(

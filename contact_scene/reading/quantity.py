@@ -20,6 +20,7 @@ from contact_scene.reading.units import (
     ANGLE,
     FORCE,
     FORCE_PER_LENGTH,
+    INTERFACE_STIFFNESS,
     LENGTH,
     MOMENT,
     MOMENT_PER_LENGTH,
@@ -271,6 +272,9 @@ Stress = Annotated[float, Quantity(PRESSURE, "a stress")]
 PositiveStiffness = Annotated[
     float,
     Quantity(STIFFNESS, "a positive stiffness", above=0.0, per_length=STIFFNESS_PER_LENGTH),
+]
+PositiveInterfaceStiffness = Annotated[
+    float, Quantity(INTERFACE_STIFFNESS, "a positive stiffness per area", above=0.0)
 ]
 PositivePressure = Annotated[float, Quantity(PRESSURE, "a positive pressure", above=0.0)]
 SlopeAngle = Annotated[

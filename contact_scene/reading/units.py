@@ -76,6 +76,15 @@ MOMENT_PER_LENGTH = Kind("N", '"20 N"', FORCE.units)
 STIFFNESS_PER_LENGTH = Kind(
     "N/m^2", '"50 N/mm^2"', unit_factors(**{"N/m^2": "1", "N/mm^2": "1e6", "kN/mm^2": "1e9"})
 )
+# Stress per separation of the two sides of an interface.
+INTERFACE_STIFFNESS = Kind(
+    "Pa/m",
+    '"1 GPa/um"',
+    unit_factors(
+        **{"Pa/m": "1", "MPa/mm": "1e9", "MPa/um": "1e12", "GPa/um": "1e15", "GPa/nm": "1e18"},
+        **{"N/m^3": "1", "N/mm^3": "1e9"},
+    ),
+)
 PRESSURE = Kind(
     "Pa",
     '"210 GPa"',

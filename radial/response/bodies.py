@@ -136,7 +136,11 @@ def least_wavenumber(stack: Stack, radius: float) -> float:
     radius  contact radius [length]
     """
     moduli = _shear_moduli(stack)
-    total = sum(film.thickness for film in stack.layers)
+    total = sum(
+        # A compliant bond acts like this thickness of the stiffest material.
+        film.thickness + max(moduli) * max(film.normal_opening, film.tangential_jump)
+        for film in stack.layers
+    )
     return radius / (radius + total) * min(moduli) / max(moduli)
 
 

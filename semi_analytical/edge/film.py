@@ -246,7 +246,8 @@ def film_law(lower: Body, upper: Body, spacing: tuple[float, float]) -> FilmLaw 
 def _uniform_depth(stack: Stack) -> float:
     """Return the depth [length] below a surface down to which the elastic constants are uniform.
 
-    This depth is the total thickness of the outermost layers with equal elastic constants.
+    This depth is the total thickness of the outermost layers with equal elastic constants and
+    rigid bonds.
 
     stack  layers and base of the body
     """
@@ -256,6 +257,8 @@ def _uniform_depth(stack: Stack) -> float:
         if max(stiffer, abs(layer.poisson_ratio - outer.poisson_ratio)) > LEAST_CONTRAST:
             break
         depth += layer.thickness
+        if layer.normal_opening or layer.tangential_jump:
+            break
     return depth
 
 

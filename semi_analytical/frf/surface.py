@@ -156,10 +156,11 @@ def _compliance_below_layer(stack: Stack, alpha: Array) -> Compliance:
 
 
 def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
-    """Compute the compliance of the material below each layer of a body.
+    """Compute the compliance of the material below each layer of a body, with its bond.
 
-    The list begins with the outermost layer and ends with the base itself. Each compliance is in
-    units of 1/(2 G alpha), with the shear modulus G of its layer, for the last one of the base.
+    A compliant bond adds its opening and its tangential jump to the displacements. The list begins
+    with the outermost layer and ends with the base itself. Each compliance is in units of 1/(2 G
+    alpha), with the shear modulus G of its layer, for the last one of the base.
 
     stack  layers and base of the body
     alpha  wavenumbers (n,) [1/length]
@@ -177,8 +178,13 @@ def compliances_below(stack: Stack, alpha: Array) -> list[Compliance]:
             here = compliance_above(here, lower.poisson_ratio, alpha * lower.thickness)
             G = lower.shear_modulus
         (det, c11, c12, c22, unit), ratio = here.rows, film.shear_modulus / G
-        scaled = (det * ratio**2, c11 * ratio, c12 * ratio, c22 * ratio, unit)
-        here = Compliance(scaled, here.shear * ratio)
+        det, c11, c12, c22 = det * ratio**2, c11 * ratio, c12 * ratio, c22 * ratio
+        own = 2 * film.shear_modulus * alpha
+        opening, jump = own * film.normal_opening, own * film.tangential_jump
+        det = det + opening * c11 + jump * c22 + opening * jump
+        here = Compliance(
+            (det, c11 + jump, c12, c22 + opening, unit), here.shear * ratio + jump / 2
+        )
         found.append(here)
     return found[::-1]
 

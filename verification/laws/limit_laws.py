@@ -271,7 +271,7 @@ def _long_wave_error(rng: Generator) -> float:
 
 def _incompressible_limit_error(rng: Generator) -> float:
     body, alpha = stack(rng), np.hypot(*wave_vector(rng))
-    G, _, h = body.layers[0]
+    G, _, h = body.layers[0][:3]
     limit, close = (
         np.array(scalars(_replace_layer(body, 0, Film(G, nu, h)), alpha))
         for nu in (0.5, 0.5 - 1e-13)
@@ -289,7 +289,7 @@ def _layer_echo_excess(rng: Generator) -> float:
     The bound is proportional to (1 + x²) e^(-2x) with x = wavenumber times layer thickness.
     """
     body, x = stack(rng, most_layers=1), rng.uniform(1, 300)
-    G, _, h = body.layers[0]
+    G, _, h = body.layers[0][:3]
     echo = np.array(remainder_scalars(body, x / h)) * (x / h) * G
     bound = (ECHO if x < 2 else ECHO / 3) * (1 + x * x) * np.exp(-2 * x)
     return float(np.abs(echo).max() / bound)
@@ -454,7 +454,7 @@ def _rotation_error(rng: Generator) -> float:
 def _scaling_error(rng: Generator) -> float:
     body, (m, n) = stack(rng), wave_vector(rng)
     length, stiffness = decades(rng, -3, 3), decades(rng, -3, 3)
-    films = [(G * stiffness, nu, h * length) for G, nu, h in body.layers]
+    films = [(G * stiffness, nu, h * length) for G, nu, h, *_ in body.layers]
     base = None if body.base is None else (body.base[0] * stiffness, body.base[1])
     scaled = response_matrix(Stack(films, base), m / length, n / length)
     return apart(scaled, response_matrix(body, m, n) * length / stiffness)
@@ -470,7 +470,7 @@ def _homogeneous_layers_error(rng: Generator) -> float:
 
 def _cut_layer_error(rng: Generator) -> float:
     body, k = stack(rng), wave_vector(rng)
-    G, nu, h = body.layers[0]
+    G, nu, h = body.layers[0][:3]
     parts = rng.uniform(0.05, 1, rng.integers(2, 7))
     pieces = [(G, nu, h * part) for part in parts / parts.sum()]
     return apart(
