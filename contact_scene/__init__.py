@@ -4,7 +4,7 @@ A scene is built in Python from the frozen models listed here, or read from a TO
 `load_scene`. Quantities are numbers in SI units, or texts with a unit such as "18 mm".
 """
 
-from contact_scene.body import Body, InterfaceStrength, Layer
+from contact_scene.body import Body, InterfaceStiffness, InterfaceStrength, Layer
 from contact_scene.discretisation import (
     FiniteElementDiscretisation,
     RadialDiscretisation,
@@ -60,6 +60,7 @@ __all__ = [
     "FlatPunch",
     "FrictionMap",
     "HeightMap",
+    "InterfaceStiffness",
     "InterfaceStrength",
     "IsotropicMaterial",
     "Layer",

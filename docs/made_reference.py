@@ -37,6 +37,7 @@ TABLES: dict[str, type[BaseModel]] = {
     "[[body.layers]] and [[indenter.layers]], outermost first": Layer,
     "material = { … }": IsotropicMaterial,
     "interface_strength = { … }": InterfaceStrength,
+    "interface_stiffness = { … }": InterfaceStiffness,
     "[friction]": CoulombFriction,
     "coefficient = { … }, a map": FrictionMap,
     "[rig]": Rig,

@@ -52,6 +52,7 @@ CASES = (
     "led_histories",
     "coated_paraboloid",
     "coated_unlike_ratios",
+    "compliant_bond",
     "layered_identities",
     "torsion_coated",
     "thin_layer",
@@ -106,7 +107,13 @@ MODULES = {
     "rig_and_strain": ("series_spring", "eccentric_contact", "strained_ball"),
     "torsion": ("torsion", "torsion_coated", "fem_torsion", "radial_torsion", "radial_turning"),
     "coatings": (
-        *("coated_paraboloid", "coated_unlike_ratios", "layered_identities", "thin_layer"),
+        *(
+            "coated_paraboloid",
+            "coated_unlike_ratios",
+            "compliant_bond",
+            "layered_identities",
+            "thin_layer",
+        ),
         *("film_stiffness", "fem_coated", "radial_pressing", "layered_reference", "frf_laws"),
     ),
     "frictional_pressing": (

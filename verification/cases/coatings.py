@@ -16,7 +16,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Layer, LoadStep, Paraboloid
+from contact_scene import (
+    RIGID,
+    Body,
+    InterfaceStiffness,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+)
 from contact_scene.quantities.residuals import worst
 from radial.normal.disc import disc
 from radial.normal.surface import pressure
@@ -25,6 +33,7 @@ from semi_analytical.frf.response_matrix import response_matrix
 from semi_analytical.frf.stack import Film, HalfSpace, Stack
 from semi_analytical.frf.surface import scalars
 from semi_analytical.influence.layered import LayeredCoefficients
+from verification.closed_forms.bonded_film import BondedFilm
 from verification.closed_forms.coated_indentation import (
     LayeredIndentation,
     LayeredSurface,
@@ -344,6 +353,72 @@ def coated_unlike_ratios(level: Level = Level.QUICK) -> Case:
             judged(named(f"{name}, {n} elements", on_elements(pair, (n,), of=name)), ON_MESHES)
             for name, pair in pairs.items()
         ),
+        no_order=JUDGED_BY.format("coated_paraboloid"),
+        shows=("coatings",),
+    )
+
+
+def bonded_ball(normal: float, shear: float) -> Problem:
+    """Create the problem of a rigid ball on a coating with a compliant bond.
+
+    The coating is half a Hertz radius thick and twice as stiff as its substrate.
+
+    normal, shear  stiffnesses of the bond, relative to the substrate's Young's modulus over the
+                   Hertz radius
+    """
+    modulus, radius = 210e9, HERTZ.contact_radius
+    film, base = (
+        IsotropicMaterial(young_modulus=E, poisson_ratio=nu)
+        for E, nu in ((2 * modulus, 0.25), (modulus, 0.3))
+    )
+    bond = InterfaceStiffness(normal=normal * modulus / radius, shear=shear * modulus / radius)
+    body = Body(
+        material=base,
+        layers=(Layer(thickness=0.5 * radius, material=film, interface_stiffness=bond),),
+    )
+    exact = BondedFilm(
+        (modulus / 1.25, 0.25),
+        (modulus / 2.6, 0.3),
+        0.5 * radius,
+        normal * modulus / radius,
+        shear * modulus / radius,
+    )
+    surface = LayeredSurface(exact.normal_response, 2 * modulus / (1 - 0.25**2), 0.5 * radius)
+    scene = pressed("Rigid ball on a coating with a compliant bond", rigid_ball(), body)
+    return _semi_closed(scene, paraboloid_under(NORMAL_FORCE, surface, RADIUS))
+
+
+def compliant_bond(level: Level = Level.QUICK) -> Case:
+    """Create the verification case of coatings with a compliant bond.
+
+    A rigid ball is pressed on the coated body, on cells and by the radial solver. Approach, contact
+    radius and central pressure are compared with a semi-closed solution.
+
+    level  amount of computation; all levels are equal
+    """
+    del level
+    on_grid = (
+        Within(APPROACH, 2e-4, ON_128),
+        Within(CONTACT_RADIUS, part_of_side(0.1), "a tenth of a cell"),
+        Within(CENTRAL_PRESSURE, 2e-4, ON_128),
+    )
+    by_radial = (
+        Within(APPROACH, 1e-7, "accuracy target of the radial solver without friction"),
+        Within(CONTACT_RADIUS, 1e-6, "accuracy target of the radial solver without friction"),
+    )
+    bonds = {
+        "opens": bonded_ball(0.5, 5.0),
+        "shifts": bonded_ball(50.0, 0.02),
+    }
+    return case(
+        "compliant_bond",
+        "Coatings with a compliant bond",
+        "The paper's ball, rigid, is pressed by 1 kN on a coating that is bonded to its substrate "
+        "by springs. One bond mainly opens, the other mainly shifts. The response of the coating "
+        "in the reference is that of the Airy function with springs at each wavenumber, solved as "
+        "a linear system; that of the program is a recursion of compliances.",
+        *(judged(on_cells(one, (128,), of=name), on_grid) for name, one in bonds.items()),
+        *(judged(on_radii(one, f"{name}, radial"), by_radial) for name, one in bonds.items()),
         no_order=JUDGED_BY.format("coated_paraboloid"),
         shows=("coatings",),
     )

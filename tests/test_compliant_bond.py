@@ -1,0 +1,99 @@
+"""Tests of layers whose bond to the material below is compliant."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import slipstick
+from contact_scene import (
+    Body,
+    CoulombFriction,
+    InterfaceStiffness,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+    SurfaceDiscretisation,
+)
+from contact_scene.normal_form import normal_form
+from contact_scene.solver_errors import UnsupportedScene
+from verification.closed_forms.bonded_film import BondedFilm
+
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+HARD = IsotropicMaterial(young_modulus=400e9, poisson_ratio=0.25)
+BOND = InterfaceStiffness(normal=4e15, shear=1e15)
+
+
+def scene(*layers: Layer, friction: float | None = None) -> Scene:
+    pushed = [] if friction is None else [LoadStep(tangential_force=(10.0, 0.0), increments=4)]
+    return Scene(
+        indenter=Paraboloid(radius=10e-3, material="rigid"),
+        body=Body(material=STEEL, layers=layers),
+        friction=None if friction is None else CoulombFriction(coefficient=friction),
+        loading=[LoadStep(normal_force=100.0), *pushed],
+    )
+
+
+def bonded(thickness: float = 100e-6, material: IsotropicMaterial = HARD) -> Layer:
+    return Layer(thickness=thickness, material=material, interface_stiffness=BOND)
+
+
+def test_a_rigid_bond_of_one_material_is_a_half_space() -> None:
+    """(1 - ν)/(Gk), and a bond of any stiffness below a thick film has no effect."""
+    k = np.array([0.01, 1.0, 60.0])
+    same = BondedFilm((2.0, 0.3), (2.0, 0.3), 0.7, np.inf, np.inf)
+    np.testing.assert_allclose(same.normal_response(k), 0.7 / (2 * k), rtol=1e-14)
+    thick = BondedFilm((5.0, 0.25), (2.0, 0.3), 0.7, 0.1, 0.02)
+    np.testing.assert_allclose(thick.normal_response(k[2:]), 0.75 / (5 * k[2:]), rtol=1e-14)
+
+
+def test_long_waves_open_the_bond_by_their_pressure() -> None:
+    k = np.array([1e-7])
+    film = BondedFilm((5.0, 0.25), (2.0, 0.3), 0.7, 0.1, np.inf)
+    added = film.normal_response(k) - 0.7 / (2 * k)
+    uniaxial = 0.7 * (1 - 2 * 0.25) / (2 * 5.0 * (1 - 0.25)) - 0.7 * 0.4 / (2 * 2.0 * 0.7)
+    assert added[0] == pytest.approx(1 / 0.1, abs=abs(uniaxial) + 0.2)
+
+
+def test_layers_merge_through_rigid_bonds_alone() -> None:
+    glued = bonded(material=STEEL)
+    plain = Layer(thickness=50e-6, material=STEEL)
+    assert normal_form(scene(plain, plain)).body.layers == ()
+    (merged,) = normal_form(scene(plain, glued)).body.layers
+    assert merged.thickness == pytest.approx(150e-6)
+    assert merged.interface_stiffness == BOND
+    assert normal_form(scene(glued, plain)).body.layers == (glued,)
+    assert scene(glued, plain).body.thinnest == 100e-6
+    assert scene(plain, glued).body.thinnest == pytest.approx(150e-6)
+
+
+def test_cells_and_rings_agree_on_coupled_bodies_under_friction() -> None:
+    posed = scene(bonded(), friction=0.3)
+    results: list[Any] = [
+        slipstick.solve(posed, "semi-analytical", SurfaceDiscretisation(cells=(48, 48))),
+        slipstick.solve(posed, "radial"),
+    ]
+    one, other = (result.steps[-1] for result in results)
+    errors = [slipstick.stated_errors(result).steps[-1] for result in results]
+    for name in ("approach", "contact_radius", "tangential_shift", "elastic_energy"):
+        values = (np.max(np.abs(getattr(end, name))) for end in (one, other))
+        allowed = sum(np.max(each[name].error) for each in errors)
+        assert abs(np.subtract(*values)) <= allowed, name
+
+
+def test_a_thin_soft_layer_in_elements_stands_for_the_bond() -> None:
+    """Its stiffnesses over its thickness are those of the bond; elements refuse the bond itself."""
+    thin = 1e-6
+    shear, uniaxial = 1e15 * thin, 4e15 * thin
+    nu = (uniaxial / shear - 2) / (2 * uniaxial / shear - 2)
+    glue = IsotropicMaterial(young_modulus=2 * shear * (1 + nu), poisson_ratio=nu)
+    layers = Layer(thickness=100e-6 - thin / 2, material=HARD), Layer(thickness=thin, material=glue)
+    soft: Any = slipstick.solve(scene(*layers), "fem-complementarity")
+    bond: Any = slipstick.solve(scene(bonded()), "radial")
+    for name in ("approach", "elastic_energy"):
+        one, other = (getattr(result.steps[0], name) for result in (soft, bond))
+        assert one == pytest.approx(other, rel=1e-3)
+    with pytest.raises(UnsupportedScene, match=r"layers\[1\].interface_stiffness"):
+        slipstick.solve(scene(bonded()), "fem")
