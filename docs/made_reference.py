@@ -7,7 +7,15 @@ from typing import Any
 import typer
 from pydantic import BaseModel
 
-from contact_scene import Body, InterfaceStrength, IsotropicMaterial, Layer, LoadStep, Scene
+from contact_scene import (
+    Body,
+    InterfaceStiffness,
+    InterfaceStrength,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Scene,
+)
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.discretisation import (
     FiniteElementDiscretisation,
