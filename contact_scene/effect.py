@@ -60,7 +60,7 @@ def layers(scene: Scene) -> Effect:
         for body in (scene.body, scene.indenter)
         for layer in body.layers
     )
-    bonds = f"; {springs} of the bonds are compliant" if springs else ""
+    bonds = f"; compliant bonds: {springs}" if springs else ""
     return Effect("layers", bool(where), f"{' and '.join(where) or 'no body has layers'}{bonds}")
 
 
