@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -10,6 +11,7 @@ import numpy as np
 from matplotlib.figure import FigureBase
 from numpy.typing import NDArray
 
+from contact_results.result_report import ResultReport
 from contact_results.surface import Cells, Rings
 from contact_scene.array_types import Field
 from contact_scene.reading.engineering_units import (
@@ -18,7 +20,7 @@ from contact_scene.reading.engineering_units import (
 )
 
 if TYPE_CHECKING:
-    from contact_results.surface import Increment, Result
+    from contact_results.surface import Increment
 
 Above: TypeAlias = "Cells | RingsAbove"
 
@@ -49,12 +51,13 @@ class RingsAbove:
     y: Field
 
     @classmethod
-    def around_contact(cls, result: Result, rings: Rings) -> RingsAbove:
+    def around_contact(cls, steps: Sequence[Increment], rings: Rings) -> RingsAbove:
         """Create cells that cover the largest contact at the end of any load step.
 
+        steps  last increment of each load step
         rings  surface grid of the result
         """
-        touched = [_rings_with_contact(rings.scalar(step, "in_contact")) for step in result.steps]
+        touched = [_rings_with_contact(rings.scalar(step, "in_contact")) for step in steps]
         reach = RINGS_MARGIN * float(rings.radii[np.any(touched, axis=0)].max())
         centres = np.linspace(-reach, reach, RINGS_ACROSS)
         return cls(rings, centres, centres)
@@ -146,12 +149,20 @@ class MapFrame:
     unit: EngineeringUnit
 
     @classmethod
-    def around_contact(cls, result: Result, cells: Above) -> MapFrame:
+    def around_contact(cls, report: ResultReport) -> MapFrame | None:
         """Create the frame of maps that show all cells in contact at the end of any load step.
 
-        cells  surface grid of the maps
+        Fields on rings are sampled on cells. A line contact has no maps and no frame.
         """
-        touching: list[Any] = [cells.scalar(step, "in_contact") for step in result.steps]
+        steps, surface = report.steps, report.surface
+        cells: Above
+        if isinstance(surface, Rings):
+            cells = RingsAbove.around_contact(steps, surface)
+        elif surface.of_strips:
+            return None
+        else:
+            cells = surface
+        touching: list[Any] = [cells.scalar(step, "in_contact") for step in steps]
         touched = np.any(touching, axis=0)
         shown = (
             _half_extent(cells.x, touched.any(axis=1)),
