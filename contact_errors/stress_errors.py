@@ -198,7 +198,7 @@ def stress_errors(
         two = [on_half_the_elements(state, every) for every in (1, 2)]
     else:
         two = [on_wide_cells(state, shift) for shift in (0, 1)]
-    body, near = _loaded_body(state, indenter), NEAR * _traction_cell_width(state)
+    body, near = state.loaded_body(indenter), NEAR * _traction_cell_width(state)
     here = _largest_by_place(field, body, near)
     there = [
         _largest_by_place(stress_below_contact(one, indenter=indenter, depths=sampled), body, near)
@@ -265,7 +265,7 @@ def _reference_maxima(
         field = stress_on_disc(known, indenter=indenter, measures=measures)
     except (SolverError, NoSuchState):
         return None
-    return {(e.region, e.measure): e.value for e in extremes(field, _loaded_body(known, indenter))}
+    return {(e.region, e.measure): e.value for e in extremes(field, known.loaded_body(indenter))}
 
 
 def _stated(
@@ -331,11 +331,6 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
     largest = [float(np.max(values[inside & (points.depth == z)])) for z in three]
     bend, slope, _ = np.polyfit(three - levels[k], largest, 2)
     return float(slope**2 / (-2 * bend)) if bend < 0 else 0.0
-
-
-def _loaded_body(state: LoadedBodies, indenter: bool) -> Body:
-    """Return the indenter or the lower body of a contact state."""
-    return state.indenter if indenter else state.body
 
 
 def _error_per_spread(order: float) -> float:

@@ -80,13 +80,14 @@ def write_computed(
     omitted  record of the parts that cannot be computed
     figures  see `write_result`
     """
-    result, without = report.result, replace(report, errors=None)
-    warnings: tuple[str, ...] = omitted.compute("the warnings", lambda: warnings_of(result), ())
+    warnings: tuple[str, ...] = omitted.compute(
+        "the warnings", partial(warnings_of, report.result), ()
+    )
     report = omitted.compute("the load cycles", report.with_cycles, report)
     part = "the summary of load cycles and errors"
     summary = omitted.compute(part, partial(summary_of, report), None)
     if summary is None:
-        report = without
+        report = replace(report, cycles=(), errors=None)
         summary = summary_of(report)
     if report.cycles:
         add_cycle_fields(report, directory)

@@ -89,12 +89,8 @@ class RingsAbove:
         components = rings.components(fields, name)
         if components is None:
             return None
-        outward, around, ahead = (self._interpolate_rings(rings, part) for part in components)
-        _, angle = self._polar_coordinates()
-        cos, sin = np.cos(angle), np.sin(angle)
-        along, across = outward * cos - around * sin + ahead, outward * sin + around * cos
-        x, y = self.rings.direction
-        return np.stack([x * along - y * across, y * along + x * across])
+        sampled = (self._interpolate_rings(rings, part) for part in components)
+        return rings.in_scene_axes(sampled, self._polar_coordinates()[1])
 
     def _polar_coordinates(self) -> tuple[Field, Field]:
         """Return the polar coordinates of every cell centre, each of shape (nx, ny).
@@ -158,10 +154,10 @@ class MapFrame:
         cells: Above
         if isinstance(surface, Rings):
             cells = RingsAbove.around_contact(steps, surface)
-        elif surface.of_strips:
-            return None
         else:
             cells = surface
+            if cells.of_strips:
+                return None
         touching: list[Any] = [cells.scalar(step, "in_contact") for step in steps]
         touched = np.any(touching, axis=0)
         shown = (

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import AutoLocator
+from matplotlib.ticker import AutoLocator, MaxNLocator
 from matplotlib.transforms import offset_copy
 
 from contact_results.figures import style
@@ -41,9 +41,10 @@ PANEL = (2.6, 2.55)
 PLACE = (3.85, 3.45)
 MARGIN = 0.65
 TITLE = 0.3  # height of the title above the panels [inch]
-# Positions of axis labels below and beside a panel [point], and number of intervals between ticks.
-LABEL_BELOW = -19.0
-LABEL_LEFT = -30.0
+# Places of the labels of both axes in sides of a panel, and their distances from it [point].
+LABELS = ((0.5, 0.0), (0.0, 0.5))
+LABEL_SHIFTS = ((0.0, -19.0), (-30.0, 0.0))
+# Largest number of intervals between ticks.
 MAX_INTERVALS = 5
 BAR: dict[str, Any] = {"fraction": 0.05, "pad": 0.03}
 
@@ -213,14 +214,10 @@ def _place_labels(figure: Figure, panels: Iterable[Any]) -> None:
     panels  axes of matplotlib
     """
     for ax in panels:
-        below = offset_copy(ax.transAxes, figure, y=LABEL_BELOW, units="points")
-        left = offset_copy(ax.transAxes, figure, x=LABEL_LEFT, units="points")
-        ax.xaxis.set_label_coords(0.5, 0.0, below)
-        ax.yaxis.set_label_coords(0.0, 0.5, left)
-        for axis in (ax.xaxis, ax.yaxis):
-            locator = axis.get_major_locator()
-            if isinstance(locator, AutoLocator):
-                locator.set_params(nbins=MAX_INTERVALS, steps=[1, 2, 5, 10])
+        for axis, place, shift in zip((ax.xaxis, ax.yaxis), LABELS, LABEL_SHIFTS, strict=True):
+            axis.set_label_coords(*place, offset_copy(ax.transAxes, figure, *shift, "points"))
+            if isinstance(axis.get_major_locator(), AutoLocator):
+                axis.set_major_locator(MaxNLocator(MAX_INTERVALS, steps=[1, 2, 5, 10]))
 
 
 def _write_numbers(ax: Any, report: ResultReport) -> None:

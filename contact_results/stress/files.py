@@ -98,7 +98,7 @@ def write_files(
     accuracy   requested and reached accuracy; None if none was requested
     """
     of_indenter = which == "indenter"
-    body = state.indenter if of_indenter else state.body
+    body = state.loaded_body(of_indenter)
     convention = OF_THE_INDENTER if of_indenter else CONVENTION
     sizes = [e.error for e in errors] if errors else [None] * len(found)
     maxima = (

@@ -93,6 +93,10 @@ class LoadedBodies:
         """True if the tractions are given on rings, False if on cells."""
         return "radii" in self.axes
 
+    def loaded_body(self, indenter: bool) -> Body:
+        """Return the indenter or the lower body."""
+        return self.indenter if indenter else self.body
+
     def bulk_stress(self, layer: int, indenter: bool) -> Field:
         """Return the stress that the bulk strain causes in one layer or in the base.
 

@@ -107,7 +107,7 @@ class CellWindow:
     @property
     def body(self) -> Body:
         """Layers and base of the body in which the stress is computed."""
-        return self.state.indenter if self.indenter else self.state.body
+        return self.state.loaded_body(self.indenter)
 
     @property
     def far_tractions(self) -> tuple[Field, Field | None]:
@@ -274,7 +274,7 @@ def stress_on_cells(
     field = below(depths, MARGIN, volume=volume, see_edge=see_edge, section_only=section_only)
     if section_only or not np.any(state.tractions.get("shear", 0.0)):
         return field
-    found = extremes(field, state.indenter if indenter else state.body)
+    found = extremes(field, state.loaded_body(indenter))
     far = sorted({e.depth for e in found if e.at_window_edge and e.value > 0})
     if not far:
         return field
@@ -304,7 +304,9 @@ def _stress_in_window(
     if volume:
         refuse_beyond_memory(grid.cells, len(levels), COMPUTED + WRITTEN)
     edge, why = window.fit_edge(levels) if see_edge else (None, "not looked for")
-    how = _edge_record(edge, why)
+    how: dict[str, object] = {"fitted": False, "because": why}
+    if edge is not None and not why:
+        how = {"fitted": True, "points": len(edge.x), "fits_apart": edge.apart}
     columns, rows = window.computed_cells(section_only)
     rows = None if volume else rows
     if edge is not None and rows is not None:
@@ -358,17 +360,6 @@ def _sharpen_cell_means(means: Field, loaded: NDArray[np.bool_]) -> Field:
         f[..., :-1] -= flow
         f[..., 1:] += flow
     return found
-
-
-def _edge_record(edge: NearEdge | None, why: str) -> dict[str, object]:
-    """Return a record that states if the contact edge was fitted, or why not, for `stress.json`.
-
-    edge  fitted contact edge; None if there is none
-    why   cause if the edge is not determined, else empty
-    """
-    if edge is None or why:
-        return {"fitted": False, "because": why}
-    return {"fitted": True, "points": len(edge.x), "fits_apart": edge.apart}
 
 
 def _edge_points(edge: NearEdge, stress: Field) -> StressPoints:

@@ -66,7 +66,7 @@ def stress_on_disc(
     )
     if depths is not None:
         return field
-    extreme = extremes(field, state.indenter if indenter else state.body)
+    extreme = extremes(field, state.loaded_body(indenter))
     nearer = [
         body.largest(one)
         for one in extreme
