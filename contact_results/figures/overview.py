@@ -88,7 +88,7 @@ def overview(report: ResultReport, frame: MapFrame | None) -> Figure:
     if loop is not None and np.count_nonzero(loop.forces) >= LEAST_MOVES:
         draw_loop(history, loop)
     elif field and len(report.increments) == 1:
-        draw_depth(history, field, report.scene.body, field.axis, "on the axis")
+        draw_depth(history, field, field.axis, "on the axis")
     else:
         draw_loading(history, report.increments)
     if field:
@@ -189,8 +189,8 @@ def _draw_stress(
 
     axes, along  axes of matplotlib for the section and for the surface
     """
-    body, mises = report.scene.body, field.section.von_mises
-    length = draw_section(figure, axes, field, body, mises, "von Mises", bar=BAR)
+    mises = field.section.von_mises
+    length = draw_section(figure, axes, field, mises, "von Mises", bar=BAR)
     axes.set_xlabel(length.labelled(field.label))
     axes.set_ylabel(length.labelled("depth z"))
     draw_surface(along, field)

@@ -274,8 +274,7 @@ def stress_on_cells(
     field = below(depths, MARGIN, volume=volume, see_edge=see_edge, section_only=section_only)
     if section_only or not np.any(state.tractions.get("shear", 0.0)):
         return field
-    found = extremes(field, state.loaded_body(indenter))
-    far = sorted({e.depth for e in found if e.at_window_edge and e.value > 0})
+    far = sorted({e.depth for e in extremes(field) if e.at_window_edge and e.value > 0})
     if not far:
         return field
     with suppress(ResourceRefused):  # then the largest values keep the mark `at_window_edge`
@@ -326,6 +325,7 @@ def _stress_in_window(
         on_edge = _edge_points(edge, edge.stress() + state.bulk_stress(0, window.indenter)[:, None])
         fitted = FittedEdge(on_edge, edge.apart * edge.size, not why)
     return StressField(
+        window.body,
         StressPoints.concatenate(largest) if largest else section.flattened,
         fitted,
         section.add_cells(),

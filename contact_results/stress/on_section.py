@@ -56,6 +56,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
     assert section.cells is not None
     assert near.cells is not None
     return StressField(
+        body,
         section,
         None,
         near,
