@@ -60,7 +60,6 @@ from contact_results.stress.stress_maxima import (
     Extreme,
     extremes,
 )
-from contact_scene import Body
 from contact_scene.accuracy import LARGEST_TENSION
 from contact_scene.quantities.stated_error import (
     Part,
@@ -111,7 +110,7 @@ def largest_stresses(
         return {}
     field = stress_below_contact(state)
     largest: dict[str, Extreme] = {}
-    for each in sorted(extremes(field, state.body), key=lambda extreme: extreme.value):
+    for each in sorted(extremes(field), key=lambda extreme: extreme.value):
         words = each.region.split()
         region = words[1] if words[0] == "interface" else each.region
         if (name := f"{each.measure}@{region}") in names:
@@ -198,10 +197,10 @@ def stress_errors(
         two = [on_half_the_elements(state, every) for every in (1, 2)]
     else:
         two = [on_wide_cells(state, shift) for shift in (0, 1)]
-    body, near = _loaded_body(state, indenter), NEAR * _traction_cell_width(state)
-    here = _largest_by_place(field, body, near)
+    near = NEAR * _traction_cell_width(state)
+    here = _largest_by_place(field, near)
     there = [
-        _largest_by_place(stress_below_contact(one, indenter=indenter, depths=sampled), body, near)
+        _largest_by_place(stress_below_contact(one, indenter=indenter, depths=sampled), near)
         for one in two
     ]
     # The largest stress adjacent to a fitted contact edge converges with a higher order.
@@ -265,7 +264,7 @@ def _reference_maxima(
         field = stress_on_disc(known, indenter=indenter, measures=measures)
     except (SolverError, NoSuchState):
         return None
-    return {(e.region, e.measure): e.value for e in extremes(field, _loaded_body(known, indenter))}
+    return {(e.region, e.measure): e.value for e in extremes(field)}
 
 
 def _stated(
@@ -286,9 +285,7 @@ def _stated(
     return build_stated_error(parts, reason or (None if small else TOO_LARGE))
 
 
-def _largest_by_place(
-    field: StressField, body: Body, near: float
-) -> Mapping[bool, Mapping[Key, float]]:
+def _largest_by_place(field: StressField, near: float) -> Mapping[bool, Mapping[Key, float]]:
     """Find the largest stresses near the surface and, separately, those below.
 
     The two places have different convergence orders. There is one value for each region of the body
@@ -296,7 +293,6 @@ def _largest_by_place(
     near the surface are returned with the key True, those below with the key False.
 
     field  stress field
-    body   layers and substrate, which determine the regions
     near   depth that divides the points [length]
     """
     shallow, found = field.points.depth < near, {}
@@ -304,7 +300,7 @@ def _largest_by_place(
         points, edge = field.points.select(chosen), field.edge if at_edge else None
         if edge is not None and not points.x.size:
             points, edge = edge.points, None
-        each = extremes(replace(field, points=points, edge=edge), body)
+        each = extremes(replace(field, points=points, edge=edge))
         found[at_edge] = {(e.region, e.measure): e.value for e in each}
     return found
 
@@ -331,11 +327,6 @@ def _between_levels(points: StressPoints, values: Field, extreme: Extreme) -> fl
     largest = [float(np.max(values[inside & (points.depth == z)])) for z in three]
     bend, slope, _ = np.polyfit(three - levels[k], largest, 2)
     return float(slope**2 / (-2 * bend)) if bend < 0 else 0.0
-
-
-def _loaded_body(state: LoadedBodies, indenter: bool) -> Body:
-    """Return the indenter or the lower body of a contact state."""
-    return state.indenter if indenter else state.body
 
 
 def _error_per_spread(order: float) -> float:

@@ -121,7 +121,7 @@ class FrettingCycle(WithFields):
 
 # Cycles of the results that are in use, by the identity of the result: errors, files and sweeps
 # need the cycles of one result, whose computation takes up to a tenth of the solve.
-_KEPT: dict[int, tuple[weakref.ref[Any], tuple[FrettingCycle, ...]]] = {}
+_KEPT: dict[int, tuple[FrettingCycle, ...]] = {}
 
 
 def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
@@ -130,11 +130,10 @@ def fretting_cycles(result: Result) -> tuple[FrettingCycle, ...]:
     They are computed once for a result and kept as long as the result.
     """
     key = id(result)
-    if key in _KEPT and _KEPT[key][0]() is result:
-        return _KEPT[key][1]
-    found = _compute_cycles(result)
-    _KEPT[key] = weakref.ref(result, lambda _: _KEPT.pop(key, None)), found
-    return found
+    if key not in _KEPT:
+        _KEPT[key] = _compute_cycles(result)
+        weakref.finalize(result, _KEPT.pop, key)
+    return _KEPT[key]
 
 
 def _compute_cycles(result: Result) -> tuple[FrettingCycle, ...]:

@@ -6,11 +6,19 @@ Each number has a suitable unit and its stated error. Round-off is shown as zero
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from contact_results.number_text import Uncertainty, number_text, uncertainty, unit_group
+from contact_results.number_text import (
+    Uncertainty,
+    doubt_texts,
+    number_text,
+    uncertainty,
+    unit_group,
+)
+from contact_results.radial_method import radial_advice
+from contact_results.result_report import ResultReport
 from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.increment import (
     SCALARS,
@@ -22,9 +30,6 @@ from contact_scene.quantities.per_length import shown_name, shown_unit
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.reading.engineering_units import EngineeringUnit, engineering_unit
-
-if TYPE_CHECKING:
-    from contact_results.cycles import FrettingCycle
 
 # steps shown of a long history
 FIRST = 10
@@ -194,22 +199,16 @@ PRODUCTS = {
 }
 
 
-def cycle_columns(
-    cycles: Sequence[FrettingCycle],
-    errors: Sequence[Errors] | None = None,
-    *,
-    line: bool = False,
-) -> dict[str, list[str]]:
+def cycle_columns(report: ResultReport) -> dict[str, list[str]]:
     """Return the table of closed load cycles with one row per cycle, as columns by heading.
 
-    A long history shows its first and last cycles.
-
-    errors  stated errors of the scalars of every load step, by name; None if they were not computed
-    line    True for a line contact, whose energies and forces are per length
+    A long history shows its first and last cycles. The table is empty without load cycles.
     """
-    shown, gap = _select_rows(cycles)
+    if not report.cycles:
+        return {}
+    shown, gap = _select_rows(report.cycles)
     rows = [cycle.numbers for cycle in shown]
-    stated = [errors[cycle.cycle.end - 1] if errors is not None else {} for cycle in shown]
+    stated = [report.errors_of(cycle) for cycle in shown]
     first = {
         "cycle": [
             f"{cycle.cycle.start + 1}–{cycle.cycle.end}{' (first)' * row['from_virgin']}"
@@ -227,6 +226,16 @@ def cycle_columns(
                 continue
             bars = [uncertainty(of_step.get(name), axis) for of_step in stated]
             heading = f"{symbol} {axis}".strip()
-            unit = shown_unit(mark.unit, line=line)
+            unit = shown_unit(mark.unit, line=report.scene.indenter.is_line)
             columns.append(_Column(heading, heading, unit, [*zip(values, bars, strict=True)]))
     return _column_texts(first, columns, gap)
+
+
+def doubts_of(report: ResultReport) -> list[str]:
+    """Return the reasons of the question marks in the tables, and advice on another solver.
+
+    The advice is given beside a question mark, or if a requested accuracy is not met.
+    """
+    doubts = doubt_texts(report.step_errors or (), SHOWN)
+    doubted = bool(doubts) or (report.accuracy is not None and not report.accuracy.met)
+    return [*doubts, *radial_advice(report.scene, report.result.solver, doubted=doubted)]

@@ -66,8 +66,7 @@ def write_stress(
             from contact_results.figures.stress_plot import write_stress_figures
 
             title = f"{state.title or 'Stress'}: {which}, step {state.step}"
-            body = state.indenter if which == "indenter" else state.body
-            names = write_stress_figures(field, body, staging, title)
+            names = write_stress_figures(field, staging, title)
             write_stress_page(maxima_columns(found, errors), title, names, staging, doubts)
 
 

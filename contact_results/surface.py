@@ -7,7 +7,7 @@ of all solvers through `Surface`, which is one of the two.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -240,8 +240,16 @@ class Rings:
         components = self.components(increment, name)
         if components is None:
             return None
-        outward, around, ahead = components
         angles = np.zeros_like(self.radii) if self.angles is None else self.angles
+        return self.in_scene_axes(components, angles)
+
+    def in_scene_axes(self, components: Iterable[Field], angles: Field) -> Field:
+        """Transform vectors on rings to x and y components (2, …).
+
+        components  radial, circumferential and along-load components (3, …)
+        angles      angles from the direction of the tangential load [radian]
+        """
+        outward, around, ahead = components
         cos, sin = np.cos(angles), np.where(angles == np.pi, 0.0, np.sin(angles))
         return self._rotate_from_load_axes(
             np.stack([outward * cos - around * sin + ahead, outward * sin + around * cos])

@@ -310,7 +310,7 @@ class LoadFactorSearch:
             state = self._state(result, end.step)
             for which in {body for body, _, _ in self.wanted}:
                 stress = stress_below_contact(state, indenter=which == "indenter")
-                for one in extremes(stress, getattr(state, which)):
+                for one in extremes(stress):
                     key = which, one.region, one.measure
                     smallest = found[key][0].value if key in found else 0.0
                     if key in self.wanted and one.value > smallest:

@@ -21,9 +21,9 @@ import numpy as np
 from scipy.special import ndtri
 
 from contact_errors.stress_errors import largest_stresses
-from contact_results.cycles import fretting_cycles
 from contact_results.files.summary_file import summary_of
 from contact_results.number_text import uncertainty
+from contact_results.result_report import ResultReport
 from contact_results.stress.points import MEASURES, ON_INTERFACES, layer_name
 from contact_results.stress.stress_maxima import SURFACE, interface_sides
 from contact_scene import Body, SceneError, read_scene_file
@@ -211,7 +211,7 @@ class SweepPoint:
         result  result of the solve of the sweep point
         """
         stated = stated_errors(result) if self.with_error else None
-        end = summary_of(result, fretting_cycles(result), stated).steps[-1]
+        end = summary_of(ResultReport.of(result, stated).with_cycles()).steps[-1]
         line = result.scene.indenter.is_line
         for name, (stem, axis, si) in SCALARS.items():
             unit = shown_unit(si, line=line)

@@ -207,7 +207,7 @@ def test_a_cycle_at_constant_shift_has_numbers_and_no_ratio_over_its_range(
 
 
 PARTS = {
-    "the load cycles": "contact_results.result_files.fretting_cycles",
+    "the load cycles": "contact_results.result_report.fretting_cycles",
     "the errors": "contact_errors.coarse_solves.compare_with_coarse_solves",
     "the tables": "contact_results.files.tables.write_profiles",
     "the figures": "contact_results.figures.figure_files.overview",

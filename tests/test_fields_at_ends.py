@@ -22,6 +22,7 @@ from contact_results.directory.file_names import FIELDS, INCREMENTS, SUMMARY
 from contact_results.files import stored_run
 from contact_results.files.field_file import write_fields
 from contact_results.result_files import write_result
+from contact_results.result_report import ResultReport
 from contact_scene import (
     Body,
     CoulombFriction,
@@ -117,7 +118,7 @@ def test_fields_that_stay_are_those_of_every_increment(tmp_path):
     """Pressures while the load rests are packed once, between others that are not."""
     lighter = {"normal_force": 0.5 * LOAD, "increments": 2}
     result = solve(scene(PRESS, push(0.2, increments=3), lighter, push(-0.2)), grid(16), 1e-8)
-    write_fields(result, tmp_path, all_fields=True)
+    write_fields(ResultReport.of(result), tmp_path, all_fields=True)
     assert len(result.increments) == 7
     with h5py.File(tmp_path / FIELDS) as file:
         for name in ("pressure", "in_contact", "gap", "shear", "slip"):

@@ -20,7 +20,7 @@ import semi_analytical
 from contact_errors.on_elements import ElementSolver
 from contact_errors.on_radii import RingSolver
 from contact_results.figures.profile_plot import profile_plot
-from contact_results.surface import surface_of
+from contact_results.result_report import ResultReport
 from contact_scene import (
     RIGID,
     Body,
@@ -407,6 +407,6 @@ def test_the_profile_shows_the_limit_of_a_map(solve, load: LoadStep) -> None:
     bands = []
     for mu in (0.1, radial_map(lambda x: 0.2 + 1e-6 * x**2)):
         result = solve(with_friction(asked, mu))
-        (band,) = profile_plot(result, surface_of(result)).axes[1].collections
+        (band,) = profile_plot(ResultReport.of(result)).axes[1].collections
         bands.append(np.max(band.get_paths()[0].vertices[:, 1]))
     assert bands[1] == pytest.approx(2 * bands[0], rel=1e-2)

@@ -10,8 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
 from synthetic_result import MU, synthetic_result
 
-from contact_results.figures.figure_files import seen_from_above
-from contact_results.figures.map_panels import RingsAbove
+from contact_results.figures.map_panels import MapFrame, RingsAbove
 from contact_results.figures.maps import field_map, latest_slip, stick_slip_map
 from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE, overview
 from contact_results.figures.profile_plot import profile_plot
@@ -19,6 +18,7 @@ from contact_results.figures.run_page import write_page
 from contact_results.figures.style import figure_style
 from contact_results.key_numbers import key_numbers
 from contact_results.number_text import Uncertainty, number_text
+from contact_results.result_report import ResultReport
 from contact_results.surface import Rings
 from contact_scene.quantities.stated_error import ErrorStatus, StatedError
 
@@ -97,16 +97,23 @@ def test_a_component_is_shown_with_its_own_error() -> None:
     assert " ? " in dict(key_numbers(pushed, {"approach": unknown}))["approach"]
 
 
+def frame_of(report: ResultReport) -> MapFrame:
+    frame = MapFrame.around_contact(report)
+    assert frame is not None
+    return frame
+
+
 def test_a_map_has_every_cell_at_its_place_and_a_profile_the_limit_of_its_last_step() -> None:
     whole: Any = synthetic_result()
     result = ended(whole, pressure=whole.increments[-1].pressure / 2)
-    cells, end = seen_from_above(result), result.steps[-1]
+    report, end = ResultReport.of(result), result.steps[-1]
     with figure_style():
-        drawn = field_map(result, cells, "pressure").axes[2].images[0].get_array().filled(0.0)
-        (band,) = profile_plot(result, cells).axes[1].collections
+        figure: Any = field_map(report, frame_of(report), "pressure")
+        drawn = figure.axes[2].images[0].get_array().filled(0.0)
+        (band,) = profile_plot(report).axes[1].collections
     np.testing.assert_allclose(1e9 * drawn, end.pressure.T)
     highest = 1e6 * np.max(band.get_paths()[0].vertices[:, 1])
-    assert highest == pytest.approx(MU * np.max(cells.along(end.pressure)))
+    assert highest == pytest.approx(MU * np.max(report.surface.along(end.pressure)))
 
 
 def arrows(figure: Figure) -> list[tuple[Any, Quiver]]:
@@ -115,29 +122,31 @@ def arrows(figure: Figure) -> list[tuple[Any, Quiver]]:
 
 def test_arrows_of_the_latest_slip_oppose_the_shear_where_it_slips() -> None:
     result: Any = synthetic_result()
-    cells = seen_from_above(result)
+    report = ResultReport.of(result)
+    frame = frame_of(report)
     with figure_style():
-        figure = stick_slip_map(result, cells)
+        figure = stick_slip_map(report, frame)
     drawn = [(ax.get_title().partition(":")[0], arrow) for ax, arrow in arrows(figure)]
     assert drawn
     for title, arrow in drawn:
         step = result.steps[int(title.split()[1]) - 1]
         i, j = (
             np.argmin(np.abs(np.subtract.outer(at, 1e3 * centres)), axis=1)
-            for at, centres in ((arrow.X, cells.x), (arrow.Y, cells.y))
+            for at, centres in ((arrow.X, frame.cells.x), (arrow.Y, frame.cells.y))
         )
         q_x, q_y = step.shear[:, i, j]
         assert np.all(arrow.U * q_x + arrow.V * q_y < 0)
         assert np.all(step.in_contact[i, j] & ~step.in_stick[i, j])
-    slips = [latest_slip(result, cells, i) for i in result.increments if i.slip is not None]
+    slips = [latest_slip(report, frame.cells, i) for i in result.increments if i.slip is not None]
     assert len(slips) > 2
     np.testing.assert_allclose(sum(slips), result.increments[-1].slip)
 
 
 def test_the_overview_begins_with_the_profile_and_ends_with_the_last_numbers() -> None:
     result: Any = synthetic_result()
+    report = ResultReport.of(result)
     with figure_style():
-        figure = overview(result, seen_from_above(result))
+        figure = overview(report, frame_of(report))
     (numbers,) = (ax for ax in figure.axes if ax.texts and "status" in ax.texts[0].get_text())
     assert figure.axes[0].get_position().y0 > numbers.get_position().y1
     shown = numbers.texts[0].get_text().splitlines()
@@ -150,7 +159,7 @@ def test_a_page_shows_every_panel_of_the_overview_but_the_key_numbers(columns, t
     with figure_style():
         figure = Figure(figsize=(columns * PLACE[0], 2 * PLACE[1] + TITLE))
         figure.savefig(tmp_path / "overview.png", dpi=DOTS_PER_INCH)
-    write_page(result, tmp_path)
+    write_page(ResultReport.of(result), tmp_path)
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert re.findall(r'aria-label="panel (\d)', page) == [*"12345"[: 2 * columns - 1]]
     across = re.findall(r"background-position:(\d+)%", page)

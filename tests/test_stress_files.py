@@ -59,7 +59,7 @@ def written(
 ) -> dict[str, Path]:
     places = {name: tmp_path_factory.mktemp("stress") for name in fields}
     for name, field in fields.items():
-        found = extremes(field, COATED)
+        found = extremes(field)
         write_stress(STATES[name], "body", field, found, places[name], with_figures=False)
     return places
 
@@ -140,7 +140,7 @@ def test_a_coated_body_has_a_panel_of_its_interface(fields, solver: str) -> None
     """It has the stress that bends the coating, and those that act from both sides."""
     field, depth = fields[solver], COATED.layers[0].thickness
     with figure_style():
-        panel = line_plot(field, COATED, "").axes[3]
+        panel = line_plot(field, "").axes[3]
     shown = {line.get_label(): line for line in panel.lines}
     drawn = {"σxx above": ("xx", 0), "σxx below": ("xx", 1), "σzz": ("zz", 0), "σxz": ("xz", 0)}
     for label, (component, material) in drawn.items():

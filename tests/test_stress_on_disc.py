@@ -112,7 +112,7 @@ def test_an_interface_carries_what_it_is_given(
 def field_of(scene: Scene) -> tuple[StressField, tuple[Extreme, ...], tuple[StatedError, ...]]:
     state = state_of_result(radial.solve(scene), None)
     field = stress_on_disc(state)
-    found = extremes(field, scene.body)
+    found = extremes(field)
     return field, found, stress_errors(state, field, found)
 
 

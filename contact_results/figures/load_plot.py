@@ -14,7 +14,7 @@ from contact_scene.quantities.per_length import shown_unit
 from contact_scene.reading.engineering_units import quantity
 
 if TYPE_CHECKING:
-    from contact_results.surface import Increment, Result
+    from contact_results.surface import Increment
 
 Values = NDArray[np.float64]
 
@@ -116,17 +116,17 @@ def _direction_name(direction: Values) -> str:
     return names.get(round(degrees, 3), f"at {degrees:.1f}° to x")
 
 
-def draw_loading(ax: Any, result: Result) -> None:
+def draw_loading(ax: Any, increments: Sequence[Increment]) -> None:
     """Draw normal force over approach at the end of every increment, from the first contact.
 
     Without an approach the contact radius takes its place.
 
     ax  axes of matplotlib
     """
-    end, given = result.increments[-1], "approach"
+    end, given = increments[-1], "approach"
     if end.approach is None:
         given = "contact_radius"
-    path = [(0.0, 0.0), *((getattr(i, given) or 0.0, i.normal_force) for i in result.increments)]
+    path = [(0.0, 0.0), *((getattr(i, given) or 0.0, i.normal_force) for i in increments)]
     motion, force = np.array(path).T
     x, along = scale_for_axis(given, motion, line=end.is_line)
     y, upward = scale_for_axis("normal_force", force, "W", line=end.is_line)

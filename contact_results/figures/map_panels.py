@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -10,6 +11,7 @@ import numpy as np
 from matplotlib.figure import FigureBase
 from numpy.typing import NDArray
 
+from contact_results.result_report import ResultReport
 from contact_results.surface import Cells, Rings
 from contact_scene.array_types import Field
 from contact_scene.reading.engineering_units import (
@@ -18,7 +20,7 @@ from contact_scene.reading.engineering_units import (
 )
 
 if TYPE_CHECKING:
-    from contact_results.surface import Increment, Result
+    from contact_results.surface import Increment
 
 Above: TypeAlias = "Cells | RingsAbove"
 
@@ -49,12 +51,13 @@ class RingsAbove:
     y: Field
 
     @classmethod
-    def around_contact(cls, result: Result, rings: Rings) -> RingsAbove:
+    def around_contact(cls, steps: Sequence[Increment], rings: Rings) -> RingsAbove:
         """Create cells that cover the largest contact at the end of any load step.
 
+        steps  last increment of each load step
         rings  surface grid of the result
         """
-        touched = [_rings_with_contact(rings.scalar(step, "in_contact")) for step in result.steps]
+        touched = [_rings_with_contact(rings.scalar(step, "in_contact")) for step in steps]
         reach = RINGS_MARGIN * float(rings.radii[np.any(touched, axis=0)].max())
         centres = np.linspace(-reach, reach, RINGS_ACROSS)
         return cls(rings, centres, centres)
@@ -86,12 +89,8 @@ class RingsAbove:
         components = rings.components(fields, name)
         if components is None:
             return None
-        outward, around, ahead = (self._interpolate_rings(rings, part) for part in components)
-        _, angle = self._polar_coordinates()
-        cos, sin = np.cos(angle), np.sin(angle)
-        along, across = outward * cos - around * sin + ahead, outward * sin + around * cos
-        x, y = self.rings.direction
-        return np.stack([x * along - y * across, y * along + x * across])
+        sampled = (self._interpolate_rings(rings, part) for part in components)
+        return rings.in_scene_axes(sampled, self._polar_coordinates()[1])
 
     def _polar_coordinates(self) -> tuple[Field, Field]:
         """Return the polar coordinates of every cell centre, each of shape (nx, ny).
@@ -146,12 +145,20 @@ class MapFrame:
     unit: EngineeringUnit
 
     @classmethod
-    def around_contact(cls, result: Result, cells: Above) -> MapFrame:
+    def around_contact(cls, report: ResultReport) -> MapFrame | None:
         """Create the frame of maps that show all cells in contact at the end of any load step.
 
-        cells  surface grid of the maps
+        Fields on rings are sampled on cells. A line contact has no maps and no frame.
         """
-        touching: list[Any] = [cells.scalar(step, "in_contact") for step in result.steps]
+        steps, surface = report.steps, report.surface
+        cells: Above
+        if isinstance(surface, Rings):
+            cells = RingsAbove.around_contact(steps, surface)
+        else:
+            cells = surface
+            if cells.of_strips:
+                return None
+        touching: list[Any] = [cells.scalar(step, "in_contact") for step in steps]
         touched = np.any(touching, axis=0)
         shown = (
             _half_extent(cells.x, touched.any(axis=1)),

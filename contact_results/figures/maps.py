@@ -22,6 +22,7 @@ from contact_results.figures.map_panels import (
     outline,
 )
 from contact_results.figures.shown_steps import select_steps, step_title
+from contact_results.result_report import ResultReport
 from contact_scene.array_types import Field
 from contact_scene.reading.engineering_units import (
     EngineeringUnit,
@@ -29,7 +30,7 @@ from contact_scene.reading.engineering_units import (
 )
 
 if TYPE_CHECKING:
-    from contact_results.surface import Cells, Increment, Result
+    from contact_results.surface import Increment
 
 
 # Label, SI unit, and True for vectors, of each field with a map.
@@ -60,20 +61,19 @@ def draw_panel(ax: Any, frame: MapFrame, title: str, values: Field, largest: flo
     return draw_cells(ax, frame, values, cmap=style.MAGNITUDE_MAP, vmin=0.0, vmax=largest)
 
 
-def field_map(result: Result, cells: Above, name: str) -> Figure | None:
+def field_map(report: ResultReport, frame: MapFrame, name: str) -> Figure | None:
     """Draw maps of a surface field at the ends of load steps, with the border of the stick zone.
 
     A vector is drawn by its magnitude in colours, and by arrows.
 
-    cells  surface grid of the maps
-    name   name of the field, see `FIELDS`
+    name  name of the field, see `FIELDS`
 
     Returns None if the field is missing or zero at the ends of all load steps.
     """
-    frame = MapFrame.around_contact(result, cells)
+    cells = frame.cells
     label, symbol, is_vector = FIELDS[name]
     read = cells.vector if is_vector else cells.scalar
-    given = [(step, read(step, name)) for step in result.steps]
+    given = [(step, read(step, name)) for step in report.steps]
     shown = select_steps(
         [(step, field) for step, field in given if field is not None and field.any()]
     )
@@ -99,12 +99,11 @@ def field_map(result: Result, cells: Above, name: str) -> Figure | None:
     return figure
 
 
-def fretting_map(result: Result, cells: Cells, cycle: FrettingCycle) -> Figure:
+def fretting_map(frame: MapFrame, cycle: FrettingCycle) -> Figure:
     """Draw maps of slip amplitude, dissipated energy and Ruiz's parameters of one load cycle.
 
     Each map has a separate colour scale.
     """
-    frame = MapFrame.around_contact(result, cells)
     fields = list(_cycle_fields(cycle))
     width, height = frame.figure_size(len(fields))
     columns = 2 if len(fields) == 4 else 3
@@ -140,19 +139,16 @@ def _cycle_fields(cycle: FrettingCycle) -> Iterator[tuple[str, EngineeringUnit, 
         yield "Ruiz F₂ = σₜ τ δ", EngineeringUnit(10.0**exponent, name), cycle.ruiz_f2
 
 
-def stick_slip_map(result: Result, cells: Above) -> Figure:
+def stick_slip_map(report: ResultReport, frame: MapFrame) -> Figure:
     """Draw the stick and slip zones at the ends of load steps, with arrows of the slip.
 
     The arrows show the slip in the last increment of each load step.
-
-    cells  surface grid of the maps
     """
-    frame = MapFrame.around_contact(result, cells)
-    steps = select_steps([step for step in result.steps if step.in_stick is not None])
+    steps = select_steps([step for step in report.steps if step.in_stick is not None])
     width, height = frame.figure_size(len(steps))
     figure = style.new_figure(width - 0.6, height + 0.3)  # a legend instead of a colour bar
     for ax, step in zip(map_axes(figure, frame, len(steps)), steps, strict=True):
-        draw_zones(ax, frame, result, step)
+        draw_zones(ax, frame, report, step)
         ax.set_title(step_title(step))
     figure.supylabel("arrows: slip in the last increment", fontsize=style.CAPTION_SIZE)
     figure.legend(handles=zone_patches(), loc="outside upper center", ncols=len(ZONES))
@@ -164,7 +160,7 @@ def zone_patches() -> list[Patch]:
     return [Patch(facecolor=c, edgecolor=style.GREY, label=name) for name, c in ZONES]
 
 
-def draw_zones(ax: Any, frame: MapFrame, result: Result, step: Increment) -> None:
+def draw_zones(ax: Any, frame: MapFrame, report: ResultReport, step: Increment) -> None:
     """Draw the stick and slip zones at the end of a load step, with arrows of its latest slip.
 
     ax     axes of matplotlib
@@ -179,12 +175,12 @@ def draw_zones(ax: Any, frame: MapFrame, result: Result, step: Increment) -> Non
     # Index of the zone in ZONES; stick implies contact.
     zone = touching.astype(int) + (touching & sticking).astype(int)
     draw_cells(ax, frame, zone, cmap=colours, vmin=0, vmax=len(ZONES) - 1)
-    slip = latest_slip(result, frame.cells, step)
+    slip = latest_slip(report, frame.cells, step)
     if slip is not None:
         draw_arrows(ax, frame, slip, touching & ~sticking, "black")
 
 
-def latest_slip(result: Result, cells: Above, step: Increment) -> Field | None:
+def latest_slip(report: ResultReport, cells: Above, step: Increment) -> Field | None:
     """Compute the slip within one increment (2, nx, ny) [length].
 
     This slip opposes the shear. Returns None if the increment has no slip.
@@ -193,6 +189,6 @@ def latest_slip(result: Result, cells: Above, step: Increment) -> Field | None:
     step   increment of the result
     """
     now = cells.vector(step, "slip")
-    number = next(n for n, increment in enumerate(result.increments) if increment is step)
-    before = cells.vector(result.increments[number - 1], "slip") if number else None
+    number = next(n for n, increment in enumerate(report.increments) if increment is step)
+    before = cells.vector(report.increments[number - 1], "slip") if number else None
     return now if now is None or before is None else now - before

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import AutoLocator, MaxNLocator
+from matplotlib.transforms import offset_copy
 
 from contact_results.figures import style
 from contact_results.figures.load_plot import draw_loading, draw_loop, load_loop
-from contact_results.figures.map_panels import Above, MapFrame
+from contact_results.figures.map_panels import MapFrame
 from contact_results.figures.maps import draw_panel, draw_zones, zone_patches
 from contact_results.figures.profile_plot import draw_end, draw_slip
 from contact_results.figures.section_panel import draw_section, stretches
 from contact_results.figures.stress_plot import draw_depth, draw_surface
 from contact_results.key_numbers import key_numbers
-from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
-from contact_results.surface import Cells, surface_of
-from contact_scene.quantities.stated_error import StatedError
+from contact_results.result_report import ResultReport
+from contact_results.stress.loaded_bodies import LoadedBodies, loaded_bodies
+from contact_results.surface import Cells
 from contact_scene.reading.engineering_units import (
     engineering_unit,
     quantity,
@@ -28,7 +30,6 @@ from contact_scene.reading.engineering_units import (
 
 if TYPE_CHECKING:
     from contact_results.stress.points import StressField
-    from contact_results.surface import Result
 
 LEAST_MOVES = 3  # smallest number of increments with tangential load for a loop
 # Largest number of cells along a side for the stress, which then takes less than a second.
@@ -40,29 +41,29 @@ PANEL = (2.6, 2.55)
 PLACE = (3.85, 3.45)
 MARGIN = 0.65
 TITLE = 0.3  # height of the title above the panels [inch]
+# Places of the labels of both axes in sides of a panel, and their distances from it [point].
+LABELS = ((0.5, 0.0), (0.0, 0.5))
+LABEL_SHIFTS = ((0.0, -19.0), (-30.0, 0.0))
+# Largest number of intervals between ticks.
+MAX_INTERVALS = 5
 BAR: dict[str, Any] = {"fraction": 0.05, "pad": 0.03}
 
 
-def overview(
-    result: Result,
-    above: Above,
-    errors: Mapping[str, StatedError] | None = None,
-) -> Figure:
+def overview(report: ResultReport, frame: MapFrame | None) -> Figure:
     """Draw the overview: profile, zones, history, stress on section and surface, key numbers.
 
     A result with a single increment has the stress on the z axis instead of a history. The stress
     is omitted if `section_stress` is None. Call within `figure_style`.
 
-    above   surface grid of the maps
-    errors  stated errors of the last load step; None if they were not computed
+    frame  frame of the map; None for a line contact
     """
-    field = section_stress(result)
+    field = section_stress(report)
     columns = 3 if field else 2
     width, height = columns * PLACE[0], 2 * PLACE[1] + TITLE
     figure = style.new_figure(width, height, arranged=False)
-    title = result.scene.title or "Contact"
+    title = report.scene.title or "Contact"
     figure.suptitle(
-        fill(f"{title}: end of step {result.steps[-1].step}", 120 if field else 80),
+        fill(f"{title}: end of step {report.steps[-1].step}", 120 if field else 80),
         fontsize=9.0,
         parse_math=False,
     )
@@ -78,23 +79,27 @@ def overview(
         for row in (0, 1)
         for column in range(columns)
     )
-    draw_end(profile, result, surface_of(result))
-    _draw_surface_map(figure, zones, result, above)
-    loop = load_loop(result.increments)
+    draw_end(profile, report)
+    if frame is None:
+        draw_slip(zones, report)
+    else:
+        _draw_surface_map(figure, zones, report, frame)
+    loop = load_loop(report.increments)
     if loop is not None and np.count_nonzero(loop.forces) >= LEAST_MOVES:
         draw_loop(history, loop)
-    elif field and len(result.increments) == 1:
-        draw_depth(history, field, result.scene.body, field.axis, "on the axis")
+    elif field and len(report.increments) == 1:
+        draw_depth(history, field, field.axis, "on the axis")
     else:
-        draw_loading(history, result)
+        draw_loading(history, report.increments)
     if field:
         section, surface = stressed
-        _draw_stress(figure, section, surface, result, field)
-    _write_numbers(numbers, result, errors)
+        _draw_stress(figure, section, surface, report, field)
+    _write_numbers(numbers, report)
+    _place_labels(figure, (profile, zones, history, *stressed))
     return figure
 
 
-def section_stress(result: Result) -> StressField | None:
+def section_stress(report: ResultReport) -> StressField | None:
     """Compute the stress in the lower body under the final tractions, for the overview.
 
     On cells, the tractions are averaged to at most `MAX_CELLS` cells along a side, and the contact
@@ -104,26 +109,26 @@ def section_stress(result: Result) -> StressField | None:
     - if the numbers of cells have no small common divisor,
     - for shear of the radial solver.
     """
-    if not result.scene.body.deforms or not result.steps[-1].contact_area:
+    state = loaded_bodies(report.result, report.surface, report.steps[-1])
+    if state is None or not state.body.deforms:
         return None
-    state = state_of_result(result, None)
     if state.pressed is not None:
         if len(state.tractions) > 1:
             return None
         from contact_results.stress.on_disc import stress_on_disc
 
         return stress_on_disc(state)
-    if not isinstance(surface_of(result), Cells):
+    if state.on_rings:
         return None
-    if not result.scene.indenter.is_line:
+    if not report.scene.indenter.is_line:
         state = coarser(state, MAX_CELLS)
         if max(state.tractions["pressure"].shape) > MAX_CELLS:
             return None
     from contact_results.stress.on_cells import stress_on_cells
     from semi_analytical.stress import default_depths
 
-    radius = result.steps[-1].contact_radius
-    levels = default_depths(state.body, radius)
+    assert state.contact_radius is not None
+    levels = default_depths(state.body, state.contact_radius)
     depths = {level.depth for level in levels[::EVERY]}
     if stretches(state.body, levels[-1].depth):
         depths |= {level.depth for level in levels if level.layer < len(state.body.layers)}
@@ -153,27 +158,21 @@ def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
     return state
 
 
-def _draw_surface_map(figure: Figure, ax: Any, result: Result, above: Above) -> None:
+def _draw_surface_map(figure: Figure, ax: Any, report: ResultReport, frame: MapFrame) -> None:
     """Draw the map of the overview: stick and slip zones, or the pressure without friction.
 
-    A line contact has the profile of the slip instead.
-
-    ax     axes of matplotlib
-    above  surface grid of the map
+    ax  axes of matplotlib
     """
-    if isinstance(above, Cells) and above.of_strips:
-        draw_slip(ax, result, above)
-        return
-    end, frame = result.steps[-1], MapFrame.around_contact(result, above)
+    end = report.steps[-1]
     frame.show(ax)
     ax.set_xlabel(frame.unit.labelled("x"))
     ax.set_ylabel(frame.unit.labelled("y"))
-    if above.scalar(end, "in_stick") is not None:
-        draw_zones(ax, frame, result, end)
+    if end.in_stick is not None:
+        draw_zones(ax, frame, report, end)
         style.legend_above(ax, handles=zone_patches())
         ax.set_xlabel(frame.unit.labelled("x") + "; arrows: slip in the last increment")
         return
-    pressure = above.scalar(end, "pressure")
+    pressure = frame.cells.scalar(end, "pressure")
     assert pressure is not None
     unit = engineering_unit(float(np.max(pressure)), "Pa")
     seen = np.where(pressure > 0, pressure / unit.size, np.nan)
@@ -181,19 +180,21 @@ def _draw_surface_map(figure: Figure, ax: Any, result: Result, above: Above) -> 
     figure.colorbar(image, ax=ax, label=unit.labelled("pressure p"), **BAR)
 
 
-def _draw_stress(figure: Figure, axes: Any, along: Any, result: Result, field: StressField) -> None:
+def _draw_stress(
+    figure: Figure, axes: Any, along: Any, report: ResultReport, field: StressField
+) -> None:
     """Draw the von Mises stress on the section, and the stress along the surface, for the overview.
 
     A note states if the contact edge was not fitted on cells.
 
     axes, along  axes of matplotlib for the section and for the surface
     """
-    body, mises = result.scene.body, field.section.von_mises
-    length = draw_section(figure, axes, field, body, mises, "von Mises", bar=BAR)
+    mises = field.section.von_mises
+    length = draw_section(figure, axes, field, mises, "von Mises", bar=BAR)
     axes.set_xlabel(length.labelled(field.label))
     axes.set_ylabel(length.labelled("depth z"))
     draw_surface(along, field)
-    if (field.edge is None or not field.edge.determined) and isinstance(surface_of(result), Cells):
+    if (field.edge is None or not field.edge.determined) and isinstance(report.surface, Cells):
         cell = float(np.diff(field.section.x.ravel()[:2])[0])
         along.text(
             0.5,
@@ -205,14 +206,27 @@ def _draw_stress(figure: Figure, axes: Any, along: Any, result: Result, field: S
         )
 
 
-def _write_numbers(ax: Any, result: Result, errors: Mapping[str, StatedError] | None) -> None:
+def _place_labels(figure: Figure, panels: Iterable[Any]) -> None:
+    """Place axis labels at fixed distances, and limit the ticks.
+
+    matplotlib places labels by a second layout of all tick labels, a sixth of the drawing time.
+
+    panels  axes of matplotlib
+    """
+    for ax in panels:
+        for axis, place, shift in zip((ax.xaxis, ax.yaxis), LABELS, LABEL_SHIFTS, strict=True):
+            axis.set_label_coords(*place, offset_copy(ax.transAxes, figure, *shift, "points"))
+            if isinstance(axis.get_major_locator(), AutoLocator):
+                axis.set_major_locator(MaxNLocator(MAX_INTERVALS, steps=[1, 2, 5, 10]))
+
+
+def _write_numbers(ax: Any, report: ResultReport) -> None:
     """Write status and key numbers of the last load step into a panel of the overview.
 
-    ax      axes of matplotlib
-    errors  stated errors of the last load step; None if they were not computed
+    ax  axes of matplotlib
     """
     ax.set_axis_off()
-    lines = [f"status: {result.steps[-1].status.value}"]
-    lines += [f"{name}: {text}" for name, text in key_numbers(result.steps, errors)]
-    lines += [] if errors else ["errors not stated"]
+    lines = [f"status: {report.steps[-1].status.value}"]
+    lines += [f"{name}: {text}" for name, text in key_numbers(report.steps, report.end_errors)]
+    lines += [] if report.end_errors else ["errors not stated"]
     ax.text(0.0, 1.1, "\n".join(lines), va="top", linespacing=1.35, parse_math=False)

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from contact_results.figures import style
 from contact_results.figures.shown_steps import SAME, select_steps
+from contact_results.result_report import ResultReport
 from contact_results.surface import Cells
 from contact_scene.friction import FRICTIONLESS, CoulombFriction
 from contact_scene.reading.engineering_units import (
@@ -18,7 +19,7 @@ from contact_scene.reading.engineering_units import (
 )
 
 if TYPE_CHECKING:
-    from contact_results.surface import Increment, Result, Surface
+    from contact_results.surface import Increment, Surface
     from contact_scene.array_types import Field
 
 MARGIN = 1.15  # half length of the line, relative to the extent of the contact
@@ -37,19 +38,19 @@ class Curves(NamedTuple):
     unit: EngineeringUnit
 
 
-def profile_plot(result: Result, surface: Surface) -> Figure:
+def profile_plot(report: ResultReport) -> Figure:
     """Draw profiles of pressure and shear at the ends of load steps, one panel per component.
 
     The panels of shear show the friction limit ± µp at the end of the history. Components that are
     zero have no panel.
     """
-    steps: list[Increment] = select_steps([*result.steps])
+    steps, surface = select_steps(report.steps), report.surface
     shears = _shear_curves(surface, steps)
     figure = style.new_figure(6.0, 3.2 + 2.4 * len(shears))
     axes = figure.subplots(1 + len(shears), 1, sharex=True, squeeze=False)[:, 0]
-    length = _line_axis(axes[-1], result, surface)
+    length = _line_axis(axes[-1], report)
     x = surface.profile_line.places / length.size
-    limit = _friction_limit(result.scene.friction or FRICTIONLESS, steps[-1], surface)
+    limit = _friction_limit(report.scene.friction or FRICTIONLESS, steps[-1], surface)
     for ax, curves in zip(axes, (_pressure_curves(surface, steps), *shears), strict=True):
         if ax is not axes[0]:
             bound = surface.along(limit) / curves.unit.size
@@ -75,7 +76,7 @@ def _friction_limit(friction: CoulombFriction, end: Increment, surface: Surface)
     return friction.at_radii(surface.radii.reshape(-1, *(1,) * (p.ndim - 1))).limit(p)
 
 
-def draw_end(ax: Any, result: Result, surface: Surface) -> None:
+def draw_end(ax: Any, report: ResultReport) -> None:
     """Draw pressure p and shear over coefficient of friction, q/µ, at the end of the history.
 
     The curves coincide in the slip zone. The shear is omitted if the coefficient of friction varies
@@ -83,11 +84,11 @@ def draw_end(ax: Any, result: Result, surface: Surface) -> None:
 
     ax  axes of matplotlib
     """
-    length, end = _line_axis(ax, result, surface), result.steps[-1]
+    length, end, surface = _line_axis(ax, report), report.steps[-1], report.surface
     x, pressure = surface.profile_line.places / length.size, _pressure_curves(surface, [end])
     unit = pressure.unit
     ax.plot(x, pressure.lines[end.step] / unit.size, label=pressure.name, **style.line_style(0))
-    friction = result.scene.friction
+    friction = report.scene.friction
     coefficient = friction.uniform if friction is not None else None
     if coefficient:
         for number, shear in enumerate(_shear_curves(surface, [end]), 1):
@@ -99,17 +100,17 @@ def draw_end(ax: Any, result: Result, surface: Surface) -> None:
     style.legend_above(ax)
 
 
-def draw_slip(ax: Any, result: Result, surface: Surface) -> None:
+def draw_slip(ax: Any, report: ResultReport) -> None:
     """Draw the slip of the surfaces since the start at the ends of load steps, or else the gap.
 
     ax  axes of matplotlib
     """
-    length, end = _line_axis(ax, result, surface), result.steps[-1]
+    length, end, surface = _line_axis(ax, report), report.steps[-1], report.surface
     gap = surface.scalar(end, "gap")
     assert gap is not None
     outside = np.where(_pressure_field(end, surface) > 0, 0.0, gap)
     unit = engineering_unit(float(np.max(outside)), "m")
-    slips = _vector_curves(surface, select_steps([*result.steps]), "slip", "slip s", "m")
+    slips = _vector_curves(surface, select_steps(report.steps), "slip", "slip s", "m")
     curves, *_ = *slips, Curves("gap", {end.step: surface.along(outside)}, unit)
     x = surface.profile_line.places / length.size
     for number, (step, values) in enumerate(curves.lines.items()):
@@ -157,15 +158,16 @@ def _vector_curves(
     ]
 
 
-def _line_axis(ax: Any, result: Result, surface: Surface) -> EngineeringUnit:
+def _line_axis(ax: Any, report: ResultReport) -> EngineeringUnit:
     """Label the axis along the line of the profiles and limit it to the contact.
 
     ax  axes of matplotlib
 
     Returns the unit of length of this axis.
     """
+    surface = report.surface
     places = surface.profile_line.places
-    touched = [surface.along(_pressure_field(step, surface)) > 0 for step in result.steps]
+    touched = [surface.along(_pressure_field(step, surface)) > 0 for step in report.steps]
     inside = np.flatnonzero(np.any(touched, axis=0))
     ends = [max(inside[0] - 1, 0), min(inside[-1] + 1, len(places) - 1)]
     reach = float(min(MARGIN * np.max(np.abs(places[ends])), np.max(places)))

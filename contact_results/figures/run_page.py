@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 from contact_results.directory import file_names
 from contact_results.figures.overview import DOTS_PER_INCH, PLACE, TITLE
-from contact_results.key_numbers import key_numbers
-from contact_scene.quantities.stated_error import StatedError
+from contact_results.key_numbers import doubts_of, key_numbers
+from contact_results.result_report import ResultReport
 from contact_scene.reading.engineering_units import engineering_unit
 
 if TYPE_CHECKING:
@@ -63,43 +63,39 @@ POLICY = (
 
 
 def write_page(
-    result: Result,
+    report: ResultReport,
     directory: Path,
-    errors: Mapping[str, StatedError] | None = None,
     cycles: Mapping[str, Sequence[str]] | None = None,
     warnings: Sequence[str] = (),
-    doubts: Sequence[str] = (),
-    by_inputs: Mapping[str, Sequence[str]] | None = None,
 ) -> None:
     """Write the HTML page of a run, with the figures that are in its directory.
 
     Equal results give equal bytes.
 
     directory  directory of the run
-    errors     stated errors of the last load step; None if they were not computed
     cycles     columns of `cycle_columns`; None or empty without load cycles
     warnings   warnings about the result
-    doubts     texts of `doubt_texts`: reasons of the question marks
-    by_inputs  table of the uncertainty by inputs; None or empty without
     """
+    scene, end, errors = report.scene, report.steps[-1], report.end_errors
+    inputs = _table_html(report.by_inputs) if report.by_inputs else ()
     parts = [
-        f"<h2>At the end of step {result.steps[-1].step}</h2><table>",
-        _row_html("status", result.steps[-1].status.value),
-        *(_row_html(name, text) for name, text in key_numbers(result.steps, errors)),
+        f"<h2>At the end of step {end.step}</h2><table>",
+        _row_html("status", end.status.value),
+        *(_row_html(name, text) for name, text in key_numbers(report.steps, errors)),
         "</table>" + ("" if errors is not None else "<p>Errors were left out.</p>"),
         *(_cycle_section(cycles) if cycles else ()),
-        *_doubts_html(doubts),
-        *(("<h2>Uncertainty by inputs</h2>", *_table_html(by_inputs)) if by_inputs else ()),
+        *_doubts_html(doubts_of(report)),
+        *(("<h2>Uncertainty by inputs</h2>", *inputs) if inputs else ()),
         f'<p class="soft">{READ_ON}</p>',
         *(f"<p><strong>Warning:</strong> {escape(text)}.</p>" for text in warnings),
         *_figures_html(directory / name for name in file_names.FIGURES),
         "<h2>Settings</h2><table>",
-        *(_row_html(name, text) for name, text in _setting_rows(result)),
+        *(_row_html(name, text) for name, text in _setting_rows(report.result)),
         "</table><details><summary>The scene</summary><pre>",
-        escape(result.scene.model_dump_json(indent=2, exclude_none=True)),
+        escape(scene.model_dump_json(indent=2, exclude_none=True)),
         "</pre></details>",
     ]
-    _write_html(directory / file_names.PAGE, result.scene.title or "Contact", parts)
+    _write_html(directory / file_names.PAGE, scene.title or "Contact", parts)
 
 
 def write_stress_page(

@@ -41,7 +41,6 @@ def draw_section(
     figure: FigureBase,
     ax: Any,
     field: StressField,
-    body: Body,
     values: Values,
     name: str,
     *,
@@ -51,7 +50,6 @@ def draw_section(
 
     figure, ax  figure and axes of matplotlib
     field       stress below a contact, with the points of the section
-    body        layers and base, for the interfaces
     values      stress at the points of the section [force/length^2]
     name        label of the colour bar
     bar         arguments of `Figure.colorbar`
@@ -82,7 +80,7 @@ def draw_section(
     )
     label = unit.labelled(name)
     figure.colorbar(image, ax=ax, ticks=levels, label=label, format="%g", **(bar or {}))
-    if not show_depths(ax, body, depth, length):
+    if not show_depths(ax, field, length):
         ax.set_aspect("equal")
     ax.set_xlim(max(-reach, float(points.x.min())) / length.size, reach / length.size)
     return length
@@ -97,16 +95,16 @@ def stretches(body: Body, deepest: float) -> bool:
     return 0 < sum(layer.thickness for layer in body.layers) < THIN * deepest
 
 
-def show_depths(ax: Any, body: Body, deepest: float, length: EngineeringUnit) -> bool:
+def show_depths(ax: Any, field: StressField, length: EngineeringUnit) -> bool:
     """Draw a line at every interface, and scale the depth axis so that thin layers are visible.
 
-    ax       axes of matplotlib
-    body     layers and base
-    deepest  largest depth of the figure [length]
-    length   unit of the depth axis
+    ax      axes of matplotlib
+    field   stress below a contact, whose visible depth limits the figure
+    length  unit of the depth axis
 
     Returns True if the depth axis stretches thin layers.
     """
+    body, (_, deepest) = field.body, field.shown
     stretched = stretches(body, deepest)
     if stretched:
         films = sum(layer.thickness for layer in body.layers) / deepest

@@ -15,7 +15,6 @@ from contact_results.figures import style
 from contact_results.figures.section_panel import draw_section, show_depths
 from contact_results.stress.files import interface_points
 from contact_results.stress.points import StressField, StressIncrement, StressPoints
-from contact_scene import Body
 from contact_scene.reading.engineering_units import engineering_unit, quantity
 
 BAR = {"fraction": 0.05, "pad": 0.03}
@@ -23,29 +22,25 @@ SECTION = "stress_section.png"
 LINES = "stress_lines.png"
 
 
-def write_stress_figures(
-    field: StressField, body: Body, directory: Path, title: str
-) -> Sequence[str]:
+def write_stress_figures(field: StressField, directory: Path, title: str) -> Sequence[str]:
     """Write the two figures of the stress below a contact; return their file names.
 
     field      computed stress
-    body       layers and base of the stressed body
     directory  output directory
     title      title of each figure
     """
     with style.figure_style():
         for name, draw in ((SECTION, section_plot), (LINES, line_plot)):
-            style.save(draw(field, body, title), directory / name, style.OF_SECTIONS)
+            style.save(draw(field, title), directory / name, style.OF_SECTIONS)
     return SECTION, LINES
 
 
-def section_plot(field: StressField, body: Body, title: str) -> Figure:
+def section_plot(field: StressField, title: str) -> Figure:
     """Draw four stresses on the section, z downward, with dashed interfaces.
 
     The stresses are von Mises, σxx, σxz and the tensile stress. Call within `figure_style`.
 
     field  stress in one body
-    body   this body, whose interfaces are drawn
     title  title of the figure
     """
     points = field.section
@@ -62,7 +57,7 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
     place |= {"left": 0.7 / width, "right": 1 - 0.75 / width}  # labels of either side [inch]
     axes = figure.subplots(2, 2, sharex=True, sharey=True, gridspec_kw=place)
     for ax, (name, values) in zip(axes.flat, panels.items(), strict=True):
-        length = draw_section(figure, ax, field, body, values, name, bar=BAR)
+        length = draw_section(figure, ax, field, values, name, bar=BAR)
     for ax in axes[-1]:
         ax.set_xlabel(length.labelled(field.label))
     for ax in axes[:, 0]:
@@ -70,42 +65,40 @@ def section_plot(field: StressField, body: Body, title: str) -> Figure:
     return figure
 
 
-def line_plot(field: StressField, body: Body, title: str) -> Figure:
+def line_plot(field: StressField, title: str) -> Figure:
     """Draw stresses over depth on the z axis and below the trailing edge, and along the surface.
 
     The trailing edge is the edge with the larger σxx at the surface. A body with layers has a panel
     of its outermost interface as well. Call within `figure_style`.
 
     field  stress in one body
-    body   this body, whose interfaces are drawn
     title  title of the figure
     """
-    rows, columns = (2, 2) if body.layers else (1, 3)
+    rows, columns = (2, 2) if field.body.layers else (1, 3)
     figure = _titled_figure(3.7 * columns, 4.4 * rows, title)
     place = {"left": 0.2 / columns, "right": 1 - 0.1 / columns, "wspace": 0.25, "hspace": 0.28}
     place |= {"bottom": 0.12 / rows, "top": 1 - 0.16 / rows}
     axes = figure.subplots(rows, columns, gridspec_kw=place)
     axis, below, surface, *interface = axes.flat
-    draw_depth(axis, field, body, field.axis, "on the axis")
-    draw_depth(below, field, body, *_below_edge(field))
+    draw_depth(axis, field, field.axis, "on the axis")
+    draw_depth(below, field, *_below_edge(field))
     draw_surface(surface, field)
     for ax in interface:
-        draw_interface(ax, field, body)
+        draw_interface(ax, field)
     return figure
 
 
-def draw_interface(ax: Any, field: StressField, body: Body) -> None:
+def draw_interface(ax: Any, field: StressField) -> None:
     """Draw stresses along the outermost interface: σxx on its sides, σzz and σxz, which are equal.
 
     ax     axes of matplotlib
-    field  stress in one body
-    body   this body, with layers
+    field  stress in one body with layers
     """
     reach = field.shown[0]
     length = engineering_unit(reach, "m")
     sides = {
         side: points.select(np.flatnonzero(np.abs(points.x) <= reach))
-        for number, side, points in interface_points(field, body)
+        for number, side, points in interface_points(field)
         if number == 1
     }
     lines = {f"σxx {side}": (points, "xx") for side, points in sides.items()}
@@ -208,14 +201,13 @@ def _below_edge(field: StressField) -> tuple[StressPoints, str]:
     return points.select(below[order]), f"below the edge x = {quantity(edge, 'm', 3)}"
 
 
-def draw_depth(ax: Any, field: StressField, body: Body, points: StressPoints, where: str) -> None:
+def draw_depth(ax: Any, field: StressField, points: StressPoints, where: str) -> None:
     """Draw stress components and the von Mises stress over depth, z downward.
 
     There is one line per stress and material.
 
     ax      axes of matplotlib
     field   stress below a contact, whose visible depth limits the figure
-    body    layers and base, for the interfaces
     points  points on a vertical line
     where   place of this line in words
     """
@@ -237,7 +229,7 @@ def draw_depth(ax: Any, field: StressField, body: Body, points: StressPoints, wh
     ax.axvline(0.0, color="black", linewidth=0.5)
     ax.set_xlabel(unit.labelled("stress"))
     ax.set_ylabel(length.labelled(f"depth z {where}"))
-    show_depths(ax, body, deepest, length)
+    show_depths(ax, field, length)
     style.legend_above(ax)
 
 

@@ -35,6 +35,7 @@ STYLE: Any = {
     "ytick.direction": "out",
     "svg.hashsalt": "slipstick",
     "path.simplify": True,
+    "text.hinting": "no_hinting",  # glyphs as designed; the hints take half the time of a text
 }
 DOTS_PER_INCH = 150
 OF_SECTIONS = 120  # dots per inch of contour plots, which compress badly

@@ -13,7 +13,8 @@ import numpy as np
 
 from contact_results.directory.file_names import FIELDS
 from contact_results.files.stored_values import MAPS, STEP
-from contact_results.surface import Rings, surface_of
+from contact_results.result_report import ResultReport
+from contact_results.surface import Rings
 from contact_scene.quantities.field_metadata import (
     CONVENTION,
     Kind,
@@ -29,7 +30,7 @@ from contact_scene.quantities.per_length import shown_mark, shown_name
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
-    from contact_results.surface import Increment, Result, Surface
+    from contact_results.surface import Increment, Surface
 
 # On these fields, level 1 with shuffled bytes takes at most 10 % more space than level 9.
 COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
@@ -46,7 +47,7 @@ COMPONENT = ("component",)
 PLACES = {"step": "loading step, from 1", "increment": "increment within the step, from 1"}
 
 
-def write_fields(result: Result, directory: Path, *, all_fields: bool = False) -> None:
+def write_fields(report: ResultReport, directory: Path, *, all_fields: bool = False) -> None:
     """Write `result.h5`: scene, coordinates, scalars and surface fields of a result.
 
     Equal results give equal bytes.
@@ -59,7 +60,7 @@ def write_fields(result: Result, directory: Path, *, all_fields: bool = False) -
     directory   directory of the run
     all_fields  store the fields of all increments, not only of the last one of each load step
     """
-    surface = surface_of(result)
+    result, surface = report.result, report.surface
     increments: Sequence[Increment] = result.increments
     with _fields_file(directory / FIELDS, "w") as file:
         axes = ", ".join(surface.axes)
@@ -87,15 +88,14 @@ def write_fields(result: Result, directory: Path, *, all_fields: bool = False) -
         _write_scalars(group, increments, line=result.scene.indenter.is_line)
 
 
-def add_cycle_fields(result: Result, cycle: FrettingCycle, directory: Path) -> None:
+def add_cycle_fields(report: ResultReport, directory: Path) -> None:
     """Add the surface fields of the last load cycle of a result to its `result.h5`.
 
-    cycle      last closed load cycle of the result
     directory  directory of the run
     """
     with _fields_file(directory / FIELDS, "r+") as file:
-        places = tuple(surface_of(result).axes)
-        _write_cycle(file.create_group("last_cycle", track_order=False), cycle, places)
+        group = file.create_group("last_cycle", track_order=False)
+        _write_cycle(group, report.cycles[-1], tuple(report.surface.axes))
 
 
 class _NeverFull(io.FileIO):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from types import SimpleNamespace
@@ -130,9 +131,9 @@ class StoredRun:
     direction: tuple[float, float]
     discretisation: FiniteElementDiscretisation | None
 
-    @property
+    @cached_property
     def surface(self) -> Surface:
-        """Surface grid of the stored fields: cells or rings."""
+        """Surface grid of the stored fields: cells or rings, read once."""
         axes = {name: values.array for name, values in self.coordinates.items()}
         return surface_on(axes, self.direction)
 

@@ -11,13 +11,10 @@ import numpy as np
 
 from contact_results.directory.file_names import FIELDS, SUMMARY
 from contact_results.files.stored_values import fields_digest
+from contact_results.result_report import ResultReport
 from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.increment import SCALARS, columns
-from contact_scene.quantities.stated_error import (
-    AccuracyReached,
-    StatedError,
-    StatedErrors,
-)
+from contact_scene.quantities.stated_error import StatedError
 from contact_scene.quantities.summary import (
     EffectSummary,
     Residuals,
@@ -28,7 +25,7 @@ from contact_scene.quantities.summary import (
 
 if TYPE_CHECKING:
     from contact_results.cycles import FrettingCycle
-    from contact_results.surface import Increment, Result
+    from contact_results.surface import Increment
 
 
 def write_summary(summary: RunSummary, directory: Path, warnings: tuple[str, ...]) -> None:
@@ -45,22 +42,14 @@ def write_summary(summary: RunSummary, directory: Path, warnings: tuple[str, ...
     (directory / SUMMARY).write_text(dump_summary(told), encoding="utf-8")
 
 
-def summary_of(
-    result: Result,
-    cycles: Sequence[FrettingCycle],
-    errors: StatedErrors | None = None,
-    accuracy: AccuracyReached | None = None,
-) -> RunSummary:
+def summary_of(report: ResultReport) -> RunSummary:
     """Create the summary of a result of any solver; quantities that the solver lacks are None.
 
     The summary has no warnings.
-
-    cycles    closed load cycles of the result
-    errors    stated errors; None if they were not computed
-    accuracy  requested and reached accuracy; None if none was requested
     """
+    result, errors = report.result, report.errors
     stated = errors.steps if errors else repeat(None)
-    closed = {cycle.cycle.end: cycle for cycle in cycles}
+    closed = {cycle.cycle.end: cycle for cycle in report.cycles}
     grid = getattr(result, "grid", None)
     increments: Sequence[Increment] = result.increments
     return RunSummary(
@@ -77,7 +66,7 @@ def summary_of(
             )
         ),
         coarse_solves=errors.coarse_solves if errors else None,
-        accuracy=accuracy,
+        accuracy=report.accuracy,
     )
 
 

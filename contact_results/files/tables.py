@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +17,8 @@ from contact_results.files.csv_file import (
     write_meanings,
     write_table,
 )
-from contact_results.surface import Rings, surface_of
+from contact_results.result_report import ResultReport
+from contact_results.surface import Rings
 from contact_scene.array_types import Field
 from contact_scene.quantities.field_metadata import Kind, reported
 from contact_scene.quantities.increment import (
@@ -30,7 +31,7 @@ from contact_scene.quantities.stated_error import StatedError
 from contact_scene.quantities.summary import OF_CYCLES, ClosedCycle
 
 if TYPE_CHECKING:
-    from contact_results.surface import Increment, Result, Surface
+    from contact_results.surface import Increment, Surface
 
 
 LINE = "on the line y = 0 of cells; of rings on the line through the axis along the tangential load"
@@ -61,17 +62,17 @@ PROFILE_COLUMNS = (
 )
 
 
-def write_profiles(result: Result, directory: Path) -> None:
+def write_profiles(report: ResultReport, directory: Path) -> None:
     """Write `profiles.csv`: tractions, slip and gap along a line at the ends of the load steps.
 
     The table has one row per point and load step, and the same columns for every solver. The line
     is y = 0 on cells, and the diameter along the tangential load on rings. Missing and infinite
     values are empty cells.
     """
-    surface = surface_of(result)
+    surface = report.surface
     if isinstance(surface, Rings):
         surface = surface.on_both_sides()
-    rows = (row for step in result.steps for row in _profile_rows(surface, step))
+    rows = (row for step in report.steps for row in _profile_rows(surface, step))
     write_table(directory / PROFILES, PROFILE_COLUMNS, rows)
 
 
@@ -123,16 +124,6 @@ def increment_columns(*, line: bool) -> tuple[Column, ...]:
             for part in components(name)
         ),
     )
-
-
-def write_increments(result: Result, directory: Path) -> None:
-    """Write `increments.csv`: all scalars of the result, one row per increment.
-
-    Missing values are empty cells.
-    """
-    rows = ((i.step, i.index, *numbers(i).values()) for i in result.increments)
-    line = result.scene.indenter.is_line
-    write_table(directory / INCREMENTS, increment_columns(line=line), rows)
 
 
 def _cycle_cells(
@@ -190,29 +181,22 @@ def _largest_with_place(field: Field | None, surface: Surface) -> tuple[float | 
     return float(field[largest]), float(x[largest]), float(y[largest])
 
 
-def write_tables(
-    result: Result,
-    cycles: Sequence[FrettingCycle],
-    directory: Path,
-    errors: Sequence[Mapping[str, StatedError]] | None = None,
-) -> None:
+def write_tables(report: ResultReport, directory: Path) -> None:
     """Write the CSV tables of a run, and the table with the meanings of their columns.
 
-    cycles     closed load cycles of the result
+    Missing values are empty cells.
+
     directory  directory of the run
-    errors     stated errors of the scalars of every load step, by name; None if they were not
-               computed
     """
-    line = result.scene.indenter.is_line
+    line = report.scene.indenter.is_line
     tables = {PROFILES: PROFILE_COLUMNS, INCREMENTS: increment_columns(line=line)}
-    write_profiles(result, directory)
-    write_increments(result, directory)
-    if cycles:
-        surface = surface_of(result)
+    write_profiles(report, directory)
+    scalars = ((i.step, i.index, *numbers(i).values()) for i in report.increments)
+    write_table(directory / INCREMENTS, tables[INCREMENTS], scalars)
+    if report.cycles:
         rows = [
-            list(_cycle_cells(cycle, surface, of_step, line=line))
-            for cycle in cycles
-            for of_step in [errors[cycle.cycle.end - 1] if errors else {}]
+            list(_cycle_cells(cycle, report.surface, report.errors_of(cycle), line=line))
+            for cycle in report.cycles
         ]
         tables[CYCLES] = tuple(column for column, _ in rows[0])
         write_table(directory / CYCLES, tables[CYCLES], ([cell for _, cell in r] for r in rows))

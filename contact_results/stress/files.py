@@ -97,9 +97,8 @@ def write_files(
     errors     stated errors of `found`; None if they were not computed
     accuracy   requested and reached accuracy; None if none was requested
     """
-    of_indenter = which == "indenter"
-    body = state.indenter if of_indenter else state.body
-    convention = OF_THE_INDENTER if of_indenter else CONVENTION
+    convention = OF_THE_INDENTER if which == "indenter" else CONVENTION
+    body = field.body
     sizes = [e.error for e in errors] if errors else [None] * len(found)
     maxima = (
         (e.region, e.measure, e.value, size, e.x, e.y, e.depth)
@@ -110,7 +109,7 @@ def write_files(
     write_table(directory / AXIS, POINT_COLUMNS, axis)
     interfaces = (
         (number, name, *row)
-        for number, name, points in interface_points(field, body)
+        for number, name, points in interface_points(field)
         for row in _point_rows(points.rotate_to_scene(field.direction), body)
     )
     write_table(directory / INTERFACES, SIDE_COLUMNS, interfaces)
@@ -165,13 +164,13 @@ def write_points(points: StressPoints, path: Path, convention: str) -> None:
     write_mesh(Mesh(places, points.cells, arrays), path, convention)
 
 
-def interface_points(field: StressField, body: Body) -> Iterator[tuple[int, str, StressPoints]]:
+def interface_points(field: StressField) -> Iterator[tuple[int, str, StressPoints]]:
     """Yield number, side and points of every interface, in the section along x.
 
     Interfaces count from 1 for the outermost. The side is "above", nearer to the contact surface,
     or "below".
     """
-    for number, name, depth, material in interface_sides(body):
+    for number, name, depth, material in interface_sides(field.body):
         points = field.section
         on_it = np.flatnonzero(points.is_on_side(depth, material))
         yield number, name, points.select(on_it[np.argsort(points.x.flat[on_it], kind="stable")])

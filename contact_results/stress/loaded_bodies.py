@@ -93,6 +93,10 @@ class LoadedBodies:
         """True if the tractions are given on rings, False if on cells."""
         return "radii" in self.axes
 
+    def loaded_body(self, indenter: bool) -> Body:
+        """Return the indenter or the lower body."""
+        return self.indenter if indenter else self.body
+
     def bulk_stress(self, layer: int, indenter: bool) -> Field:
         """Return the stress that the bulk strain causes in one layer or in the base.
 
@@ -136,9 +140,7 @@ def state_of_result(
     ends = result.steps
     number = _step_index(step, len(ends))
     stated = None if errors is None else errors.steps[number]
-    return _require_contact(
-        _loaded_bodies(result.scene, surface_of(result), result, ends[number], stated)
-    )
+    return _require_contact(loaded_bodies(result, surface_of(result), ends[number], stated))
 
 
 def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | None]]:
@@ -149,8 +151,7 @@ def states_of_result(result: Result) -> Iterator[tuple[int, int, LoadedBodies | 
     """
     surface = surface_of(result)
     for increment in result.increments:
-        state = _loaded_bodies(result.scene, surface, result, increment, None)
-        yield increment.step, increment.index, state
+        yield increment.step, increment.index, loaded_bodies(result, surface, increment)
 
 
 def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
@@ -164,10 +165,8 @@ def state_of_run(directory: Path, step: int | None) -> LoadedBodies:
     """
     with _open_run(directory) as run:
         number = _step_index(step, len(run.summary.steps))
-        errors = run.summary.steps[number].errors
-        return _require_contact(
-            _loaded_bodies(run.scene, run.surface, run, run.end_of_step(number), errors)
-        )
+        end, errors = run.end_of_step(number), run.summary.steps[number].errors
+        return _require_contact(loaded_bodies(run, run.surface, end, errors))
 
 
 def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | None]]:
@@ -183,11 +182,7 @@ def states_of_run(directory: Path) -> Iterator[tuple[int, int, LoadedBodies | No
     with _open_run(directory) as run:
         for number in range(len(run.increments["step"].array)):
             end = run.increment(number)
-            yield (
-                int(end.step),
-                int(end.index),
-                _loaded_bodies(run.scene, run.surface, run, end, None),
-            )
+            yield int(end.step), int(end.index), loaded_bodies(run, run.surface, end)
 
 
 @contextmanager
@@ -211,22 +206,22 @@ def _open_run(directory: Path) -> Iterator[StoredRun]:
         raise NoSuchState(f"{directory / FIELDS} is not the {FIELDS} of a run: {error}") from None
 
 
-def _loaded_bodies(
-    scene: Scene,
-    surface: Surface,
+def loaded_bodies(
     source: Result | StoredRun,
+    surface: Surface,
     end: Any,
-    errors: Mapping[str, StatedError] | None,
+    errors: Mapping[str, StatedError] | None = None,
 ) -> LoadedBodies | None:
     """Combine the tractions of an increment with the data of its scene; None without contact.
 
-    surface  surface grid of the tractions
     source   result or stored run that contains the increment
+    surface  surface grid of the tractions
     end      scalars and fields at the end of the increment
     errors   stated errors of these scalars, by name; None if not needed
     """
     if not end.contact_area:
         return None
+    scene = source.scene
     pressed = (scene.indenter, end.contact_radius, end.approach or 0.0)
     fields = {name: surface.scalar(end, name) for name in TRACTIONS}
     return LoadedBodies(

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import replace
-from functools import partial
+from dataclasses import dataclass, replace
 from math import ceil
 from typing import TYPE_CHECKING
 
@@ -56,6 +55,154 @@ def estimated_bytes(grid: SurfaceGrid) -> int:
     return required_bytes((nx, ny), 1) - FIXED
 
 
+@dataclass(frozen=True, eq=False)
+class CellWindow:
+    """One body below a window of cells that contains the contact, with the tractions on this body.
+
+    state            bodies and tractions that cause the stress
+    indenter         True for the indenter, False for the lower body
+    grid             cells of the window
+    pressure, shear  tractions of the cells (nx, ny), (2, nx, ny) [force/length^2]; None is no shear
+    """
+
+    state: LoadedBodies
+    indenter: bool
+    grid: SurfaceGrid
+    pressure: Field
+    shear: Field | None
+
+    @classmethod
+    def around_contact(
+        cls,
+        state: LoadedBodies,
+        indenter: bool,
+        margin: float,
+        reach: Sequence[float] = (0.0, 0.0),
+    ) -> CellWindow:
+        """Extend the window of the contact solve by cells without traction.
+
+        margin  smallest half width of the window in half extents of the contact
+        reach   smallest half widths of the window along x and y [length]
+        """
+        from semi_analytical import SurfaceGrid
+
+        x, y = state.axes["x"], state.axes["y"]
+        pressure, shear = state.tractions["pressure"], state.tractions.get("shear")
+        sides = [float(c[-1] - c[0]) / (len(c) - 1) if len(c) > 1 else 1.0 for c in (x, y)]
+        halves = [
+            ceil(r / side) - len(c) // 2 for r, side, c in zip(reach, sides, (x, y), strict=True)
+        ]
+        widths = [
+            max(_margin_cells(pressure, axis, margin), halves[axis] + NEIGHBOURS) for axis in (0, 1)
+        ]
+        if len(y) == 1:
+            widths[1] = 0
+        pad = [(width, width) for width in widths]
+        cells = (len(x) + 2 * widths[0], len(y) + 2 * widths[1])
+        grid = SurfaceGrid(cells, (cells[0] * sides[0], cells[1] * sides[1]))
+        if shear is not None:
+            shear = np.pad(-shear if indenter else shear, [(0, 0), *pad])
+        return cls(state, indenter, grid, np.pad(pressure, pad), shear)
+
+    @property
+    def body(self) -> Body:
+        """Layers and base of the body in which the stress is computed."""
+        return self.state.loaded_body(self.indenter)
+
+    @property
+    def far_tractions(self) -> tuple[Field, Field | None]:
+        """Constant pressure and shear on cells that cause the true stress far from the cells.
+
+        Tractions of a solver with constant tractions on cells are returned unchanged. Cell means of
+        tractions that vary within the cells are sharpened, see `_sharpen_cell_means`.
+        """
+        if not self.state.edges:
+            return self.pressure, self.shear
+        loaded = self.pressure > 0
+        shear = None if self.shear is None else _sharpen_cell_means(self.shear, loaded)
+        return _sharpen_cell_means(self.pressure, loaded), shear
+
+    def fit_edge(self, levels: Sequence[Level]) -> tuple[NearEdge | None, str]:
+        """Fit the edge of the contact, near which the tractions fall like a square root.
+
+        levels  depths of the stress; without a depth near the surface no edge is fitted
+
+        Returns the fitted edge and an empty text. If the tractions do not determine the stress at
+        the edge, returns the edge as far as it was fitted, or None, and the cause.
+        """
+        from semi_analytical.frf.stack import stack_of
+        from semi_analytical.stress import EdgeNotSeen, near_edge, near_surface
+
+        spacing = self.grid.spacing
+        if self.grid.of_strips:
+            return None, "strips of a line contact are narrow beside their edges"
+        if self.state.no_root is not None:
+            return None, self.state.no_root
+        if not any(level.layer == 0 and near_surface(level.depth, spacing) for level in levels):
+            return None, "no depth is near the surface"
+        stack, corrected = stack_of(self.body), self.state.edges
+        try:
+            return near_edge(stack, self.grid, self.pressure, self.shear, corrected=corrected), ""
+        except EdgeNotSeen as cause:
+            return cause.candidate, str(cause)
+
+    def computed_cells(self, section_only: bool) -> tuple[slice, Indices | None]:
+        """Return the cells where maxima are searched, and the rows where the stress is computed.
+
+        The maxima are searched in a slice of the cells along x: those up to x = 0 if this is a
+        mirror plane of the tractions, otherwise all. The rows of cells along y are those next to y
+        = 0 for the section alone, and the rows from there to the largest y if y = 0 is a mirror
+        plane of the tractions. None means all rows.
+
+        section_only  compute the stress in the section y = 0 only
+        """
+        from semi_analytical.stress.convolution import mirror_planes
+        from semi_analytical.stress.depths import line_weights
+
+        if self.grid.of_strips:
+            return slice(None), None
+        at_section = np.flatnonzero(line_weights(self.grid.y, 0.0))
+        if section_only:
+            return slice(None), at_section
+        tractions = self.pressure[None]
+        if self.shear is not None:
+            tractions = np.concatenate([self.shear, tractions])
+        along_x, along_y = mirror_planes(tractions)
+        columns = slice((self.grid.cells[0] + 1) // 2 if along_x else None)
+        return columns, np.arange(at_section[0], self.grid.cells[1]) if along_y else None
+
+    def stress_by_level(
+        self, levels: tuple[Level, ...], edge: NearEdge | None, rows: Indices | None
+    ) -> Iterator[SubsurfaceField]:
+        """Yield displacement and stress at all positions of the cells, one depth after the other.
+
+        Near the fitted contact edge, the stress is corrected for tractions that vary within the
+        cells. The stress from a bulk strain is included.
+
+        levels  depths, each with its material
+        edge    fitted contact edge; None without correction
+        rows    indices of the rows of cells along y; None for all
+        """
+        from semi_analytical.stress import fields_by_level
+
+        reached = [level for level in levels if edge is not None and edge.reaches(level)]
+        # Adjacent to a corrected edge, the tractions themselves give the field.
+        below = [level for level in reached if level.depth > 0] if self.state.edges else []
+        near = fields_by_level(self.body, self.grid, self.pressure, self.shear, below, rows)
+        for field in fields_by_level(self.body, self.grid, *self.far_tractions, levels, rows):
+            if edge is not None and field.levels[0] in reached:
+                if self.state.edges:
+                    some = slice(None) if rows is None else rows
+                    there = next(near).stress if field.depths[0] else edge.plane[None, ..., some]
+                    corrected = edge.corrected(replace(field, stress=there)).stress
+                    stress = np.where(edge.beside[:, some], corrected, field.stress)
+                    field = replace(field, stress=stress)
+                else:
+                    field = edge.corrected(field)
+            bulk = self.state.bulk_stress(field.levels[0].layer, self.indenter)
+            yield replace(field, stress=field.stress + bulk[:, None, None])
+
+
 @one_thread()
 def stress_at_cells(
     state: LoadedBodies, x: Field, y: Field, levels: Sequence[Level], *, indenter: bool = False
@@ -73,7 +220,6 @@ def stress_at_cells(
     """
     from semi_analytical.stress import subsurface
 
-    body = state.indenter if indenter else state.body
     reach = [float(np.max(np.abs(places))) for places in (x, y)]
     far, half = max(reach), max(float(np.max(state.axes[axis])) for axis in "xy")
     if far > MAX_REACH * half:
@@ -81,11 +227,9 @@ def stress_at_cells(
             f"a point is {far:.3g} m from the origin, expected at most {MAX_REACH:g} half windows "
             f"of {half:.3g} m; check the units of the points, or use a larger window"
         )
-    grid, pressure, shear = _extend_window(state, 0.0, reach)
-    if indenter and shear is not None:
-        shear = -shear
-    tractions = _far_field_tractions(state, pressure, shear)
-    fields = {level: subsurface(body, grid, *tractions, [level]) for level in set(levels)}
+    window = CellWindow.around_contact(state, indenter, 0.0, reach)
+    grid, tractions = window.grid, window.far_tractions
+    fields = {level: subsurface(window.body, grid, *tractions, [level]) for level in set(levels)}
     rows = np.zeros_like(y) if grid.of_strips else y  # the same at every y
     found = [fields[level].below(*at) for *at, level in zip(x, rows, levels, strict=True)]
     displacement, stress = (np.concatenate(parts).T for parts in zip(*found, strict=True))
@@ -118,16 +262,19 @@ def stress_on_cells(
                   None chooses them from the contact and the layers
     volume        return the points and cells of the volume as well
     see_edge      fit the contact edge
-    section_only  search the largest values in the section only
+    section_only  compute the section alone, without the search for the largest values
 
     Raises ValueError for a depth outside the body, and ResourceRefused for too little memory.
     """
-    below = partial(_stress_in_window, state, indenter)
+
+    def below(depths: Sequence[float] | None, margin: float, **how: bool) -> StressField:
+        window = CellWindow.around_contact(state, indenter, margin)
+        return _stress_in_window(window, depths, **how)
+
     field = below(depths, MARGIN, volume=volume, see_edge=see_edge, section_only=section_only)
     if section_only or not np.any(state.tractions.get("shear", 0.0)):
         return field
-    found = extremes(field, state.indenter if indenter else state.body)
-    far = sorted({e.depth for e in found if e.at_window_edge and e.value > 0})
+    far = sorted({e.depth for e in extremes(field) if e.at_window_edge and e.value > 0})
     if not far:
         return field
     with suppress(ResourceRefused):  # then the largest values keep the mark `at_window_edge`
@@ -139,66 +286,49 @@ def stress_on_cells(
 
 
 def _stress_in_window(
-    state: LoadedBodies,
-    indenter: bool,
+    window: CellWindow,
     depths: Sequence[float] | None,
-    margin: float,
     *,
     volume: bool = False,
     see_edge: bool = True,
     section_only: bool = False,
 ) -> StressField:
-    """Compute the stress below a window of the surface that extends beyond the contact.
-
-    state         bodies and tractions that cause the stress
-    indenter      True for the stress in the indenter, False for the lower body
-    depths        depths [length]; None chooses them from the contact and the layers
-    margin        smallest half width of the window in half extents of the contact
-    volume        return the points and cells of the volume as well
-    see_edge      fit the contact edge
-    section_only  search the largest values in the section only
-    """
+    """Compute the stress below a window of the surface, see `stress_on_cells`."""
     from semi_analytical.stress import SubsurfaceField, refuse_beyond_memory
 
-    body = state.indenter if indenter else state.body
-    grid, pressure, shear = _extend_window(state, margin)
-    radius = state.contact_radius
+    state, grid, radius = window.state, window.grid, window.state.contact_radius
     if radius is None:
-        radius = float(np.sqrt(np.count_nonzero(pressure) * grid.cell_area / np.pi))
-    levels = _stress_levels(body, depths, radius)
+        radius = float(np.sqrt(np.count_nonzero(window.pressure) * grid.cell_area / np.pi))
+    levels = _stress_levels(window.body, depths, radius)
     if volume:
         refuse_beyond_memory(grid.cells, len(levels), COMPUTED + WRITTEN)
-    if indenter and shear is not None:
-        shear = -shear
-    edge, why = None, "not looked for"
-    if see_edge:
-        edge, why = _fit_edge(state, body, grid, levels, pressure, shear)
-    how = _edge_record(edge, why)
-    columns, rows = _computed_cells(grid, pressure, shear, section_only)
+    edge, why = window.fit_edge(levels) if see_edge else (None, "not looked for")
+    how: dict[str, object] = {"fitted": False, "because": why}
+    if edge is not None and not why:
+        how = {"fitted": True, "points": len(edge.x), "fits_apart": edge.apart}
+    columns, rows = window.computed_cells(section_only)
     rows = None if volume else rows
     if edge is not None and rows is not None:
         shown = (edge.phi.y >= rows[0]) & (edge.phi.y <= rows[-1])
         if np.any(shown):  # an edge that is fitted in part may have points on one side only
             edge = replace(edge, phi=edge.phi.chosen(shown))
     sections, largest, planes = [], [], []
-    for field in _stress_by_level(
-        state, body, grid, levels, pressure, shear, None if why else edge, rows
-    ):
-        if state.strain is not None:
-            bulk = state.bulk_stress(field.levels[0].layer, indenter)
-            field = replace(field, stress=field.stress + bulk[:, None, None])
+    for field in window.stress_by_level(levels, None if why else edge, rows):
         sections.append(field.along_x())
-        largest.append(_stress_points(field, grid, columns).select_largest())
+        if not section_only:
+            largest.append(_stress_points(field, grid, columns).select_largest())
         planes += [field] if volume else []
     plane = SubsurfaceField.joined(sections)
+    section = _stress_points(plane, grid)
     fitted = None
     if edge is not None:
-        on_edge = _edge_points(edge, edge.stress() + state.bulk_stress(0, indenter)[:, None])
+        on_edge = _edge_points(edge, edge.stress() + state.bulk_stress(0, window.indenter)[:, None])
         fitted = FittedEdge(on_edge, edge.apart * edge.size, not why)
     return StressField(
-        StressPoints.concatenate(largest),
+        window.body,
+        StressPoints.concatenate(largest) if largest else section.flattened,
         fitted,
-        _stress_points(plane, grid).add_cells(),
+        section.add_cells(),
         _axis_points(plane),
         _stress_points(SubsurfaceField.joined(planes), grid).add_cells() if volume else None,
         "x at y = 0",
@@ -210,125 +340,6 @@ def _stress_in_window(
             "edge": how,
             "levels": [{"depth": float(s.depth), "layer": s.layer} for s in levels],
         },
-    )
-
-
-def _computed_cells(
-    grid: SurfaceGrid, pressure: Field, shear: Field | None, section_only: bool
-) -> tuple[slice, Indices | None]:
-    """Return the cells on which the stress is computed, and those where its maxima are searched.
-
-    The maxima are searched in a slice of the cells along x: those up to x = 0 if this is a mirror
-    plane of the tractions, otherwise all. The stress is computed on rows of cells along y. The rows
-    are those next to y = 0 for the section alone, and the rows from there to the largest y if y = 0
-    is a mirror plane of the tractions. None means all rows.
-
-    pressure      pressure of the cells (nx, ny) [force/length^2]
-    shear         shear of the cells (2, nx, ny) [force/length^2]; None without shear
-    section_only  compute the stress in the section y = 0 only
-    """
-    from semi_analytical.stress.convolution import mirror_planes
-    from semi_analytical.stress.depths import line_weights
-
-    if grid.of_strips:
-        return slice(None), None
-    at_section = np.flatnonzero(line_weights(grid.y, 0.0))
-    tractions = pressure[None] if shear is None else np.stack([*shear, pressure])
-    along_x, along_y = mirror_planes(tractions)
-    columns = slice((grid.cells[0] + 1) // 2 if along_x else None)
-    if section_only:
-        return columns, at_section
-    return columns, np.arange(at_section[0], grid.cells[1]) if along_y else None
-
-
-def _fit_edge(
-    state: LoadedBodies,
-    body: Body,
-    grid: SurfaceGrid,
-    levels: Sequence[Level],
-    pressure: Field,
-    shear: Field | None,
-) -> tuple[NearEdge | None, str]:
-    """Fit the edge of the contact, near which the tractions fall like a square root.
-
-    body      lower body or indenter, in which the stress is computed
-    levels    depths of the stress; without a depth near the surface no edge is fitted
-    pressure  pressure of the cells (nx, ny) [force/length^2]
-    shear     shear of the cells (2, nx, ny) [force/length^2]; None without shear
-
-    Returns the fitted edge and an empty text. If the tractions do not determine the stress at the
-    edge, returns the edge as far as it was fitted, or None, and the cause.
-    """
-    from semi_analytical.frf.stack import stack_of
-    from semi_analytical.stress import EdgeNotSeen, near_edge, near_surface
-
-    if grid.of_strips:
-        return None, "strips of a line contact are narrow beside their edges"
-    if state.no_root is not None:
-        return None, state.no_root
-    if not any(level.layer == 0 and near_surface(level.depth, grid.spacing) for level in levels):
-        return None, "no depth is near the surface"
-    try:
-        return near_edge(stack_of(body), grid, pressure, shear, corrected=state.edges), ""
-    except EdgeNotSeen as cause:
-        return cause.candidate, str(cause)
-
-
-def _stress_by_level(
-    state: LoadedBodies,
-    body: Body,
-    grid: SurfaceGrid,
-    levels: tuple[Level, ...],
-    pressure: Field,
-    shear: Field | None,
-    edge: NearEdge | None,
-    rows: Indices | None,
-) -> Iterator[SubsurfaceField]:
-    """Yield displacement and stress at all positions of the cells, one depth after the other.
-
-    Near the fitted contact edge, the stress is corrected for tractions that vary within the cells.
-
-    levels    depths, each with its material
-    pressure  pressure of the cells (nx, ny) [force/length^2]
-    shear     shear of the cells (2, nx, ny) [force/length^2]; None without shear
-    edge      fitted contact edge; None without correction
-    rows      indices of the rows of cells along y; None for all
-    """
-    from semi_analytical.stress import fields_by_level
-
-    far = _far_field_tractions(state, pressure, shear)
-    reached = [level for level in levels if edge is not None and edge.reaches(level)]
-    # Adjacent to a corrected edge, the tractions themselves give the field.
-    below = [level for level in reached if level.depth > 0] if state.edges else []
-    near = fields_by_level(body, grid, pressure, shear, below, rows)
-    for field in fields_by_level(body, grid, *far, levels, rows):
-        if edge is None or field.levels[0] not in reached:
-            yield field
-        elif state.edges:
-            some = slice(None) if rows is None else rows
-            there = next(near).stress if field.depths[0] else edge.plane[None, ..., some]
-            corrected = edge.corrected(replace(field, stress=there)).stress
-            yield replace(field, stress=np.where(edge.beside[:, some], corrected, field.stress))
-        else:
-            yield edge.corrected(field)
-
-
-def _far_field_tractions(
-    state: LoadedBodies, pressure: Field, shear: Field | None
-) -> tuple[Field, Field | None]:
-    """Return constant tractions on cells that cause the true stress far from the cells.
-
-    Tractions of a solver with constant tractions on cells are returned unchanged. Cell means of
-    tractions that vary within the cells are sharpened, see `_sharpen_cell_means`.
-
-    pressure  pressure of the cells (nx, ny) [force/length^2]
-    shear     shear of the cells (2, nx, ny) [force/length^2]; None without shear
-    """
-    if not state.edges:
-        return pressure, shear
-    loaded = pressure > 0
-    return _sharpen_cell_means(pressure, loaded), None if shear is None else _sharpen_cell_means(
-        shear, loaded
     )
 
 
@@ -351,17 +362,6 @@ def _sharpen_cell_means(means: Field, loaded: NDArray[np.bool_]) -> Field:
     return found
 
 
-def _edge_record(edge: NearEdge | None, why: str) -> dict[str, object]:
-    """Return a record that states if the contact edge was fitted, or why not, for `stress.json`.
-
-    edge  fitted contact edge; None if there is none
-    why   cause if the edge is not determined, else empty
-    """
-    if edge is None or why:
-        return {"fitted": False, "because": why}
-    return {"fitted": True, "points": len(edge.x), "fits_apart": edge.apart}
-
-
 def _edge_points(edge: NearEdge, stress: Field) -> StressPoints:
     """Return the points on the fitted contact edge at the surface (n,); displacements are NaN.
 
@@ -377,33 +377,6 @@ def _edge_points(edge: NearEdge, stress: Field) -> StressPoints:
         stress,
         at_edge=nothing > 0,
     )
-
-
-def _extend_window(
-    state: LoadedBodies, margin: float, reach: Sequence[float] = (0.0, 0.0)
-) -> tuple[SurfaceGrid, Field, Field | None]:
-    """Return grid, pressure and shear on a window that contains the window of the contact solve.
-
-    The added cells have no traction.
-
-    margin  smallest half width of the window in half extents of the contact
-    reach   smallest half widths of the window along x and y [length]
-    """
-    from semi_analytical import SurfaceGrid
-
-    x, y = state.axes["x"], state.axes["y"]
-    pressure, shear = state.tractions["pressure"], state.tractions.get("shear")
-    sides = [float(c[-1] - c[0]) / (len(c) - 1) if len(c) > 1 else 1.0 for c in (x, y)]
-    halves = [ceil(r / side) - len(c) // 2 for r, side, c in zip(reach, sides, (x, y), strict=True)]
-    widths = [
-        max(_margin_cells(pressure, axis, margin), halves[axis] + NEIGHBOURS) for axis in (0, 1)
-    ]
-    if len(y) == 1:
-        widths[1] = 0
-    pad = [(width, width) for width in widths]
-    cells = (len(x) + 2 * widths[0], len(y) + 2 * widths[1])
-    grid = SurfaceGrid(cells, (cells[0] * sides[0], cells[1] * sides[1]))
-    return grid, np.pad(pressure, pad), None if shear is None else np.pad(shear, [(0, 0), *pad])
 
 
 def _margin_cells(pressure: Field, axis: int, margin: float) -> int:

@@ -49,6 +49,7 @@ def stress_on_disc(
     section = whole.add_cells()
     found = [grid.flattened, *([] if body.is_round else [body.beside(levels).flattened])]
     field = StressField(
+        state.loaded_body(indenter),
         StressPoints.concatenate(found),
         None,
         section,
@@ -66,10 +67,9 @@ def stress_on_disc(
     )
     if depths is not None:
         return field
-    extreme = extremes(field, state.indenter if indenter else state.body)
     nearer = [
         body.largest(one)
-        for one in extreme
+        for one in extremes(field)
         if one.region in body.parts.named and one.measure in measures
     ]
     return replace(field, points=StressPoints.concatenate([field.points, *nearer]))

@@ -47,7 +47,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
     )
     # Fit the mesh to the radius that is loaded now, not to the largest one of the history.
     asked = state.discretisation.model_copy(update={"contact_radius": None})
-    body = state.indenter if indenter else state.body
+    body = state.loaded_body(indenter)
     field = subsurface(body, tractions, asked, upper=indenter)
     radius = tractions.loaded_radius
     section = state.add_bulk_stress(_section_points(field), indenter)
@@ -56,6 +56,7 @@ def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressF
     assert section.cells is not None
     assert near.cells is not None
     return StressField(
+        body,
         section,
         None,
         near,

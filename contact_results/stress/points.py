@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_results.stress.invariants import principal_stresses, von_mises
+from contact_scene import Body
 from contact_scene.array_types import Field
 
 Indices = NDArray[np.int64]
@@ -256,6 +257,7 @@ class FittedEdge:
 class StressField:
     """Stress in a body below a contact, at the points of a section and optionally of a volume.
 
+    body       layers and base of this body
     points     points among which the largest stresses are searched: on cells, the points with the
                largest values at each depth; otherwise all points
     edge       fitted contact edge; None if there is none
@@ -269,6 +271,7 @@ class StressField:
     direction  unit vector, in the scene, of the x axis of the section
     """
 
+    body: Body
     points: StressPoints
     edge: FittedEdge | None
     section: StressPoints

@@ -88,7 +88,7 @@ class RadialBody:
         """
         from semi_analytical.frf.stack import stack_of
 
-        body = state.indenter if indenter else state.body
+        body = state.loaded_body(indenter)
         make = cls._below_shear if is_sheared(state) else cls._below_pressure
         return make(state, indenter, fineness, body, stack_of(body))
 

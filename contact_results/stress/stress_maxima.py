@@ -47,39 +47,30 @@ class Extreme:
     on_edge: bool = False
 
 
-def extremes(field: StressField, body: Body) -> tuple[Extreme, ...]:
+def extremes(field: StressField) -> tuple[Extreme, ...]:
     """Find the largest value of every stress measure in every region of a body.
 
     Points on the fitted edge of the contact are included. A measure without a positive value has
     no largest value if its highest value lies at the edge of the computed region: stresses decay to
     zero beyond this edge.
-
-    field  computed stress
-    body   lower body or indenter, in which the stress was computed
     """
-    found = {
-        (e.region, e.measure): e for e in _largest_in_regions(field.points, field.direction, body)
-    }
+    found = {(e.region, e.measure): e for e in _largest_in_regions(field, field.points)}
     if field.edge is not None:
-        for extreme in _largest_in_regions(field.edge.points, field.direction, body):
+        for extreme in _largest_in_regions(field, field.edge.points):
             key = extreme.region, extreme.measure
             if key not in found or extreme.value > found[key].value:
                 found[key] = replace(extreme, on_edge=True)
     return tuple(found.values())
 
 
-def _largest_in_regions(
-    points: StressPoints, direction: tuple[float, float], body: Body
-) -> Iterator[Extreme]:
-    """Yield the largest value of every stress measure in every region at the given points.
+def _largest_in_regions(field: StressField, points: StressPoints) -> Iterator[Extreme]:
+    """Yield the largest value of every stress measure in every region at some points of a field.
 
-    The measures of interfaces are evaluated on the upper side of each interface only.
-
-    points     stress in axes with x along `direction`
-    direction  unit vector in the axes of the scene, to which the places are transformed
+    The measures of interfaces are evaluated on the upper side of each interface only. The places
+    are transformed to the axes of the scene.
     """
-    along, across = direction
-    for region, inside in _region_masks(points, body):
+    along, across = field.direction
+    for region, inside in _region_masks(points, field.body):
         if not np.any(inside):
             continue
         for measure, values in points.measures.items():
@@ -88,7 +79,7 @@ def _largest_in_regions(
                 continue
             k = index_of_largest(np.where(inside, values, -np.inf))
             value, x, y, depth = (
-                float(field.flat[k]) for field in (values, points.x, points.y, points.depth)
+                float(of.flat[k]) for of in (values, points.x, points.y, points.depth)
             )
             x, y = along * x - across * y + 0.0, across * x + along * y + 0.0
             at_edge = bool(points.at_edge.flat[k])

@@ -26,15 +26,11 @@ CELL_AVERAGE = (
 MARGIN = len(CELL_AVERAGE) // 2
 # Distance in cells beyond which the nine-point average of 1/r has a relative error below 4e-14.
 FAR = 32
-# Least distance of a box from the singularity over its half side. For a function analytic except
-# there, POINTS Gauss points have the relative error (4 + sqrt 15)^(-2 POINTS) = 1e-18. The margin
-# is for oscillating responses.
-CLEAR = 4.0
-POINTS = 10
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(POINTS)
-NODES_X, NODES_Y = (grid.ravel() for grid in np.meshgrid(NODES, NODES, indexing="ij"))
-AREAS = np.outer(WEIGHTS, WEIGHTS).ravel()
-AT_ONCE = BATCH // 4 // POINTS**2  # number of boxes
+# Gauss points and weights along a side of a box, by its least distance d from the singularity over
+# its half side. For a function analytic except there, n points have the relative error
+# (d + sqrt(d^2 - 1))^(-2n) = 1e-18. The margin is for oscillating responses.
+GAUSS = {least: np.polynomial.legendre.leggauss(n) for least, n in ((16.0, 6), (4.0, 10))}
+CLEAR = min(GAUSS)
 QUARTERS = np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
 
 
@@ -131,15 +127,19 @@ def integrals_near(
     half, centres, cell = np.array(spacing) / 2, cells * np.array(spacing), np.arange(len(cells))
     total: Any = 0.0
     while len(cell):
-        distance = np.hypot(np.hypot(centres[:, 0], centres[:, 1]), clearance)
-        large = CLEAR * np.max(half) > distance
-        boxes, of_boxes = centres[~large], cell[~large]
-        for start in range(0, len(boxes), AT_ONCE):
-            x, y = boxes[start : start + AT_ONCE].T[..., None]
-            values = response(x + half[0] * NODES_X, y + half[1] * NODES_Y)
-            integrals = values @ (half[0] * half[1] * AREAS)
-            at = of_boxes[start : start + AT_ONCE]
-            total = total + np.stack([np.bincount(at, one, len(cells)) for one in integrals])
+        distance = np.hypot(np.hypot(centres[:, 0], centres[:, 1]), clearance) / np.max(half)
+        large, farther = distance < CLEAR, np.inf
+        for least, (nodes, weights) in GAUSS.items():
+            inside = (distance >= least) & (distance < farther)
+            boxes, of_boxes, farther = centres[inside], cell[inside], least
+            to_x, to_y = np.stack(np.meshgrid(*np.outer(half, nodes), indexing="ij")).reshape(2, -1)
+            at_once = BATCH // 4 // len(nodes) ** 2
+            for start in range(0, len(boxes), at_once):
+                x, y = boxes[start : start + at_once].T[..., None]
+                values = response(x + to_x, y + to_y)
+                integrals = values @ (half[0] * half[1] * np.outer(weights, weights).ravel())
+                at = of_boxes[start : start + at_once]
+                total = total + np.stack([np.bincount(at, one, len(cells)) for one in integrals])
         half = half / 2
         centres = (centres[large][:, None] + half * QUARTERS).reshape(-1, 2)
         cell = np.repeat(cell[large], len(QUARTERS))

@@ -480,7 +480,7 @@ def _stress_extremes() -> dict[tuple[str, str], Extreme]:
     state = state_of_result(semi_analytical.solve(COATED, grid, SOLVER_TOLERANCE), 1)
     depth = COATED.body.layers[0].thickness
     field = stress_on_cells(state, depths=(0.5 * depth, 1.5 * depth), see_edge=False)
-    return {(e.region, e.measure): e for e in extremes(field, COATED.body)}
+    return {(e.region, e.measure): e for e in extremes(field)}
 
 
 def sides_of_an_interface() -> float:

@@ -1,6 +1,7 @@
 """Command `slipstick run`: solve a scene and write its results."""
 
 from contextlib import ExitStack
+from dataclasses import replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
 
@@ -30,9 +31,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
-    from contact_results.surface import Result
+    from contact_results.result_files import WrittenResult
+    from contact_results.result_report import ResultReport
     from contact_scene import SceneFile
-    from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
     from contact_scene.quantities.summary import StepSummary
     from slipstick.expected import Source
     from slipstick.solvers.solver import Solver
@@ -165,8 +166,10 @@ def run(
         with stopwatch.phase("write"):
             from contact_results.files.field_file import write_fields
             from contact_results.result_files import write_computed
+            from contact_results.result_report import ResultReport
 
-            write_fields(result, staging, all_fields=all_fields)
+            report = ResultReport.of(result)
+            write_fields(report, staging, all_fields=all_fields)
         if error and stated is None:
             with stopwatch.phase("error"), show_coarse_solves():
                 stated = omitted.compute("the errors", lambda: chosen.errors(result), None)
@@ -176,25 +179,18 @@ def run(
                 by_inputs = omitted.compute(
                     "the uncertainty by inputs",
                     lambda: _uncertainty_by_inputs(
-                        chosen, uncertain, changed, result, stated, staging
+                        chosen, uncertain, changed, replace(report, errors=stated), staging
                     ),
                     None,
                 )
         with stopwatch.phase("write"):
-            written = write_computed(
-                result,
-                staging,
-                omitted,
-                figures=figures.value,
-                errors=stated,
-                accuracy=reached,
-                by_inputs=by_inputs,
-            )
+            report = replace(report, errors=stated, accuracy=reached, by_inputs=by_inputs)
+            written = write_computed(report, staging, omitted, figures=figures.value)
         write_timing(stopwatch, staging, result.increments)
 
     if request is None:
         remove_level_checkpoints(output)
-    _print_outcome(chosen, result, stated, reached, stopwatch.wall_seconds, written.cycles)
+    _print_outcome(chosen, written, stopwatch.wall_seconds)
     if by_inputs:
         print_table(by_inputs, zip(*by_inputs.values(), strict=True), numbers=True)
     elif by_inputs is not None:
@@ -224,37 +220,35 @@ def _uncertainty_by_inputs(
     solver: "Solver",
     inputs: "Sequence[UncertainInput]",
     changed: "Sequence[Sequence[SceneFile]]",
-    result: "Result",
-    stated: "StatedErrors | None",
+    report: "ResultReport",
     directory: "Path",
 ) -> "Mapping[str, list[str]]":
     """Solve the scenes of changed inputs, write the uncertainty of the results, return its table.
 
     inputs     uncertain inputs
     changed    scene with one deviation less and more of each input
-    stated     stated errors of the result; None if they were not computed
     directory  directory of the results
     """
-    from contact_results.cycles import fretting_cycles
     from contact_results.directory.file_names import INPUTS
     from contact_results.files.summary_file import summary_of
+    from contact_results.result_report import ResultReport
     from slipstick.uncertain_inputs import (
         uncertain_numbers,
         uncertainty_columns,
         write_uncertainties,
     )
 
-    def last_step(result: "Result", errors: "StatedErrors | None" = None) -> "StepSummary":
-        return summary_of(result, fretting_cycles(result), errors).steps[-1]
+    def last_step(report: ResultReport) -> "StepSummary":
+        return summary_of(report.with_cycles()).steps[-1]
 
     def solved(contents: "SceneFile") -> "StepSummary":
         fineness = solver.fineness(contents)
         decided = solver.plan(contents.scene, fineness)
-        return last_step(solver.solve(contents.scene, fineness, decided))
+        return last_step(ResultReport.of(solver.solve(contents.scene, fineness, decided)))
 
     ends = [(solved(less), solved(more)) for less, more in changed]
-    line = result.scene.indenter.is_line
-    numbers = uncertain_numbers(last_step(result, stated), ends, line=line)
+    line = report.scene.indenter.is_line
+    numbers = uncertain_numbers(last_step(report), ends, line=line)
     write_uncertainties(inputs, numbers, directory / INPUTS)
     return uncertainty_columns(inputs, numbers)
 
@@ -266,35 +260,23 @@ def _source(contents: "SceneFile", solver: SolverName) -> "Source":
     return Source("run", scene_keys(contents.scene), solver.value)
 
 
-def _print_outcome(
-    solver: "Solver",
-    result: "Result",
-    stated: "StatedErrors | None",
-    reached: "AccuracyReached | None",
-    seconds: dict[str, float],
-    cycles: dict[str, list[str]],
-) -> None:
+def _print_outcome(solver: "Solver", written: "WrittenResult", seconds: dict[str, float]) -> None:
     """Print discretisation, errors and scalars of a finished run.
 
-    stated   error estimates, or None
-    reached  outcome of a requested accuracy, or None
     seconds  elapsed time of each phase of the run [s]
-    cycles   columns of the table of load cycles; empty without cycles
     """
-    from contact_results.key_numbers import SHOWN, outcome_columns
-    from contact_results.number_text import doubt_texts
-    from contact_results.radial_method import radial_advice
+    from contact_results.key_numbers import doubts_of, outcome_columns
     from slipstick.cli.progress import accuracy_lines, error_lines, solve_lines
     from slipstick.cli.terminal import print_pairs, print_table
 
+    report = written.report
+    result, stated, reached = report.result, report.errors, report.accuracy
     stated_in = () if stated is None else error_lines(stated, seconds.get("error"))
     accurate = () if reached is None else accuracy_lines(reached)
     solved = solve_lines(result, seconds["solve"])
     print_pairs([*solver.layout(result), *solved, *stated_in, *accurate])
-    columns = outcome_columns(result.steps, stated.steps if stated else None)
-    for table in (columns, *([cycles] if cycles else ())):
+    columns = outcome_columns(report.steps, report.step_errors)
+    for table in (columns, *([written.cycles] if written.cycles else ())):
         print_table(table, zip(*table.values(), strict=True), numbers=True)
-    doubts = doubt_texts(stated.steps, SHOWN) if stated else []
-    doubted = bool(doubts) or (reached is not None and not reached.met)
-    for text in [*doubts, *radial_advice(result.scene, result.solver, doubted=doubted)]:
+    for text in doubts_of(report):
         typer.echo(f"  {text}")

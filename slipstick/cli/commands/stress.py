@@ -239,9 +239,9 @@ def stress(
                 result, stated = refined.level.result, refined.level.stated
                 reached = refined.accuracy
             state = state_of_result(result, step, stated)
-        which, body = _elastic_body(state, indenter)
+        which, _ = _elastic_body(state, indenter)
         field = _stress_field(state, chosen_depths, indenter=indenter, volume=volume)
-        found = extremes(field, body)
+        found = extremes(field)
         errors = None
         if error:
             chosen_alone = chosen_depths is not None

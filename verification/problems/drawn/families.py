@@ -103,7 +103,7 @@ def stress_maxima(
     """
     state = state_of_result(result, step, errors)
     field = stress_below_contact(state)
-    found = extremes(field, state.body)
+    found = extremes(field)
     of_stress = stress_errors(state, field, found)
     return {
         e.measure: (e.value, error)
