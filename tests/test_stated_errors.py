@@ -32,7 +32,13 @@ import fem_reference
 import slipstick as package
 from contact_errors import coarse_solves
 from contact_errors import stress_errors as stress_errors_module
-from contact_errors.coarse_solves import Fineness, add_effects, coarse_increment_counts, ratios
+from contact_errors.coarse_solves import (
+    Fineness,
+    add_effects,
+    coarse_increment_counts,
+    fewest_increments,
+    ratios,
+)
 from contact_errors.error_formula import (
     PEAK,
     Comparison,
@@ -301,7 +307,7 @@ CONSTANTS = {
     *("PER_TOLERANCE", "LARGEST_SHARE", "REFERENCE_PRECISION"),
     *("ORDERS", "LIMITS", "FITTED_STICK", "ROUND_OFF", "PRECISION", "HIGHEST"),
     # of the coarse solves
-    *("SHARES", "FEW", "MANY", "PER_RADIUS"),
+    *("SHARES", "FEW", "MANY", "FEWEST", "PER_RADIUS"),
     *("NEGLIGIBLE", "ROOM", "MAX_ENLARGEMENTS"),
     *("FEWEST_ELEMENTS", "SMALLEST_BOX", "FEWEST_HARMONICS", "LARGEST_OVERLAP", "LINEAR"),
     *("NEAR", "COARSE", "OF_FINER", "OF_ANOTHER_FIT", "EDGE_PRECISION", "FINENESS"),
@@ -359,16 +365,14 @@ def test_increments_have_no_error_in_three_proved_cases_alone(name: str) -> None
 def test_increments_of_coarse_solves() -> None:
     counts = (1, 2, 5, 20, 40)
     matters = (False, True, True, True, True)
-    few, fewer = coarse_increment_counts(counts, matters)
-    assert few == (1, 32, 32, 32, 20)
-    assert fewer == (1, 8, 8, 8, 10)
-    # Without a load step of few increments, half and a quarter.
-    assert coarse_increment_counts((1, 16, 40), (False, True, True)) == [(1, 8, 20), (1, 8, 10)]
-    # The stick radius of a pressing with friction by 20 increments jumps by 10 % with the cells of
-    # solves by 5 increments, and by less than 1 % with those of 10.
-    assert coarse_increment_counts((20,), (True,)) == [(10,), (8,)]
+    many, few = coarse_increment_counts(counts, matters)
+    assert many == (1, 32, 32, 40, 80)
+    assert few == (1, 8, 8, 8, 8)
+    assert fewest_increments(counts, matters) == (1, 2, 4, 4, 4)
+    # Without a load step of few increments, twice their number alone.
+    assert coarse_increment_counts((1, 8, 40), (False, True, True)) == [(1, 32, 80)]
     # A step that inherits a state takes the ratio nearest to 1 so far.
-    assert ratios(counts, few, matters) == (1.0, 1 / 16, 5 / 32, 20 / 32, 20 / 32)
+    assert ratios(counts, many, matters) == (1.0, 1 / 16, 5 / 32, 1 / 2, 1 / 2)
     of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
     assert add_effects([{"approach": np.array([1.0])}], [(of_many, of_few)]) == [{"approach": 2.0}]
 
