@@ -26,6 +26,7 @@ from contact_scenes import (
     steel,
 )
 from scene_texts import COARSE, STEEL_BALL_PRESSED
+from scipy.optimize import minimize_scalar
 
 import contact_errors
 import fem_reference
@@ -102,6 +103,7 @@ from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
 from verification.closed_forms.flat_punch import ConeContact
 from verification.closed_forms.hertz import EllipticalContact, contact_modulus, tangential_modulus
+from verification.closed_forms.huber_stress import axis_stress
 from verification.problems.drawn.drawing import Profile
 from verification.problems.drawn.families import Similar
 from verification.problems.problem import surface_of
@@ -1153,6 +1155,23 @@ def test_a_question_mark_advises_the_radial_solver_where_it_can_solve_the_scene(
     pages = [(tmp_path / page).read_text() for page in ("out/index.html", "below/stress.html")]
     for text in (run.stdout, stress.stdout, *pages):
         assert ("--solver radial can solve this: normal load" in text) is advised
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3])
+def test_a_largest_stress_between_the_depths_of_the_radial_solver_is_covered(ratio: float) -> None:
+    """Below a ball without friction, von Mises' stress is largest on the axis (Huber 1904)."""
+    posed = scene(PRESS, friction=None, indenter=paraboloid(RIGID), body=steel(ratio))
+    result = package.solve(posed, "radial", RadialDiscretisation())
+    ((found, error),) = largest_stresses(result, stated_errors(result), ["von_mises@body"]).values()
+    a, p0 = result.steps[-1].contact_radius, result.steps[-1].peak_pressure
+
+    def negative(depth: float) -> float:
+        stress = axis_stress(depth * a, a, p0, ratio)
+        return -float(abs(stress.axial - stress.radial))
+
+    exact = -minimize_scalar(negative, bounds=(0.2, 0.8), method="bounded").fun
+    assert error is not None
+    assert abs(found - exact) <= size(error) < 1e-8 * exact
 
 
 def test_components_of_a_vector_share_one_size() -> None:
