@@ -754,7 +754,8 @@ EXPENSIVE: dict[str, Callable[[], Known]] = {
 # with a lower order than 1.
 MISSED = {
     ("cone pushed", "dissipated_energy"): 1.45,
-    ("elements coarser than a stiff film", PEAK): 1.15,
+    # The part by the elements alone is 1.46 times too small with 8, and 1.69 with 4 increments.
+    ("elements coarser than a stiff film", PEAK): 1.6,
 }
 
 # The elements are 0.24 % off and the profile through 24 points 0.21 %, with opposite signs.
