@@ -43,6 +43,13 @@ class Work(NamedTuple):
     repetitions: float
     overhead: float
 
+    def size(self, share: float = 1.0) -> float:
+        """Count the unknowns and the overhead of a solve.
+
+        share  fraction of the cells along a side, for a coarser solve of an error estimate
+        """
+        return share**2 * self.unknowns + self.overhead
+
     def cost(self, share: float = 1.0) -> float:
         """Compute a number proportional to the CPU time of a solve.
 
@@ -52,7 +59,7 @@ class Work(NamedTuple):
         share  fraction of the cells along a side, for the cost of a coarser solve of an error
                estimate
         """
-        return self.repetitions * (share**2 * self.unknowns + self.overhead) ** EXPONENT
+        return self.repetitions * self.size(share) ** EXPONENT
 
 
 def estimated_run_seconds(solved: float, judged: float, coarse: Work, run: Work) -> float:

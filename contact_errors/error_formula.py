@@ -76,6 +76,9 @@ ORDERS: Mapping[str, float] = MappingProxyType(
 )
 # Relative error of a scalar by another method: tolerance of the radial solver for layers.
 REFERENCE_PRECISION = 1e-9
+# Relative round-off of double precision in systems of a few hundred equations, and in sums of a few
+# hundred waves with cancellation.
+PRECISION = 1e-13
 # Ratio of the relative error of a scalar to the relative residual that causes this error.
 PER_TOLERANCE = 10.0
 # Largest ratio of error to scalar at which the error estimate counts as converged: a larger error

@@ -15,6 +15,7 @@ from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
     Refinement,
+    coarse_tolerance,
 )
 from contact_errors.cost_estimate import CELL_OVERHEAD, Work
 from contact_errors.error_formula import (
@@ -146,7 +147,8 @@ class CellSolver(DiscretisedSolver):
         """
         most = max(step.contact for step in resolution(result))
         few = self.coarser(result, min(PER_RADIUS / max(most, 1.0), 1 / 2), 0)
-        return replace(coarse, space=few, edges=False)
+        tolerance = max(coarse.tolerance, coarse_tolerance(PER_RADIUS))
+        return replace(coarse, space=few, tolerance=tolerance, edges=False)
 
     def cell_sides(self, result: Result) -> tuple[float, ...]:
         grid = result.grid

@@ -20,7 +20,14 @@ from contact_errors.coarse_solves import (
     slip_zone,
 )
 from contact_errors.cost_estimate import RING_OVERHEAD, Work
-from contact_errors.error_formula import EDGE, SMOOTH, Features, Values, is_singular
+from contact_errors.error_formula import (
+    EDGE,
+    PRECISION,
+    SMOOTH,
+    Features,
+    Values,
+    is_singular,
+)
 from contact_errors.known_pressing import known_pressing
 from contact_scene import RadialDiscretisation
 from contact_scene.quantities.stated_error import (
@@ -30,8 +37,6 @@ from contact_scene.quantities.summary import ContactStatus
 from radial import Increment, Plan, Result
 from radial.memory import estimated_bytes
 
-# Relative round-off of double precision, in systems of a few hundred equations.
-PRECISION = 1e-13
 FIRST_FINENESS = 0.5
 MAX_FINENESS = 4.0
 

@@ -35,6 +35,7 @@ from contact_errors.error_formula import (
     BELIEVED,
     EDGE,
     LARGEST_SHARE,
+    PRECISION,
     REFERENCE_PRECISION,
     ROOT,
     SMOOTH,
@@ -87,8 +88,6 @@ OF_ANOTHER_FIT = 1 / (COARSE ** (BELIEVED * ROOT) - 1)
 # Relative error of the stress at a fitted edge by the evaluation of its tractions: at most 1.2e-3
 # in Hertz contacts with partial and gross slip on 24 to 96 cells per side.
 EDGE_PRECISION = 1e-3
-# Relative round-off of double precision, with cancellation in sums of a few hundred waves.
-PRECISION = 1e-13
 
 
 def largest_stresses(
@@ -414,7 +413,8 @@ def _stress_errors_on_disc(
     """Estimate the errors of the largest stresses below the tractions of the radial solver.
 
     The stresses at the same points are computed again with twice the numbers of Legendre orders and
-    quadrature points. The differences yield the errors.
+    quadrature points. The differences yield the errors, with the excess of a maximum between the
+    depths of the points.
 
     state     bodies and surface tractions of the radial solver
     points    points of the stress field
@@ -437,7 +437,7 @@ def _stress_errors_on_disc(
     errors = []
     for k, e in enumerate(found):
         size = OF_FINER * abs(again[e.measure][k] - e.value)
-        size += PRECISION * abs(e.value)
+        size += PRECISION * abs(e.value) + _between_levels(points, measures[e.measure], e)
         reason = AT_WINDOW_EDGE if e.at_window_edge else None
         errors.append(_stated(state, "quadrature", e.value, size, reason))
     return tuple(errors)

@@ -18,9 +18,10 @@ from contact_errors.coarse_solves import (
     DiscretisedSolver,
     Fineness,
     coarse_increment_counts,
+    fewest_increments,
     solve_coarsest,
 )
-from contact_errors.cost_estimate import EXPONENT, Work
+from contact_errors.cost_estimate import EXPONENT
 from contact_scene import Scene
 from contact_scene.stepping.increment_error import has_increment_error
 
@@ -69,7 +70,7 @@ def estimate_seconds(solver: DiscretisedSolver, run: Fineness) -> float:
     seconds = set_up - each
     for solve_of_run, share in _solves_of_run(solver, run):
         work = solver.work(solve_of_run)
-        ratio = _size(work, share) / _size(trial.work(coarse))
+        ratio = work.size(share) / trial.work(coarse).size()
         seconds += (each + sum(solve_of_run.increments) * increment) * ratio**EXPONENT
     return seconds
 
@@ -84,11 +85,6 @@ def _trial_steps(scene: Scene) -> int:
     return min(MAX_STEPS, max(STEPS, *shears[:1], 0))
 
 
-def _size(work: Work, share: float = 1.0) -> float:
-    """Count the unknowns and the overhead of a solve on a fraction of its cells along a side."""
-    return share**2 * work.unknowns + work.overhead
-
-
 def _solves_of_run(solver: DiscretisedSolver, run: Fineness) -> list[tuple[Fineness, float]]:
     """List the solve of a run and the coarse solves of its error estimate.
 
@@ -99,8 +95,11 @@ def _solves_of_run(solver: DiscretisedSolver, run: Fineness) -> list[tuple[Finen
     if any(matters):
         few = replace(run, space=solver.first_space())
         others = coarse_increment_counts(run.increments, matters)
-        counts = [run.increments, *dict.fromkeys(others)]
-        solves += [(replace(few, increments=count), 1.0) for count in counts]
-        run = replace(run, increments=min(counts, key=sum))
+        fewest = fewest_increments(run.increments, matters)
+        solves += [
+            (replace(few, increments=count), 1.0)
+            for count in dict.fromkeys([run.increments, *others, fewest])
+        ]
+        run = replace(run, increments=fewest)
     shares = [share for _, share, _ in solver.shares]
     return solves + [(run, share) for share in shares]

@@ -15,6 +15,9 @@ import numpy as np
 from contact_scene.array_types import Vector
 
 MAX_SWEEPS = 100
+# Part of a Newton step at which the line search has failed: no traction has the prescribed forces,
+# and each further step would fail like this one.
+SMALLEST_PART = 1e-9
 
 
 class ProjectedTraction(Protocol):
@@ -70,9 +73,11 @@ def find_multiplier(
             trial = shifted_by(multiplier + part * step)
             # Curvature condition on the gradient of the dual: the step passes the minimum at most
             # to half the initial slope.
-            if np.sum(trial.defect * step) <= 0.5 * steepest or part < 1e-9:
+            if np.sum(trial.defect * step) <= 0.5 * steepest:
                 break
             part *= 0.5
+            if part < SMALLEST_PART:
+                return shifted, multiplier
         multiplier = multiplier + part * step
         shifted = trial
     return shifted, multiplier

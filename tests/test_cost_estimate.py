@@ -96,7 +96,13 @@ def test_a_worked_example() -> None:
 
 @pytest.mark.parametrize(
     ("seconds", "text"),
-    [(0.5, "less than 1 s"), (90.0, "about 90 s"), (6e2, "about 10 min"), (3.6e4, "about 10 h")],
+    [
+        (0.5, "less than 1 s"),
+        (90.0, "about 90 s"),
+        (113.0, "about 110 s"),
+        (6e2, "about 10 min"),
+        (3.6e4, "about 10 h"),
+    ],
 )
 def test_a_time_is_told_in_the_unit_that_suits_it(seconds: float, text: str) -> None:
     assert time_text(seconds) == text

@@ -26,13 +26,20 @@ from contact_scenes import (
     steel,
 )
 from scene_texts import COARSE, STEEL_BALL_PRESSED
+from scipy.optimize import minimize_scalar
 
 import contact_errors
 import fem_reference
 import slipstick as package
 from contact_errors import coarse_solves
 from contact_errors import stress_errors as stress_errors_module
-from contact_errors.coarse_solves import Fineness, add_effects, coarse_increment_counts, ratios
+from contact_errors.coarse_solves import (
+    Fineness,
+    add_effects,
+    coarse_increment_counts,
+    fewest_increments,
+    ratios,
+)
 from contact_errors.error_formula import (
     PEAK,
     Comparison,
@@ -96,7 +103,7 @@ from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.coated_indentation import paraboloid as pressed_coating
 from verification.closed_forms.flat_punch import ConeContact
 from verification.closed_forms.hertz import EllipticalContact, contact_modulus, tangential_modulus
-from verification.closed_forms.huber_stress import trailing_edge_tension
+from verification.closed_forms.huber_stress import axis_stress, trailing_edge_tension
 from verification.problems.drawn.drawing import Profile
 from verification.problems.drawn.families import Similar
 from verification.problems.problem import surface_of
@@ -302,7 +309,7 @@ CONSTANTS = {
     *("PER_TOLERANCE", "LARGEST_SHARE", "REFERENCE_PRECISION"),
     *("ORDERS", "LIMITS", "FITTED_STICK", "ROUND_OFF", "PRECISION", "HIGHEST"),
     # of the coarse solves
-    *("SHARES", "FEW", "MANY", "PER_RADIUS"),
+    *("SHARES", "FEW", "MANY", "FEWEST", "PER_RADIUS"),
     *("NEGLIGIBLE", "ROOM", "MAX_ENLARGEMENTS"),
     *("FEWEST_ELEMENTS", "SMALLEST_BOX", "FEWEST_HARMONICS", "LARGEST_OVERLAP", "LINEAR"),
     *("NEAR", "COARSE", "OF_FINER", "OF_ANOTHER_FIT", "EDGE_PRECISION", "FINENESS"),
@@ -360,16 +367,14 @@ def test_increments_have_no_error_in_three_proved_cases_alone(name: str) -> None
 def test_increments_of_coarse_solves() -> None:
     counts = (1, 2, 5, 20, 40)
     matters = (False, True, True, True, True)
-    few, fewer = coarse_increment_counts(counts, matters)
-    assert few == (1, 32, 32, 32, 20)
-    assert fewer == (1, 8, 8, 8, 10)
-    # Without a load step of few increments, half and a quarter.
-    assert coarse_increment_counts((1, 16, 40), (False, True, True)) == [(1, 8, 20), (1, 8, 10)]
-    # The stick radius of a pressing with friction by 20 increments jumps by 10 % with the cells of
-    # solves by 5 increments, and by less than 1 % with those of 10.
-    assert coarse_increment_counts((20,), (True,)) == [(10,), (8,)]
+    many, few = coarse_increment_counts(counts, matters)
+    assert many == (1, 32, 32, 40, 80)
+    assert few == (1, 8, 8, 8, 8)
+    assert fewest_increments(counts, matters) == (1, 2, 4, 4, 4)
+    # Without a load step of few increments, twice their number alone.
+    assert coarse_increment_counts((1, 8, 40), (False, True, True)) == [(1, 32, 80)]
     # A step that inherits a state takes the ratio nearest to 1 so far.
-    assert ratios(counts, few, matters) == (1.0, 1 / 16, 5 / 32, 20 / 32, 20 / 32)
+    assert ratios(counts, many, matters) == (1.0, 1 / 16, 5 / 32, 1 / 2, 1 / 2)
     of_many, of_few = ([{"approach": np.array([x])}] for x in (3.0, 2.0))
     assert add_effects([{"approach": np.array([1.0])}], [(of_many, of_few)]) == [{"approach": 2.0}]
 
@@ -749,7 +754,8 @@ EXPENSIVE: dict[str, Callable[[], Known]] = {
 # with a lower order than 1.
 MISSED = {
     ("cone pushed", "dissipated_energy"): 1.45,
-    ("elements coarser than a stiff film", PEAK): 1.15,
+    # The part by the elements alone is 1.46 times too small with 8, and 1.69 with 4 increments.
+    ("elements coarser than a stiff film", PEAK): 1.6,
 }
 
 # The elements are 0.24 % off and the profile through 24 points 0.21 %, with opposite signs.
@@ -1161,6 +1167,23 @@ def test_a_question_mark_advises_the_radial_solver_where_it_can_solve_the_scene(
     pages = [(tmp_path / page).read_text() for page in ("out/index.html", "below/stress.html")]
     for text in (run.stdout, stress.stdout, *pages):
         assert ("--solver radial can solve this: normal load" in text) is advised
+
+
+@pytest.mark.parametrize("ratio", [0.0, 0.3])
+def test_a_largest_stress_between_the_depths_of_the_radial_solver_is_covered(ratio: float) -> None:
+    """Below a ball without friction, von Mises' stress is largest on the axis (Huber 1904)."""
+    posed = scene(PRESS, friction=None, indenter=paraboloid(RIGID), body=steel(ratio))
+    result = package.solve(posed, "radial", RadialDiscretisation())
+    ((found, error),) = largest_stresses(result, stated_errors(result), ["von_mises@body"]).values()
+    a, p0 = result.steps[-1].contact_radius, result.steps[-1].peak_pressure
+
+    def negative(depth: float) -> float:
+        stress = axis_stress(depth * a, a, p0, ratio)
+        return -float(abs(stress.axial - stress.radial))
+
+    exact = -minimize_scalar(negative, bounds=(0.2, 0.8), method="bounded").fun
+    assert error is not None
+    assert abs(found - exact) <= size(error) < 1e-8 * exact
 
 
 def test_components_of_a_vector_share_one_size() -> None:

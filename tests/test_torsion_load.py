@@ -10,6 +10,7 @@ from random_compliance import as_map, compliance, pushed, rough_inverse
 from contact_scene.solver_errors import NotConverged
 from contact_solver.admissible_shear import admissible_shear, magnitude
 from contact_solver.gross_slip import exhausts_friction, full_slip, limit_load
+from contact_solver.multipliers import find_multiplier
 from contact_solver.pressure import PressureProblem, solve_pressure
 from contact_solver.rigid_motion import RigidMotion, RigidMotions
 from semi_analytical.increments.normal_target import NormalTarget
@@ -150,6 +151,28 @@ def touches(target, cells, *, forced=True):
     total, *moments = target
     load = NormalTarget(*((total, None) if forced else (None, 2.0)), moment=tuple(moments))
     return load.touches(Model, np.where(cells, 0.0, np.inf))
+
+
+def test_a_search_for_multipliers_ends_with_its_first_line_search_that_fails():
+    """The defect does not change, and its step is round-off: 30 halvings lead below 1e-9."""
+    tried = []
+
+    class Unable:
+        defect = np.ones(1)
+
+        def has_prescribed_forces(self, multiplier):
+            return False
+
+        def newton_step(self):
+            return np.array([1e-16])
+
+    def shifted_by(multiplier):
+        tried.append(multiplier)
+        return Unable()
+
+    _, found = find_multiplier(shifted_by, np.zeros(1))
+    np.testing.assert_array_equal(found, [0.0])
+    assert len(tried) == 1 + 30
 
 
 @given(carried(), st.sampled_from([1e-6, 1.0, 1e6]))

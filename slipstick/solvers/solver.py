@@ -159,7 +159,7 @@ def time_text(seconds: float) -> str:
     if seconds < 1:
         return "less than 1 s"
     if seconds < 120:
-        return f"about {seconds:.2g} s"
+        return f"about {float(f'{seconds:.2g}'):g} s"
     if seconds < 7200:
         return f"about {seconds / 60:.2g} min"
     return f"about {seconds / 3600:.2g} h"
