@@ -60,7 +60,7 @@ LONGEST = (
     "test_fem_harmonics",
     "test_stress_at_edge",
     "test_stress_command",
-    "test_stability_sections",
+    "test_hard_contacts",
     "test_threads",
     "test_verification_report",
     "test_size_bombs",
