@@ -7,13 +7,10 @@ from typing import Any
 import pytest
 from command import outcome
 
-from contact_results.directory.atomic_file import Refused
 from slipstick.expected import (
     ExpectedNumber,
     Source,
     expected_changes,
-    read_expected,
-    save_expected,
 )
 
 pytestmark = pytest.mark.usefixtures("one_process")
@@ -131,47 +128,3 @@ def test_a_result_on_coarser_cells_is_worse_and_is_written(scene: Path) -> None:
     assert (code, "better; --save-expected expected.json saves" in said) == (0, True), said
     assert call(scene, "run", "--save-expected", "again.json", *FINER)[0] == 0
     assert (scene.parent / "again.json").read_bytes() == (scene.parent / EXPECTED).read_bytes()
-
-
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        (("--set", "indenter.radius=9mm"), "key indenter.radius: got 0.009, expected 0.018"),
-        (("--set", "friction.coefficient=0.2"), "key friction.coefficient: got 0.2, expected none"),
-        (("--no-error",), "omit --no-error"),
-        (("--save-expected", "other.json"), "--expect excludes"),
-    ],
-)
-def test_what_cannot_be_compared_is_refused_before_the_solve(
-    scene: Path, options: tuple[str, ...], said: str
-) -> None:
-    assert call(scene, "run", "--save-expected", EXPECTED)[0] == 0
-    (scene.parent / "run" / "summary.json").unlink()
-    code, text = call(scene, "run", "--expect", EXPECTED, *options)
-    assert (code, said in " ".join(text.replace("│", "").split())) == (2, True), text
-    assert not (scene.parent / "run" / "summary.json").exists()
-
-
-DAMAGE = {
-    '"value": 1.0': ('"value": "one"', 'key numbers."step 1".approach.value: got "one", expected'),
-    '"schema_version": 1': ('"schema_version": 2', "key schema_version: got 2, expected 1"),
-    '"unit": "m",': ("", 'key numbers."step 1".approach.unit: the key is missing'),
-    '"numbers": {': ('"numbers": [{', "got no JSON"),
-    '"error": 0.1': ('"error": -0.1', "error: got -0.1, expected greater than or equal to 0"),
-    '"reliable": true': ('"reliable": true, "tolerance": 1', "approach.tolerance: unknown key"),
-    '"run"': ('"stress"', 'key command: got "run", expected "stress"'),
-}
-
-
-@pytest.mark.parametrize("text", DAMAGE)
-def test_a_file_that_cannot_be_used_is_named_with_key_and_remedy(tmp_path: Path, text: str) -> None:
-    path = tmp_path / EXPECTED
-    save_expected(SOURCE.with_numbers({"step 1": {"approach": number(1, 0.1)}}), path)
-    assert read_expected(path, SOURCE).numbers["step 1"]["approach"].error == 0.1
-    other, said = DAMAGE[text]
-    path.write_text(path.read_text().replace(text, other))
-    with pytest.raises(Refused) as refused:
-        read_expected(path, SOURCE)
-    assert str(path) in str(refused.value)
-    assert said in str(refused.value)
-    assert "--save-expected" in str(refused.value)

@@ -12,7 +12,6 @@ from report_examples import verdict
 
 from verification.cases.indenters import hertz_point
 from verification.cases.partial_slip import cattaneo_mindlin
-from verification.exhibits.chart import plain, value_text
 from verification.judging.judgement import judge
 from verification.judging.outcome import (
     CaseOutcome,
@@ -198,31 +197,3 @@ def test_what_is_allowed_stands_in_the_unit_of_the_value(
         }
     )
     assert failure_text(failed) == f"{text} ({error / allowed:.2g} U), increment 3: work 2 J"
-
-
-@pytest.mark.parametrize(
-    ("value", "unit", "text"),
-    [
-        (None, "Pa", "not finite"),
-        (0.0, "m", "0"),
-        (3.168024e9, "Pa", "3.16802 GPa"),
-        (8.372e-6, "m", "8.37200 µm"),
-        (1.23456789e-5, "", "1.23457e-5"),
-        (4.464276, "°", "4.46428°"),
-    ],
-)
-def test_numbers_are_shown_with_their_unit(value: float | None, unit: str, text: str) -> None:
-    assert value_text(value, unit) == text
-
-
-def test_number_of_few_digits_has_no_exponent_beside_a_prefix() -> None:
-    assert [value_text(x, "N", 2) for x in (0.1567, 0.0996, 0.9996)] == [
-        "160 mN",
-        "100 mN",
-        "1000 mN",
-    ]
-
-
-def test_plain_numbers_have_short_exponents() -> None:
-    assert plain(2.79e-05) == "2.79e-5"
-    assert plain(0.25) == "0.25"

@@ -77,14 +77,6 @@ def test_what_a_step_does_not_name_is_held_under_its_last_control() -> None:
     ]
 
 
-def test_gross_sliding_is_refused_with_the_limit_and_a_way_out() -> None:
-    (problem,) = problems({"normal_force": 1000.0}, {"tangential_force": (0.0, -120.0)})
-    assert str(problem) == (
-        "loading[2].tangential_force: tangential force 120 N exceeds the friction limit 100 N "
-        "(= 0.1 * 1000 N): gross sliding; prescribe tangential_shift instead"
-    )
-
-
 @pytest.mark.parametrize(
     ("steps", "key"),
     [
@@ -142,12 +134,6 @@ def test_a_frictionless_contact_takes_no_tangential_load() -> None:
     )
     assert [p.key for p in found] == ["loading[2].tangential_force", "loading[3].tangential_shift"]
     assert all("frictionless" in p.message for p in found)
-
-
-def test_the_first_step_must_press() -> None:
-    (problem,) = problems({"tangential_force": (0.0, 0.0)}, {"normal_force": 1.0})
-    assert problem.key == "loading[1]"
-    assert "press" in problem.message
 
 
 def test_rotations_that_no_step_has_named_are_held_at_zero() -> None:
