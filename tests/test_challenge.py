@@ -34,7 +34,6 @@ from verification.challenge.solver_process import Posed
 from verification.judging.outcome import Status
 from verification.problems.indentation import EXACT as ELLIPSE
 from verification.problems.problem import HERTZ
-from verification.report.page import row_texts
 
 POINT = challenges()["hertz_point"]
 NAMES = sorted(challenges())
@@ -175,27 +174,6 @@ def test_by_either_door_the_right_answer_passes_and_five_per_cent_off_fails(
         }
 
 
-def test_exchanged_axes_are_seen() -> None:
-    challenge = challenges()["hertz_elliptical"]
-    right = exact_field(challenge)
-    turned = Field(right.y, right.x, right.value, right.area)
-    for field, status in ((right, Status.PASS), (turned, Status.FAIL)):
-        found = statuses(challenge, Answer(1e-5, fields={("pressure", 1): field}))
-        assert found["pressure"] is status
-
-
-def test_leaving_out_the_edge_does_not_carry_the_load() -> None:
-    whole = exact_field(POINT)
-    inner = np.hypot(whole.x, whole.y) < 0.773 * HERTZ.contact_radius
-    part = Field(*(getattr(whole, n)[inner] for n in ("x", "y", "value", "area")))
-    found = statuses(POINT, Answer(1e-5, fields={("pressure", 1): part}))
-    assert (found["pressure"], found["pressure: load carried"]) == (Status.PASS, Status.FAIL)
-    assert (
-        statuses(POINT, Answer(1e-5, fields={("pressure", 1): whole}))["pressure: load carried"]
-        is Status.PASS
-    )
-
-
 @pytest.mark.parametrize(
     "name", ["hertz_point", "hertz_elliptical", "coated_paraboloid/E1_over_E2=4"]
 )
@@ -259,54 +237,34 @@ def test_points_that_stand_for_all_others_do_not_spread_the_load() -> None:
     assert set(found.values()) == {Status.PASS}
 
 
-def test_what_refinement_does_not_cure_stalls() -> None:
-    key = ("approach", 1)
-    sizes = (4e-5, 2e-5, 1e-5, 5e-6)
-
-    def answers(error: Callable[[float], float]) -> list[Answer]:
-        return [Answer(h, {key: HERTZ.approach * (1 + error(h))}) for h in sizes]
-
-    biased = statuses(POINT, *answers(lambda h: 9e-4 + 1e-6 * h / sizes[0]))
-    assert biased["approach"] is Status.PASS
-    assert biased["approach: stalls"] is Status.FAIL
-    falling = statuses(POINT, *answers(lambda h: 9e-4 * h / sizes[0]))
-    assert "approach: stalls" not in falling
-
-
-@pytest.mark.parametrize(
-    ("u", "status"),
-    [(0.25, Status.INCONCLUSIVE), (2e-2, Status.PASS), (4e-4, Status.PASS), (1e-5, Status.FAIL)],
-)
-def test_a_claimed_uncertainty_of_half_the_value_says_nothing(u: float, status: Status) -> None:
-    """Not where one level in three is that far off, nor where it vouches for the class asked."""
-    off = {8e-5: 8e-3 if u == 2e-2 else 5e-4, 4e-5: 3e-4, 2e-5: 2e-4}
-    answers = [
-        Answer(h, {("approach", 1): (HERTZ.approach * (1 + e), u * HERTZ.approach)})
-        for h, e in off.items()
-    ]
-    assert statuses(POINT, *answers)["approach: own uncertainty"] is status
+# Property, errors from coarse to fine, claimed uncertainty and order, status of the property.
+ON_LEVELS: list[tuple[str, list[float], float | None, float | None, Status | None]] = [
+    ("stalls", [9e-4 + 1e-6 / 2**n for n in range(4)], None, None, Status.FAIL),
+    ("stalls", [9e-4 / 2**n for n in range(4)], None, None, None),
+    ("own uncertainty", [5e-4, 3e-4, 2e-4], 0.25, None, Status.INCONCLUSIVE),
+    ("own uncertainty", [8e-3, 3e-4, 2e-4], 2e-2, None, Status.PASS),
+    ("own uncertainty", [5e-4, 3e-4, 2e-4], 4e-4, None, Status.PASS),
+    ("own uncertainty", [5e-4, 3e-4, 2e-4], 1e-5, None, Status.FAIL),
+    ("order", [1e-4, 8e-4, 5e-5], None, 2.0, Status.INCONCLUSIVE),
+    *(
+        ("order", [8e-4 * (1 + 1e-3 * (-1) ** n) / 2**n for n in range(4)], None, order, status)
+        for order, status in ((1.0, Status.PASS), (2.0, Status.FAIL))
+    ),
+]
 
 
-def test_an_order_that_no_level_tells_is_not_a_number() -> None:
-    answers = [
-        Answer(h, {("approach", 1): HERTZ.approach * (1 + e)})
-        for h, e in ((8e-5, 1e-4), (4e-5, 8e-4), (2e-5, 5e-5))
-    ]
-    who = Solver("stranger", claimed_orders={"approach": 2.0})
-    rows = {row.quantity: row for row in judged(POINT, who, answers).rows}
-    assert rows["approach: order"].status is Status.INCONCLUSIVE
-    assert "order not known" in rows["approach: order"].because
-    assert row_texts(rows["approach"])[7] == "not known"
+@pytest.mark.parametrize(("name", "errors", "u", "order", "status"), ON_LEVELS)
+def test_levels_are_held_to_what_is_claimed(
+    name: str, errors: list[float], u: float | None, order: float | None, status: Status | None
+) -> None:
+    def value(error: float) -> Any:
+        found = HERTZ.approach * (1 + error)
+        return found if u is None else (found, u * HERTZ.approach)
 
-
-@pytest.mark.parametrize(("claimed", "status"), [(1.0, Status.PASS), (2.0, Status.FAIL)])
-def test_a_claimed_order_is_held_to(claimed: float, status: Status) -> None:
-    answers = [
-        Answer(h, {("approach", 1): HERTZ.approach * (1 + 10 * h * (1 + 1e-3 * (-1) ** n))})
-        for n, h in enumerate((8e-5, 4e-5, 2e-5, 1e-5))
-    ]
-    who = Solver("stranger", claimed_orders={"approach": claimed})
-    assert statuses(POINT, *answers, solver=who)["approach: order"] is status
+    sizes = [8e-5 / 2**n for n in range(len(errors))]
+    answers = [Answer(h, {("approach", 1): value(e)}) for h, e in zip(sizes, errors, strict=True)]
+    who = Solver("stranger", claimed_orders={"approach": order} if order else {})
+    assert statuses(POINT, *answers, solver=who).get(f"approach: {name}") is status
 
 
 def test_who_gives_up_on_the_finest_level_has_no_class() -> None:

@@ -120,16 +120,6 @@ def test_what_has_no_solution_is_refused_by_name(
     assert cell.posable == (kind is not Refusal.POSE)
 
 
-def test_scale_changes_nothing() -> None:
-    records = [
-        judge_contact(replace(ORDINARY, length=length, modulus=modulus))
-        for length, modulus in ((1e-3, 210e9), (1e-9, 1e3), (1.0, 1e12))
-    ]
-    # Round-off may cost or save an iteration.
-    spent = [r.convolutions for r in records]
-    assert max(spent) - min(spent) <= 0.02 * max(spent)
-
-
 def test_the_way_of_the_solver_is_told() -> None:
     ways = [
         judge_contact(replace(ORDINARY, **change)).way

@@ -10,7 +10,6 @@ from contact_scene import (
     Body,
     ControlKind,
     CoulombFriction,
-    FlatPunch,
     HeightMap,
     IsotropicMaterial,
     LoadStep,
@@ -178,34 +177,6 @@ def test_a_frictionless_contact_takes_no_torsion(key: str) -> None:
     assert problem.key == f"loading[2].{key}"
     assert f"a {key} on a frictionless contact" in problem.message
     scene({"normal_force": 1.0, "moment": (0.1, 0.0)}, {"tilt": (0.1, 0.0)}, mu=None)
-
-
-@pytest.mark.parametrize(
-    ("steps", "key"),
-    [
-        ([{"normal_force": 100.0, "moment": (0.0, 0.2)}], "loading[1].moment"),
-        ([{"normal_force": 100.0}, {"moment": (0.15, -0.15)}], "loading[2].moment"),
-        (
-            [{"normal_force": 100.0, "moment": (0.19, 0.0)}, {"normal_force": 90.0}],
-            "loading[2].normal_force",
-        ),
-        ([{"approach": 1e-6, "moment": (9.0, 0.0)}], None),  # its normal force comes out later
-        ([{"normal_force": 100.0, "moment": (0.0, 0.199)}], None),
-    ],
-)
-def test_a_moment_that_tips_a_flat_punch_over_is_refused(
-    steps: list[dict[str, Any]], key: str | None
-) -> None:
-    with pytest.raises(SceneError) if key else nullcontext() as caught:
-        Scene(
-            indenter=FlatPunch(radius=0.002, material=STEEL),
-            body=Body(material=STEEL),
-            loading=tuple(LoadStep(**step) for step in steps),
-        )
-    found = caught.value.problems if caught else ()
-    assert [(problem.key, "tips over" in problem.message) for problem in found] == [
-        (one, True) for one in (key,) if one
-    ]
 
 
 def test_a_moment_tips_a_map_over_its_shorter_side_alone() -> None:

@@ -69,5 +69,3 @@ def test_one_case_loads_no_other(program: str, tmp_path: Path) -> None:
         "verification.report.page",
         "verification.report.drawing",
     )
-
-

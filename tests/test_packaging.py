@@ -101,7 +101,3 @@ def test_installed_requirements_are_pinned() -> None:
             needs = map(Requirement, importlib.metadata.requires(name) or ())
             pending += [n for n in needs if not n.marker or n.marker.evaluate({"extra": extra})]
     assert {name for name, _ in seen} - pins == {"slipstick"}
-
-
-
-

@@ -28,15 +28,12 @@ from verification.judging.outcome import (
 from verification.regression.baseline import (
     BASELINES,
     COUNTERS,
-    REMOVED,
     BaselineRefused,
     accept,
     baselines_of,
     compared,
     key_of,
-    keys_of,
     read_baselines,
-    recording,
 )
 from verification.running.report_record import load_report
 
@@ -230,24 +227,6 @@ def test_every_deletion_is_red() -> None:
             deleted += 1
         assert exit_code_of(compared(report_by(), recorded)) == 7, case.name
     assert deleted > 200
-
-
-def test_an_accepted_deletion_is_listed_with_its_reason(
-    healthy: CaseOutcome, tmp_path: Path
-) -> None:
-    other = healthy.model_copy(update={"name": "other"})
-    accept(report_by(healthy, other), REASON, tmp_path)
-    fewer = healthy.model_copy(update={"verdicts": healthy.verdicts[1:]})
-    for names, code in (([healthy.name], 7), ((), 0)):
-        accept(report_by(fewer), "a better | successor", tmp_path, names)
-        assert exit_code_of(compared(report_by(fewer), read_baselines(tmp_path))) == code
-    assert read_baselines(tmp_path).keys() == {healthy.name}
-    rows = [line for line in (tmp_path / REMOVED).read_text().splitlines() if "better" in line]
-    gone = healthy.verdicts[0]
-    key = f"{gone.name} [{gone.run}]"
-    assert rows[0] == f"| {healthy.name} | {key} | quick: a better / successor |"
-    whole = keys_of(recording(other, report_by().provenance, ""))
-    assert rows[1] == f"| other | {', '.join(sorted(whole))} | quick: a better / successor |"
 
 
 def test_largest_residual_may_be_found_in_another_run(healthy: CaseOutcome) -> None:
