@@ -151,7 +151,7 @@ def test_halves_that_contradict_each_other_are_part_of_the_uncertainty() -> None
     )
 
 
-# ---- Error norms, observed orders and uncertainties on data whose answer is known.
+# ---- error bands and uncertainties
 
 
 LEVELS = np.array([1 / n for n in (32, 42, 56, 74, 98, 128)])

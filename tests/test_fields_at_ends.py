@@ -108,9 +108,6 @@ def test_fields_that_stay_are_those_of_every_increment(tmp_path):
                 np.testing.assert_array_equal(file["increments"][name][index], field)
 
 
-# ---- Every scalar that is registered is in every table of a run, by one name, unit and value.
-
-
 def table(directory: Path) -> list[dict[str, str]]:
     with open(directory / INCREMENTS, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))

@@ -169,7 +169,7 @@ def test_the_worst_run_is_the_nearest_to_its_own_tolerance(tight, loose, worst) 
     assert (verdict.status is Status.FAIL) is (worst == "tight" or isnan(loose))
 
 
-# ---- Orders of cases that are taken from the changes between levels, on planted levels.
+# ---- changes between levels
 
 
 HALVED = 0.25 * 2.0 ** -np.arange(6)

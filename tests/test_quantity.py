@@ -211,7 +211,7 @@ def size_of_one_in(written: str, suggested: str) -> float:
     return size
 
 
-# ---- What scripts hand over from other libraries is taken bit for bit, or refused by one me
+# ---- numbers of other libraries
 
 
 HEIGHTS = 1e-6 * np.arange(16.0).reshape(4, 4)

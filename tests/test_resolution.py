@@ -81,7 +81,7 @@ def test_the_command_says_so_with_exit_code_3_and_writes_nothing(
     assert not (tmp_path / "out").exists()
 
 
-# ---- What cells leave out of a finer map of heights is told, by how much it would change the
+# ---- waves between cells
 
 
 POINTS = 192
@@ -130,7 +130,7 @@ def test_what_waves_between_cells_take_counts_with_their_highest(monkeypatch) ->
     assert lost["peak_pressure"] == pytest.approx(0.1 * norm.isf(1e-3), rel=0.05)
 
 
-# ---- What is resolved of a result is counted in cells, whatever the sizes, loads and materi
+# ---- sizes in cells
 
 
 TOLERANCE = 1e-8
@@ -189,9 +189,3 @@ def test_patches_count_as_one_of_them_and_the_wave_of_a_sine_is_its_length(wave)
     found = resolution(result)[0]
     assert found.contact == pytest.approx(across, rel=0.05) or found.contact < 1.0 < across < 1.2
     assert found.wave == pytest.approx(wave, rel=0.15)  # of the part in touch
-
-
-# ---- A result of large strains is told as such, whatever is pressed on what; others are not.
-
-
-# ---- Numbers that are hardly what was meant are remarked on, and no others.

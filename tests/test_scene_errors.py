@@ -170,7 +170,7 @@ def test_a_window_beyond_the_friction_map_is_refused(tmp_path: Path) -> None:
     assert "0.00064 m" in found[0].expected
 
 
-# ---- Whatever stands in a scene file, reading it gives a scene or a `SceneError`, and soon.
+# ---- random files
 
 
 EXAMPLE = (Path(__file__).resolve().parents[1] / "scenes" / "fretting_loop.toml").read_bytes()

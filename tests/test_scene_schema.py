@@ -60,15 +60,3 @@ def test_every_key_is_described() -> None:
     for table in objects(scene_schema()):
         for key, entry in table["properties"].items():
             assert key == "shape" or entry.get("description"), key
-
-
-# ---- The table [fem_reference] of a scene file.
-
-
-# ---- Lines of keys: right for every valid document, harmless for every other.
-
-
-# ---- `--set` with anything after it: a scene, or one refusal that names the option.
-
-
-# ---- Scene files: what they mean, whatever the units and wherever the keys come from.

@@ -98,7 +98,7 @@ def test_the_punch_has_the_numbers_that_the_documentation_sets_against_others() 
         assert f"{row['kappa']:.8f}" == kappa
 
 
-# ---- Rows by a second method: Nyström's on Fredholm equations, and closed forms.
+# ---- second methods
 
 
 def fredholm(*bodies: Stack) -> LayeredSurface:

@@ -64,7 +64,7 @@ def ball_map(count: int, tilt: tuple[float, float] = (0.0, 0.0)) -> HeightMap:
     return HeightMap(material=RIGID, file=heights, spacing=spacing)  # type: ignore[arg-type]
 
 
-# First contact: the minimum of the interpolated surface, wherever points and cells lie.
+# ---- first contact
 
 
 @pytest.mark.parametrize("tilt", [(0.0, 0.0), (1.7e-3, -0.6e-3)])
@@ -87,10 +87,7 @@ def test_error_bars_of_a_sampled_ball_hold_its_approach() -> None:
     assert abs(result.steps[0].approach - APPROACH) <= error <= 1e-4 * APPROACH
 
 
-# Default cells divide the spacing of a map.
-
-
-# A degenerate value is the absence of its effect: the same plan, the same bits.
+# ---- degenerate values
 
 
 def uniform(value: float) -> CoulombFriction:
@@ -145,7 +142,7 @@ def test_a_constant_map_is_known_within_its_extent_only() -> None:
         slipstick.solve(scene(PRESS, friction=small), discretisation=COARSE["semi-analytical"])
 
 
-# Scenes that have no answer are refused before the work, with their reason.
+# ---- scenes without answer
 
 
 def measured(heights: NDArray[np.float64]) -> HeightMap:
@@ -204,7 +201,7 @@ def test_a_sphere_pressed_to_its_equator_is_refused_by_name(
     assert slipstick.plan(below, solver)
 
 
-# A measured map means the same in every form that instruments write.
+# ---- measured maps
 
 PLACES = np.meshgrid(*(np.linspace(-1, 1, n) for n in (9, 7)), indexing="ij")
 TOLD = (

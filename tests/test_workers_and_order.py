@@ -95,7 +95,7 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
         time.sleep(0.05)
 
 
-# ---- Cases on a dask cluster: the same records as here, and only from the same sources.
+# ---- cluster
 
 
 @pytest.fixture(scope="module")
