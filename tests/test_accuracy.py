@@ -1,5 +1,6 @@
 """Tests of requested accuracies: results meet them, or the program states the reason for a miss."""
 
+import re
 import signal
 import tracemalloc
 from collections.abc import Callable
@@ -452,3 +453,13 @@ def test_the_price_of_less_error_is_more_of_everything() -> None:
     assert last[3] == first.fineness
     with pytest.raises(AccuracyOutOfReach, match="no grid can meet"):
         targets_of(request("1e-12"), first, levels)
+
+
+def test_a_plan_prints_the_memory_of_the_libraries_at_least(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Transcripts leave out sizes of memory."""
+    assert slipstick("plan", written(tmp_path), "--accuracy", "1%") == 0
+    memory = re.findall(r"about (\d+) MiB", capsys.readouterr().out)
+    assert memory
+    assert min(map(int, memory)) >= LIBRARIES // 2**20
