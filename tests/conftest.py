@@ -67,7 +67,6 @@ LONGEST = (
     "test_stress_files",
     "test_examples",
     "test_cli_run",
-    "test_report_in_browser",
     "test_cli",
     "test_stress_on_disc",
     "test_workers_and_order",

@@ -3,12 +3,13 @@
 import json
 import os
 import re
+from collections.abc import Callable
 from html.parser import HTMLParser
 from pathlib import Path
 
 import jsonschema
 import pytest
-from report_examples import verdict
+from report_examples import case, report_of, run_record, study, verdict
 
 from verification.cases.indenters import hertz_point
 from verification.cases.partial_slip import cattaneo_mindlin
@@ -32,7 +33,14 @@ from verification.running.report_record import (
 )
 
 VOID = {"meta", "br", "link", "img", "hr"}
-PAYLOAD = "<script>alert(1)</script>\"'&<svg onload=x>"
+PAYLOADS = (
+    "<script>act()</script>",
+    "</title></style></desc></svg><script>act()</script>",
+    "\"'><img src=x onerror=act()>",
+    "\" onmouseover=act() x=' onfocus=act() y=",
+    "-->]]><base href=http://example.invalid/>",
+    "{{ cycler.__init__ }}{% set x %}",
+)
 
 
 def made_by(*outcomes: CaseOutcome) -> Report:
@@ -158,17 +166,21 @@ def test_record_fulfils_its_schema_and_can_be_rendered_again(
     assert {name: render(again) for name, render in RENDERED.items()} == pages
 
 
-def test_text_from_a_record_cannot_become_markup(report: Report) -> None:
-    hertz = report.cases[0]
-    chart = hertz.charts[0].model_copy(update={"title": PAYLOAD, "caption": PAYLOAD})
-    verdict = hertz.verdicts[0].model_copy(update={"meaning": PAYLOAD, "source": PAYLOAD})
-    case = hertz.model_copy(
-        update={"title": PAYLOAD, "problem": PAYLOAD, "charts": (chart,), "verdicts": (verdict,)}
-    )
-    text = render_page(made_by(case))
-    assert "<script" not in text
-    assert "<svg onload" not in text
-    assert Outline(text).open == []
+@pytest.mark.parametrize("render", RENDERED.values(), ids=RENDERED)
+@pytest.mark.parametrize("payload", PAYLOADS)
+def test_text_from_a_record_cannot_become_markup(
+    payload: str, render: Callable[[Report], str]
+) -> None:
+    """Pages have the same tags and attributes whatever the texts of their records are."""
+
+    def tags(text: str) -> list[tuple[str, list[str]]]:
+        one = case("one", {text: (1e-6, 1e-6)}, run_record(64, None), text)
+        studies = (study("stability", text, "full", text),)
+        found = Outline(render(report_of((one,), studies)))
+        assert found.open == []
+        return [(tag, sorted(attributes)) for tag, attributes in found.tags]
+
+    assert tags(payload) == tags("plain text")
 
 
 @pytest.mark.parametrize(
