@@ -171,14 +171,6 @@ def test_the_direction_is_that_of_the_first_push_and_a_line_goes_both_ways(
     assert (first_direction(ramps), along_one_line(ramps)) == ((0.6, 0.8), straight)
 
 
-@pytest.mark.parametrize("key", ["torque", "twist"])
-def test_a_frictionless_contact_takes_no_torsion(key: str) -> None:
-    (problem,) = problems({"normal_force": 1.0}, {key: 0.1}, mu=None)
-    assert problem.key == f"loading[2].{key}"
-    assert f"a {key} on a frictionless contact" in problem.message
-    scene({"normal_force": 1.0, "moment": (0.1, 0.0)}, {"tilt": (0.1, 0.0)}, mu=None)
-
-
 def test_a_moment_tips_a_map_over_its_shorter_side_alone() -> None:
     narrow = HeightMap.model_validate(
         {"file": np.zeros((8, 4)), "spacing": 1e-3, "material": STEEL}
