@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from command import outcome
 
+from contact_scene import SceneError
 from slipstick.uncertain_inputs import UncertainInput, read_inputs
 
 SCENE = """
@@ -101,3 +102,9 @@ def test_inputs_that_change_no_number_say_so(tmp_path: Path) -> None:
     ended = outcome("run", "scene.toml", "-o", "out", *given, "--figures", "none", cwd=tmp_path)
     assert ended.returncode == 0, ended.stderr
     assert "the inputs change no number" in ended.stdout
+
+
+@pytest.mark.parametrize("text", ["a=1±1e400", "a=1e400±1"])
+def test_an_infinite_input_is_refused(text: str) -> None:
+    with pytest.raises(SceneError, match="expected key=value±deviation"):
+        read_inputs(text)
