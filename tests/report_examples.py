@@ -135,3 +135,10 @@ def report_of(cases: tuple[CaseOutcome, ...], studies: tuple[StudyRecord, ...] =
         provenance=made_by(),
         studies=studies,
     )
+
+
+def report_by(*cases: CaseOutcome, level: str = "quick", **made: object) -> Report:
+    """A report of a commit on these, with these values of its provenance."""
+    report = report_of(cases)
+    provenance = report.provenance.model_copy(update={"commit": 40 * "a", **made})
+    return report.model_copy(update={"level": level, "provenance": provenance})

@@ -1,6 +1,5 @@
 """Tests of requested accuracies: results meet them, or the program states the reason for a miss."""
 
-import json
 import re
 import signal
 import tracemalloc
@@ -65,7 +64,6 @@ from contact_scene import (
     Layer,
     RadialDiscretisation,
     Scene,
-    SceneError,
     SurfaceDiscretisation,
 )
 from contact_scene.quantities.stated_error import (
@@ -120,27 +118,6 @@ def test_a_name_counts_more_than_the_share_of_all_in_the_order_of_the_results() 
     assert (shares["approach"], shares["torque"], shares["twist"]) == (1e-3, 2e-3, 1e-2)
     assert [*shares] == [*request("approach 0.1%, 1%, torque 2e-3").shares()]
     assert len(shares) == 7
-
-
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        ("peak_presure 1%", "did you mean peak_pressure?"),
-        ("halvings 1%", "unknown key"),
-        ("dissipation_uncertainty 1%", "unknown key"),
-        ("approach 200%", "at most 50 %"),
-        ("approach 0", "above 0"),
-        ("approach 1 mm", "such as"),
-        ("", "or names such as"),
-        ("1%, 2%", "overall is given twice"),
-    ],
-)
-def test_what_is_no_accuracy_is_told_as_one_mistake(text: str, told: str) -> None:
-    with pytest.raises(SceneError) as refused:
-        request(text)
-    assert len(refused.value.problems) == 1
-    assert str(refused.value).startswith("--accuracy: ")
-    assert told in str(refused.value)
 
 
 HERTZ = {"approach": APPROACH, "contact_radius": A, "peak_pressure": hertz().peak_pressure}
@@ -223,20 +200,6 @@ def test_what_is_infinite_is_left_out_and_refused_by_name(indenter) -> None:
         climbed(of, "peak_pressure 10%")
 
 
-@pytest.mark.parametrize(
-    ("of", "asked"),
-    [
-        (scene(PRESS), "approach 1%, torque 1%"),
-        (scene(PRESS), "tilt 1%"),
-        (scene(PRESS, push(0.6)), "energy_per_cycle 1%"),
-        (scene(PRESS, friction=None), "stick_radius 1%"),
-    ],
-)
-def test_what_a_scene_cannot_have_is_refused(of: Scene, asked: str) -> None:
-    with pytest.raises(AccuracyOutOfReach, match=r"can have no requested accuracy"):
-        climbed(of, asked)
-
-
 def test_levels_with_a_largest_stress_take_the_memory_that_is_estimated() -> None:
     pressed = scene(PRESS, friction=None)
     grid = semi_analytical.discretise(pressed, SurfaceDiscretisation(cells=(64, 64)))
@@ -272,13 +235,6 @@ def test_a_tension_that_nobody_has_is_refused() -> None:
     rigid = rigid.model_copy(update={"body": Body(material="rigid")})
     with pytest.raises(AccuracyOutOfReach, match="max_principal"):
         refine(on_cells(rigid, 1), request(TENSION))
-
-
-def test_a_limit_of_time_keeps_the_best_result() -> None:
-    made = climbed(scene(PRESS), FINER, most_seconds=1e-3)
-    assert not made.accuracy.met
-    assert "--most-seconds" in made.accuracy.stopped
-    assert made.level.result.grid.cells == made.accuracy.settings.cells == (24, 24)
 
 
 def test_an_error_that_no_grid_reduces_ends_the_refinement() -> None:
@@ -431,36 +387,6 @@ def summary(out: Path):
     return load_summary((out / "summary.json").read_text(encoding="utf-8"))
 
 
-def test_a_run_that_reaches_less_leaves_with_4_and_its_best_result(tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    asked = ("--accuracy", FINER, "--most-seconds", "0")
-    assert slipstick("run", written(tmp_path), "-o", out, "--figures", "none", *asked) == 4
-    assert not summary(out).accuracy.met
-    assert json.loads((out / "summary.json").read_text())["accuracy"]["stopped"]
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("run", "--accuracy", "1%", "--no-error"),
-        ("run", "--accuracy", "contact_radius 1e-12"),
-        ("run", "--accuracy", "nonsense"),
-        ("run", "--most-seconds", "3"),
-        ("stress", "--accuracy", "max_principal 1e-6"),
-        ("stress", "--accuracy", TENSION, "--indenter"),
-        ("stress", "--accuracy", TENSION, "--depths", "0.1 mm"),
-        ("stress", "--accuracy", TENSION, "--no-error"),
-        ("stress", "--accuracy", TENSION, "--step", "2"),
-        ("stress", "--most-seconds", "3"),
-    ],
-    ids=" ".join,
-)
-def test_what_cannot_be_is_refused(tmp_path: Path, words: tuple[str, ...]) -> None:
-    command, *more = words
-    assert slipstick(command, written(tmp_path), "-o", tmp_path / "out", *more) == 2
-    assert not (tmp_path / "out").exists()
-
-
 def test_python_solves_as_accurately_as_the_file_asks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -529,16 +455,11 @@ def test_the_price_of_less_error_is_more_of_everything() -> None:
         targets_of(request("1e-12"), first, levels)
 
 
-def test_plan_prints_prices_and_what_cannot_be_had(
+def test_a_plan_prints_the_memory_of_the_libraries_at_least(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    requests = (word for each in ("1%", "approach 0.1%", "1e-12") for word in ("--accuracy", each))
-    assert slipstick("plan", written(tmp_path), *requests) == 0
-    shown = capsys.readouterr().out
-    assert "approach 0.1%" in shown
-    memory = re.findall(r"about (\d+) MiB", shown)
-    assert len(memory) == 3
-    assert all(int(size) >= LIBRARIES // 2**20 for size in memory)
-    assert "no grid can meet" in shown
-    for solver in ("fem", "radial"):
-        assert slipstick("plan", written(tmp_path), "--accuracy", "1%", "--solver", solver) == 0
+    """Transcripts leave out sizes of memory."""
+    assert slipstick("plan", written(tmp_path), "--accuracy", "1%") == 0
+    memory = re.findall(r"about (\d+) MiB", capsys.readouterr().out)
+    assert memory
+    assert min(map(int, memory)) >= LIBRARIES // 2**20

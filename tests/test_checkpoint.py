@@ -330,7 +330,7 @@ def test_signal_just_after_a_write_leaves_the_written_increment_counted(
     assert "goes on after increment 1," in store.how_to_go_on()
 
 
-# ---- Fields of a long history lie in a file: no result shows it, and little is in memory.
+# ---- stored fields
 
 
 @pytest.fixture

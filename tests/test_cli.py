@@ -157,9 +157,6 @@ def test_package_runs_as_the_command() -> None:
     assert outcome.stdout.startswith("slipstick ")
 
 
-# ---- check and schema -------------------------------------------------------------------------
-
-
 # ---- failures of a run ------------------------------------------------------------------------
 
 FAILURES = {

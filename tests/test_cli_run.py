@@ -99,26 +99,6 @@ def test_run_writes_every_file_and_the_same_bytes_in_another_process(
         assert (scene.parent / "out" / name).read_bytes() == (whole / name).read_bytes()
 
 
-@pytest.mark.parametrize(
-    ("override", "code", "words"),
-    [
-        ("semi_analytical.cells=[8192,8192]", 4, "GiB"),
-        ('semi_analytical.window=["0.5 mm","0.5 mm"]', 2, "edge of the window"),
-        ("body.material.poisson_ratio=0.5001", 2, "poisson_ratio"),
-        ('loading[2].tangential_force=["101 N", 0]', 2, "gross sliding"),
-    ],
-)
-def test_refusal_says_why_in_one_message_and_leaves_nothing(
-    scene: Path, override: str, code: int, words: str
-) -> None:
-    ended = run(scene, "--set", override)
-    assert ended.returncode == code
-    assert ended.stderr.count("error: ") == 1
-    assert words in ended.stderr
-    assert "Traceback" not in ended.stderr
-    assert os.listdir(scene.parent) == [scene.name]
-
-
 def test_output_that_nobody_reads_has_a_code_of_its_own(scene: Path) -> None:
     """As under `| head -1`; the results are there."""
     running = command(scene, "--figures", "none")

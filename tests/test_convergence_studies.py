@@ -8,8 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 from command import outcome
-from PIL import Image
-from test_documentation import ROOT, calls
 
 import radial
 from contact_errors.error_formula import values_of
@@ -144,8 +142,6 @@ CATTANEO = text(BALL, ALIKE, ALIKE, 'tangential_force = ["60 N", 0]', more=FRICT
 ROUGH_FRICTION = "\n[friction]\ncoefficient = 0.3"
 INDENTED = text(BALL, RIGID, STEEL, more=ROUGH_FRICTION)
 DRAGGED = 'tangential_shift = ["12 um", 0]\nincrements = 4'
-STATED = "[semi_analytical]\ncells = [32, 32]"
-COARSE = ("--solver", FEM, "--set", "fem_reference.elements_per_radius=8")
 SMOOTH = {"approach": HERTZ.approach, "contact_radius": A, "peak_pressure": HERTZ.peak_pressure}
 PRESSED = text(BALL, RIGID, STEEL)
 ALUMINIUM = """
@@ -170,7 +166,6 @@ SCENES = {
     "smooth Hertz on rings": Scene(PRESSED, SMOOTH, 1e-9, solver="radial", u=1e-8),
     "steel on aluminium": Scene(ALUMINIUM, ON_ALUMINIUM, 1e-5, solver=FEM),
     "steel on aluminium, penalty": Scene(ALUMINIUM, ON_ALUMINIUM, 1e-4, 16, solver="fem"),
-    "steel on aluminium, cells": Scene(ALUMINIUM, ON_ALUMINIUM, 3e-6, 64),
     "edge-singular flat punch": Scene(
         text('shape = "flat_punch"\nradius = "0.4 mm"', RIGID, STEEL),
         # The order is between ½ and 1 by the place of the rim in its cells. The radius is that of
@@ -190,14 +185,10 @@ SCENES = {
         16,
         reason="the thickness of a layer is",
     ),
-    "thin film": Scene(
-        text(BALL, RIGID, STEEL, more=coating(10, 0.25 * A)), coated_row(10, 0.25), 1e-5
-    ),
     "coated ball": Scene(text(BALL, RIGID, STEEL, more=coating(2, A)), coated_row(2, 1), 2e-5),
     "gross slip": Scene(
         text(BALL, ALIKE, ALIKE, DRAGGED, more=FRICTION), {"tangential_force_x": MU * W}, 1e-6, 24
     ),
-    "Cattaneo-Mindlin, ν = 0.3": Scene(CATTANEO, None, 1e-5, u=1e-5),
     "Cattaneo-Mindlin on rings": Scene(
         text(BALL, PLAIN, PLAIN, LOOP[0], more=FRICTION),
         {"tangential_shift_x": pushed(0.9).shift, "stick_radius": pushed(0.9).stick_radius},
@@ -284,44 +275,3 @@ def test_what_has_no_limit_is_told(
     ended = outcome("convergence", path, "--most-seconds", 1, "-o", "out", cwd=tmp_path)
     assert text in ended.stdout
     assert ended.returncode == exit_code
-
-
-@pytest.mark.usefixtures("one_process")
-@pytest.mark.parametrize(
-    ("more", "options", "exit_code"),
-    [
-        (STATED, ["--require", "approach 0.01%"], 0),
-        (STATED, [*COARSE, "--require", "approach 0.01%"], 1),
-        (STATED, ["--require", "tangential_shift 1%"], 6),
-        (STATED, ["--require", "stress 1%"], 2),
-        (STATED, ["--step", 2], 2),
-        ("[accuracy]\napproach = 1e-3", [], 0),
-    ],
-)
-def test_a_requirement_decides(
-    more: str, options: list[object], exit_code: int, tmp_path: Path
-) -> None:
-    (tmp_path / "scene.toml").write_text(f"{PRESSED}\n{more}")
-    command = [
-        "convergence",
-        "scene.toml",
-        *options,
-        "--most-seconds",
-        1,
-        "--workers",
-        1,
-        "-o",
-        "out",
-    ]
-    assert outcome(*command, cwd=tmp_path).returncode == exit_code
-    assert exit_code == 2 or Image.open(tmp_path / "out/work.png").size[0] > 900
-
-
-@pytest.mark.usefixtures("one_process")
-def test_the_commands_of_the_page_run(tmp_path: Path) -> None:
-    (tmp_path / "scenes").symlink_to(ROOT / "scenes")
-    page = calls(ROOT / "docs/howto/convergence.md")
-    commands = [words for words in page if words[:2] == ["convergence", "scenes/coated_ball.toml"]]
-    assert len(commands) == 3
-    for words in commands:
-        assert outcome(*words, cwd=tmp_path).returncode == 0

@@ -64,7 +64,7 @@ def test_python_in_the_readme_runs(tmp_path: Path) -> None:
     assert_runs(script, tmp_path)
 
 
-# ---- The gallery: every verdict is the one that its page speaks of.
+# ---- gallery
 
 
 @pytest.mark.slow  # the pages are not made of other verdicts, either

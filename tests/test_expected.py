@@ -1,38 +1,15 @@
 """Tests of `--save-expected` and `--expect`: a later result is held to the stated errors alone."""
 
-import json
-from pathlib import Path
 from typing import Any
 
 import pytest
-from command import outcome
 
-from contact_results.directory.atomic_file import Refused
 from slipstick.expected import (
     ExpectedNumber,
     Source,
     expected_changes,
-    read_expected,
-    save_expected,
 )
 
-pytestmark = pytest.mark.usefixtures("one_process")
-BALL = """
-title = "steel ball"
-[indenter]
-shape = "paraboloid"
-radius = "18 mm"
-material = "rigid"
-[body]
-material = { young_modulus = "210 GPa", poisson_ratio = 0.3 }
-[[body.layers]]
-thickness = "0.4 mm"
-material = { young_modulus = "420 GPa", poisson_ratio = 0.3 }
-[[loading]]
-normal_force = "1 kN"
-[semi_analytical]
-cells = [24, 24]
-"""
 SOURCE = Source("run", {"indenter.radius": 0.018}, "radial")
 EXPECTED = "expected.json"
 
@@ -73,105 +50,3 @@ def test_numbers_are_compared_by_their_stated_errors(was: Any, now: Any, kind: s
     )
     kinds = [row.kind for row in expected_changes(found, expected, EXPECTED)]
     assert kinds == [kind] * (kind != "unchanged")
-
-
-@pytest.fixture
-def scene(tmp_path: Path) -> Path:
-    path = tmp_path / "ball.toml"
-    path.write_text(BALL, encoding="utf-8")
-    return path
-
-
-COMMANDS = {
-    "run": ("run", "--figures", "none"),
-    "stress": ("stress", "--figures", "none"),
-    "sweep": (
-        *("sweep", "--vary", "body.layers[1].thickness=100..400 um 2"),
-        *("--get", "peak_pressure,von_mises@body", "--workers", "1"),
-    ),
-}
-# What a user may change: cells, increments, solver, title and the notation of a value.
-FINER = (
-    *("--set", "semi_analytical.cells=[48,48]", "--set", "loading[1].increments=2"),
-    *("--set", 'title="ball"', "--set", "body.layers[1].thickness=400um"),
-)
-
-
-def call(scene: Path, name: str, *more: str) -> tuple[int, str]:
-    command, *options = COMMANDS[name]
-    ended = outcome(command, scene.name, "-o", name, *options, *more, cwd=scene.parent)
-    return ended.returncode, ended.stdout + ended.stderr
-
-
-@pytest.mark.parametrize("name", COMMANDS)
-def test_results_of_a_scene_are_held_to_saved_ones(scene: Path, name: str) -> None:
-    saved = scene.parent / EXPECTED
-    assert call(scene, name, "--save-expected", EXPECTED)[0] == 0
-    code, said = call(scene, name, "--expect", EXPECTED)
-    assert (code, "nothing has changed since expected.json" in said) == (0, True)
-    record = json.loads(saved.read_text())
-    of_place = next(of for of in reversed(record["numbers"].values()) if of)
-    changed = next(one for one in of_place.values() if one["error"])
-    changed["value"] += 3 * changed["error"]
-    of_place["lost"] = changed
-    saved.write_text(json.dumps(record), encoding="utf-8")
-    code, said = call(scene, name, "--expect", EXPECTED)
-    assert code == 7
-    assert "the intervals exclude each other" in said
-    assert "lost" in said
-    assert any((scene.parent / name).iterdir())
-
-
-def test_a_result_on_coarser_cells_is_worse_and_is_written(scene: Path) -> None:
-    assert call(scene, "run", "--save-expected", EXPECTED, *FINER)[0] == 0
-    code, said = call(scene, "run", "--expect", EXPECTED)
-    assert (code, "the stated error is" in said) == (7, True)
-    assert json.loads((scene.parent / "run" / "summary.json").read_text())["cells"] == [24, 24]
-    code, said = call(scene, "run", "--expect", EXPECTED, "--solver", "radial")
-    assert (code, "better; --save-expected expected.json saves" in said) == (0, True), said
-    assert call(scene, "run", "--save-expected", "again.json", *FINER)[0] == 0
-    assert (scene.parent / "again.json").read_bytes() == (scene.parent / EXPECTED).read_bytes()
-
-
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        (("--set", "indenter.radius=9mm"), "key indenter.radius: got 0.009, expected 0.018"),
-        (("--set", "friction.coefficient=0.2"), "key friction.coefficient: got 0.2, expected none"),
-        (("--no-error",), "omit --no-error"),
-        (("--save-expected", "other.json"), "--expect excludes"),
-    ],
-)
-def test_what_cannot_be_compared_is_refused_before_the_solve(
-    scene: Path, options: tuple[str, ...], said: str
-) -> None:
-    assert call(scene, "run", "--save-expected", EXPECTED)[0] == 0
-    (scene.parent / "run" / "summary.json").unlink()
-    code, text = call(scene, "run", "--expect", EXPECTED, *options)
-    assert (code, said in " ".join(text.replace("│", "").split())) == (2, True), text
-    assert not (scene.parent / "run" / "summary.json").exists()
-
-
-DAMAGE = {
-    '"value": 1.0': ('"value": "one"', 'key numbers."step 1".approach.value: got "one", expected'),
-    '"schema_version": 1': ('"schema_version": 2', "key schema_version: got 2, expected 1"),
-    '"unit": "m",': ("", 'key numbers."step 1".approach.unit: the key is missing'),
-    '"numbers": {': ('"numbers": [{', "got no JSON"),
-    '"error": 0.1': ('"error": -0.1', "error: got -0.1, expected greater than or equal to 0"),
-    '"reliable": true': ('"reliable": true, "tolerance": 1', "approach.tolerance: unknown key"),
-    '"run"': ('"stress"', 'key command: got "run", expected "stress"'),
-}
-
-
-@pytest.mark.parametrize("text", DAMAGE)
-def test_a_file_that_cannot_be_used_is_named_with_key_and_remedy(tmp_path: Path, text: str) -> None:
-    path = tmp_path / EXPECTED
-    save_expected(SOURCE.with_numbers({"step 1": {"approach": number(1, 0.1)}}), path)
-    assert read_expected(path, SOURCE).numbers["step 1"]["approach"].error == 0.1
-    other, said = DAMAGE[text]
-    path.write_text(path.read_text().replace(text, other))
-    with pytest.raises(Refused) as refused:
-        read_expected(path, SOURCE)
-    assert str(path) in str(refused.value)
-    assert said in str(refused.value)
-    assert "--save-expected" in str(refused.value)

@@ -63,37 +63,6 @@ def judge(*arguments: object) -> int:
     return 0
 
 
-@pytest.mark.parametrize(
-    ("function", "options", "code", "said"),
-    [
-        ("right", (), 0, "hertz_point"),
-        ("right", ("--strict", "--class", "A"), 0, "class A"),
-        ("off", ("--partial",), 1, "beyond class B"),
-        ("part", (), 1, "partial"),
-        ("part", ("--partial",), 0, "partial"),
-        ("gives_up", (), 3, "too steep"),
-        ("raises", (), 3, "singular matrix"),
-        ("number", (), 2, "has no function 'number'"),
-        ("typo", (), 2, "('approach_z', 1) is not asked; asked: ('approach', 1)"),
-        ("endless", (), 2, "h is nan, expected a positive length"),
-    ],
-)
-def test_the_exit_code_says_how_a_function_did(
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    function: str,
-    options: tuple[str, ...],
-    code: int,
-    said: str,
-) -> None:
-    file = tmp_path / "mine.py"
-    file.write_text(FILE)
-    case = ("--case", "hertz_point", "--levels", "1")
-    assert judge(f"{file}:{function}", *case, *options) == code
-    told = capsys.readouterr()
-    assert said in told.out + told.err
-
-
 # A solver, its changes since its judgement was saved, and the worst change with its text.
 SAVED: dict[str, Any] = {"error": 8e-4, "claim": 1e-5, "unknowns": 100}
 LATER = [

@@ -243,7 +243,7 @@ def test_load_factor_multiplies_every_control() -> None:
         assert step.multiplied(2.0) == LoadStep(**doubled, increments=3)
 
 
-# ---- Search of the root, on stresses given by formulas.
+# ---- search of the root
 
 KEY = ("body", "interface 1 above", "interface_shear")
 
@@ -329,7 +329,7 @@ def test_an_error_above_the_load_factor_has_not_converged(monkeypatch) -> None:
     assert limit.reason == limit.error.reason == TOO_LARGE
 
 
-# ---- The command.
+# ---- command
 
 
 def test_command_writes_what_python_returns(tmp_path: Path) -> None:

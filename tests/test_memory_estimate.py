@@ -131,7 +131,7 @@ def test_a_long_history_keeps_little_of_each_increment_in_memory(tmp_path: Path)
     assert 0 < long - short < 1e6
 
 
-# ---- The radial solver states the memory of a run before it takes it, and keeps no more than
+# ---- radial solver
 
 
 RADIAL_SCENE = """

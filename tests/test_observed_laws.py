@@ -243,7 +243,7 @@ def test_prescribed_force_that_is_not_told_is_missed(solved, name):
     assert max(missed(untold.scene, untold.steps)) > SEEN
 
 
-# ---- Points on rings: defects planted in the solver, and in a single field of its result.
+# ---- rings
 
 
 def of_old_pressure(monkeypatch):

@@ -1,6 +1,5 @@
 """Tests of the judgement and the charts of convergence orders in verification cases."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from itertools import product
@@ -14,9 +13,6 @@ import pytest
 from contact_errors.error_formula import build_stated_error
 from contact_scene.quantities.stated_error import StatedErrors
 from verification.cases.catalogue import choose
-from verification.cases.frictional_pressing import sheared_increments
-from verification.cases.indenters import fem_hertz
-from verification.exhibits.chart import Look
 from verification.judging.case import (
     Case,
     Derived,
@@ -173,43 +169,7 @@ def test_the_worst_run_is_the_nearest_to_its_own_tolerance(tight, loose, worst) 
     assert (verdict.status is Status.FAIL) is (worst == "tight" or isnan(loose))
 
 
-def pressed() -> Case:
-    return fem_hertz(elements=(8,), studied=tuple(product((6, 8, 11, 16), (0.3, 0.7))))
-
-
-def cut() -> Case:
-    return sheared_increments(increments=(1, 2, 4, 8, 16), cells=16)
-
-
-@pytest.mark.parametrize("case_of", [pressed, cut])
-def test_lines_of_a_chart_are_those_that_are_judged(case_of: Callable[[], Case]) -> None:
-    """Levels, sizes and orders."""
-    case = case_of()
-    results = {run.label: run.solve() for run in case.runs}
-    drawn = [
-        c
-        for chart in case.charts(results)
-        for (panel,) in chart.rows
-        if panel.logarithmic
-        for c in panel.curves
-    ]
-    assert len(case.orders) >= 3
-    for order in case.orders:
-        verdict = judge_order(order, case, results)
-        assert verdict.order is not None
-        levels = len(verdict.order.errors)
-        errors = pytest.approx(verdict.order.errors, rel=2e-3)
-        found = [c for c in drawn if c.y[-levels:] == errors]
-        (points,) = (c for c in found if c.look is Look.LEVELS)
-        (line,) = (c for c in drawn if c.look is Look.FITTED and c.series == points.series)
-        (x_coarse, x_fine), (y_coarse, y_fine) = line.x, line.y
-        slope = np.log(y_coarse / y_fine) / np.log(x_coarse / x_fine)
-        assert slope == pytest.approx(verdict.value, rel=2e-3), order.name
-        sizes = verdict.order.sizes
-        assert x_coarse / x_fine == pytest.approx(sizes[0] / sizes[-1], rel=2e-3), order.name
-
-
-# ---- Orders of cases that are taken from the changes between levels, on planted levels.
+# ---- changes between levels
 
 
 HALVED = 0.25 * 2.0 ** -np.arange(6)

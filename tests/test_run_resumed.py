@@ -121,7 +121,7 @@ def test_killed_run_goes_on_and_leaves_the_same_bytes(tmp_path: Path) -> None:
     assert results(killed) == expected
 
 
-# ---- Whoever interrupts a command is told what is kept and how to go on.
+# ---- interrupted commands
 
 
 ENDLESS_SCENE = f"""{STEEL_ON_STEEL}
@@ -211,7 +211,7 @@ def test_interrupted_verification_counts_what_it_keeps(tmp_path: Path) -> None:
     assert os.listdir(tmp_path / "out") == ["cases"]
 
 
-# ---- Clocks that jump, and files of 1970 or of the next century: no number and no file depend
+# ---- clocks
 
 
 PUSHED = """[[loading]]

@@ -1,7 +1,6 @@
 """Tests of the files of a stress: the same columns and axes for all solvers, and readable
 meshes."""
 
-import csv
 import tracemalloc
 from dataclasses import replace
 from pathlib import Path
@@ -62,11 +61,6 @@ def written(
         found = extremes(field)
         write_stress(STATES[name], "body", field, found, places[name], with_figures=False)
     return places
-
-
-def header(path: Path) -> list[str]:
-    with open(path, newline="", encoding="ascii") as file:
-        return next(csv.reader(file))
 
 
 def test_stress_at_the_surface_is_the_traction_with_the_signs_of_the_convention(

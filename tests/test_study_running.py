@@ -64,13 +64,6 @@ class InThisProcess:
         pass
 
 
-def test_record_is_read_back(tmp_path: Path) -> None:
-    store, case = CaseStore(tmp_path, Number), Square(3.0)
-    assert store.load(case) is None
-    store.save(case, Number(value=9.0, process=1))
-    assert store.load(case) == Number(value=9.0, process=1)
-
-
 @pytest.mark.parametrize(
     ("damage", "problem"),
     [
@@ -216,20 +209,6 @@ def test_study_leaves_page_record_and_tables(
     with (out / "rows.csv").open(encoding="utf-8") as file:
         levels = {row["level"] for row in csv.DictReader(file)}
     assert levels >= {f"{n} x {n} cells" for n in (8, 12, 24)}
-
-
-def test_studies_are_listed_and_mistakes_are_refused(tmp_path: Path) -> None:
-    listed = outcome("maintain", "study", "--list", cwd=tmp_path)
-    assert listed.returncode == 0
-    assert "coated-tractions" in listed.stdout
-    unknown = outcome("maintain", "study", "coated-traction", cwd=tmp_path)
-    assert unknown.returncode == 2
-    assert "coated-tractions?" in unknown.stderr
-    assert (
-        outcome("maintain", "study", "coated-tractions", "--cells", "33", cwd=tmp_path).returncode
-        == 2
-    )
-    assert list(tmp_path.iterdir()) == []
 
 
 def stored(directory: Path, name: str = "stability") -> StudyRecord:

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from command import outcome, rows
 
-from contact_results.figures import style
 from slipstick.sweep import Variation
-from slipstick.sweep_chart import SweptQuantity, write_sweep_chart
+from slipstick.sweep_chart import SweptQuantity
 
 pytestmark = pytest.mark.usefixtures("one_process")
 HERTZ = """
@@ -90,21 +89,6 @@ def test_a_row_has_value_error_and_a_scene_that_gives_it_again(scene: Path) -> N
     assert "already there" not in sweep(scene, *varied, *wanted).stderr
 
 
-def test_percentiles_of_a_monotonic_result_are_its_values_at_those_of_the_key(scene: Path) -> None:
-    varied = ("--vary", "indenter.radius=normal(18,1) mm 40")
-    wanted = ("--get", "peak_pressure,approach", "--solver", "radial", "--workers", 1)
-    ended = sweep(scene, *varied, *wanted)
-    assert ended.returncode == 0, ended.stderr
-    (approach,) = (text for text in ended.stdout.splitlines() if "approach" in text)
-    numbers = [float(text) for text in approach.split("(µm)")[1].split() if text[0].isdigit()]
-    assert max(numbers[1::2]) < 1e-6 * min(numbers[::2])
-    line = next(line for line in ended.stdout.splitlines() if "peak_pressure (GPa)" in line)
-    middle = peak(18e-3, 1e3) / 1e9
-    shown = [float(text) for text in line.split("(GPa)")[1].split() if text[0].isdigit()][::2]
-    exact = [middle * (1 + z / 18) ** (-2 / 3) for z in (1.6448536, 0, -1.6448536)]
-    assert shown == pytest.approx(exact, rel=1e-3)
-
-
 def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:
     draw = np.random.default_rng(1)
     values, errors = draw.normal(size=(2, 50)), draw.uniform(0, 0.3, size=(2, 50))
@@ -113,34 +97,3 @@ def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:
     assert np.all(low < middle)
     assert np.all(middle < high)
     assert np.all((low <= moved.percentiles[0]) & (moved.percentiles[0] <= high))
-
-
-def test_a_map_has_every_value_at_its_place_and_the_largest_error(tmp_path, monkeypatch) -> None:
-    drawn = []
-    monkeypatch.setattr(style, "save", lambda figure, path: (path.touch(), drawn.append(figure)))
-    keys = [
-        Variation(name, "", tuple(map(float, range(count)))) for name, count in (("a", 2), ("b", 3))
-    ]
-    values = np.arange(6.0).reshape(2, 3, 1)
-    swept = [SweptQuantity("c", "", values, 0.02 * values)]
-    write_sweep_chart(keys, swept, tmp_path / "map.png", r"$\frac{$")
-    ax = drawn[0].axes[0]
-    assert ax.get_title().split() == ["largest", "numerical", "error:", "0.1"]
-    assert np.array_equal(ax.collections[0].get_array(), values[..., 0].T)
-
-
-def test_a_point_without_answer_leaves_its_reason(scene: Path) -> None:
-    text = HERTZ + "tangential_force = [60, 20]\nincrements = 2\n[friction]\ncoefficient = 0.3\n"
-    text += '[semi_analytical]\ncells = [16, 16]\nwindow = ["1 mm", "1 mm"]\n'
-    scene.write_text(text, encoding="utf-8")
-    wanted = "approach,tangential_force_x,tangential_force_y"
-    ended = sweep(scene, "--vary", "indenter.radius=-72..90 mm 3", "--get", wanted, "--no-error")
-    assert ended.returncode == 3
-    invalid, fits, cut_off = rows(scene.parent / "out/sweep.csv")
-    assert "window" in cut_off["refused"]
-    assert "expected a positive length" in invalid["refused"]
-    assert not cut_off["approach [m]"]
-    assert not fits["refused"]
-    assert float(fits["approach [m]"]) > 0
-    assert [float(fits[f"tangential_force_{axis} [N]"]) for axis in "xy"] == [60, 20]
-    assert "--solver radial can solve this" in ended.stdout

@@ -98,7 +98,7 @@ def test_the_punch_has_the_numbers_that_the_documentation_sets_against_others() 
         assert f"{row['kappa']:.8f}" == kappa
 
 
-# ---- Rows by a second method: Nyström's on Fredholm equations, and closed forms.
+# ---- second methods
 
 
 def fredholm(*bodies: Stack) -> LayeredSurface:
@@ -149,41 +149,6 @@ def test_torsion_of_coated_bodies_is_that_of_the_fredholm_equation(
         "twist": state.twist * base / 2 / force,
     }
     assert {name: row[name] for name in known} == pytest.approx(known, rel=1e-9)
-
-
-def test_csv_and_json_have_the_same_numbers_and_provenance() -> None:
-    asked = ("table", "punch", "--over", "a_over_h=1,2", "--over", "nu=0.5")
-    record = json.loads(outcome(*asked, "--json", cwd=ROOT).stdout)
-    lines = outcome(*asked, cwd=ROOT).stdout.splitlines()
-    said = dict(line[2:].split(": ", 1) for line in lines if line.startswith("#"))
-    header, *rows = (line.split(",") for line in lines if not line.startswith("#"))
-    assert {name: said[name] for name in ("problem", "source", "made_by", "uncertainty")} == {
-        name: record[name] for name in ("problem", "source", "made_by", "uncertainty")
-    }
-    assert {name: said[name] for name in header} == record["columns"]
-    for row, there in zip(rows, record["rows"], strict=True):
-        assert [float(text) for text in row[:-1]] == pytest.approx(
-            [there[name] for name in header[:-1]], rel=1e-14
-        )
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (("bal",), "did you mean ball"),
-        (("punch", "--over", "nu=0.6"), "at most 0.5"),
-        (("punch", "--over", "nu=nan"), "got nan"),
-        (("punch", "--over", "a_over_h"), "expected numbers"),
-        (("punch", "--over", "h=1"), "'punch' has a_over_h, nu"),
-        (("punch", "--over", "nu=0.3", "--over", "nu=0.5"), "nu is named twice"),
-        (("ball", "--over", "E1_over_E2=1e9"), "at most 1e+08"),
-        (("pressing", "--over", "E1_over_E2=1e-9"), "more than 1e-08"),
-    ],
-)
-def test_what_no_table_has_is_refused(arguments: tuple[str, ...], words: str) -> None:
-    ended = outcome("table", *arguments, cwd=ROOT)
-    assert ended.returncode == 2
-    assert words in " ".join(re.sub("[│\n]", " ", ended.stderr).split())
 
 
 @pytest.mark.parametrize("value", ["1e-300", "inf", "nan", "9" * 10_000])

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from pydantic import ValidationError
 
 import slipstick
 from contact_scene import (
@@ -65,7 +64,7 @@ def ball_map(count: int, tilt: tuple[float, float] = (0.0, 0.0)) -> HeightMap:
     return HeightMap(material=RIGID, file=heights, spacing=spacing)  # type: ignore[arg-type]
 
 
-# First contact: the minimum of the interpolated surface, wherever points and cells lie.
+# ---- first contact
 
 
 @pytest.mark.parametrize("tilt", [(0.0, 0.0), (1.7e-3, -0.6e-3)])
@@ -88,10 +87,7 @@ def test_error_bars_of_a_sampled_ball_hold_its_approach() -> None:
     assert abs(result.steps[0].approach - APPROACH) <= error <= 1e-4 * APPROACH
 
 
-# Default cells divide the spacing of a map.
-
-
-# A degenerate value is the absence of its effect: the same plan, the same bits.
+# ---- degenerate values
 
 
 def uniform(value: float) -> CoulombFriction:
@@ -138,14 +134,6 @@ def test_a_degenerate_value_plans_as_the_absence_of_its_effect(name: str, solver
     assert slipstick.plan(degenerate, solver) == slipstick.plan(absent, solver)
 
 
-@pytest.mark.parametrize("solver", ["semi-analytical", "radial", "fem-complementarity"])
-@pytest.mark.parametrize("name", ["coefficient zero", "layers alike", "round ellipsoid"])
-def test_a_degenerate_value_gives_the_bits_of_its_absence(name: str, solver: Any) -> None:
-    ends = [slipstick.solve(asked, solver, COARSE[solver]).steps[-1] for asked in DEGENERATE[name]]
-    for quantity in ("approach", "contact_radius", "peak_pressure", "pressure"):
-        np.testing.assert_array_equal(*(getattr(end, quantity) for end in ends))
-
-
 def test_a_constant_map_is_known_within_its_extent_only() -> None:
     small = CoulombFriction.model_validate(
         {"coefficient": {"map": np.full((10, 10), 0.3), "spacing": 5e-6}}
@@ -154,7 +142,7 @@ def test_a_constant_map_is_known_within_its_extent_only() -> None:
         slipstick.solve(scene(PRESS, friction=small), discretisation=COARSE["semi-analytical"])
 
 
-# Scenes that have no answer are refused before the work, with their reason.
+# ---- scenes without answer
 
 
 def measured(heights: NDArray[np.float64]) -> HeightMap:
@@ -213,27 +201,18 @@ def test_a_sphere_pressed_to_its_equator_is_refused_by_name(
     assert slipstick.plan(below, solver)
 
 
-# A measured map means the same in every form that instruments write.
+# ---- measured maps
 
 PLACES = np.meshgrid(*(np.linspace(-1, 1, n) for n in (9, 7)), indexing="ij")
 TOLD = (
     3.0 + PLACES[0] ** 2 + 0.3 * PLACES[1] + 0.2 * PLACES[0] * PLACES[1]
 )  # um, even about nothing
-PICTURE = TOLD.T[::-1]
 
 
 def read_map(folder: Path, name: str, text: str, **more: object) -> HeightMap:
     (folder / name).write_text(text, encoding="utf-8")
     given = {"shape": "height_map", "material": "rigid", "file": name, "spacing": 1e-5, **more}
     return HeightMap.model_validate(given, context={"folder": folder})
-
-
-def test_a_text_file_is_the_map_as_seen_from_above(tmp_path: Path) -> None:
-    text = "\n".join(",".join(map(str, row)) for row in PICTURE.tolist())
-    for unit in ("um", "1 um", 1e-6):
-        found = read_map(tmp_path, "plain.csv", text, height_unit=unit)
-        np.testing.assert_allclose(found.heights, TOLD * 1e-6, rtol=1e-14)
-        assert found.extent == pytest.approx((9e-5, 7e-5))
 
 
 def test_a_map_that_counts_towards_the_body_is_flipped() -> None:
@@ -265,24 +244,6 @@ def test_points_that_were_not_measured_are_never_lowest(word: str, tmp_path: Pat
     np.testing.assert_array_equal(found.heights[known], gaps[known])
     remarks = implausible_input(scene(PRESS, indenter=found))
     assert any("0.079 of the points were not measured" in remark for remark in remarks)
-
-
-@pytest.mark.parametrize(
-    ("text", "match"),
-    [
-        ("", "no numbers"),
-        ("some\nwords\n", "no numbers"),
-        ("1,2,3,4\n" * 3 + "1,x,3,4\n", 'is no number: "1,x,3,4"'),
-        ("1,x,3,4\n" + "1,2,3,4\n" * 4, 'is no number: "1,x,3,4"'),
-        ("1,2,3,4\n" * 3 + "1,2,3\n", "3 to 4 numbers"),
-        ("0 0 1\n" * 9, "have 3 numbers, expected values without their coordinates"),
-        (("1," * 9 + "inf\n") * 9, "holds inf"),
-        (("1" + "," * 9 + "\n") * 9, "no height at 89%"),
-    ],
-)
-def test_a_text_file_that_is_no_map_is_refused(text: str, match: str, tmp_path: Path) -> None:
-    with pytest.raises(ValidationError, match=match):
-        read_map(tmp_path, "map.csv", text)
 
 
 def warnings_of(folder: Path, values: np.ndarray) -> list[str]:
@@ -322,13 +283,6 @@ def test_coordinates_beside_the_heights_are_named(tmp_path: Path) -> None:
     ):
         found = [each for each in warnings_of(tmp_path, values) if "evenly spaced" in each]
         assert len(found) == expected
-
-
-def test_a_map_of_friction_has_a_value_everywhere() -> None:
-    values = np.full((4, 4), 0.3)
-    values[1, 2] = np.nan
-    with pytest.raises(ValidationError, match=r"holds nan at \[1, 2\]"):
-        CoulombFriction.model_validate({"coefficient": {"map": values, "spacing": 1e-5}})
 
 
 def test_the_plan_of_an_unresolved_contact_is_refused_as_its_solve() -> None:

@@ -17,8 +17,21 @@ from verification.cases.catalogue import choose, lost
 from verification.cases.histories import load_paths
 from verification.cases.partial_slip import near_sliding
 from verification.judging.case import Level
+from verification.judging.declared_case import (
+    APPROACH,
+    CONTACT_RADIUS,
+    PEAK_PRESSURE,
+    RefinementLevels,
+    Within,
+    judged,
+    on_cells,
+    on_elements,
+    on_radii,
+)
+from verification.judging.declared_case import case as declared
 from verification.judging.judgement import judge
 from verification.judging.outcome import CaseOutcome, Status
+from verification.problems.indentation import BALL
 from verification.report.file_names import FILES, PAGE, RECORD
 from verification.report.files import EARLIER
 
@@ -35,22 +48,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return directory / "out" / "put"
 
 
-def test_one_case_is_verified_and_reported(made: Path) -> None:
-    record = json.loads((made / RECORD).read_text(encoding="utf-8"))
-    assert record["counts"]["fail"] == 0
-    (case,) = record["cases"]
-    assert record["provenance"]["command"] == f"slipstick verify {case['name']} --level quick"
-
-
-def test_report_is_rendered_again_from_its_record(made: Path) -> None:
-    page = (made / PAGE).read_bytes()
-    (made / PAGE).unlink()
-    ended = outcome("maintain", "report", str(made), cwd=made)
-    assert ended.returncode == 0, ended.stderr
-    assert (made / PAGE).read_bytes() == page
-
-
-# ---- Defects planted in the solver are seen by the verification, which passes without them.
+# ---- verdicts
 
 
 def failed(outcome: CaseOutcome) -> set[str]:
@@ -85,7 +83,23 @@ def test_solver_that_gives_up_fails_and_the_rest_is_still_judged() -> None:
     assert outcome.count(Status.PASS) > 1
 
 
-# ---- A killed verification loses no finished case; its report is that of one that was not kil
+LEVELS = {
+    "cells": on_cells(BALL, (32,)),
+    "elements": on_elements(BALL, (12,)),
+    "radii": on_radii(BALL, "ball"),
+}
+
+
+@pytest.mark.parametrize("levels", LEVELS.values(), ids=LEVELS)
+def test_each_solver_states_the_errors_of_judged_scalars(levels: RefinementLevels) -> None:
+    rows = [Within(what, 1.0, "why") for what in (APPROACH, CONTACT_RADIUS, PEAK_PRESSURE)]
+    found = judge(declared("planted", "title", "problem", judged(levels, rows))).verdicts
+    stated = [verdict for verdict in found if verdict.stated_error is not None]
+    assert [verdict.name for verdict in stated] == [row.what.name for row in rows]
+    assert all(verdict.covered for verdict in stated)
+
+
+# ---- killed verifications
 
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -144,21 +158,6 @@ def test_killed_verification_goes_on_where_it_stopped(uninterrupted: Path, tmp_p
     assert records(tmp_path) | kept == records(tmp_path)
     assert report(tmp_path) == report(uninterrupted)
     assert not (tmp_path / EARLIER).exists()
-
-
-def test_damaged_record_is_named_and_computed_again(uninterrupted: Path, tmp_path: Path) -> None:
-    target = tmp_path / "cases"
-    target.mkdir()
-    for path in (uninterrupted / "cases").glob("[a-z]*.json"):
-        content = path.read_bytes()
-        damaged = path.name.startswith("worked_examples")
-        (target / path.name).write_bytes(content[:-100] if damaged else content)
-    again = outcome("verify", *RESUMED_CASES, "-o", tmp_path, "--workers", "1", cwd=tmp_path.parent)
-    log = again.stderr
-    assert again.returncode == 0, log
-    assert log.count("is damaged") == 1
-    assert log.count("already there") == len(RESUMED_CASES) - 1
-    assert report(tmp_path) == report(uninterrupted)
 
 
 def test_lost_case_is_a_failed_verdict() -> None:

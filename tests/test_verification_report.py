@@ -3,16 +3,16 @@
 import json
 import os
 import re
+from collections.abc import Callable
 from html.parser import HTMLParser
 from pathlib import Path
 
 import jsonschema
 import pytest
-from report_examples import verdict
+from report_examples import case, report_of, run_record, study, verdict
 
 from verification.cases.indenters import hertz_point
 from verification.cases.partial_slip import cattaneo_mindlin
-from verification.exhibits.chart import plain, value_text
 from verification.judging.judgement import judge
 from verification.judging.outcome import (
     CaseOutcome,
@@ -33,7 +33,14 @@ from verification.running.report_record import (
 )
 
 VOID = {"meta", "br", "link", "img", "hr"}
-PAYLOAD = "<script>alert(1)</script>\"'&<svg onload=x>"
+PAYLOADS = (
+    "<script>act()</script>",
+    "</title></style></desc></svg><script>act()</script>",
+    "\"'><img src=x onerror=act()>",
+    "\" onmouseover=act() x=' onfocus=act() y=",
+    "-->]]><base href=http://example.invalid/>",
+    "{{ cycler.__init__ }}{% set x %}",
+)
 
 
 def made_by(*outcomes: CaseOutcome) -> Report:
@@ -159,17 +166,21 @@ def test_record_fulfils_its_schema_and_can_be_rendered_again(
     assert {name: render(again) for name, render in RENDERED.items()} == pages
 
 
-def test_text_from_a_record_cannot_become_markup(report: Report) -> None:
-    hertz = report.cases[0]
-    chart = hertz.charts[0].model_copy(update={"title": PAYLOAD, "caption": PAYLOAD})
-    verdict = hertz.verdicts[0].model_copy(update={"meaning": PAYLOAD, "source": PAYLOAD})
-    case = hertz.model_copy(
-        update={"title": PAYLOAD, "problem": PAYLOAD, "charts": (chart,), "verdicts": (verdict,)}
-    )
-    text = render_page(made_by(case))
-    assert "<script" not in text
-    assert "<svg onload" not in text
-    assert Outline(text).open == []
+@pytest.mark.parametrize("render", RENDERED.values(), ids=RENDERED)
+@pytest.mark.parametrize("payload", PAYLOADS)
+def test_text_from_a_record_cannot_become_markup(
+    payload: str, render: Callable[[Report], str]
+) -> None:
+    """Pages have the same tags and attributes whatever the texts of their records are."""
+
+    def tags(text: str) -> list[tuple[str, list[str]]]:
+        one = case("one", {text: (1e-6, 1e-6)}, run_record(64, None), text)
+        studies = (study("stability", text, "full", text),)
+        found = Outline(render(report_of((one,), studies)))
+        assert found.open == []
+        return [(tag, sorted(attributes)) for tag, attributes in found.tags]
+
+    assert tags(payload) == tags("plain text")
 
 
 @pytest.mark.parametrize(
@@ -198,31 +209,3 @@ def test_what_is_allowed_stands_in_the_unit_of_the_value(
         }
     )
     assert failure_text(failed) == f"{text} ({error / allowed:.2g} U), increment 3: work 2 J"
-
-
-@pytest.mark.parametrize(
-    ("value", "unit", "text"),
-    [
-        (None, "Pa", "not finite"),
-        (0.0, "m", "0"),
-        (3.168024e9, "Pa", "3.16802 GPa"),
-        (8.372e-6, "m", "8.37200 µm"),
-        (1.23456789e-5, "", "1.23457e-5"),
-        (4.464276, "°", "4.46428°"),
-    ],
-)
-def test_numbers_are_shown_with_their_unit(value: float | None, unit: str, text: str) -> None:
-    assert value_text(value, unit) == text
-
-
-def test_number_of_few_digits_has_no_exponent_beside_a_prefix() -> None:
-    assert [value_text(x, "N", 2) for x in (0.1567, 0.0996, 0.9996)] == [
-        "160 mN",
-        "100 mN",
-        "1000 mN",
-    ]
-
-
-def test_plain_numbers_have_short_exponents() -> None:
-    assert plain(2.79e-05) == "2.79e-5"
-    assert plain(0.25) == "0.25"

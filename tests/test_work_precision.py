@@ -21,10 +21,8 @@ from verification.running.cold_cache import cold_cache
 from verification.running.study import CaseRecord, Conclusion, Settings, parameters_of
 from verification.studies.work_precision import (
     CONTACTS,
-    OWN,
     STUDY,
     TARGETS,
-    Method,
     Point,
     PrecisionCase,
     cases,
@@ -108,29 +106,6 @@ def test_good_settings_pass_and_poor_or_lost_ones_fail() -> None:
     assert claims == ["every quantity is had to 1 %"]
     assert concluded(lost=1).statements[0].outcome is Status.FAIL
     assert STUDY.conclude(SETTINGS, {}).failed
-
-
-@pytest.mark.parametrize(
-    ("method", "options"),
-    [
-        (Method.SURFACE, {}),
-        (Method.EDGES, {}),
-        (Method.RADIAL, {}),
-        (Method.ELEMENTS, {}),
-        (Method.PENALTY, {"penalty": 10.0}),
-    ],
-)
-def test_all_but_the_clock_is_the_same_at_every_run(
-    method: Method, options: dict[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("verification.running.cold_cache.ENOUGH_SECONDS", 0.0)
-    fineness = OWN if method is Method.RADIAL else 8 if "elements" in method else 16
-    case = PrecisionCase("coated", method, fineness, **options)
-    first, second = case.compute(), case.compute()
-    clock = {"seconds", "repeats"}
-    assert first.model_dump(exclude=clock) == second.model_dump(exclude=clock)
-    assert first.counters["iterations"] > 0
-    assert set(first.measures) == set(CONTACTS["coated"].errors)
 
 
 def test_a_measurement_starts_from_an_empty_cache(

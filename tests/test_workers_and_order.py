@@ -11,15 +11,12 @@ from pathlib import Path
 from threading import Thread
 
 import pytest
-from command import outcome
 from study_cases import Endless, Killed, Loop, Number, Refusing, Square
 
 from verification.running.case_pool import (
     OTHER_CODE,
     CaseStore,
-    ClusterUnavailable,
     ClusterWorkers,
-    DamagedRecord,
     run_cases,
 )
 from verification.running.study import StudyCase
@@ -98,32 +95,7 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
         time.sleep(0.05)
 
 
-def test_a_record_that_is_half_written_would_be_seen(tmp_path: Path) -> None:
-    store = CaseStore(tmp_path, Number)
-    store.save(Square(2.0), Number(value=4.0, process=0))
-    path = store.path(Square(2.0))
-    path.write_bytes(path.read_bytes()[:-40])
-    with pytest.raises(DamagedRecord):
-        store.load(Square(2.0))
-
-
-# ---- Cases on a dask cluster: the same records as here, and only from the same sources.
-
-
-def test_address_that_is_none_is_refused_with_what_one_looks_like() -> None:
-    for address in ("localhost:8786", "http://localhost", "", "tcp:/x"):
-        with pytest.raises(ClusterUnavailable, match="tcp://host:port or tls://host:port"):
-            ClusterWorkers(address)
-
-
-@pytest.mark.parametrize(
-    "command", [["verify", "hertz_point"], ["maintain", "study", "coated-tractions"]]
-)
-def test_command_refuses_before_any_work(command: list[str], tmp_path: Path) -> None:
-    ended = outcome(*command, "--scheduler", "localhost:8786", cwd=tmp_path)
-    assert ended.returncode == 2
-    assert "tcp://host:port" in ended.stderr
-    assert list(tmp_path.iterdir()) == []
+# ---- cluster
 
 
 @pytest.fixture(scope="module")

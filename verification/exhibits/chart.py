@@ -162,21 +162,6 @@ def point_curves(lines: Iterable[tuple[str, Points]], look: Look = Look.POINTS) 
     ]
 
 
-def slope_line(points: Points, order: float) -> list[Curve]:
-    """Return the line C x^order below the points of a curve, to show an expected convergence order.
-
-    The result is a list with one curve, or an empty list without points.
-
-    points  points (x, y) of the curve; C places the line at 0.6 of the first point
-    order   expected convergence order
-    """
-    if not points:
-        return []
-    (start, there), along = points[0], [x for x, _ in points]
-    line = [BELOW * there * (x / start) ** order for x in along]
-    return [curve(f"slope {order:g}", along, line, Look.SLOPE, 0)]
-
-
 NOT_FINITE = "not finite"
 
 

@@ -1,0 +1,140 @@
+"""Tests of hard contacts of the stability map: the solvers converge, or refuse them by name."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from verification.studies.stability.contacts import (
+    TOLERANCE,
+    LoadingPath,
+    Refusal,
+    Solver,
+    StabilityCell,
+    Surface,
+    Verdict,
+    by_superposition,
+    judge_contact,
+    pose,
+)
+
+BOTH = [solver for solver in Solver if solver.by_elements]
+ORDINARY = StabilityCell(cells=16)
+HALF_SPACE = replace(ORDINARY, modulus_ratio=1.0)
+SOFT_FILM = replace(ORDINARY, modulus_ratio=1e-3, thickness=0.01, poisson_ratio=0.5)
+STIFF_FILM = replace(ORDINARY, modulus_ratio=1e3, thickness=0.1, poisson_ratio=0.0)
+SECTION = StabilityCell(solver=Solver.COMPLEMENTARITY)
+ALIKE = replace(SECTION, surface=Surface.ALIKE_BALL)
+BARE_SECTION = replace(SECTION, modulus_ratio=1.0, poisson_ratio=0.0, base_ratio=0.0)
+SOFT_SECTION = replace(SECTION, friction=5.0, modulus_ratio=1e-3, thickness=0.1, poisson_ratio=0.5)
+ON_CELLS = [
+    ORDINARY,
+    *(replace(ORDINARY, path=path, push=0.8) for path in LoadingPath),
+    *(replace(ORDINARY, surface=surface, push=0.99) for surface in Surface),
+    replace(ORDINARY, push=0.99999, poisson_ratio=0.0, base_ratio=0.0, modulus_ratio=1.0),
+    replace(ORDINARY, push=1.0),
+    replace(ORDINARY, length=1e-9),
+    replace(ORDINARY, load=1e-5),
+    replace(ORDINARY, friction=1e-6),
+    replace(ORDINARY, modulus_ratio=1e3, thickness=0.01, poisson_ratio=0.5),
+    replace(ORDINARY, modulus_ratio=1e-3, thickness=10.0),
+    # Accepting Newton steps uphill for their residual went round in circles here,
+    replace(HALF_SPACE, path=LoadingPath.APPROACH, friction=1.0, push=0.8, cells=32),
+    # here cells let go one after the other below a film that lifts them,
+    replace(ORDINARY, modulus_ratio=1e6, thickness=0.1, path=LoadingPath.PRESS, cells=32),
+    # here it lifted them differently whenever the pressure was not solved for thoroughly,
+    pytest.param(
+        replace(ORDINARY, modulus_ratio=1e6, thickness=0.03, friction=1.0, push=0.95, cells=24),
+        marks=pytest.mark.slow,
+    ),
+    # here the shear's preconditioner was not positive,
+    pytest.param(
+        replace(ORDINARY, modulus_ratio=1e3, thickness=0.003, poisson_ratio=0.5, cells=48),
+        marks=pytest.mark.slow,
+    ),
+    # and friction that is strong leaves no way here but on springs: neither parts of Newton's
+    # steps nor turns of pressure and shear come near, of whole increments.
+    replace(SOFT_FILM, friction=5.0, push=0.5, cells=48),
+    replace(STIFF_FILM, friction=5.0, push=0.9, cells=32),
+    replace(STIFF_FILM, friction=5.0, push=0.99, thickness=1.0, cells=24),
+]
+ON_ELEMENTS = [
+    replace(SECTION, push=0.99),
+    replace(SECTION, push=1.0),
+    *(replace(ALIKE, path=path, push=0.8) for path in (LoadingPath.FALLING, LoadingPath.SLIDE)),
+    replace(SECTION, path=LoadingPath.SHEARED_RELOAD, push=0.8),
+    replace(SECTION, surface=Surface.FLAT_PUNCH, push=0.9),
+    # Pressures that jump to and fro between the turns unless they are damped.
+    replace(BARE_SECTION, friction=5.0, push=0.9),
+    # Several states obey all laws, and pairs of them vanish on the way to one.
+    pytest.param(replace(SOFT_SECTION, push=0.5), marks=pytest.mark.slow),
+    # So little friction that slip is no more than the rounding of what pressing moves.
+    replace(BARE_SECTION, friction=1e-6, push=0.0, cells=48),
+]
+
+
+@pytest.mark.parametrize("cell", ON_CELLS, ids=lambda cell: cell.name)
+def test_hard_cell_converges(cell: StabilityCell) -> None:
+    record = judge_contact(cell)
+    assert record.verdict is Verdict.CONVERGED, record.reason
+    assert record.residual is not None
+    assert record.residual <= record.tolerance <= 1e-7
+    assert record.halvings == 0
+
+
+@pytest.mark.parametrize("solver", BOTH)
+@pytest.mark.parametrize("cell", ON_ELEMENTS, ids=lambda cell: cell.name)
+def test_hard_section_converges(cell: StabilityCell, solver: Solver) -> None:
+    record = judge_contact(replace(cell, solver=solver))
+    assert record.verdict is Verdict.CONVERGED, record.reason
+    assert record.residual is not None
+    assert record.observed is not None
+    assert record.residual <= record.tolerance == TOLERANCE
+    assert record.halvings == 0
+    assert record.work == record.iterations > 0
+
+
+@pytest.mark.parametrize(
+    ("solver", "change", "kind"),
+    [
+        (ORDINARY.solver, {"push": 1.001}, Refusal.FORCE),
+        *(
+            (solver, change, kind)
+            for solver in BOTH
+            for change, kind in (
+                ({"push": 1.001}, Refusal.FORCE),
+                ({"push": 1.001, "surface": Surface.ALIKE_BALL}, Refusal.FORCE),
+                ({"surface": Surface.ROUGH}, Refusal.POSE),
+                ({"surface": Surface.GREASED}, Refusal.POSE),
+            )
+        ),
+    ],
+)
+def test_what_has_no_solution_is_refused_by_name(
+    solver: Solver, change: dict[str, Any], kind: Refusal
+) -> None:
+    cell = replace(ORDINARY, **change, solver=solver)
+    record = judge_contact(cell)
+    assert record.verdict is Verdict.REFUSED
+    assert record.refused_for is kind
+    assert cell.posable == (kind is not Refusal.POSE)
+
+
+def test_the_way_of_the_solver_is_told() -> None:
+    ways = [
+        judge_contact(replace(ORDINARY, **change)).way
+        for change in (
+            {},
+            {"surface": Surface.ALIKE_BALL},
+            {"surface": Surface.ALIKE_BALL, "path": LoadingPath.PRESS},
+        )
+    ]
+    assert ways == ["pressure and shear together", "pressure, then shear", "pressure alone"]
+
+
+def test_contact_that_outgrows_its_window_gets_a_larger_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    narrow = pose(ORDINARY)
+    grid = replace(narrow.grid, window=tuple(0.7 * side for side in narrow.grid.window))
+    assert len(by_superposition(replace(narrow, grid=grid)).result.increments) == 4
