@@ -5,10 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from scipy.linalg import expm
-from stack_strategies import stacks
 
 from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from semi_analytical.frf.response_matrix import response_matrix
@@ -18,8 +14,6 @@ from verification.laws.limit_laws import (
     LIMIT_LAWS,
     SYMMETRY_LAWS,
     Law,
-    apart,
-    combined,
     composite_frf_matrix,
     worst_violation,
 )
@@ -33,20 +27,6 @@ ACCURACY = 5e-15
 def stack_of_row(row):
     base = None if row["base"] == "rigid" else (row["base"]["G"], row["base"]["nu"])
     return Stack([(film["G"], film["nu"], film["h"]) for film in row["layers_top_down"]], base)
-
-
-def test_coupling_of_two_bodies_subtracts_and_the_rest_adds():
-    """One of them is the other's mirror image: alike, they do not couple and give twice as much."""
-    one, other = (scalars(stack_of_row(row), np.array([0.3, 2.0])) for row in ROWS[:2])
-    both, swapped, alike = combined(one, other), combined(other, one), combined(one, one)
-    for name in ("c11", "c22", "csh"):
-        np.testing.assert_array_equal(getattr(alike, name), 2 * getattr(one, name))
-        np.testing.assert_array_equal(
-            getattr(both, name), getattr(one, name) + getattr(other, name)
-        )
-    np.testing.assert_array_equal(alike.c12, 0.0)
-    np.testing.assert_array_equal(both.c12, -swapped.c12)
-    np.testing.assert_array_equal(both.c12, one.c12 - other.c12)
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: str(row["id"]))
@@ -165,43 +145,9 @@ def test_impossible_materials_are_named(layers, base, message):
         Stack(layers, base)
 
 
-# ---- The laws that any surface FRF obeys
-
-
 LAWS = {law.name: replace(law, draws=10) for law in SYMMETRY_LAWS + LIMIT_LAWS}
 
 
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_law_holds(law: Law) -> None:
     assert worst_violation(law) <= law.allowed
-
-
-def depth_system(G, nu, alpha):
-    """Matrix of d/dz (U, W, tau_s, tau_z) in a layer."""
-    ratio, modulus = nu / (1 - nu), 2 * G / (1 - nu)
-    return np.array(
-        [
-            [0, -alpha, -1 / G, 0],
-            [ratio * alpha, 0, 0, -(1 - 2 * nu) / (2 * G * (1 - nu))],
-            [-(alpha**2) * modulus, 0, 0, -alpha * ratio],
-            [0, 0, alpha, 0],
-        ]
-    )
-
-
-@given(stacks(min_layers=1, max_layers=3), st.floats(0.1, 3))
-def test_p18_equilibrium_over_the_depth_gives_the_surface_response(stack, x):
-    """Integrate equilibrium with continuous displacement and traction from the base upward."""
-    alpha = x / sum(film.thickness for film in stack.layers)
-    response = np.zeros((2, 2))
-    if stack.base is not None:
-        c11, c12, c22, _ = half_space_scalars(stack.base, alpha)
-        response = np.array([[c11, c12], [c12, c22]])
-    for G, nu, h in reversed(stack.layers):
-        # Unit displacement G / alpha keeps the exponential well scaled.
-        scale = np.array([1 / (G * alpha), 1 / (G * alpha), 1, 1])
-        system = depth_system(G, nu, alpha) * scale / scale[:, None]
-        state = expm(-system * h) @ np.vstack([response * G * alpha, np.eye(2)])
-        response = np.linalg.solve(state[2:].T, state[:2].T).T / (G * alpha)
-    c11, c12, c22, _ = scalars(stack, alpha)
-    assert apart(np.array([[c11, c12], [c12, c22]]), response) <= 1e-8
