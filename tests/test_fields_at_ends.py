@@ -3,10 +3,7 @@
 Every reader finds the fields, or names the option that stores them.
 """
 
-import csv
-import json
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -15,30 +12,14 @@ import numpy as np
 import pytest
 from contact_scenes import LOAD, PRESS, grid, push, scene
 
-import fem_reference
-import semi_analytical
 import slipstick
-from contact_results.directory.file_names import FIELDS, INCREMENTS, SUMMARY
+from contact_results.directory.file_names import FIELDS
 from contact_results.files import stored_run
 from contact_results.files.field_file import write_fields
 from contact_results.result_files import write_result
-from contact_scene import (
-    Body,
-    CoulombFriction,
-    FiniteElementDiscretisation,
-    LoadStep,
-    Paraboloid,
-    Scene,
-    SurfaceDiscretisation,
-)
-from contact_scene.quantities.field_metadata import (
-    Kind,
-)
 from contact_scene.quantities.increment import (
     SCALARS,
-    components,
 )
-from fem_reference import Method
 from semi_analytical import solve
 
 STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -124,79 +105,3 @@ def test_fields_that_stay_are_those_of_every_increment(tmp_path):
             for index, increment in enumerate(result.increments):
                 field = getattr(increment, name)
                 np.testing.assert_array_equal(file["increments"][name][index], field)
-
-
-# ---- Every scalar that is registered is in every table of a run, by one name, unit and value.
-
-
-BODIES = {
-    "title": "all effects",
-    "indenter": Paraboloid(radius=18e-3, material=STEEL),
-    "body": Body(material=STEEL),
-    "friction": CoulombFriction(coefficient=0.1),
-}
-PRESSING = LoadStep(normal_force=1e3)
-PUSH = LoadStep(tangential_force=(60.0, 0.0), increments=2)
-TURN = LoadStep(torque=0.01, increments=2)
-LIMIT = LoadStep(tangential_force=(-100.0, 0.0))
-TILT = LoadStep(normal_force=1e3, moment=(0.01, 0.02), increments=2)
-MESH = FiniteElementDiscretisation(elements_per_radius=6)
-
-
-def on_cells(*steps: LoadStep, **more: Any) -> Callable[[], Any]:
-    scene = Scene(**(BODIES | more), loading=steps)
-    return lambda: semi_analytical.solve_discretised(scene, SurfaceDiscretisation(cells=(16, 16)))
-
-
-def on_rings(method: Method, *steps: LoadStep, **more: Any) -> Callable[[], Any]:
-    scene = Scene(**(BODIES | more), loading=steps)
-    return lambda: fem_reference.solve(scene, MESH, method)
-
-
-SOLVES = {
-    "cells, pressed": on_cells(PRESSING, friction=None),
-    "cells, tilted and twisted": on_cells(TILT, PUSH, TURN),
-    "cells, at the limit of friction": on_cells(PRESSING, LIMIT),
-    **{
-        f"{method.value}, {name}": on_rings(method, *steps, **more)
-        for method in Method
-        for name, steps, more in (
-            ("pressed", (PRESSING,), {"friction": None}),
-            ("twisted", (PRESSING, TURN), {}),
-            ("at the limit of friction", (PRESSING, LIMIT), {}),
-        )
-    },
-}
-
-
-@pytest.fixture(scope="module", params=SOLVES)
-def written(
-    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
-) -> tuple[Any, Path]:
-    result, directory = SOLVES[request.param](), tmp_path_factory.mktemp("written")
-    write_result(result, directory, figures="none")
-    return result, directory
-
-
-def table(directory: Path) -> list[dict[str, str]]:
-    with open(directory / INCREMENTS, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-def headers(name: str) -> list[str]:
-    return [f"{part} [{SCALARS[name].unit or 1}]" for part in components(name)]
-
-
-def test_a_step_takes_its_increments_together(written: tuple[Any, Path]) -> None:
-    result, directory = written
-    steps = json.loads((directory / SUMMARY).read_text(encoding="utf-8"))["steps"]
-    assert len(steps) == len(result.scene.loading)
-    for number, step in enumerate(steps, 1):
-        within = [i for i in result.increments if i.step == number]
-        for name, mark in SCALARS.items():
-            known = [v for i in within if (v := getattr(i, name)) is not None]
-            end = getattr(within[-1], name)
-            expected = end if end is None else np.asarray(end).tolist()
-            if mark.kind is Kind.LARGEST:
-                expected = max(known, default=None)
-            assert step[name] == expected, name
