@@ -166,13 +166,15 @@ ANYHOW = circle_of(
 def test_below_a_sliding_ball_it_is_hamiltons(depth: float) -> None:
     drawn = np.random.default_rng(1)
     near = 10.0 ** -drawn.uniform(0.5, 7 if depth else 2, 40)
-    r = np.concatenate([drawn.uniform(0, 3, 20), 1 + near[:20], 1 - near[20:], [0.0]])
+    r = np.concatenate([drawn.uniform(0, 3, 20), 1 + near[:20], 1 - near[20:], [0.0, 1.0]])
     turn = drawn.uniform(0, 2 * np.pi, len(r))
     x, y = r * np.cos(turn), r * np.sin(turn)
     exact = hamilton_stress(x, y, max(depth, 1e-6), 1.0, 1.0, MU, NU)
     for finer, allowed in ((1, 6e-5), (2, 3e-5)):
         found = below_circle(SLIDING, HalfSpace(G, NU), x, y, depth, finer)[3:]
-        assert_allclose(found, exact, atol=allowed)
+        assert np.all(np.isfinite(found))
+        inner = slice(None if depth else -1)  # the last point lies on the edge
+        assert_allclose(found[:, inner], exact[:, inner], atol=allowed)
 
 
 ROUND = LoadedCircle(
