@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import slipstick
+from contact_results.surface import surface_of, surface_on
 from contact_scene import Scene, SceneError, SurfaceDiscretisation
 from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.frf.depth import Level, material_at
@@ -146,6 +147,9 @@ def test_a_sharp_edge_at_its_best_place_leaves_an_error_of_second_order(cells: i
     press = {"normal_force": FORCE, "moment": [0, 0.2 * FORCE * EDGE]}
     result = solved(press, cells=cells, indenter=shape)
     (end,), x = result.steps, result.grid.x
+    axes = {"x": x, "y": result.grid.y}
+    for surface in (surface_of(result), surface_on(axes, (1.0, 0.0))):
+        assert np.sum(surface.weights) == pytest.approx(result.grid.window[0])
     assert end.contact_radius == pytest.approx(EDGE, rel=1e-12)
     tilt = 0.2 * FORCE * EDGE * 4 / (np.pi * MODULUS * EDGE**2)
     assert end.tilt[1] == pytest.approx(tilt, rel=3e-4 * 48 / cells)
