@@ -28,6 +28,7 @@ from contact_scene import (
 )
 from contact_scene.checks.plausibility import implausible_input
 from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
     ContactNotResolved,
@@ -144,6 +145,13 @@ def test_a_degenerate_value_gives_the_bits_of_its_absence(name: str, solver: Any
     ends = [slipstick.solve(asked, solver, COARSE[solver]).steps[-1] for asked in DEGENERATE[name]]
     for quantity in ("approach", "contact_radius", "peak_pressure", "pressure"):
         np.testing.assert_array_equal(*(getattr(end, quantity) for end in ends))
+
+
+def test_a_scene_knows_the_arrays_that_it_reads_and_names_its_shape() -> None:
+    rough = scene(PRESS, indenter=ball_map(16), friction=uniform(0.3))
+    assert set(rough.array_files) == {"file", "map"}
+    assert not BARE.array_files
+    assert "height map" in shape_text(rough.indenter)
 
 
 def test_a_constant_map_is_known_within_its_extent_only() -> None:
