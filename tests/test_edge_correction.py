@@ -33,6 +33,7 @@ from contact_scene import (
 )
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
+from verification.closed_forms.hertz import PointContact
 from verification.problems.problem import (
     FRICTION_LIMIT,
     ShiftedGrid,
@@ -215,6 +216,24 @@ def test_the_shear_under_a_friction_map_carries_the_force_below_its_limit(name):
         assert np.all(np.hypot(*end.shear) <= limit * (1 + 1e-12))
         carried = np.sum(end.shear[0]) * result.grid.cell_area
         assert carried == pytest.approx(end.tangential_force[0], abs=1e-6 * LIMIT)
+
+
+def test_where_the_stick_border_cannot_follow_the_pressure_is_corrected_alone():
+    """At a changed normal force; before, the approach jumped by 2e-4 at a constant one."""
+    loading = PRESS, {"tangential_force": (0.5 * LIMIT, 0.0)}, {"normal_force": 1.2 * LOAD}
+    of = scene(*loading, indenter=paraboloid(ALIKE), body=ALIKE)
+    result = solved(of)
+    assert [end.edge_report.stick is not None for end in result.steps] == [True, True, False]
+    assert any("step 3 " in told and "stick" in told for told in warnings_of(result))
+    end, exact = (
+        result.steps[-1],
+        PointContact.under_load(1.2 * LOAD, RADIUS, EXACT.contact_modulus),
+    )
+    assert end.contact_radius == pytest.approx(exact.contact_radius, rel=1e-4)
+    assert end.approach == pytest.approx(exact.approach, rel=1e-5)
+    assert np.all(np.hypot(*end.shear) <= MU * end.pressure * (1 + 1e-12))
+    carried = np.sum(end.shear, axis=(1, 2)) * result.grid.cell_area
+    np.testing.assert_allclose(carried, end.tangential_force, atol=1e-6 * LIMIT)
 
 
 def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so():
