@@ -17,8 +17,6 @@ from verification.cases.frictional_pressing import stick_ratio
 from verification.closed_forms.cattaneo_mindlin import GrownContact, PartialSlip, superpose
 from verification.closed_forms.coated_indentation import (
     LayeredSurface,
-    flat_punch,
-    paraboloid,
     paraboloid_under,
 )
 from verification.closed_forms.flat_punch import ConeContact, FlatPunchContact
@@ -32,12 +30,6 @@ from verification.closed_forms.hertz import (
 from verification.references import load_reference
 
 E_STAR = 1.7
-AXISYMMETRIC = {
-    "paraboloid": lambda load: PointContact.under_load(load, 3.0, E_STAR),
-    "sphere": lambda load: SphereContact.under_load(load, 3.0, E_STAR),
-    "cone": lambda load: ConeContact.under_load(load, 0.2, E_STAR),
-    "flat punch": lambda load: FlatPunchContact.under_load(load, 0.9, E_STAR),
-}
 # Contact of a radius, slope f' and curvature f'' of the profile.
 PROFILES = {
     "paraboloid": (
@@ -52,42 +44,6 @@ PROFILES = {
     ),
     "cone": (lambda a: ConeContact(0.2, E_STAR, a), lambda r: np.tan(0.2), lambda r: 0.0),
 }
-loads = st.floats(1e-6, 2.0)
-
-
-@pytest.mark.parametrize("name", AXISYMMETRIC)
-def test_pressure_integrates_to_load(name):
-    contact = AXISYMMETRIC[name](0.8)
-    a = contact.contact_radius
-    force, _ = quad(
-        lambda t: 2 * np.pi * contact.pressure(a * np.sin(t)) * a**2 * np.sin(t) * np.cos(t),
-        0,
-        np.pi / 2,
-        epsabs=0,
-        epsrel=1e-12,
-    )
-    assert force == pytest.approx(0.8, rel=1e-11)
-
-
-@pytest.mark.parametrize("name", AXISYMMETRIC)
-@given(load=loads)
-def test_contact_stiffness_is_twice_modulus_times_radius(name, load):
-    contact_at, step = AXISYMMETRIC[name], 1e-4
-    rise = contact_at(load * (1 + step)).approach - contact_at(load * (1 - step)).approach
-    # central difference: error of order step²
-    assert 2 * step * load / rise == pytest.approx(
-        2 * E_STAR * contact_at(load).contact_radius, rel=1e-7
-    )
-
-
-@pytest.mark.parametrize("fraction", [0.0, 0.4, 0.8])
-def test_hertz_pressure_makes_the_surface_a_paraboloid(fraction):
-    contact = PointContact.under_load(0.8, 3.0, E_STAR)
-    a, r = contact.contact_radius, fraction * contact.contact_radius
-    displacement = normal_displacement(
-        lambda x, y: contact.pressure(np.hypot(x, y)), (r, 0.0), [(a, a)], E_STAR
-    )
-    assert displacement == pytest.approx(contact.approach - r**2 / 6, rel=1e-12)
 
 
 def integral(function, start, end):
@@ -127,25 +83,14 @@ def test_integrals_of_the_profile_give_load_approach_pressure_and_gap(name, a):
         assert 2 / np.pi * gap == pytest.approx(float(closed.gap(r)), rel=1e-8)
 
 
-# --- elliptical contact
-
-# B/A, b/a, a, b, peak pressure, approach for E* = W = A + B = 1, independent 9-digit evaluation
-ELLIPSES = [
-    (1.5, 0.763298786, 1.044657929, 0.797386128, 0.573190000, 0.818018858),
-    (2.0, 0.630595701, 1.159160123, 0.730961391, 0.563512451, 0.804087100),
-    (5.0, 0.345999087, 1.647164584, 0.569917441, 0.508618839, 0.722863436),
-    (10.0, 0.222249519, 2.171897878, 0.482703259, 0.455430125, 0.640651342),
-    (100.0, 0.054984018, 5.415642041, 0.297773760, 0.296077231, 0.378179207),
-]
+def test_a_flat_punch_has_its_load_and_stiffness():
+    punch = FlatPunchContact.under_load(0.8, 0.9, E_STAR)
+    assert disc_integral(punch.pressure, 0.9) == pytest.approx(0.8, rel=1e-6)
+    assert punch.approach == pytest.approx(0.8 / (2 * E_STAR * 0.9))
+    np.testing.assert_array_equal(punch.gap([0.9, 0.91]), [0.0, np.inf])
 
 
-@pytest.mark.parametrize("row", ELLIPSES)
-def test_elliptical_table(row):
-    ratio, *expected = row
-    radii = ((1 + ratio) / 2, (1 + ratio) / (2 * ratio))
-    contact = EllipticalContact.under_load(1.0, radii, 1.0)
-    got = (contact.axis_ratio, *contact.semi_axes, contact.peak_pressure, contact.approach)
-    np.testing.assert_allclose(got, expected, rtol=0, atol=0.6e-9)
+# ---- Elliptical contact
 
 
 @pytest.mark.parametrize("at", [(0.0, 0.0), (0.5, 0.0), (0.0, 0.6), (0.4, -0.5)])
@@ -158,15 +103,6 @@ def test_elliptical_pressure_makes_the_surface_a_paraboloid(at):
     assert contact.surface_displacement(x, y) == pytest.approx(expected, rel=1e-13)
 
 
-# --- moduli and the scene of the paper
-
-
-# --- range of validity
-
-
-# ---- The semi-closed coated contact against what is known about it from elsewhere.
-
-
 ROWS = load_reference("coated_frictionless_paraboloid")["rows"]
 RADIUS = 10.0
 
@@ -176,10 +112,6 @@ def surface(stack: Stack) -> LayeredSurface:
     return LayeredSurface(
         lambda k: scalars(stack, k).c22, 2 * G / (1 - nu), stack.layers[0].thickness
     )
-
-
-def homogeneous(thickness: float) -> LayeredSurface:
-    return LayeredSurface(lambda k: 2 / (3.0 * k), 3.0, thickness)
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"E1/E2 = {row['E1_over_E2']}")
@@ -198,31 +130,12 @@ def test_paraboloid_on_a_coating_is_the_reference(row: dict) -> None:
     np.testing.assert_allclose(contact.pressure(r) / peak, row["p_over_pH"], rtol=1e-12)
 
 
-@pytest.mark.parametrize("thickness", [0.1, 1.0, 100.0])
-def test_without_layers_it_is_hertz_and_boussinesq(thickness: float) -> None:
-    ball, exact = paraboloid(homogeneous(thickness), RADIUS, 0.7), PointContact(RADIUS, 3.0, 0.7)
-    assert (ball.load, ball.approach) == pytest.approx((exact.load, exact.approach), rel=1e-13)
-    r = np.linspace(0, 1, 30)
-    np.testing.assert_allclose(ball.pressure(r), exact.pressure(r), atol=1e-12 * ball.load)
-    punch = flat_punch(homogeneous(thickness), 0.7)
-    exact_punch = FlatPunchContact(0.7, 3.0, punch.load)
-    assert exact_punch.approach == pytest.approx(1, rel=1e-13)
-    inside = np.linspace(0, 0.699, 30)
-    np.testing.assert_allclose(punch.pressure(inside), exact_punch.pressure(inside), rtol=1e-12)
-
-
-# ---- One-way coupled indentation: the stick radius by another route, its limits and printed
-
-
 BETA = 0.4 / 1.4  # ν = 0.3 under a rigid indenter
 
 
 @pytest.mark.parametrize(("friction", "ratio"), [(0.1, 0.2240), (0.2, 0.7334), (0.3, 0.9186)])
 def test_printed_values(friction, ratio):
     assert stick_ratio(friction, BETA) == pytest.approx(ratio, abs=5e-5)
-
-
-# ---- Partial slip: equilibrium, Coulomb's bound, rigid stick zone, energy, superposition.
 
 
 LOAD = 0.8
@@ -258,7 +171,7 @@ def disc_integral(function, radius, edges=()):
     return total
 
 
-# --- Cattaneo–Mindlin
+# ---- Cattaneo and Mindlin
 
 
 @pytest.mark.parametrize("ratio", LOADED)
@@ -296,13 +209,7 @@ def test_stick_zone_moves_rigidly_for_every_poisson_ratio(ratio, nu):
         assert across == pytest.approx(0, abs=1e-9 * state.shift)
 
 
-# --- energy
-
-
-# --- histories of the force
-
-
-# --- superposition for other profiles
+# ---- Superposition for other profiles
 
 CONTACTS = {
     "paraboloid": lambda load: PointContact.under_load(load, BALL_RADIUS, E_ALIKE),
@@ -341,6 +248,3 @@ def test_growth_without_slip_carries_the_force_within_the_limit():
     # At the friction limit the shift is that at gross slip (Cattaneo and Mindlin).
     a = full.contact_radius
     assert at_once.shift == pytest.approx(PartialSlip(LOAD, a, MU, G_STAR, 0.0).sliding_shift)
-
-
-# --- dimension and range

@@ -4,6 +4,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.linalg import expm
+from stack_strategies import stacks
 
 import slipstick
 from contact_scene import (
@@ -19,7 +23,11 @@ from contact_scene import (
 )
 from contact_scene.normal_form import normal_form
 from contact_scene.solver_errors import UnsupportedScene
+from semi_analytical.frf.depth import Descent, Level
+from semi_analytical.frf.stack import Stack
+from semi_analytical.frf.surface import half_space_scalars, scalars
 from verification.closed_forms.bonded_film import BondedFilm
+from verification.laws.limit_laws import apart
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 HARD = IsotropicMaterial(young_modulus=400e9, poisson_ratio=0.25)
@@ -97,3 +105,88 @@ def test_a_thin_soft_layer_in_elements_stands_for_the_bond() -> None:
         assert one == pytest.approx(other, rel=1e-3)
     with pytest.raises(UnsupportedScene, match=r"layers\[1\].interface_stiffness"):
         slipstick.solve(scene(bonded()), "fem")
+
+
+def depth_system(G, nu, alpha):
+    """Matrix of d/dz (U, W, tau_s, tau_z) in a layer."""
+    ratio, modulus = nu / (1 - nu), 2 * G / (1 - nu)
+    return np.array(
+        [
+            [0, -alpha, -1 / G, 0],
+            [ratio * alpha, 0, 0, -(1 - 2 * nu) / (2 * G * (1 - nu))],
+            [-(alpha**2) * modulus, 0, 0, -alpha * ratio],
+            [0, 0, alpha, 0],
+        ]
+    )
+
+
+@given(stacks(min_layers=1, max_layers=3, bonds=True), st.floats(0.1, 3))
+def test_equilibrium_over_the_depth_gives_the_surface_response(stack, x):
+    """Integrate equilibrium with continuous traction from the base upward.
+
+    The displacement is continuous, or jumps in proportion to the traction at a compliant bond."""
+    alpha = x / sum(film.thickness for film in stack.layers)
+    response = np.zeros((2, 2))
+    if stack.base is not None:
+        c11, c12, c22, _ = half_space_scalars(stack.base, alpha)
+        response = np.array([[c11, c12], [c12, c22]])
+    for G, nu, h, opening, jump in reversed(stack.layers):
+        response = response + np.diag([jump, opening])
+        # Unit displacement G / alpha keeps the exponential well scaled.
+        scale = np.array([1 / (G * alpha), 1 / (G * alpha), 1, 1])
+        system = depth_system(G, nu, alpha) * scale / scale[:, None]
+        state = expm(-system * h) @ np.vstack([response * G * alpha, np.eye(2)])
+        response = np.linalg.solve(state[2:].T, state[:2].T).T / (G * alpha)
+    c11, c12, c22, _ = scalars(stack, alpha)
+    assert apart(np.array([[c11, c12], [c12, c22]]), response) <= 1e-8
+
+
+@given(stacks(min_layers=1, max_layers=2, bonds=True), st.floats(0.01, 30))
+def test_a_compliant_bond_is_a_thin_soft_layer(stack, x):
+    """Its modulus goes to zero with its thickness: G and E(1-ν)/((1+ν)(1-2ν)) over the thickness
+    are the stiffnesses of the bond."""
+    thinnest = min(film.thickness for film in stack.layers)
+    alpha, thin = np.array([x / thinnest]), 1e-5 * thinnest
+    layers = []
+    for film in stack.layers:
+        both = film.normal_opening, film.tangential_jump
+        layers.append(film[:3])
+        if all(both):
+            # The ratio of both moduli, 2(1-ν)/(1-2ν), exceeds 4/3 if ν is above -1.
+            jump = max(film.tangential_jump, 2 * film.normal_opening)
+            ratio = jump / film.normal_opening
+            layers.append((thin / jump, (ratio - 2) / (2 * ratio - 2), thin))
+    bonded = Stack(
+        [
+            (*film[:4], max(film[4], 2 * film[3])) if all(film[3:]) else film[:3]
+            for film in stack.layers
+        ],
+        stack.base,
+    )
+    found, expected = (scalars(one, alpha) for one in (bonded, Stack(layers, stack.base)))
+    # Squeezed out between stiffer sides, the thin layer errs by the square of its slenderness.
+    assert apart(np.array(found), np.array(expected)) <= 1e-2
+
+
+@given(stacks(min_layers=1, max_layers=3, bonds=True), st.floats(0.01, 10))
+def test_displacements_jump_at_bonds_in_proportion_to_the_traction(stack, x):
+    alpha = np.array([x / min(film.thickness for film in stack.layers)])
+    fields, depth = Descent(stack, alpha), 0.0
+    for k, film in enumerate(stack.layers):
+        depth += film.thickness
+        if k + 1 == len(stack.layers) and stack.base is None:
+            break
+        above, below = (fields.at(Level(depth, layer)) for layer in (k, k + 1))
+        jump = np.diag([film.tangential_jump, film.normal_opening])
+        largest = np.max(np.abs(above.displacement)) + 1e-300
+        moved = above.displacement[..., 0] - below.displacement[..., 0]
+        np.testing.assert_allclose(
+            moved / largest, jump @ above.traction[..., 0] / largest, atol=1e-9
+        )
+        np.testing.assert_allclose(above.traction, below.traction, rtol=0, atol=1e-12)
+        across = above.transverse_displacement - below.transverse_displacement
+        np.testing.assert_allclose(
+            across,
+            film.tangential_jump * above.transverse_traction,
+            atol=1e-9 * np.max(above.transverse_displacement),
+        )

@@ -84,12 +84,9 @@ CASES = {
     "normal force": (PRESSED, [{"normal_force": 0.9 * LOAD}], {}),
     "normal force after a push": (PRESSED, [PRESS, push(0.4), {"normal_force": LOAD * 1.1}], {}),
     "tangential force": (PUSHED, [PRESS, push(0.7)], {}),
-    "tangential shift": (PUSHED, [PRESS, SHIFT], {}),
     "shift of an actuator": (PUSHED, [PRESS, SHIFT], {"rig": SPRINGS}),
-    "reversed force": (PUSHED, [PRESS, push(0.7), push(-0.2)], {}),
     "gross slip": (PUSHED, [PRESS, {"tangential_shift": (3 * LIMIT / STICK, 0.0)}], {}),
     "torque": (TURNED, [PRESS, {"torque": TORQUE}], {}),
-    "twist": (TURNED, [PRESS, {"twist": TORQUE / TWIST}], {}),
     "force beside a twist": (PUSHED, [PRESS, {"twist": TORQUE / TWIST} | push(0.2), push(0.5)], {}),
 }
 
@@ -111,30 +108,6 @@ def test_stiffness_is_the_derivative_of_the_solved_increment(body, solver, name)
     exact = difference(solver, last, names, *before, body=body, **kind)
     kept = NAMES[(PRESSED, PUSHED, TURNED).index(names)]
     assert getattr(end, kept) == pytest.approx(exact, rel=1e-7, abs=1e-9 * STICK)
-
-
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_stiffnesses_have_closed_forms_within_their_stated_errors(solver) -> None:
-    """Hertz 2E*a, Mindlin 2G*a and 16/3 G a³, (1 - T/µW)^⅓ of it in partial slip, 0 in gross slip.
-
-    1/G* is the sum of (2 - ν)/4G of both bodies, so that 2 G* a is 8 G* a for the sum of (2 - ν)/G.
-    """
-    slope = STICK * 0.4 ** (1 / 3)
-    for steps, name, known in (
-        ([PRESS, push(0.6), push(-0.6), push(-1.0)], NAMES[1], [STICK, slope, slope, 0.0]),
-        ([PRESS, {"torque": 1e-3 * TORQUE}], NAMES[2], [TWIST, TWIST]),
-    ):
-        result = slipstick.solve(requested(*steps), solver)
-        errors = slipstick.stated_errors(result).steps
-        for end, stated, exact in zip(result.steps, errors, known, strict=True):
-            for one, value in ((NAMES[0], NORMAL), (name, exact)):
-                error = float(np.max(stated[one].error))
-                # Mindlin neglects slip across the force, and the torque slips at the edge.
-                other = (
-                    0.0 if one == NAMES[0] else 5e-4 * STICK if name == NAMES[1] else 3e-3 * TWIST
-                )
-                assert abs(getattr(end, one) - value) <= error + other + 1e-6 * value
-                assert error <= 0.1 * value or value == 0
 
 
 @pytest.mark.parametrize("solver", SOLVERS)

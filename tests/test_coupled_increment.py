@@ -4,7 +4,7 @@ from itertools import groupby
 
 import numpy as np
 import pytest
-from contact_scenes import APPROACH, LIMIT, LOAD, MU, RADIUS, A, grid, steel
+from contact_scenes import APPROACH, LIMIT, LOAD, MU, RADIUS, A, grid
 from coupled_scenes import (
     bulk,
     coated,
@@ -15,14 +15,9 @@ from coupled_scenes import (
 
 from contact_scene import (
     RIGID,
-    Body,
-    Cone,
     Ellipsoid,
     FlatPunch,
     HeightMap,
-    IsotropicMaterial,
-    Layer,
-    Paraboloid,
 )
 from contact_scene.quantities.summary import ContactStatus
 from fem_reference.contact.increment import touching_share as share_of_rings
@@ -63,28 +58,6 @@ def test_one_cell_that_touches_sticks_and_its_slip_of_round_off_is_none():
     assert end.residuals.slip_direction < 1e-10
 
 
-@pytest.mark.parametrize("cells", [25, 33])
-def test_a_contact_of_one_or_five_cells_is_an_ordinary_state(cells):
-    """The cell in the middle does not slip: its slip is round-off without a direction."""
-    body = Body(material=IsotropicMaterial(young_modulus=100e9, poisson_ratio=0.2))
-    loads = 50.0 * (np.arange(1, 7) / 50) ** 3  # as the first increments of 50 below 50 N
-    described = scene(
-        *({"normal_force": load, "increments": 1} for load in loads),
-        body=body,
-        indenter=Paraboloid(radius=0.01, material=RIGID),
-        friction=0.3,
-    )
-    for width in (336e-6, 338e-6):
-        on = SurfaceGrid((cells, cells), (width, width))
-        increments = solve(described, on, TOLERANCE).increments
-        assert np.count_nonzero(increments[0].in_contact) == 1
-        assert np.max(np.abs(increments[0].shear)) < 1e-9 * increments[0].peak_pressure
-        assert np.count_nonzero(increments[-1].in_contact) >= 5
-
-
-# ---- Coupled bodies through hard and easy histories: every increment obeys all the equations.
-
-
 CELLS = 48
 SPACING = 3 * A / CELLS
 POSITIONS = (np.arange(CELLS) - 0.5 * (CELLS - 1)) * SPACING
@@ -122,16 +95,6 @@ def patchy_friction():
     return {"map": values, "spacing": SPACING}
 
 
-def greased_centre():
-    values = np.where(np.hypot(POSITIONS[:, None], POSITIONS) < 0.5 * A, 0.0, MU)
-    return {"map": values, "spacing": SPACING}
-
-
-def layered_ball():
-    film = Layer(thickness=0.3 * A, material=steel(0.35, 100e9))
-    return Paraboloid(radius=RADIUS, material=steel(0.2), layers=(film,))
-
-
 def strong(friction, poisson_ratio, part):
     """Pushed by a part of the limit on a homogeneous body: µ|beta| of one and more."""
     loading = press(), push(part, friction=friction)
@@ -139,50 +102,35 @@ def strong(friction, poisson_ratio, part):
 
 
 PATH = (press(), push(0.6))
-ANGLES = np.linspace(0, 2 * np.pi, 5)
-CIRCLE = [push(0.8 * np.cos(t), 0.8 * np.sin(t)) for t in ANGLES]
 # Loading steps, the scene, and the half window in contact radii if the contact is larger.
 HISTORIES = {
     "µ = 2, ν = 0": strong(2.0, 0.0, 0.6),
-    "µ = 5, ν = 0": strong(5.0, 0.0, 0.3),
     "µ = 5, ν = 0.3": strong(5.0, 0.3, 0.6),
     "mapped friction with zeros": (
         (press(), push(0.6), push(-0.6)),
         {"friction": patchy_friction()},
     ),
-    "no friction at the centre": (
-        (press(0.01), press(), push(0.3)),
-        {"friction": greased_centre()},
-    ),
-    "hardly any friction": ((press(), push(0.6, friction=1e-6)), {"friction": 1e-6}),
     "friction coefficient of zero": ((press(), slide(1)), {"friction": 0.0}),
     "two contacts": ((press(0.1), push(0.07), push(-0.07)), {"indenter": two_bumps()}),
     "rough surface": ((press(), push(0.6), push(-0.3, 0.4)), {"indenter": rough()}),
     "W and T reversed together": ((press(), push(0.8), to(-0.8, 0.85, 6)), {}),
-    "all slip at the start": ((press(), push(0.8, increments=4)), {"body": coated(4.0)}),
-    "T to 0.9999 of the limit at once": ((press(), push(0.9999, increments=1)), {}),
     "T at the limit": ((press(), push(0.9), push(1.0)), {}),
     **{
         f"E1/E2 = {ratio:g}": (PATH, {"body": coated(ratio)}, wide)
-        for ratio, wide in ((1e-3, 12), (0.05, 3), (0.5, 1.5), (20, 1.2), (1e3, 0.3))
+        for ratio, wide in ((1e-3, 12), (1e3, 0.3))
     },
-    **{f"h/a = {h}": (PATH, {"body": coated(2.0, h)}) for h in (0.01, 0.1, 10)},
-    **{f"layer of ν = {nu}": (PATH, {"body": coated(2.0, 1.0, nu)}) for nu in (0.499, 0.5)},
     "thin soft incompressible layer": (PATH, {"body": coated(0.1, 0.2, 0.5)}, 2),
-    "a ten-thousandth of the load": ((press(1e-4), push(0.6e-4)), {}),
-    "approach control": (({"approach": APPROACH, "increments": 3}, push(0.5)), {}),
     "shift far beyond sliding and back": ((press(), slide(1), slide(100), slide(0)), {}),
     "controls in turn": (
         ({"approach": APPROACH, "increments": 2}, slide(0.5), push(0.3), press(), slide(-0.5)),
         {},
     ),
-    "unloading and reloading": ((press(), press(0.01, 6), press(1, 4)), {}),
     "unloading and reloading, sheared": ((press(), push(0.5), to(0, 0.01), to(0.5, 1)), {}),
-    "W falls at constant T": ((press(), push(0.5), press(0.5 / 0.98)), {}),
-    "T on a circle": ((press(), *CIRCLE), {}),
-    "cone": (
-        (press(), push(0.8), push(-0.8)),
-        {"indenter": Cone(slope_angle=0.02, material=RIGID)},
+    # Shear lifts the surface of the soft incompressible film more than pressure.
+    "contact that falls apart": (
+        (press(), push(0.9, friction=2.0, increments=1)),
+        {"body": coated(1e-3, 0.01, 0.5), "friction": 2.0},
+        1.3,
     ),
     "flat punch": (
         (press(), push(0.8), push(-0.8)),
@@ -192,7 +140,6 @@ HISTORIES = {
         (press(0.3), push(0.15, 0.15)),
         {"indenter": Ellipsoid(radii=(RADIUS, 4 * RADIUS), material=RIGID)},
     ),
-    "elastic ball with its own layer": (PATH, {"indenter": layered_ball()}, 2),
 }
 
 
@@ -207,6 +154,7 @@ def test_every_increment_obeys_all_equations(history):
         assert np.all(np.isfinite(increment.shear))
         assert increment.stick_area <= increment.contact_area
         if increment.dissipated_energy is not None:
+            assert increment.energy_imbalance < 1e-6
             assert increment.dissipated_energy >= energy
             energy = increment.dissipated_energy
 
@@ -219,9 +167,6 @@ def test_contact_that_falls_apart_under_coupling_is_found_with_caution():
     for increment in solve(described, grid(CELLS, 1.3), TOLERANCE).increments:
         assert increment.residuals.worst <= TOLERANCE
         assert increment.halvings == 0
-
-
-# ---- Slip counts from the touch of two surfaces until they part, not over the whole increment
 
 
 X = np.linspace(-1.2, 1.2, 49)
@@ -247,15 +192,6 @@ def test_a_lower_summit_touches_later():
     before, after = hertz(0.3, nearer), hertz(0.5, nearer) + hertz(0.2, farther)
     share = touching_share(before, after, SQUARED)
     assert share[farther < 0.04].max() == pytest.approx(0.04 / 0.16)
-
-
-def test_the_mirror_of_a_contact_has_the_mirror_of_its_share():
-    """Also where p² has not grown alike in cells that are equally near."""
-    before, after = hertz(0.52), hertz(1.0) * (1 + 0.2 * X[:, None] + 0.1 * X)
-    share = touching_share(before, after, SQUARED)
-    for mirror in (np.flipud, np.fliplr, np.transpose):
-        seen = touching_share(mirror(before), mirror(after), SQUARED)
-        np.testing.assert_allclose(seen, mirror(share), rtol=1e-12)
 
 
 def test_parting_is_meeting_backwards():

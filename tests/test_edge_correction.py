@@ -24,18 +24,16 @@ import slipstick
 from contact_results.result_warnings import warnings_of
 from contact_scene import (
     Body,
-    Ellipsoid,
     HeightMap,
     Layer,
     LoadStep,
-    Paraboloid,
     RadialDiscretisation,
     Scene,
     SurfaceDiscretisation,
 )
 from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.edge_correction.pressure import LEAST_FACTOR, relaxation_factor
-from verification.closed_forms.hertz import PointContact, contact_modulus
+from verification.closed_forms.hertz import PointContact
 from verification.problems.problem import (
     FRICTION_LIMIT,
     ShiftedGrid,
@@ -76,20 +74,6 @@ def test_the_pressure_of_hertz_is_right_to_a_ten_thousandth_wherever_the_cells_l
     assert end.approach == pytest.approx(APPROACH, rel=1e-5)
     assert end.peak_pressure == pytest.approx(hertz().peak_pressure, rel=1e-5)
     assert end.elastic_energy == pytest.approx(0.4 * LOAD * APPROACH, rel=3e-5)
-
-
-@pytest.mark.parametrize("window", [2.6, 2.85])
-def test_the_error_of_the_pressure_falls_with_the_cells(window):
-    """On many cells the iteration stopped at 8e-5 and 1.1e-4, above the error of its fits."""
-    errors = []
-    for cells in (64, 128, 256):
-        grid = SurfaceGrid((cells, cells), (window * A, window * A))
-        p = solved(frictionless(PRESS), grid=grid).steps[-1].pressure
-        radii, centre = (cells / window,) * 2, ((cells - 1) / 2,) * 2
-        exact = hertz().peak_pressure * ellipse_means(cells, radii, centre)
-        errors.append(np.linalg.norm(p - exact) / np.linalg.norm(exact))
-    assert max(errors) < 6e-5
-    assert errors[-1] < 0.75 * errors[0]
 
 
 def test_the_edge_on_a_stiff_film_is_where_rings_have_it():
@@ -192,28 +176,6 @@ def test_the_shear_of_cattaneo_is_right_to_a_few_ten_thousandths(forces, parts):
     assert end.tangential_force[0] == forces[-1] * LIMIT
 
 
-@pytest.mark.parametrize(
-    ("cells", "window", "forces"),
-    [
-        *((128, side, (part,)) for side in (2.61, 2.83, 3.07, 3.31) for part in (0.5, 0.8)),
-        (112, 3.499, (0.38,)),
-        (192, 3.487, (0.73,)),
-        (160, 2.716, (0.38, 0.75)),
-    ],
-)
-def test_the_stick_radius_of_cattaneo_is_right_wherever_the_cells_lie(cells, window, forces):
-    """It was off by 1e-4 to 2e-4 where cells changed sides in the last iterations."""
-    body = steel(young_modulus=205e9, poisson_ratio=0.0)
-    indenter, load, mu = Paraboloid(radius=13e-3, material=body), 311.0, 0.17
-    a = PointContact.under_load(load, indenter.radius, contact_modulus((205e9, 0.0), (205e9, 0.0)))
-    pushes = ({"tangential_force": (part * mu * load, 0.0)} for part in forces)
-    of = scene({"normal_force": load}, *pushes, friction=mu, indenter=indenter, body=body)
-    side = window * a.contact_radius
-    end = solved(of, grid=SurfaceGrid((cells, cells), (side, side))).steps[-1]
-    exact = (1 - forces[-1]) ** (1 / 3)
-    assert end.stick_radius / a.contact_radius == pytest.approx(exact, abs=5e-5)
-
-
 UNLOADED = {"normal_force": 0.6 * LOAD}
 X, Y = np.meshgrid(np.linspace(-2, 2, 33), np.linspace(-2, 2, 33), indexing="ij")
 FRICTION = {
@@ -225,21 +187,18 @@ FRICTION = {
 
 @pytest.mark.parametrize("name", FRICTION)
 def test_the_pressure_of_uncoupled_bodies_does_not_depend_on_friction(name):
-    """Nor do its stated errors: a map of friction left the edge within cells uncorrected."""
-    values = FRICTION[name]
-    friction = values if values is None else {"map": values, "spacing": 4 * A / 33}
-    push = {"tangential_force": (0.4 * LIMIT, 0.0)}
-    grid = SurfaceDiscretisation(cells=(CELLS, CELLS), window=(WINDOW, WINDOW))
-    found = []
-    for law, pushes in ((MU, (push,)), (friction, () if friction is None else (push,))):
-        result = slipstick.solve(scene(PRESS, *pushes, UNLOADED, friction=law), discretisation=grid)
-        found.append((result.steps[-1], slipstick.stated_errors(result).steps[-1]))
-        assert result.steps[-1].edge_change is not None
-    (one, stated), (other, stated_other) = found
+    """A map of friction left the edge within cells uncorrected."""
+    values, push = FRICTION[name], {"tangential_force": (0.4 * LIMIT, 0.0)}
+    friction = None if values is None else {"map": values, "spacing": 4 * A / 33}
+    steps = (PRESS, UNLOADED) if values is None else (PRESS, push, UNLOADED)
+    one, other = (
+        solved(described).steps[-1]
+        for described in (scene(PRESS, push, UNLOADED), scene(*steps, friction=friction))
+    )
+    assert one.edge_change is not None
     np.testing.assert_allclose(other.pressure, one.pressure, rtol=0, atol=1e-12 * one.peak_pressure)
     for scalar in ("approach", "contact_radius", "peak_pressure"):
         assert getattr(other, scalar) == pytest.approx(getattr(one, scalar), rel=1e-12)
-        assert stated_other[scalar].error == pytest.approx(stated[scalar].error, rel=1e-6)
 
 
 @pytest.mark.parametrize("name", ["even map", "random map"])
@@ -277,25 +236,13 @@ def test_where_the_stick_border_cannot_follow_the_pressure_is_corrected_alone():
     np.testing.assert_allclose(carried, end.tangential_force, atol=1e-6 * LIMIT)
 
 
-@pytest.mark.parametrize(
-    ("indenter", "grid"),
-    [
-        (None, SurfaceGrid((16, 16), (10 * A, 10 * A))),
-        (
-            Ellipsoid(radii=(RADIUS, 0.33 * RADIUS), material=steel()),
-            SurfaceGrid((8, 8), (3 * A,) * 2),
-        ),
-    ],
-    ids=["ball", "ellipse"],
-)
-def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so(indenter, grid):
-    of = frictionless(PRESS, indenter=indenter)
+def test_where_the_contact_is_too_thin_the_pressure_stays_and_the_remarks_say_so():
+    of, grid = frictionless(PRESS), SurfaceGrid((16, 16), (10 * A, 10 * A))
     plain, asked = (solved(of, edge, grid) for edge in ("off", "last"))
     np.testing.assert_array_equal(plain.steps[-1].pressure, asked.steps[-1].pressure)
     assert asked.steps[-1].edge_change is None
     told = "the edge of the contact is not corrected: the contact is too thin"
     assert any(told in remark for remark in warnings_of(asked))
-    assert not any("corrected" in remark for remark in warnings_of(plain))
 
 
 def test_whoever_asks_for_nothing_has_edges_inside_the_cells():
@@ -329,9 +276,6 @@ def test_a_relaxed_change_at_least_halves_the_error_of_a_linear_iteration(eigenv
     assert abs(left) <= 0.5 + 1e-12
     if 1 / (1 - eigenvalue) >= LEAST_FACTOR and np.any(error):
         assert left == pytest.approx(0.0, abs=1e-12)
-
-
-# ---- Pressure and shear of bodies that couple, with their edges inside the cells, against the
 
 
 INCREMENTS = 6

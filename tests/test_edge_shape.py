@@ -1,4 +1,4 @@
-"""Tests of the edge correction: cell means of cut-off powers, fits to means, points of the edge."""
+"""Tests of the shape of the contact edge: means of powers, fits to means, points and peaks."""
 
 import numpy as np
 import pytest
@@ -6,19 +6,11 @@ from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.ndimage import binary_erosion
 
-from contact_scene import RIGID, Body, IsotropicMaterial, Layer
-from semi_analytical import SurfaceGrid
 from semi_analytical.edge.clipped_power_means import mean_of_cut, mean_of_smooth, mean_power
-from semi_analytical.edge.film import FilmLaw, film_law
 from semi_analytical.edge.fit import NARROW, WIDE, Stencil, fit_about, peak_of
 from semi_analytical.edge.kernels import PARITY
 from semi_analytical.edge.shape import EdgeShape, edge_shape
-from semi_analytical.frf.stack import stack_of
-from semi_analytical.frf.surface import scalars
 from tests.cell_means import ellipse_means, elliptic_radius
-from verification.norms import cell_means, round_means
-from verification.problems.indentation import BALL
-from verification.studies.work_precision import Method, PrecisionCase
 
 EXPONENTS = (0.0, 0.5, 0.51, 1.5, -0.5)
 # Value and slopes: a corner, an edge, along a side, almost along it, inside, flat, far inside, out.
@@ -123,149 +115,6 @@ def test_a_mirror_turns_every_index_along_its_normal(
     component: str, parity: tuple[int, int]
 ) -> None:
     assert parity == tuple((-1) ** component.count(axis) for axis in "xy")
-
-
-# ---- Means of a known field over cells.
-
-
-EXACT = BALL.ends[-1]
-
-
-@pytest.mark.parametrize("cells", [(16, 16), (33, 20), (128, 128)])
-def test_means_over_cells_carry_the_load(cells: tuple[int, int]) -> None:
-    side = 2.6 * BALL.radius
-    grid = SurfaceGrid(cells, (side, 1.1 * side))
-    means = round_means(EXACT.pressure, *grid.coordinates(), grid.spacing)
-    assert grid.cell_area * np.sum(means) == pytest.approx(EXACT.load, rel=5e-6)
-
-
-def test_means_over_cells_are_those_of_another_quadrature() -> None:
-    radius, cells = 7.3, 24
-    at = np.arange(cells) - 11.0
-    x, y = np.meshgrid(at, at, indexing="ij")
-    known = ellipse_means(cells, (radius, radius), (11.0, 11.0))
-    means = round_means(lambda r: np.sqrt(np.maximum(1 - (r / radius) ** 2, 0)), x, y, (1.0, 1.0))
-    assert np.max(np.abs(means - known)) < 5e-4
-
-
-@pytest.mark.parametrize("inside", [0.01, 0.05, 0.3, 1.99])
-@pytest.mark.parametrize("towards", [(1, 1), (-1, -1), (1, -1)])
-def test_an_edge_that_cuts_off_a_corner_is_seen(towards: tuple[int, int], inside: float) -> None:
-    """Of a traction that rises as the root of the distance from a straight edge."""
-    (m, n), side = towards, np.array([2.0])
-    (mean,) = cell_means(
-        lambda x, y: np.sqrt(np.maximum(m * x + n * y - 2.0 + inside, 0)),
-        np.zeros(1),
-        np.zeros(1),
-        (side, side),
-    )
-    assert mean == pytest.approx(inside**2.5 / 15, abs=2e-4 * inside**0.5)
-    assert mean > 0
-
-
-def test_means_of_cells_that_lie_anywhere_are_those_of_the_grid() -> None:
-    grid = SurfaceGrid((32, 48), (3 * BALL.radius, 3 * BALL.radius))
-    x, y = grid.coordinates()
-    on_grid = round_means(EXACT.pressure, x, y, grid.spacing)
-    some = np.random.default_rng(1).permutation(x.size)[:500]
-    sides = tuple(np.full(500, side) for side in grid.spacing)
-    alone = cell_means(
-        lambda x, y: EXACT.pressure(np.hypot(x, y)), x.flat[some], y.flat[some], sides
-    )
-    assert np.array_equal(alone, on_grid.flat[some])
-
-
-def test_edges_inside_cells_are_known_by_their_means() -> None:
-    """Cells alone err a hundred times as much, and so would these against values at centres."""
-    errors = {
-        method: PrecisionCase("hertz", method, 32).compute().measures["pressure"]
-        for method in (Method.EDGES, Method.SURFACE)
-    }
-    assert errors[Method.EDGES] < 2e-4 < 1e-2 < errors[Method.SURFACE]
-
-
-# ---- The pressure at the edge of a contact of layered bodies, against the radial solver.
-
-
-Field = NDArray[np.float64]
-A = 1e-3
-RADIUS = 0.018
-YOUNG = 210e9
-NU = 0.3
-NO_BODY = Body(material=RIGID)
-
-
-def coated(ratio: float, thickness: float, base: float = YOUNG) -> Body:
-    """Film of so many times the modulus of its base, its thickness over A."""
-    film = IsotropicMaterial(young_modulus=ratio * base, poisson_ratio=NU)
-    return Body(
-        material=IsotropicMaterial(young_modulus=base, poisson_ratio=NU),
-        layers=[Layer(thickness=thickness * A, material=film)],
-    )
-
-
-def law_of(ratio: float, thickness: float, spacing: float = A) -> FilmLaw:
-    """Lengths over A where the spacing is A."""
-    law = film_law(coated(ratio, thickness), NO_BODY, (spacing, spacing))
-    assert law is not None
-    return law
-
-
-@pytest.mark.parametrize("ratio", [0.25, 4.0, 100.0])
-def test_the_law_goes_from_the_root_of_the_film_to_that_of_its_base(ratio: float) -> None:
-    """Which is the root of the ratio of their moduli smaller."""
-    law = law_of(ratio, 1.0)
-    near, far = law.over_root(np.array([1e-5, 1e5]), np.zeros(2))
-    assert near == pytest.approx(1.0, abs=1e-4)
-    assert far == pytest.approx(ratio**-0.5, rel=1e-3)
-
-
-@pytest.mark.parametrize("place", [(-0.3, 0.8, 0.4), (0.1, 0.7, 0.0), (1.2, 0.5, -0.5), (9, 1, 0)])
-def test_means_of_the_law_are_its_integrals(place: tuple[float, float, float]) -> None:
-    """Over a square in which the distance is linear; the derivative by differences."""
-    law, c = law_of(4.0, 1.0), np.array([-0.02])
-    s, along, across = place
-    x = (np.arange(400) + 0.5) / 400 - 0.5
-
-    def means(at: float) -> Field:
-        """Of the law and of the root."""
-        inside = np.maximum(at + x * along + x[:, None] * across, 0.0)
-        root = np.sqrt(inside)
-        return np.array([np.mean(root * law.over_root(np.maximum(inside, 1e-12), c)), root.mean()])
-
-    ratio, leaning = law.means_over_root(np.array([s]), np.array([along]), np.array([across]), c)
-    of_law, of_root = means(s)
-    assert ratio[0] == pytest.approx(of_law / of_root, rel=1e-3)
-    rates = np.log(means(s + 0.05) / means(s - 0.05))
-    assert leaning[0] == pytest.approx(rates[0] / rates[1] - 1, abs=0.02)
-
-
-def test_no_film_calls_for_a_law_where_an_edge_sees_none() -> None:
-    """None at all, one like its base, one as thick as the edge is far, one on a rigid base."""
-    spacing = A / 40, A / 40
-    bare = Body(material=IsotropicMaterial(young_modulus=YOUNG, poisson_ratio=NU))
-    on_rigid = Body(material=RIGID, layers=coated(2.0, 0.1).layers)
-    for body in (bare, coated(1.0, 0.1), coated(4.0, 1.0), on_rigid):
-        assert film_law(body, NO_BODY, spacing) is None
-    one, other = (
-        film_law(coated(4.0, 0.1), bare, spacing),
-        film_law(bare, coated(4.0, 0.1), spacing),
-    )
-    assert one is not None
-    assert other is not None
-    # The response is the compliance of both bodies over that of their outermost materials.
-    film = coated(4.0, 0.1).layers[0]
-    k, outermost = np.array([0.01, 0.1, 1.0, 5.0]), Body(material=film.material)
-    compliance, unit = (
-        sum(scalars(stack_of(body), k / film.thickness).c22 for body in bodies)
-        for bodies in ((coated(4.0, 0.1), bare), (outermost, bare))
-    )
-    np.testing.assert_allclose(one.response(k), compliance / unit, rtol=1e-10)
-    s, c = np.array([0.3, 3.0]), np.zeros(2)
-    np.testing.assert_allclose(one.over_root(s, c), other.over_root(s, c), rtol=1e-12)
-
-
-# ---- The largest pressure at a point, from means over cells.
 
 
 FILM_CELLS = 64

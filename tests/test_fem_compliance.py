@@ -26,20 +26,17 @@ PATCHES = {
     "shear": (SHEARING, Patch(1, 1, 0, 0)),
     "all of n = 1": (SHEARING, Patch(1, 1, 0.7, 1.2)),
     "all of n = 2": (motion(2), Patch(2, 1, 0.7, 1.2)),
-    "all of n = 4": (motion(4), Patch(4, 1, 0.7, 1.2)),
     "all of n = 8": (motion(8), Patch(8, 1, 0.7, 1.2)),
 }
 MOTIONS = {"pressing": PRESSING, "torsion": TORSION, "shearing": SHEARING, "n = 3": motion(3)}
 COATINGS = {
     "half as stiff": (0.5, 0.3, 1.0, 0.3, 1.0),
-    "twice as stiff": (2.0, 0.3, 1.0, 0.3, 1.0),
     "four times as stiff": (4.0, 0.3, 1.0, 0.3, 0.5),
     "thin and stiff": (4.0, 0.3, 1.0, 0.3, 0.01),
     "thin and soft": (0.25, 0.3, 1.0, 0.3, 0.01),
     "on a rigid base": (1.0, 0.3, inf, 0.3, 0.5),
     "nearly incompressible": (1.0, 0.499, 1.0, 0.3, 0.3),
     "incompressible": (1.0, 0.5, 1.0, 0.3, 0.3),
-    "incompressible on a rigid base": (1.0, 0.5, inf, 0.3, 0.1),
     "on an incompressible substrate": (1.0, 0.3, 1.0, 0.5, 0.3),
     "all incompressible": (1.0, 0.5, 1.0, 0.5, 0.3),
 }
@@ -148,12 +145,10 @@ def test_the_box_moves_with_the_far_field_of_the_load(patch, moving, at_rest):
     assert abs(energy_in_a_box(HALF_SPACE, fixed, load, 5.0) / large - 1) > at_rest
 
 
-@pytest.mark.parametrize("patch", ["pressure", "shear"])
-@pytest.mark.parametrize(("modulus", "thickness"), [(5.0, 0.1), (1000.0, 0.5)])
-def test_the_chosen_box_suffices(modulus, thickness, patch):
-    """Moduli in units of the substrate's."""
-    body, _ = coated(modulus, 0.3, 1.0, 0.3, thickness)
-    of, load = PATCHES[patch]
+def test_the_chosen_box_suffices():
+    """Below a film of a thousand times the modulus of its substrate."""
+    body, _ = coated(1000.0, 0.3, 1.0, 0.3, 0.5)
+    of, load = PATCHES["pressure"]
     larger = energy_in_a_box(body, of, load, 4 * sufficient_box(body))
     assert energy_in_a_box(body, of, load, None) == pytest.approx(larger, rel=2e-5)
     alike_in_shear, _ = coated(1.49 / 1.3, 0.49, 1.0, 0.3, 50.0)
@@ -161,7 +156,7 @@ def test_the_chosen_box_suffices(modulus, thickness, patch):
 
 
 @pytest.mark.parametrize("of", MOTIONS.values(), ids=MOTIONS)
-@pytest.mark.parametrize("coating", ["twice as stiff", "incompressible", "on a rigid base"])
+@pytest.mark.parametrize("coating", ["half as stiff", "incompressible", "on a rigid base"])
 def test_solved_fields_agree_with_the_condensed_compliance(monkeypatch, coating, of):
     monkeypatch.setattr(factored_section, "BLOCK", 3)
     factored = FactoredSection(section_mesh(coated(*COATINGS[coating])[0], 4), of)
@@ -176,12 +171,6 @@ def test_solved_fields_agree_with_the_condensed_compliance(monkeypatch, coating,
     assert np.array_equal(
         factored.displacement(unit_forces, factored.surface), field[:, factored.surface]
     )
-
-
-@pytest.fixture(name="cache")
-def own_directory(tmp_path, monkeypatch):
-    monkeypatch.setenv("SLIPSTICK_CACHE_DIR", str(tmp_path))
-    return tmp_path
 
 
 def test_too_little_memory_is_refused_before_any_factorisation(monkeypatch):

@@ -99,23 +99,6 @@ def test_tractions_are_continuous_across_an_interface_and_the_rest_jumps(
         assert np.max(np.abs(one[RR] - demanded)) < 0.02 * P0
 
 
-def test_shear_on_points_of_rings_is_the_shear_along_the_load(bare: SectionField) -> None:
-    angles = np.pi * np.arange(3) / 2
-    f = MU * PRESSURE[:, None]
-    tractions = SurfaceTractions(
-        RINGS,
-        np.repeat(PRESSURE[:, None], 3, axis=1),
-        angles,
-        shear_radial=f * np.cos(angles),
-        shear_circumferential=-f * np.sin(angles),
-    )
-    field = subsurface(Body(material=STEEL), tractions, elements(16))
-    assert [part.motion.harmonic for part in field.parts] == [0, 1]
-    for theta in (0.0, 0.7):
-        np.testing.assert_allclose(field.stress(theta), bare.stress(theta), atol=1e-9 * P0)
-        np.testing.assert_allclose(field.displacement(theta), bare.displacement(theta), atol=1e-16)
-
-
 def test_the_indenter_carries_the_shear_reversed() -> None:
     lower = subsurface(COATED, OUTWARD, elements(8))
     turned = replace(OUTWARD, shear_radial=-OUTWARD.shear_radial)  # type: ignore[operator]

@@ -3,7 +3,6 @@
 Every reader finds the fields, or names the option that stores them.
 """
 
-import csv
 import shutil
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,7 @@ import pytest
 from contact_scenes import LOAD, PRESS, grid, push, scene
 
 import slipstick
-from contact_results.directory.file_names import FIELDS, INCREMENTS
+from contact_results.directory.file_names import FIELDS
 from contact_results.files import stored_run
 from contact_results.files.field_file import write_fields
 from contact_results.result_files import write_result
@@ -107,8 +106,3 @@ def test_fields_that_stay_are_those_of_every_increment(tmp_path):
             for index, increment in enumerate(result.increments):
                 field = getattr(increment, name)
                 np.testing.assert_array_equal(file["increments"][name][index], field)
-
-
-def table(directory: Path) -> list[dict[str, str]]:
-    with open(directory / INCREMENTS, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial.legendre import leggauss
-from scipy.integrate import dblquad
 from stack_strategies import HALF_SPACES, stacks
 
 from semi_analytical.frf.stack import Stack
@@ -23,17 +22,6 @@ POINT_RESPONSES = [
             5.7757708602241414e-7,
             -2.3602749697715694e-8,
             8.0552623101003821e-8,
-        ),
-    ),
-    # stiff film, soft base
-    (
-        Stack([(1000000.0, 0.3, 1.0)], (1.0, 0.3)),
-        3.0,
-        (
-            0.0069091876626418591,
-            4.9452645507813002e-6,
-            3.4915351214094632e-8,
-            5.2455273908639518e-6,
         ),
     ),
     # stiff film, soft base
@@ -58,18 +46,6 @@ POINT_RESPONSES = [
         Stack([(1e-06, 0.3, 1.0)], (1.0, 0.3)),
         3.0,
         (-485.7782340511409, 10280.914512076256, -11047.088824037023, -2968.4119300129473),
-    ),
-    # soft film, stiff base
-    (
-        Stack([(1e-06, 0.3, 1.0)], (1.0, 0.3)),
-        40.0,
-        (0.11142555529580824, 0.13541212474611575, -0.022372434254484251, 0.033423738892008275),
-    ),
-    # incompressible film, rigid base
-    (
-        Stack([(1.0, 0.5, 1.0)], None),
-        0.25,
-        (0.045517825018155086, 0.099068732590670058, -0.039842737939507488, -0.0025807940439916336),
     ),
     # incompressible film, rigid base
     (
@@ -107,17 +83,6 @@ POINT_RESPONSES = [
     # film on thin incompressible film, rigid base
     (
         Stack([(10000.0, 0.3, 1.0), (1.0, 0.5, 0.1)], None),
-        5.0,
-        (
-            9.1955812995202389e-7,
-            0.00011384772495167859,
-            -1.3455836941481032e-5,
-            -3.4719428138907766e-6,
-        ),
-    ),
-    # film on thin incompressible film, rigid base
-    (
-        Stack([(10000.0, 0.3, 1.0), (1.0, 0.5, 0.1)], None),
         40.0,
         (
             -1.0928396355352794e-8,
@@ -129,20 +94,8 @@ POINT_RESPONSES = [
     # thick under thin
     (
         Stack([(3.0, 0.2, 1.0), (0.5, 0.4, 12.0)], (2.0, 0.25)),
-        0.25,
-        (0.078408489269922281, 0.059657744960983923, -0.0052655657639296087, 0.017669754853095021),
-    ),
-    # thick under thin
-    (
-        Stack([(3.0, 0.2, 1.0), (0.5, 0.4, 12.0)], (2.0, 0.25)),
         10.0,
         (0.069319341168501458, 0.15263570196064001, -0.034943849130287488, 0.012170331256436841),
-    ),
-    # thick under thin
-    (
-        Stack([(3.0, 0.2, 1.0), (0.5, 0.4, 12.0)], (2.0, 0.25)),
-        60.0,
-        (0.058211340497878689, 0.086583126752315613, -0.02502645181041453, 0.014389809796471492),
     ),
     # thin under thick
     (
@@ -155,12 +108,6 @@ POINT_RESPONSES = [
         Stack([(3.0, 0.2, 1.0), (0.001, 0.4, 0.002), (10.0, 0.49, 0.03)], (2.0, 0.0)),
         2.0,
         (0.095836640448262917, 0.083079320096604897, -0.0054239002218235337, 0.033863051513138836),
-    ),
-    # thin under thick
-    (
-        Stack([(3.0, 0.2, 1.0), (0.001, 0.4, 0.002), (10.0, 0.49, 0.03)], (2.0, 0.0)),
-        20.0,
-        (0.078686607780104853, 0.082458724283430342, -0.0087910021276961426, 0.033349356354432492),
     ),
 ]
 
@@ -258,9 +205,6 @@ def test_exchanging_x_and_y_exchanges_the_components():
         assert difference < 1e-15 * own_cell(wide)
 
 
-# ---- The closed forms of the influence coefficients are integrals of the point solutions.
-
-
 G = 3.0
 NU = 0.3
 CELLS = {"square": (0.7, 0.7), "flat": (0.5, 1.6), "upright": (3.0, 0.4)}
@@ -294,24 +238,6 @@ def by_gauss(component, cell, i, j):
     return area * np.sum(weights[:, None] * weights * point(component, x, y))
 
 
-def over_own_cell(component, cell):
-    """Integral over the cell around the observer, in polar coordinates: no singularity."""
-    half_x, half_y = 0.5 * cell[0], 0.5 * cell[1]
-
-    def along_ray(r, angle):
-        return r * point(component, r * np.cos(angle), r * np.sin(angle))
-
-    corner = np.arctan2(half_y, half_x)
-    sides = [
-        (-corner, corner, lambda angle: half_x / np.cos(angle)),
-        (corner, np.pi - corner, lambda angle: half_y / np.sin(angle)),
-    ]
-    # The opposite quarters see the even components alike.
-    return 2 * sum(
-        dblquad(along_ray, start, end, 0, edge, epsabs=1e-13)[0] for start, end, edge in sides
-    )
-
-
 @pytest.mark.parametrize("cell", CELLS.values(), ids=CELLS)
 @pytest.mark.parametrize("component", POINT)
 def test_coefficient_is_the_integral_of_the_point_solution(component, cell):
@@ -319,27 +245,3 @@ def test_coefficient_is_the_integral_of_the_point_solution(component, cell):
     largest = np.max(np.abs(K))
     for i, j in [(1, 0), (0, 1), (1, 1), (3, 2), (5, 4)]:
         assert abs(K[i, j] - by_gauss(component, cell, i, j)) < QUADRATURE * largest
-
-
-@pytest.mark.parametrize("cell", CELLS.values(), ids=CELLS)
-@pytest.mark.parametrize("component", ["zz", "xx", "yy"])
-def test_self_coefficient_is_the_integral_around_the_observer(component, cell):
-    assert coefficients(cell)[component][0, 0] == pytest.approx(
-        over_own_cell(component, cell), rel=QUADRATURE
-    )
-
-
-@pytest.mark.parametrize("shape", [(6, 5), (6, 6)])
-def test_turning_the_cell_swaps_x_and_y(shape):
-    one, other = coefficients((0.5, 1.6), shape), coefficients((1.6, 0.5), shape[::-1])
-    for name, swapped in [("zz", "zz"), ("xx", "yy"), ("xy", "xy"), ("zx", "zy")]:
-        np.testing.assert_allclose(one[name], other[swapped].T, rtol=1e-13, atol=1e-15)
-
-
-@pytest.mark.parametrize("component", POINT)
-@pytest.mark.parametrize("cell", CELLS.values(), ids=CELLS)
-def test_a_unit_of_length_costs_no_digit(component, cell):
-    """In one that differs by a power of two, all bits are the same: logarithms are of ratios."""
-    unit = 2.0**-20
-    one, other = coefficients(cell), coefficients((unit * cell[0], unit * cell[1]))
-    np.testing.assert_array_equal(other[component], unit * one[component])

@@ -73,9 +73,6 @@ def test_layer_that_is_as_good_as_free_is_refused(lower: Body) -> None:
         plan(pressed(lower, normal_force=0.01))
 
 
-# ---- A window that is left open holds the contact, and hardly more.
-
-
 COARSE = SurfaceDiscretisation(cells=(48, 48), tolerance=1e-6)
 LOADS = [1e-12, 1e-3, 1.0, 1e9]
 
@@ -112,6 +109,12 @@ def test_window_fits_from_nanometres_to_kilometres(radius):
         Ellipsoid(radii=(radius, 3 * radius), material=RIGID),
     ):
         assert_window_fits(scene({"approach": 1e-3 * radius}, indenter=shape, friction=None))
+
+
+@pytest.mark.parametrize("ratio", [0.1, 10.0])
+def test_window_fits_on_a_film(ratio):
+    lower = body(material(1.0), (0.3, material(ratio)))
+    assert_window_fits(pressed(lower, normal_force=0.015))
 
 
 def test_window_holds_the_largest_contact_of_the_history():

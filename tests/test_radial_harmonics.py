@@ -125,40 +125,6 @@ def test_a_layer_of_the_material_below_it_changes_nothing() -> None:
     assert_allclose(same, homogeneous(), atol=1e-13)
 
 
-def on_hats(x: np.ndarray, coefficients: tuple[float, float]) -> np.ndarray:
-    """∫ φ (A + B r²) r dr of the hats."""
-    rule, weights = np.polynomial.legendre.leggauss(4)
-    length = np.diff(x)[:, None]
-    r = x[:-1, None] + length * (1 + rule) / 2
-    field = (coefficients[0] + coefficients[1] * r**2) * r * length * weights / 2
-    found = np.zeros(len(x))
-    found[:-1] += field @ ((1 - rule) / 2)
-    found[1:] += field @ ((1 + rule) / 2)
-    return found
-
-
-@pytest.mark.parametrize("nu", [0.0, 0.3, 0.5])
-def test_shear_like_that_of_gross_slip_draws_the_disc_as_in_print(nu: float) -> None:
-    """q_x = √(1 - r²) draws the disc by u_x = π/(32G) [4(2-ν) - (4-3ν) x² - (4-ν) y²],
-    u_y = π/(16G) ν xy (Johnson 1985, eq. 3.91)."""
-    nodes = tuple(np.sin(np.linspace(0, np.pi / 2, 81)))
-    x = np.array(nodes)
-    block = ring_compliance(pair(material(2 * (1 + nu), nu)), nodes, 1.0, 2)
-    q = np.sqrt((1 - x) * (1 + x))
-    # q_r = q cos θ, q_θ = -q sin θ; every energy below is over π, of cos² and sin².
-    radial = block[1, 0, 0] @ q - block[1, 0, 1] @ q
-    hoop = block[1, 1, 0] @ q - block[1, 1, 1] @ q
-    level, along, beside, across = (
-        math.pi / 32 * part for part in (4 * (2 - nu), 4 - 3 * nu, 4 - nu, 2 * nu)
-    )
-    # cos θ cos θ u_x + …, cos³θ and cos θ sin²θ over their shares of the first harmonic.
-    of_r = (level, -(3 * along + beside - across) / 4)
-    of_t = (-level, (along + 3 * beside + across) / 4)
-    for found, exact in ((radial, of_r), (hoop, of_t)):
-        expected = on_hats(x, exact)
-        assert_allclose(found, expected, atol=3e-4 * np.abs(expected).max())
-
-
 @pytest.mark.parametrize("highest", [0, 1, 2, 10, 40])
 def test_bessel_functions_of_all_orders_are_those_of_scipy(highest: int) -> None:
     at = np.concatenate([[0.0], np.geomspace(1e-8, 300, 2000), highest + np.linspace(-1, 1, 41)])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -67,39 +66,10 @@ def push(share: float, increments: int = 4, angle: float = 0.0) -> LoadStep:
     return LoadStep(tangential_force=force, increments=increments)
 
 
-@pytest.mark.parametrize(
-    "steps",
-    [
-        (PRESS, push(0.6)),
-        (PRESS, push(0.6), push(0.5, angle=0.6)),
-        (PRESS, LoadStep(tangential_shift=(1e-5, 0.0), increments=4)),
-    ],
-    ids=["pushed", "turned", "sliding"],
-)
-def test_reported_shear_of_coupled_bodies_is_within_its_limit(steps: tuple[LoadStep, ...]) -> None:
-    for one in radial.solve(scene(*steps)).increments:
-        assert np.all(one.pressure >= 0)
-        around = 0.0 if one.shear_circumferential is None else one.shear_circumferential
-        excess = np.hypot(one.shear_radial, around) - FRICTION * one.pressure
-        assert np.max(excess) <= 1e-14 * one.peak_pressure
-
-
-@cache
-def coupled() -> radial.Result:
-    """A rigid ball on a soft body, pushed and back."""
-    return rough(scene(PRESS, push(0.6), push(0.0)))
-
-
 def rough(asked: Scene, **how: Any) -> radial.Result:
     """On half the rings, which obey the same laws."""
     plan = how.pop("plan", None) or radial.plan(asked)
     return radial.solve(asked, plan=replace(plan, fineness=0.5), **how)
-
-
-# ---- closed forms -----------------------------------------------------------------------------
-
-
-# ---- laws -------------------------------------------------------------------------------------
 
 
 def test_a_far_shift_slides_under_all_that_friction_carries() -> None:
@@ -110,38 +80,6 @@ def test_a_far_shift_slides_under_all_that_friction_carries() -> None:
     assert end.stick_radius == 0
     assert end.status is ContactStatus.GROSS_SLIDING
 
-
-def test_slip_zone_of_an_earlier_step_is_that_where_a_pressed_contact_returns_to_its_limit() -> (
-    None
-):
-    """More pressure lets all stick; without it the shear of the slip zone is at its limit again."""
-    material = IsotropicMaterial(young_modulus=70e9, poisson_ratio=0.3)
-    asked = Scene(
-        indenter=Paraboloid(radius=10e-3, material=material),
-        body=Body(material=material),
-        friction=CoulombFriction(coefficient=0.3),
-        loading=(
-            LoadStep(normal_force=100.0),
-            LoadStep(tangential_force=(12.0, 0.0)),
-            LoadStep(normal_force=150.0),
-            LoadStep(normal_force=100.0),
-        ),
-    )
-    _, pushed, more, back = radial.solve(asked).steps
-    assert more.status is ContactStatus.FULL_STICK
-    assert back.status is ContactStatus.PARTIAL_SLIP
-    assert back.stick_radius == pytest.approx(0.22702e-3, rel=1e-4)
-    assert back.stick_radius == pytest.approx(pushed.stick_radius, rel=1e-8)
-    assert_allclose(back.in_stick, pushed.in_stick)
-
-
-# ---- contacts of few rings --------------------------------------------------------------------
-
-
-# ---- a solve that goes on ---------------------------------------------------------------------
-
-
-# ---- what is refused --------------------------------------------------------------------------
 
 VALUES = np.linspace(0.1, 0.2, 16).reshape(4, 4)
 MAP = CoulombFriction.model_validate({"coefficient": {"map": VALUES, "spacing": 1.0}})
@@ -189,9 +127,6 @@ def test_an_annulus_of_slip_that_no_ring_sees_is_refused_by_name() -> None:
         rough(sticky)
 
 
-# ---- Pressing with friction by the radial solver: reference contacts, laws, and other solvers
-
-
 # Of half-spaces with E* = 1 below a ball with R = 1, so that a = W = 1 are of a kind.
 BALL = Paraboloid(radius=1.0, material=RIGID)
 
@@ -212,9 +147,6 @@ def coated(stiffness: float, thickness: float) -> Body:
     return Body(material=SOFT, layers=(Layer(thickness=thickness, material=film),))
 
 
-# ---- rings ------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("front", [0.001, 0.2, 0.95])
 def test_half_spaces_answer_the_pressure_of_hertz_as_hertz_says(front: float) -> None:
     """√(1-x²) is among the tractions of the rings, whatever these are."""
@@ -230,11 +162,6 @@ def test_half_spaces_answer_the_pressure_of_hertz_as_hertz_says(front: float) ->
     carried = -np.expm1(1.5 * np.log1p(-(np.minimum(x, 1 - 1e-16) ** 2))) / 3
     assert_allclose(drawn[1:], carried[1:] / x[1:], rtol=1e-7)
 
-
-# ---- references -------------------------------------------------------------------------------
-
-
-# ---- laws -------------------------------------------------------------------------------------
 
 UP_AND_DOWN = (
     LoadStep(normal_force=1e-3, increments=4),
@@ -290,9 +217,6 @@ def test_a_ball_that_all_but_sticks_is_as_deep_as_one_that_does() -> None:
         indenter=Paraboloid(radius=0.018, material=RIGID),
     )
     assert radial.solve(sticky).steps[0].approach == pytest.approx(8.089263338e-6, rel=1.5e-3)
-
-
-# ---- errors, standing and refusals ------------------------------------------------------------
 
 
 def test_slip_that_is_narrower_than_rings_is_told_by_its_name() -> None:

@@ -108,15 +108,6 @@ def test_stress_near_the_edge_is_that_of_hertz(depth: float, spacing: tuple[floa
     assert error[0] > 8 * error[1]
 
 
-def test_the_size_of_stress_does_not_depend_on_the_direction_of_sliding() -> None:
-    grid, pressure = pressed_on()
-    along_x, oblique = (
-        near_edge(STACK, grid, pressure, np.multiply.outer(direction, pressure)).size
-        for direction in ((0.5, 0.0), (0.3, 0.4))
-    )
-    assert oblique == pytest.approx(along_x, rel=0.05)
-
-
 def test_an_edge_where_cells_stick_is_not_seen() -> None:
     """Shear like that of a torsion without slip, r over the root."""
     grid, pressure = pressed_on()

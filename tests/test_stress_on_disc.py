@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from command import outcome
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
@@ -17,7 +16,7 @@ import radial
 import radial.history
 import slipstick
 from contact_errors.stress_errors import stress_errors
-from contact_results.stress.loaded_bodies import state_of_result, state_of_run
+from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.on_disc import stress_at_radii, stress_on_disc
 from contact_results.stress.points import StressField
 from contact_results.stress.stress_maxima import (
@@ -131,33 +130,12 @@ def test_the_largest_stresses_of_a_ball_are_known() -> None:
         assert error.error < 1e-6 * extreme.value
 
 
-def test_a_ball_smaller_than_a_metre_is_round_all_the_same(tmp_path: Path) -> None:
-    """Its gap ends at the equator: what it is like at the axis is asked within the contact."""
-    (tmp_path / "scene.toml").write_text("""
-        indenter = { shape = "sphere", radius = "10 mm", material = "rigid" }
-        friction = { coefficient = 0.3 }
-        [body]
-        material = { young_modulus = "210 GPa", poisson_ratio = 0.5 }
-        [[loading]]
-        normal_force = 100
-        [[loading]]
-        tangential_force = [20, 0]
-        increments = 2
-    """)
-    asked = ("stress", "scene.toml", "--solver", "radial", "-o", "out", "--depths", "0")
-    said = outcome(*asked, "--figures", "none", "--no-error", cwd=tmp_path)
-    assert said.returncode == 0, said.stderr
-
-
 def test_no_error_is_trusted_where_the_stress_is_infinite() -> None:
     punch = FlatPunch(radius=1.0, material=RIGID)
     _, found, errors = field_of(scene_of(coated(2.0, 0.5), punch))
     status = {(e.region, e.measure): error.status for e, error in zip(found, errors, strict=True)}
     assert status["body", "von_mises"] is ErrorStatus.NOT_CONVERGED
     assert status["base", "von_mises"] is ErrorStatus.ESTIMATED
-
-
-# ---- Stress below the radial solver's shear: closed forms, laws of layers and equilibrium.
 
 
 MU = 0.3
@@ -184,17 +162,19 @@ ANYHOW = circle_of(
 )
 
 
-@pytest.mark.parametrize("depth", [1e-6, 1e-3, 0.1, 2.0])
+@pytest.mark.parametrize("depth", [0.0, 1e-6, 1e-3, 0.1, 2.0])
 def test_below_a_sliding_ball_it_is_hamiltons(depth: float) -> None:
     drawn = np.random.default_rng(1)
-    near = 10.0 ** -drawn.uniform(0.5, 7, 40)
+    near = 10.0 ** -drawn.uniform(0.5, 7 if depth else 2, 40)
     r = np.concatenate([drawn.uniform(0, 3, 20), 1 + near[:20], 1 - near[20:], [0.0, 1.0]])
     turn = drawn.uniform(0, 2 * np.pi, len(r))
     x, y = r * np.cos(turn), r * np.sin(turn)
-    found = below_circle(SLIDING, HalfSpace(G, NU), x, y, depth)[3:]
-    assert_allclose(found, hamilton_stress(x, y, depth, 1.0, 1.0, MU, NU), atol=6e-5)
-    finer = below_circle(SLIDING, HalfSpace(G, NU), x, y, depth, 2)[3:]
-    assert_allclose(finer, hamilton_stress(x, y, depth, 1.0, 1.0, MU, NU), atol=3e-5)
+    exact = hamilton_stress(x, y, max(depth, 1e-6), 1.0, 1.0, MU, NU)
+    for finer, allowed in ((1, 6e-5), (2, 3e-5)):
+        found = below_circle(SLIDING, HalfSpace(G, NU), x, y, depth, finer)[3:]
+        assert np.all(np.isfinite(found))
+        inner = slice(None if depth else -1)  # the last point lies on the edge
+        assert_allclose(found[:, inner], exact[:, inner], atol=allowed)
 
 
 ROUND = LoadedCircle(
@@ -314,21 +294,3 @@ def test_a_section_has_on_both_sides_the_stress_of_its_points(scene: Scene) -> N
     peak = np.max(np.abs(section.stress))
     assert np.min(section.x) < 0
     assert_allclose(at_points.stress, section.stress[:, 0], atol=1e-9 * peak)
-
-
-@pytest.mark.parametrize(
-    "scene",
-    [pushed((0.6, 0.8)), scene_of(coated(2.0, 0.5), FlatPunch(radius=1.0, material=RIGID))],
-    ids=["pushed", "punch"],
-)
-def test_a_run_that_was_written_has_the_same_stress(scene: Scene, tmp_path: Path) -> None:
-    result = radial.solve(scene)
-    slipstick.save(result, tmp_path / "run")
-    at_once = stress_on_disc(state_of_result(result, None), depths=[0.0, 0.3])
-    again = stress_on_disc(state_of_run(tmp_path / "run", None), depths=[0.0, 0.3])
-    # Fields from a file have another memory layout than those of a solve, hence another order of
-    # summation: some versions of NumPy give 4e-16 of difference where stresses are of order 1.
-    assert again.points.stress == pytest.approx(at_once.points.stress, rel=0, abs=1e-14)
-    assert again.direction == at_once.direction
-    units = {name: on.unit for name, on in slipstick.load(tmp_path / "run").coordinates.items()}
-    assert units in ({"radii": "m"}, {"radii": "m", "angles": "rad"})

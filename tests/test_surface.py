@@ -72,19 +72,6 @@ def on_rings(surface: Rings, *parts: str, at_angles: bool = False) -> Any:
     return SimpleNamespace(pressure=hump(r), **shear)
 
 
-@pytest.mark.parametrize("points", [None, 5])
-def test_line_has_the_same_values(points: int | None) -> None:
-    grid = cells(41)
-    ring = rings(grid.x[grid.x >= 0], points)
-    for at_angles in (False, True):
-        at = np.interp(ring.profile_line.places, grid.x, np.arange(len(grid.x))).round().astype(int)
-        for part in PARTS:
-            vectors = grid.vector_along(grid.vector(on_cells(grid, part), "shear"))
-            alone = on_rings(ring, part, at_angles=at_angles)
-            found = ring.vector_along(ring.vector(alone, "shear"))
-            np.testing.assert_allclose(found, vectors[:, at], atol=ROUND_OFF)
-
-
 @pytest.mark.parametrize("direction", [ALONG_X, OBLIQUE, (0.0, -1.0)])
 @pytest.mark.parametrize("points", [None, 9])
 def test_vectors_are_in_x_and_y_wherever_the_load_points(
@@ -150,9 +137,6 @@ def test_a_half_circle_is_exported_with_its_mirror_image(tmp_path: Path) -> None
     np.testing.assert_allclose(mesh.at_points["shear [Pa]"], expected, atol=ROUND_OFF)
 
 
-# ---- Points of a stress field say the same whoever computed them and however they lie.
-
-
 SOFT = IsotropicMaterial(young_modulus=2.6, poisson_ratio=0.3)
 FILM = Layer(thickness=0.5, material=IsotropicMaterial(young_modulus=5.2, poisson_ratio=0.3))
 COATED = Body(material=SOFT, layers=(FILM,))
@@ -212,9 +196,6 @@ def test_measures_of_a_pure_shear() -> None:
     assert found == pytest.approx(expected)
 
 
-# ---- Invariants of the stress do not depend on the axes, and are right where they are known
-
-
 # Sixth powers of a stress are taken: below 1e-50 they underflow.
 STRESS = st.floats(-1e9, 1e9).map(lambda s: s if abs(s) > 1e-50 else 0.0)
 STRESSES = st.lists(STRESS, min_size=6, max_size=6).map(np.array)
@@ -227,15 +208,6 @@ def tensor(s):
 
 def components(t):
     return np.array([t[0, 0], t[1, 1], t[2, 2], t[1, 2], t[0, 2], t[0, 1]])
-
-
-@given(STRESSES, st.integers(0, 2**32 - 1))
-def test_invariants_do_not_depend_on_the_axes(stress, seed):
-    turn, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
-    turned = components(turn @ tensor(stress) @ turn.T)
-    scale = 1e-14 * np.abs(stress).max() + 1e-300
-    for invariant in (von_mises, principal_stresses):
-        np.testing.assert_allclose(invariant(turned), invariant(stress), rtol=0, atol=30 * scale)
 
 
 @given(STRESSES)
@@ -257,11 +229,3 @@ def test_principal_stresses_keep_their_digits_where_two_are_equal(values, seed, 
         found = principal_stresses(components(whole))
         exact = np.linalg.eigvalsh(whole)[::-1]
         np.testing.assert_allclose(found, exact, rtol=0, atol=1e-14 * np.abs(exact).max())
-
-
-@pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, -0.8)])
-@pytest.mark.parametrize("around", [None, np.pi * np.arange(5) / 4, np.pi * np.arange(8) / 4])
-def test_places_of_the_line_are_those_of_its_points(around: Field | None, direction: Any) -> None:
-    rings = Rings(np.array([0.0, 0.5, 2.0]), around, direction, polar=False)
-    ahead = np.tensordot(direction, rings.positions, 1)
-    np.testing.assert_allclose(rings.along(ahead), rings.profile_line.places, atol=1e-15)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
 import slipstick
 from contact_scene import (
@@ -27,6 +28,7 @@ from contact_scene import (
 )
 from contact_scene.checks.plausibility import implausible_input
 from contact_scene.quantities.stated_error import StatedErrors
+from contact_scene.reading.scene_text import shape_text
 from contact_scene.solver_errors import (
     ContactAtWindowEdge,
     ContactNotResolved,
@@ -64,7 +66,7 @@ def ball_map(count: int, tilt: tuple[float, float] = (0.0, 0.0)) -> HeightMap:
     return HeightMap(material=RIGID, file=heights, spacing=spacing)  # type: ignore[arg-type]
 
 
-# ---- first contact
+# First contact: the minimum of the interpolated surface, wherever points and cells lie.
 
 
 @pytest.mark.parametrize("tilt", [(0.0, 0.0), (1.7e-3, -0.6e-3)])
@@ -87,7 +89,10 @@ def test_error_bars_of_a_sampled_ball_hold_its_approach() -> None:
     assert abs(result.steps[0].approach - APPROACH) <= error <= 1e-4 * APPROACH
 
 
-# ---- degenerate values
+# Default cells divide the spacing of a map.
+
+
+# A degenerate value is the absence of its effect: the same plan, the same bits.
 
 
 def uniform(value: float) -> CoulombFriction:
@@ -134,6 +139,21 @@ def test_a_degenerate_value_plans_as_the_absence_of_its_effect(name: str, solver
     assert slipstick.plan(degenerate, solver) == slipstick.plan(absent, solver)
 
 
+@pytest.mark.parametrize("solver", ["semi-analytical", "radial", "fem-complementarity"])
+@pytest.mark.parametrize("name", ["coefficient zero", "layers alike", "round ellipsoid"])
+def test_a_degenerate_value_gives_the_bits_of_its_absence(name: str, solver: Any) -> None:
+    ends = [slipstick.solve(asked, solver, COARSE[solver]).steps[-1] for asked in DEGENERATE[name]]
+    for quantity in ("approach", "contact_radius", "peak_pressure", "pressure"):
+        np.testing.assert_array_equal(*(getattr(end, quantity) for end in ends))
+
+
+def test_a_scene_knows_the_arrays_that_it_reads_and_names_its_shape() -> None:
+    rough = scene(PRESS, indenter=ball_map(16), friction=uniform(0.3))
+    assert set(rough.array_files) == {"file", "map"}
+    assert not BARE.array_files
+    assert "height map" in shape_text(rough.indenter)
+
+
 def test_a_constant_map_is_known_within_its_extent_only() -> None:
     small = CoulombFriction.model_validate(
         {"coefficient": {"map": np.full((10, 10), 0.3), "spacing": 5e-6}}
@@ -142,7 +162,7 @@ def test_a_constant_map_is_known_within_its_extent_only() -> None:
         slipstick.solve(scene(PRESS, friction=small), discretisation=COARSE["semi-analytical"])
 
 
-# ---- scenes without answer
+# Scenes that have no answer are refused before the work, with their reason.
 
 
 def measured(heights: NDArray[np.float64]) -> HeightMap:
@@ -201,18 +221,27 @@ def test_a_sphere_pressed_to_its_equator_is_refused_by_name(
     assert slipstick.plan(below, solver)
 
 
-# ---- measured maps
+# A measured map means the same in every form that instruments write.
 
 PLACES = np.meshgrid(*(np.linspace(-1, 1, n) for n in (9, 7)), indexing="ij")
 TOLD = (
     3.0 + PLACES[0] ** 2 + 0.3 * PLACES[1] + 0.2 * PLACES[0] * PLACES[1]
 )  # um, even about nothing
+PICTURE = TOLD.T[::-1]
 
 
 def read_map(folder: Path, name: str, text: str, **more: object) -> HeightMap:
     (folder / name).write_text(text, encoding="utf-8")
     given = {"shape": "height_map", "material": "rigid", "file": name, "spacing": 1e-5, **more}
     return HeightMap.model_validate(given, context={"folder": folder})
+
+
+def test_a_text_file_is_the_map_as_seen_from_above(tmp_path: Path) -> None:
+    text = "\n".join(",".join(map(str, row)) for row in PICTURE.tolist())
+    for unit in ("um", "1 um", 1e-6):
+        found = read_map(tmp_path, "plain.csv", text, height_unit=unit)
+        np.testing.assert_allclose(found.heights, TOLD * 1e-6, rtol=1e-14)
+        assert found.extent == pytest.approx((9e-5, 7e-5))
 
 
 def test_a_map_that_counts_towards_the_body_is_flipped() -> None:
@@ -246,6 +275,24 @@ def test_points_that_were_not_measured_are_never_lowest(word: str, tmp_path: Pat
     assert any("0.079 of the points were not measured" in remark for remark in remarks)
 
 
+@pytest.mark.parametrize(
+    ("text", "match"),
+    [
+        ("", "no numbers"),
+        ("some\nwords\n", "no numbers"),
+        ("1,2,3,4\n" * 3 + "1,x,3,4\n", 'is no number: "1,x,3,4"'),
+        ("1,x,3,4\n" + "1,2,3,4\n" * 4, 'is no number: "1,x,3,4"'),
+        ("1,2,3,4\n" * 3 + "1,2,3\n", "3 to 4 numbers"),
+        ("0 0 1\n" * 9, "have 3 numbers, expected values without their coordinates"),
+        (("1," * 9 + "inf\n") * 9, "holds inf"),
+        (("1" + "," * 9 + "\n") * 9, "no height at 89%"),
+    ],
+)
+def test_a_text_file_that_is_no_map_is_refused(text: str, match: str, tmp_path: Path) -> None:
+    with pytest.raises(ValidationError, match=match):
+        read_map(tmp_path, "map.csv", text)
+
+
 def warnings_of(folder: Path, values: np.ndarray) -> list[str]:
     text = "\n".join(",".join(map(str, row)) for row in values.tolist())
     surface = read_map(folder, "map.csv", text, height_unit="nm")
@@ -272,17 +319,21 @@ def test_coordinates_beside_the_heights_are_named(tmp_path: Path) -> None:
     plane = places + 0.1 * np.arange(7)
     for values, expected in (
         (heights, 0),
-        (plane, 0),
         (plane + heights, 0),
-        (0 * heights, 0),
         (np.hstack([places, heights]), 1),
-        (np.hstack([places, 0 * heights]), 1),
         (np.hstack([heights, places[::-1]]), 1),
         (np.hstack([places, heights]).T, 1),
         (both, 1),
     ):
         found = [each for each in warnings_of(tmp_path, values) if "evenly spaced" in each]
         assert len(found) == expected
+
+
+def test_a_map_of_friction_has_a_value_everywhere() -> None:
+    values = np.full((4, 4), 0.3)
+    values[1, 2] = np.nan
+    with pytest.raises(ValidationError, match=r"holds nan at \[1, 2\]"):
+        CoulombFriction.model_validate({"coefficient": {"map": values, "spacing": 1e-5}})
 
 
 def test_the_plan_of_an_unresolved_contact_is_refused_as_its_solve() -> None:

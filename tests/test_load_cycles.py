@@ -1,0 +1,152 @@
+"""Tests of load cycles: where they close, and the slip and tension that they leave."""
+
+from itertools import combinations
+from math import cos, pi, sin, sqrt
+
+import contact_scenes
+import coupled_scenes
+import numpy as np
+import pytest
+from contact_scenes import (
+    LIMIT,
+    LOAD,
+    MU,
+    PRESS,
+    YOUNG,
+    A,
+    grid,
+    hertz,
+    paraboloid,
+    push,
+    slide,
+    steel,
+)
+
+from contact_results import cycles
+from contact_results.cycles import fretting_cycles
+from contact_results.edge_slip import CycleEdge
+from contact_results.surface import Cells
+from contact_scene import (
+    LoadStep,
+    SurfaceDiscretisation,
+)
+from contact_scene.quantities.cycles import load_cycles
+from contact_scene.stepping.load_path import load_path
+from semi_analytical import solve, solve_discretised
+from verification.closed_forms.cattaneo_mindlin import CycledContact, PartialSlip
+from verification.closed_forms.hertz import contact_modulus
+from verification.problems import problem as paper
+
+TOLERANCE = 1e-8
+LOOP = (PRESS, push(0.9, increments=4), push(-0.9, increments=8), push(0.9, increments=8))
+CIRCLE = [push(0.5 * cos(k * pi / 2), 0.5 * sin(k * pi / 2)) for k in range(9)]
+CYCLES = {
+    "there and back": (LOOP, [(2, 4)]),
+    "to nothing and back": ((PRESS, push(0.9), push(0.0)), [(1, 3)]),
+    "holding is no cycle": ((PRESS, push(0.9), push(0.9), push(-0.9), push(0.9)), [(3, 5)]),
+    "on a circle, with round-off": ((PRESS, *CIRCLE), [(k, k + 4) for k in range(2, 7)]),
+    "of the load": ((PRESS, {"normal_force": 0.5 * LOAD}, PRESS), [(1, 3)]),
+    "both together": (({**PRESS, **push(0.5)}, {**PRESS, **push(0.1)}, PRESS, push(0.5)), [(1, 4)]),
+    "a shift is not a force": ((PRESS, push(0.5), slide(1), push(0.5)), [(2, 4)]),
+    "of the torque": ((PRESS, {"torque": 1.0}, {"torque": -1.0}, {"torque": 1.0}), [(2, 4)]),
+    "not the twist": ((PRESS, push(0.5), {"twist": 1e-3}, push(0.0), push(0.5)), [(3, 5)]),
+    "of the strain": (
+        (PRESS, push(0.2), push(-0.2), {**push(0.2), "bulk_strain": (1e-4, 0.0, 0.0)}),
+        [],
+    ),
+    "never back": ((PRESS, push(0.1), push(0.2), push(0.3)), []),
+}
+
+
+@pytest.mark.parametrize(("loading", "expected"), CYCLES.values(), ids=CYCLES)
+def test_a_cycle_closes_where_all_loads_return(loading, expected):
+    found = load_cycles(load_path([LoadStep(**step) for step in loading]))
+    assert [(cycle.start, cycle.end) for cycle in found] == expected
+
+
+NU_ZERO = contact_scenes.steel(0.0, 2 * paper.CONTACT_MODULUS)
+
+
+def loop(cells, *loading, window=1.1):
+    """The ball with ν = 0, where the closed form holds."""
+    described = contact_scenes.scene(*(loading or LOOP), indenter=paraboloid(NU_ZERO), body=NU_ZERO)
+    return solve(described, grid(cells, window), TOLERANCE)
+
+
+@pytest.mark.parametrize(("part", "cells"), [(0.4, 51), (0.9, 36)])
+def test_the_largest_slip_lies_at_the_edge_within_a_cell(part, cells):
+    """In closed form for ν = 0; the largest value of the cells is up to 7 % off, F2 by 20 %."""
+    contact, loose = hertz(poisson_ratio=0.0), steel(0.0)
+    a, to = contact.contact_radius, part * MU * LOAD
+    end = PartialSlip(LOAD, a, MU, contact_modulus((YOUNG, 0.0), (YOUNG, 0.0)), to)
+    cycled = CycledContact(end, contact.peak_pressure)
+    exact = cycled.slip_amplitude(a)
+    loop = [PRESS, push(part), push(-part), push(part)]
+    posed = contact_scenes.scene(*loop, indenter=paraboloid(loose), body=loose)
+    asked = SurfaceDiscretisation(cells=(cells, cells), window=(2.7 * a, 2.7 * a))
+    (found,) = fretting_cycles(solve_discretised(posed, asked))
+    assert abs(found.largest_slip / exact - 1) < 0.5 * abs(np.max(found.slip_amplitude) / exact - 1)
+
+    assert found.ruiz_f2 is not None
+    assert found.largest_f2 is not None
+    off, of_cells = found.largest_f2 - cycled.largest_f2, np.max(found.ruiz_f2) - cycled.largest_f2
+    assert abs(off) < 0.6 * abs(of_cells)
+
+
+def test_the_largest_slip_below_a_rim_is_that_of_the_cells():
+    """There the pressure does not fall towards the edge."""
+    x = np.linspace(-1.5, 1.5, 40)
+    r = np.hypot(x[:, None], x)
+    pressure = np.where(r < 1, 1 / np.sqrt(np.maximum(1 - r**2, 0.01)), 0.0)
+    slip = np.where(r < 1, r**2, 0.0)
+    edge = CycleEdge(Cells(x, x, 1.0), True, pressure, slip, pressure, None)
+    assert edge.largest_amplitude() == np.max(slip)
+
+
+@pytest.mark.parametrize("width", [0.0, 0.05, 0.3, 1.0])
+def test_slip_amplitude_keeps_its_bound(width):
+    """On lines in all directions, exactly; on ellipses and random paths within the bound."""
+    angle, turn = np.linspace(0, 2 * pi, 64), np.linspace(0, pi, 50)
+    along, across = np.cos(angle)[:, None], width * np.sin(angle)[:, None]
+    path = np.stack(
+        [
+            along * np.cos(turn) - across * np.sin(turn),
+            along * np.sin(turn) + across * np.cos(turn),
+        ],
+        axis=1,
+    )
+    path += 0.3 * width * np.random.default_rng(7).normal(size=path.shape)
+    exact = np.max([np.hypot(*(a - b)) for a, b in combinations(path, 2)], axis=0) / 2
+    ratio = cycles._slip_amplitude(lambda: iter(path)) / exact
+    assert np.all(ratio <= 1 + 1e-12)
+    assert np.all(ratio >= (cos(pi / 2 / cycles.DIRECTIONS) if width else 1 - 1e-12))
+
+
+def test_the_tension_of_a_loop_is_that_along_its_force():
+    oblique = [push(x * sqrt(0.5), x * sqrt(0.5), increments=8) for x in (0.9, -0.9, 0.9)]
+    found = [fretting_cycles(loop(32, *loading))[0] for loading in (LOOP, (PRESS, *oblique))]
+    along_x, along_diagonal = (np.max(cycle.surface_tension) for cycle in found)
+    assert along_diagonal == pytest.approx(along_x, rel=0.02)
+    for cycle in found:
+        pulled = cycle.surface_tension > 0
+        assert np.array_equal(cycle.ruiz_f2 > 0, pulled & (cycle.ruiz_f1 > 0))
+
+
+@pytest.mark.parametrize(
+    "loading",
+    [
+        (PRESS, {"normal_force": 0.5 * LOAD}, PRESS),
+        (PRESS, *({"torque": x * LIMIT * A} for x in (0.2, -0.2, 0.2))),
+        # The force is then a sum of shear, with its round-off.
+        ({**PRESS, **slide(0)}, *({"twist": x * 1e-3} for x in (1, -1, 1))),
+    ],
+    ids=["load", "torque", "twist without a shift"],
+)
+def test_without_a_change_of_force_tension_has_no_direction(loading):
+    described = coupled_scenes.scene(*({**step, "increments": 2} for step in loading))
+    cycles = fretting_cycles(solve(described, grid(24), TOLERANCE))
+    assert cycles
+    for cycle in cycles:
+        assert cycle.surface_tension is None
+        assert cycle.ruiz_f2 is None
+        assert np.max(cycle.ruiz_f1) > 0

@@ -1,0 +1,220 @@
+"""Tests of pressing by the radial solver: closed forms of half-spaces and of layers."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from numpy.typing import ArrayLike
+
+import radial
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    CoulombFriction,
+    Ellipsoid,
+    FlatPunch,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    RadialDiscretisation,
+    RevolvedProfile,
+    Scene,
+)
+from contact_scene.geometry import ShapedBody
+from contact_scene.solver_errors import UnsupportedScene
+from radial.normal.disc import (
+    disc,
+)
+from radial.normal.surface import (
+    displacement,
+    largest_pressure,
+    pressure,
+)
+from radial.response.bodies import Bodies
+from semi_analytical.frf.surface import remainder_scalars
+from verification.closed_forms.coated_indentation import LayeredSurface
+from verification.closed_forms.coated_indentation import flat_punch as coated_punch
+from verification.closed_forms.coated_indentation import paraboloid as coated_paraboloid
+
+STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
+MODULUS = STEEL.plane_strain_modulus
+FORCE = 1e3
+RADIUS = 18e-3
+BALL = Paraboloid(radius=RADIUS, material=RIGID)
+ratios = st.floats(-0.5, 0.5)
+moduli = st.floats(0.1, 10.0)
+thicknesses = st.floats(0.2, 5.0)
+
+
+def pressed(indenter: ShapedBody, body: Body | None = None, **step: Any) -> radial.Increment:
+    loading = (LoadStep(**(step or {"normal_force": FORCE})),)
+    scene = Scene(indenter=indenter, body=body or Body(material=STEEL), loading=loading)
+    return radial.solve(scene).steps[-1]
+
+
+def coated(modulus: float, thickness: float, ratio: float = 0.3, base: Any = None) -> Body:
+    """A layer on a substrate of unit modulus E/(1 - ν²), lengths in the units of the scene."""
+    substrate = IsotropicMaterial(young_modulus=0.91, poisson_ratio=0.3)
+    layer = IsotropicMaterial(young_modulus=0.91 * modulus, poisson_ratio=ratio)
+    return Body(material=base or substrate, layers=(Layer(thickness=thickness, material=layer),))
+
+
+class PowerLaw(ShapedBody):
+    """r^k / k in metres: a shape that says nothing of itself but its gap."""
+
+    power: float
+
+    def initial_gap(self, x: ArrayLike, y: ArrayLike) -> Any:
+        return np.hypot(x, y) ** self.power / self.power
+
+
+@pytest.mark.parametrize("power", [1.0, 2.0, 3.0, 4.0, 6.0])
+def test_any_smooth_profile_is_pressed_as_sneddon_says(power: float) -> None:
+    """δ = S(a) and W = 2E* ∫ (δ - S) ds, with S(s) = sᵏ ½√π Γ(k/2)/Γ((k+1)/2)."""
+    bodies = Bodies((), MODULUS)
+    a = 2e-3
+    made = disc(bodies, PowerLaw.model_construct(power=power, material=RIGID, layers=()), a)
+    at_edge = (
+        a**power * math.sqrt(math.pi) / 2 * math.gamma(power / 2) / math.gamma((power + 1) / 2)
+    )
+    assert_allclose(made.approach, at_edge, rtol=1e-11)
+    assert_allclose(made.load, 2 * MODULUS * a * at_edge * power / (power + 1), rtol=1e-11)
+
+
+@pytest.mark.parametrize("ratio", [1.001, 1.5])
+def test_a_profile_with_a_flat_on_the_axis_is_pressed_as_sneddon_says(ratio: float) -> None:
+    """Flat up to b, then (r - b)²/2R, with b = a sin φ at the contact radius a."""
+    flat = 1e-3
+    a, phi = ratio * flat, math.asin(1 / ratio)
+    rest = math.pi / 2 - phi
+    depth = a / RADIUS * (a * math.cos(phi) - flat * rest)
+    moments = math.cos(phi) - math.cos(phi) ** 3 / 3, rest / 2 + math.sin(2 * phi) / 4
+    force = 2 * MODULUS * a**2 / RADIUS * (a * moments[0] - flat * moments[1])
+    r = np.linspace(0.0, 5 * flat, 26)
+    table: Any = np.stack([r, np.maximum(r - flat, 0.0) ** 2 / (2 * RADIUS)])
+    end = pressed(RevolvedProfile(file=table, material=RIGID), normal_force=force)
+    assert_allclose((end.contact_radius, end.approach), (a, depth), rtol=1e-5)
+
+
+@given(modulus=moduli, thickness=thicknesses, ratio=ratios)
+def test_layers_press_as_the_nystrom_method_says(
+    modulus: float, thickness: float, ratio: float
+) -> None:
+    """The closed form's own nodes, wavenumbers and derivative for the pressure; the response of
+    the layers is what both have in common."""
+    bodies = Bodies.of(_scene(BALL, coated(modulus, thickness, ratio)))
+    surface = LayeredSurface(_compliance(bodies), bodies.modulus, thickness)
+    ball = coated_paraboloid(surface, RADIUS, 1.0)
+    ours = disc(bodies, BALL, 1.0)
+    assert_allclose([ours.approach, ours.load], [ball.approach, ball.load], rtol=1e-10)
+    x = np.linspace(0, 0.99, 12)
+    assert_allclose(pressure(ours, x), ball.pressure(x), rtol=0, atol=1e-9 * ball.load)
+    punch = FlatPunch(radius=1.0, material=RIGID)
+    stiffness = coated_punch(surface, 1.0).load
+    assert_allclose(disc(bodies, punch, 1.0, 1.0).load, stiffness, rtol=1e-10)
+
+
+@given(modulus=st.floats(0.05, 20.0), thickness=st.floats(0.05, 5.0))
+def test_the_surface_touches_where_there_is_pressure(modulus: float, thickness: float) -> None:
+    """The displacement just outside meets the indenter, by another integral than the equation's;
+    the gap opens from there as a power of three halves."""
+    bodies = Bodies.of(_scene(BALL, coated(modulus, thickness)))
+    made = disc(bodies, BALL, 1.0)
+    x = 1 + np.array([1e-6, 1e-4])
+    gap = x**2 / (2 * RADIUS) + displacement(made, x) - made.approach
+    assert_allclose(gap[0], 0.0, atol=1e-8 * made.approach)
+    assert gap[1] > 0
+
+
+@pytest.mark.parametrize("body", [Body(material=STEEL), coated(3.0, 1e-3, base=RIGID)])
+@pytest.mark.parametrize(
+    "indenter",
+    [BALL, Cone(slope_angle=0.05, material=RIGID), FlatPunch(radius=1e-3, material=RIGID)],
+)
+def test_what_is_stored_is_the_work_of_the_load(indenter: ShapedBody, body: Body) -> None:
+    """dU = W dδ, by differences of neighbouring loads."""
+    force, step = FORCE if body.layers == () else 1e-6, 1e-3
+    less, more = (pressed(indenter, body, normal_force=f * force) for f in (1 - step, 1 + step))
+    assert less.elastic_energy is not None
+    assert more.elastic_energy is not None
+    stored = more.elastic_energy - less.elastic_energy
+    assert_allclose(stored, force * (more.approach - less.approach), rtol=step**2)
+
+
+def test_round_off_of_thin_and_unlike_layers_is_refused_by_its_name() -> None:
+    """A film of ten million times the stiffness: the message names a tolerance above round-off."""
+    film = IsotropicMaterial(young_modulus=2.1e18, poisson_ratio=0.3)
+    asked = Scene(
+        indenter=Paraboloid(radius=0.018, material=RIGID),
+        body=Body(material=STEEL, layers=(Layer(thickness=2e-6, material=film),)),
+        loading=(LoadStep(normal_force=1e3, increments=1),),
+    )
+    with pytest.raises(UnsupportedScene, match=r"round-off.* tolerance = 1e-0[89]"):
+        radial.solve(asked)
+    (end,) = radial.solve(asked, RadialDiscretisation(tolerance=1e-8)).steps
+    assert end.worst_residual < 1e-8
+
+
+def test_a_peak_between_rings_is_found() -> None:
+    profile = PowerLaw.model_construct(power=4.0, material=RIGID, layers=())
+    made = disc(Bodies((), MODULUS), profile, 2e-3)
+    few, many = np.linspace(0, 1, 6), np.linspace(0, 1, 4001)
+    found = largest_pressure(made, few, pressure(made, few))
+    assert_allclose(found, np.max(pressure(made, many)), rtol=1e-6)
+
+
+def test_pressing_with_friction_takes_two_fifths_of_force_times_approach() -> None:
+    """W grows as δ^(3/2): friction keeps the contact similar to itself."""
+    contact = Scene(
+        indenter=BALL,
+        body=Body(material=STEEL),
+        friction={"coefficient": 0.2},
+        loading=({"normal_force": FORCE, "increments": 4},),
+    )
+    (end,) = radial.solve(contact).steps
+    assert_allclose(end.input_work, 0.4 * FORCE * end.approach, rtol=2e-5)
+
+
+def _scene(indenter: ShapedBody, body: Body, **step: Any) -> Scene:
+    return Scene(indenter=indenter, body=body, loading=(LoadStep(**(step or {"normal_force": 1})),))
+
+
+def _compliance(bodies: Bodies) -> Any:
+    def compliance(k: Any) -> Any:
+        added = sum(remainder_scalars(stack, k).c22 for stack in bodies.layered)
+        return 2 / (k * bodies.modulus) + added
+
+    return compliance
+
+
+RUB = CoulombFriction(coefficient=0.1)
+REFUSED = {
+    "not axisymmetric": {"indenter": Ellipsoid(radii=(1e-2, 2e-2), material=RIGID)},
+    "moment or a tilt": {"loading": (LoadStep(normal_force=1e3, moment=(1e-3, 0)),)},
+    "rim": {"indenter": FlatPunch(radius=1e-3, material=RIGID), "friction": RUB},
+    "separate within the contact": {
+        "indenter": FlatPunch(radius=1e-3, material=RIGID),
+        "body": coated(1e3, 5e-5),
+        "loading": (LoadStep(normal_force=1e-6),),
+    },
+    "polynomials": {"body": coated(0.01, 1e-7), "loading": (LoadStep(normal_force=1e-3),)},
+}
+
+
+@pytest.mark.parametrize("reason", REFUSED)
+def test_what_is_no_pressing_of_revolution_is_refused_by_name(reason: str) -> None:
+    usual = {
+        "indenter": BALL,
+        "body": Body(material=STEEL),
+        "loading": (LoadStep(normal_force=1e3),),
+    }
+    with pytest.raises(UnsupportedScene, match=reason):
+        radial.solve(Scene(**(usual | REFUSED[reason])))

@@ -1,0 +1,187 @@
+"""Tests of torsion by the radial solver: closed forms, reversals, energies and layers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+import radial
+import slipstick
+from contact_scene import (
+    RIGID,
+    Body,
+    Cone,
+    CoulombFriction,
+    FlatPunch,
+    IsotropicMaterial,
+    Layer,
+    LoadStep,
+    Paraboloid,
+    Scene,
+)
+from contact_scene.geometry import ShapedBody
+from contact_scene.quantities.summary import ContactStatus
+from contact_scene.solver_errors import UnsupportedScene
+from radial.normal.disc import (
+    Disc,
+    disc,
+)
+from radial.normal.surface import (
+    pressure,
+)
+from radial.response.bodies import Bodies
+from radial.torsion.torsion import (
+    PartialSlip,
+    Torsion,
+)
+from radial.torsion.twist_path import TwistPath
+from verification.closed_forms.torsion import (
+    CoatedTorsion,
+    TorsionalPartialSlip,
+    TorsionalSurface,
+    one_layer,
+)
+
+# a = 1, E* = π/2 and p_H = 1 on the bare body. Incompressible: it does not couple with a rigid one.
+SOFT = IsotropicMaterial(young_modulus=0.75 * np.pi / 2, poisson_ratio=0.5)
+FRICTION = 0.3
+UNIT_BALL = Paraboloid(radius=1.0, material=RIGID)
+BARE = Body(material=SOFT)
+X = np.array([0.0, 1e-3, 0.1, 0.4, 0.7, 0.9, 0.999])
+
+
+def incompressible(modulus: float, thickness: float) -> Body:
+    layer = IsotropicMaterial(young_modulus=modulus * SOFT.young_modulus, poisson_ratio=0.5)
+    return Body(material=SOFT, layers=(Layer(thickness=thickness, material=layer),))
+
+
+def scene_of(body: Body, *steps: LoadStep, indenter: ShapedBody = UNIT_BALL, **more: Any) -> Scene:
+    loading = (LoadStep(normal_force=2.0), *steps)
+    friction = CoulombFriction(coefficient=FRICTION)
+    return Scene(
+        **({"indenter": indenter, "body": body, "loading": loading, "friction": friction} | more)
+    )
+
+
+def twisted(body: Body, indenter: ShapedBody = UNIT_BALL) -> tuple[Disc, Torsion]:
+    """A contact of radius one."""
+    scene = scene_of(body, indenter=indenter)
+    approach = None if indenter.rim is None else 1.0
+    contact = disc(Bodies.of(scene), indenter, 1.0, approach)
+    return contact, Torsion.of(scene, contact, FRICTION)
+
+
+@given(stick=st.floats(0.01, 0.999))
+def test_a_ball_is_twisted_as_lubkin_says(stick: float) -> None:
+    contact, torsion = twisted(BARE)
+    ours = torsion.partial_slip(stick)
+    exact = TorsionalPartialSlip(1.0, 1.0, FRICTION, SOFT.shear_modulus, stick)
+    assert_allclose([ours.twist, ours.torque], [exact.twist, exact.moment], rtol=1e-12)
+    shear = ours.shear(X, FRICTION * pressure(contact, X))
+    assert_allclose(shear, exact.shear(X), rtol=0, atol=1e-12)
+
+
+@given(modulus=st.floats(0.2, 5.0), thickness=st.floats(0.2, 3.0), stick=st.floats(0.11, 0.99))
+def test_layers_twist_as_the_nystrom_method_says(
+    modulus: float, thickness: float, stick: float
+) -> None:
+    contact, torsion = twisted(incompressible(modulus, thickness))
+    G = SOFT.shear_modulus
+
+    def limit(r: np.ndarray) -> np.ndarray:
+        return FRICTION * pressure(contact, r.ravel()).reshape(r.shape)
+
+    surface = TorsionalSurface(
+        lambda k: one_layer(k, thickness, modulus * G, G), modulus * G, thickness
+    )
+    exact = CoatedTorsion(surface, 1.0, limit, stick)
+    ours = torsion.partial_slip(stick)
+    assert_allclose([ours.twist, ours.torque], [exact.twist, exact.torque], rtol=1e-10)
+
+
+def _over_disc(state: PartialSlip, contact: Disc) -> tuple[np.ndarray, ...]:
+    """r, q, u_θ and area weights, with nodes closer to the stick edge, to a rim and an axis."""
+    v, w = np.polynomial.legendre.leggauss(80)
+    u, w = (1 + v) / 2, w / 2
+    parts = []
+    for low, high in ((0.0, state.stick), (state.stick, 1.0)):
+        smooth = u**4 * (35 - 84 * u + 70 * u**2 - 20 * u**3)
+        parts.append((low + (high - low) * smooth, (high - low) * w * 140 * u**3 * (1 - u) ** 3))
+    r, weights = (np.concatenate(some) for some in zip(*parts, strict=True))
+    shear = state.shear(r, FRICTION * pressure(contact, r))
+    return r, shear, state.twist * r + state.slip(r), 2 * np.pi * r * weights
+
+
+SHAPES = {
+    "ball": UNIT_BALL,
+    "cone": Cone(slope_angle=0.1, material=RIGID),
+    "punch": FlatPunch(radius=1.0, material=RIGID),
+}
+STIFF = incompressible(3.0, 0.5)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("body", [BARE, STIFF])
+def test_torque_and_energies_are_those_of_the_fields(shape: str, body: Body) -> None:
+    contact, torsion = twisted(body, SHAPES[shape])
+    state = torsion.partial_slip(0.6)
+    r, shear, moved, area = _over_disc(state, contact)
+    rtol = 1e-6
+    assert_allclose(np.sum(area * shear * r), state.torque, rtol=rtol)
+    assert_allclose(0.5 * np.sum(area * shear * moved), state.elastic_energy, rtol=rtol)
+    lost = np.sum(area * shear * (state.twist * r - moved))
+    assert_allclose(lost, state.dissipated, rtol=rtol)
+    if (shape, body) != ("punch", STIFF):
+        assert np.all(shear <= FRICTION * pressure(contact, r) * (1 + 1e-9))
+
+
+@given(amounts=st.lists(st.floats(-3.0, 3.0), min_size=1, max_size=6))
+def test_twist_and_torque_lead_the_same_way(amounts: list[float]) -> None:
+    torsion = twisted(BARE)[1]
+    unit = torsion.partial_slip(0.5).twist
+    assert unit > 0
+    by_twist = by_torque = TwistPath(torsion)
+    for amount in amounts:
+        by_twist = by_twist.continue_to_twist(amount * unit)
+        by_torque = by_torque.continue_to_torque(by_twist.torque)
+        assert_allclose(by_torque.twist, by_twist.twist, rtol=1e-7, atol=1e-9 * unit)
+        nearly = 1e-12 * abs(by_twist.work) + np.finfo(float).tiny
+        assert by_twist.work >= by_twist.dissipated - nearly
+
+
+def test_a_closed_loop_of_twist_loses_the_work_that_is_done_on_it() -> None:
+    torsion = twisted(BARE)[1]
+    far = 2 * torsion.partial_slip(0.5).twist
+    first = TwistPath(torsion).continue_to_twist(far)
+    again = first.continue_to_twist(-far).continue_to_twist(far)
+    lost = again.dissipated - first.dissipated
+    assert_allclose(again.work - first.work, lost, rtol=1e-9)
+    assert lost > 3 * first.dissipated > 0
+
+
+def test_beyond_its_limit_the_contact_turns_and_carries_no_more(tmp_path: Path) -> None:
+    slippery = CoulombFriction(coefficient=0.01)
+    steps = LoadStep(twist=0.9), LoadStep(twist=0.0)
+    torsion = radial.solve(scene_of(BARE, *steps, friction=slippery))
+    sliding, back = torsion.steps[1:]
+    assert sliding.status is ContactStatus.GROSS_SLIDING
+    carried = np.pi**2 / 8 * 0.01 * sliding.peak_pressure * sliding.contact_radius**3
+    assert_allclose(sliding.torque, carried, rtol=1e-9)
+    assert back.torque is not None
+    assert_allclose(back.torque, -sliding.torque, rtol=1e-9)  # type: ignore[operator]
+    errors = slipstick.stated_errors(torsion)
+    slipstick.save(torsion, tmp_path / "out", figures="all", errors=errors)
+    assert (tmp_path / "out" / "profiles.png").is_file()
+
+
+def test_slip_that_does_not_begin_at_the_edge_is_refused() -> None:
+    """A punch on a stiff layer presses little in the middle."""
+    punch = FlatPunch(radius=1.0, material=SOFT, layers=STIFF.layers)
+    with pytest.raises(UnsupportedScene, match="slips first within"):
+        radial.solve(scene_of(STIFF, LoadStep(torque=0.45), indenter=punch))
