@@ -198,20 +198,16 @@ def judged_within(elements: int) -> float:
     return min(0.9, 1 - 5 / elements)
 
 
-def tractions_at(
-    increment: Increment, x: Field, y: Field, direction: tuple[float, float] = (1.0, 0.0)
-) -> tuple[Field, Field]:
+def tractions_at(increment: Increment, x: Field, y: Field) -> tuple[Field, Field]:
     """Evaluate shear and pressure of a finite element increment at arbitrary points of the surface.
 
-    The interpolation is that of the solution: linear between rings, the trigonometric polynomial
+    The tangential load is along x. The interpolation is that of the solution: linear between rings, the trigonometric polynomial
     through the points of a ring, and zero beyond the last ring. Returns the shear (2, …) along x
     and y, and the pressure (…) [force/length²].
 
-    x, y       positions, of any shape [length]
-    direction  unit vector of the tangential load
+    x, y  positions, of any shape [length]
     """
     r, theta = np.hypot(x, y), np.arctan2(y, x)
-    load = np.arctan2(direction[1], direction[0])
     grid = _grid_of(increment)
     rings = len(increment.radii)
     parts = (increment.shear_radial, increment.shear_circumferential, increment.pressure)
@@ -219,7 +215,7 @@ def tractions_at(
     for value, part in zip(values, parts, strict=True):
         if part is not None:
             value[:] = part.reshape(rings, -1)
-    found, modes = np.zeros((3, r.size)), grid.modes((theta - load).ravel())
+    found, modes = np.zeros((3, r.size)), grid.modes(theta.ravel())
     for family, waves in zip(grid.amplitudes(values), modes, strict=True):
         for component, amplitude, wave in zip(found, family, waves, strict=True):
             between = [np.interp(r.ravel(), increment.radii, f, right=0.0) for f in amplitude.T]
@@ -233,7 +229,7 @@ def tractions_at(
     )
     if increment.shear_along_load is not None:
         f = np.interp(r, increment.radii, increment.shear_along_load, right=0.0)
-        q = q + np.multiply.outer(np.array(direction), f)
+        q[0] += f
     return q, p
 
 
