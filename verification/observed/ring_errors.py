@@ -201,9 +201,9 @@ def judged_within(elements: int) -> float:
 def tractions_at(increment: Increment, x: Field, y: Field) -> tuple[Field, Field]:
     """Evaluate shear and pressure of a finite element increment at arbitrary points of the surface.
 
-    The tangential load is along x. The interpolation is that of the solution: linear between rings, the trigonometric polynomial
-    through the points of a ring, and zero beyond the last ring. Returns the shear (2, …) along x
-    and y, and the pressure (…) [force/length²].
+    The tangential load is along x. The interpolation is that of the solution: linear between rings,
+    the trigonometric polynomial through the points of a ring, and zero beyond the last ring.
+    Returns the shear (2, …) along x and y, and the pressure (…) [force/length²].
 
     x, y  positions, of any shape [length]
     """
