@@ -3,7 +3,7 @@
 from itertools import takewhile
 from math import inf, log
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from contact_scene.material import IsotropicMaterial, Material
 from contact_scene.reading.description import Description
@@ -59,6 +59,11 @@ class Layer(Description):
 
     interface_stiffness: InterfaceStiffness | None = None
     """Stiffness of the bond to the layer or substrate below; absent: a rigid bond."""
+
+    @field_validator("interface_stiffness")
+    @classmethod
+    def _drop_rigid_bond(cls, bond: InterfaceStiffness | None) -> InterfaceStiffness | None:
+        return bond if bond is not None and bond.given else None
 
 
 class Body(Description):

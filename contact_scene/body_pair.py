@@ -84,8 +84,8 @@ def _outermost_material(body: Body) -> Material:
 def refuse_contrast(scene: Scene, most: float, why: str) -> None:
     """Raise UnsupportedScene if the shear moduli of the materials within one body differ too much.
 
-    A compliant bond counts as a material with the stiffness of the bond times the thickness of its
-    layer.
+    A compliant bond counts as a soft material with the stiffness of the bond times the thickness of
+    its layer.
 
     scene  bodies with their layers and materials
     most   largest allowed ratio of the shear moduli
@@ -93,14 +93,15 @@ def refuse_contrast(scene: Scene, most: float, why: str) -> None:
     """
     for name, body in (("body", scene.body), ("indenter", scene.indenter)):
         moduli = [material.shear_modulus for material in body.elastic_materials]
-        moduli += [
+        bonds = [
             layer.thickness * stiffness
             for layer in body.layers
             if layer.interface_stiffness is not None
             for stiffness in layer.interface_stiffness.given
         ]
-        if moduli and max(moduli) > most * min(moduli):
+        softest = min([*moduli, *bonds], default=0.0)
+        if moduli and max(moduli) > most * softest:
             raise UnsupportedScene(
-                f"materials and bonds of the {name} have shear moduli from {min(moduli):.3g} to "
+                f"materials and bonds of the {name} have shear moduli from {softest:.3g} to "
                 f"{max(moduli):.3g} Pa{why}; use a rigid base, or leave the soft part out"
             )

@@ -47,8 +47,9 @@ MEASURED: ColumnNames = {
     PLACE: (units.LENGTH, frozenset({"x"})),
     PRESSURE: (units.PRESSURE, frozenset({"p", "pressure"})),
     SHEAR: (units.PRESSURE, frozenset({"q", "shear", "shear_x"})),
-    STEP: (units.COUNT, frozenset({"step"})),
 }
+# The load step of each row of a profile.
+STEPS: ColumnNames = {STEP: (units.COUNT, frozenset({"step"}))}
 # Largest distance of the last shift of a loop from its first, relative to the range: one half if
 # four points go around, and 1 for one branch.
 GAP = 0.75
@@ -153,8 +154,9 @@ def comparison(table: Mapping[str, Numbers], run: StoredRun, step: int | None = 
             theirs = np.stack([table[motion], table[LOAD]])
             return _compare_loops(theirs, run, motion)
     if PLACE in table and {PRESSURE, SHEAR} & table.keys():
-        step = step or len(run.summary.steps)
-        return _compare_profiles(_rows_of_step(table, step), run, step)
+        count = len(run.summary.steps)
+        step = step or count
+        return _compare_profiles(_rows_of_step(table, step, count), run, step)
     raise NothingToCompare(
         f"got the columns {', '.join(table) or 'none'}, expected shift or actuator_shift with T (a "
         "loop), or x with p or q (a profile); write heads such as 'shift [um]' and 'T [N]'"
@@ -376,13 +378,21 @@ def _compare_loops(table: Numbers, run: StoredRun, motion: str) -> Comparison:
     return Comparison(tuple(numbers), (curve,))
 
 
-def _rows_of_step(table: Mapping[str, Numbers], step: int) -> Mapping[str, Numbers]:
+def _rows_of_step(table: Mapping[str, Numbers], step: int, count: int) -> Mapping[str, Numbers]:
     """Return the rows of a load step; all rows of a table without a column of load steps.
 
-    Raises NothingToCompare if the table has no row of the load step.
+    count  number of load steps of the run
+
+    Raises NothingToCompare if the table has no row of the load step, or if the column has other
+    numbers than load steps of the run.
     """
     if STEP not in table:
         return table
+    if not np.all(np.isin(table[STEP], np.arange(1, count + 1))):
+        raise NothingToCompare(
+            f"the column 'step' has {min(table[STEP]):g} to {max(table[STEP]):g}, expected load "
+            f"steps of the run, 1 to {count}; rename the column if it has none"
+        )
     rows = table[STEP] == step
     if not np.any(rows):
         found = ", ".join(f"{each:g}" for each in np.unique(table[STEP]))

@@ -33,6 +33,9 @@ from slipstick.uncertain_inputs import NUMBER, override_text
 
 _FIRST = re.compile(rf"\s*(?P<key>[^\s=]+)\s*=\s*(?P<value>{NUMBER})\s*(?P<unit>[^\s\d.].*?)?\s*")
 EXPECTED = "key=first value above 0, such as friction.coefficient=.1 or rig.stiffness=50 N/um"
+# Logarithm at the first value of each input. The tolerance of the optimiser is relative to the norm
+# of the logarithms, which then does not depend on units.
+ORIGIN = 10.0
 # Step of a logarithm for its slope: differences of curves that are solved to about 1e-8 keep four
 # digits, and a curve changes its course by about 1e-3.
 STEP = 1e-3
@@ -108,12 +111,16 @@ def fit(
 
     def with_values(logarithms: Numbers) -> tuple[FittedInput, ...]:
         return tuple(
-            FittedInput(one.key, one.unit, one.first, exp(x))
+            FittedInput(one.key, one.unit, one.first, one.first * exp(x - ORIGIN))
             for one, x in zip(inputs, logarithms, strict=True)
         )
 
-    start = np.log([one.first for one in inputs])
-    known = {start.tobytes(): _residuals(compare(inputs, False).numbers)}
+    start = np.full(len(inputs), ORIGIN)
+    try:
+        first = compare(inputs, False)
+    except NothingToCompare as error:
+        raise NothingToCompare(f"with the first values of --fit, {error}") from None
+    known = {start.tobytes(): _residuals(first.numbers)}
     count = len(known[start.tobytes()])
     if count <= len(inputs):
         raise NothingToCompare(f"got {count} points, expected more than inputs to fit")
@@ -133,12 +140,24 @@ def fit(
             )
         return known[place]
 
-    _refuse_dependent(inputs, least_squares(residuals, start, diff_step=STEP, max_nfev=1).jac)
+    def slopes(logarithms: Numbers) -> Numbers:
+        here, columns = residuals(logarithms), []
+        for row, one in enumerate(with_values(logarithms)):
+            beside = residuals(logarithms + STEP * (np.arange(len(inputs)) == row))
+            if np.all(beside == UNSOLVED):
+                raise NothingToCompare(
+                    f"near {one.key}={one.value:.6g} {one.unit}".rstrip()
+                    + " the scene has no solution or no loop; give another first value"
+                )
+            columns.append((beside - here) / STEP)
+        return np.stack(columns, axis=1)
+
+    _refuse_dependent(inputs, slopes(start))
     best = least_squares(
         residuals,
         start,
-        diff_step=STEP,
-        xtol=PRECISION,
+        slopes,
+        xtol=PRECISION / ORIGIN,
         ftol=PRECISION**2,
         max_nfev=MAX_ITERATIONS,
     )
@@ -170,7 +189,14 @@ def fit(
 
 
 def _residuals(numbers: Sequence[ComparedNumber]) -> Numbers:
-    """Return the differences of all curves, each relative to its largest measured value (n,)."""
+    """Return the differences of all curves, each relative to its largest measured value (n,).
+
+    Raises NothingToCompare for a curve of zeros.
+    """
+    if zero := [
+        each.name for each in numbers if each.differences is not None and not each.measured
+    ]:
+        raise NothingToCompare(f"{zero[0]}: all measured values are 0, which fits nothing")
     return np.concatenate(
         [each.differences / each.measured for each in numbers if each.differences is not None]
     )
@@ -210,4 +236,4 @@ def _refuse_dependent(inputs: Sequence[FittedInput], slopes: Numbers) -> None:
     singular = np.linalg.svd(directions, compute_uv=False)
     if singular[-1] < INDEPENDENT * singular[0]:
         keys = " and ".join(inputs[column].key for column in strong)
-        raise NothingToCompare(f"{keys} change the curves in the same way; fit one of them less")
+        raise NothingToCompare(f"{keys} change the curves in the same way; leave one of them out")

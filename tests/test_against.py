@@ -253,6 +253,19 @@ def test_a_profile_with_several_load_steps_is_compared_step_by_step(place: Path)
     assert ended.returncode == 2
     message = "no row of load step 4: its column 'step' has 1; choose the load step with --step"
     assert message in " ".join(ended.stderr.replace("│", " ").split())
+    samples = {"step": [0, 1], "x [mm]": [0, 0.1], "p [GPa]": [1, 0.5]}
+    ended = outcome("against", table(place / "samples.csv", **samples), "run", cwd=place)
+    message = "the column 'step' has 0 to 1, expected load steps of the run, 1 to 4"
+    assert message in " ".join(ended.stderr.replace("│", " ").split())
+
+
+def test_a_column_of_times_or_words_has_no_load_steps(place: Path) -> None:
+    actuator, _, force = loop(place)
+    for head, values in (("step [s]", range(len(force))), ("step", ["a"] * len(force))):
+        columns = {head: values, "actuator_shift [m]": actuator, "T [N]": force}
+        assert against(place, table(place / "timed.csv", **columns))
+    words = {"step": ["a", "b"], "x [mm]": [0, 0.1], "p [GPa]": [1, 0.5]}
+    assert against(place, table(place / "words.csv", **words))
 
 
 def as_lab(place: Path, heads: str) -> Path:
@@ -373,6 +386,18 @@ def test_an_input_is_identified_with_both_uncertainties(place: Path) -> None:
     error = record["numbers"]["pressure_at_the_places"]["error"]
     by_errors = 1.1 * np.sum(np.abs(slope)) * error / (slope @ slope)
     assert found["by_errors"] == pytest.approx(by_errors, rel=0.05)
+
+
+def test_a_fit_does_not_depend_on_the_unit(place: Path) -> None:
+    """From a first value of 1 in its unit, whose logarithm is 0."""
+    profile, _ = measured_profile(place)
+    found = []
+    for first in ("1 kN", "1000 N"):
+        fitted = ("--fit", f"loading[1].normal_force={first}", "-o", "unit")
+        outcome("against", profile, "pressed.toml", "--solver", "radial", *fitted, cwd=place)
+        found += json.loads((place / "unit/against.json").read_text(encoding="utf-8"))["fitted"]
+    assert found[0]["value"] == pytest.approx(1.1, rel=2e-4)  # between the rings
+    assert found[1]["value"] == pytest.approx(1000 * found[0]["value"], rel=1e-9)
 
 
 def test_friction_is_identified_from_a_loop(place: Path) -> None:

@@ -77,6 +77,21 @@ def test_layers_merge_through_rigid_bonds_alone() -> None:
     assert scene(plain, glued).body.thinnest == pytest.approx(150e-6)
 
 
+def test_a_bond_without_stiffness_is_rigid() -> None:
+    layer = Layer(thickness=1e-4, material=HARD, interface_stiffness={})  # type: ignore[arg-type]
+    assert layer.interface_stiffness is None
+
+
+def test_stiffnesses_have_units_and_stiff_bonds_are_no_contrast() -> None:
+    """A bond far stiffer than its layer is solved as a rigid one."""
+    stiff = InterfaceStiffness.model_validate({"normal": "1e16 N/mm^3", "shear": "1e10 GPa/um"})
+    assert stiff.given == (1e25, 1e25)
+    layer = Layer(thickness=100e-6, material=HARD, interface_stiffness=stiff)
+    plain = Layer(thickness=100e-6, material=HARD)
+    ends: list[Any] = [slipstick.solve(scene(one), "radial").steps[0] for one in (layer, plain)]
+    assert ends[0].approach == pytest.approx(ends[1].approach, rel=1e-9)
+
+
 def test_cells_and_rings_agree_on_coupled_bodies_under_friction() -> None:
     posed = scene(bonded(), friction=0.3)
     results: list[Any] = [

@@ -321,6 +321,10 @@ def _layer_warnings(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Itera
                 if isinstance(below, IsotropicMaterial)
                 else 0.0
             )
+            bond = layer.interface_stiffness
+            if bond is not None:
+                softest = min(bond.given) * layer.thickness
+                softer = max(softer, layer.material.young_modulus / softest)
             radii = layer.thickness / a
             text = (
                 f"{name}.layers[{number}].thickness: {quantity(layer.thickness, 'm', 6)} is "
@@ -330,7 +334,7 @@ def _layer_warnings(scene: Scene, pressed: tuple[ExpectedContact, ...]) -> Itera
             if radii > _DEEP * max(1.0, softer):
                 yield f"{text} what lies below"
                 break
-            if softer and radii * max(softer, 1 / softer) < _THIN:
+            if bond is None and softer and radii * max(softer, 1 / softer) < _THIN:
                 yield f"{text} it"
 
 

@@ -36,7 +36,7 @@ from contact_scene.reading.units import (
 
 # "number unit"
 _NUMBER = r"[+-]?(?:[0-9]{1,40}(?:\.[0-9]{0,40})?|\.[0-9]{1,40})(?:[eE][+-]?[0-9]{1,4})?"
-_UNIT = r"[A-Za-zµμ°%](?:[A-Za-zµμ/^ ]{0,20}[A-Za-zµμ2])?"
+_UNIT = r"[A-Za-zµμ°%](?:[A-Za-zµμ/^ ]{0,20}[A-Za-zµμ23])?"
 QUANTITY_PATTERN = rf"^({_NUMBER}) ?({_UNIT})$"
 _QUANTITY = re.compile(QUANTITY_PATTERN)
 _NUMBER_ALONE = re.compile(_NUMBER)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from math import ceil, log10
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any
@@ -21,6 +23,8 @@ from contact_scene.reading.quantity import Share
 from contact_scene.reading.text_table import read_columns
 from slipstick.against import (
     MEASURED,
+    PLACE,
+    STEPS,
     Comparison,
     NothingToCompare,
     Numbers,
@@ -37,6 +41,7 @@ from slipstick.solving import save, solve, stated_errors
 from slipstick.uncertain_inputs import changed_overrides, read_inputs
 from slipstick.validation import with_uncertainties
 
+FITTED_DIGITS = 8
 FITTED_HEADS = ("fitted", "first", "value ± scatter", "by errors")
 
 
@@ -147,7 +152,7 @@ def against(
     try:
         required = _required_shares(require)
         scatter = _share("--deviation", deviation)
-        measured = read_columns(table, MEASURED, columns)
+        measured = _read_table(table, columns)
 
         def compare(changes: Sequence[str], *, errors: bool = True) -> Comparison:
             contents = read_scene_file(source, [*(overrides or ()), *changes])
@@ -214,12 +219,28 @@ def _compare(measured: Mapping[str, Numbers], run: StoredRun, step: int | None) 
     return comparison(measured, run, step)
 
 
+def _read_table(path: Path, columns: str | None) -> Mapping[str, Numbers]:
+    """Read the measured columns of a table, and the load steps of the rows of a profile.
+
+    A column step with a unit or with words has no load steps.
+    """
+    measured = read_columns(path, MEASURED, columns)
+    if PLACE in measured and columns is None:
+        with suppress(ValueError):
+            return read_columns(path, {**MEASURED, **STEPS})
+    return measured
+
+
 def _fitted_row(one: FittedInput) -> tuple[str, ...]:
     """Return the row of a fitted input: key, first value, value, and both uncertainties."""
     name = f"{one.key} ({one.unit})" if one.unit else one.key
-    scatter = Uncertainty(one.by_scatter, True) if one.by_scatter else None
     by_errors = "unknown" if one.by_errors is None else f"{one.by_errors:.2g}"
-    return name, f"{one.first:g}", number_text(one.value, scatter, 1.0), by_errors
+    if not one.by_scatter:
+        return name, f"{one.first:g}", f"{one.value:.{FITTED_DIGITS}g}", by_errors
+    # Two digits of the scatter, and the value to the same decimals (JCGM 100:2008, 7.2.6).
+    digits = min(FITTED_DIGITS, max(2, ceil(log10(one.value / one.by_scatter)) + 2))
+    text = f"{one.value:.{digits}g} ± {one.by_scatter:.2g}"
+    return name, f"{one.first:g}", text, by_errors
 
 
 def _share(option: str, text: str | None) -> float:
@@ -229,8 +250,11 @@ def _share(option: str, text: str | None) -> float:
     """
     if text is None:
         return 0.0
+    share: str | float = text
+    with suppress(ValueError):
+        share = float(text)
     try:
-        return TypeAdapter(Share).validate_python(text)
+        return TypeAdapter(Share).validate_python(share)
     except ValidationError as error:
         raise ValueError(f"{option}: {first_mistake(error)}") from None
 
