@@ -80,6 +80,7 @@ NEAR = 2.0
 AT_WINDOW_EDGE = "the largest stress lies at the edge of the window"
 INFINITE = "the pressure is infinite at a tip or a rim, and the stress may be infinite below it"
 UNRESOLVED = "the contact edge, which may have the largest stress, is not fitted within the cells"
+NO_ERRORS = "the errors of the tractions are unknown, and the stress has at least these"
 COARSE = 2.0  # coarsening factor of the tractions
 # Error over the difference from a solution of the radial solver with twice the points.
 OF_FINER = 1 / (1 - COARSE ** (-BELIEVED * SMOOTH))
@@ -280,6 +281,8 @@ def _stated(
     parts: dict[Part, Field] = {part: np.array([size])}
     causes: dict[Part, float | None] = {"increments": state.by_increments, "map": state.by_map}
     parts |= {cause: np.array([share * abs(value)]) for cause, share in causes.items() if share}
+    if state.by_increments is None and is_sheared(state):
+        reason = reason or NO_ERRORS
     small = size <= LARGEST_SHARE * abs(value)
     return build_stated_error(parts, reason or (None if small else TOO_LARGE))
 

@@ -890,6 +890,17 @@ def test_stress_near_the_surface_improves_slower_with_cells_than_that_below(monk
     assert near > 1.2 * below > 0
 
 
+def test_a_stress_by_tractions_of_unknown_error_is_marked() -> None:
+    """As in a run without errors; a contact that is pressed alone has no increment error."""
+    result = solve(scene(PRESS, push(0.5)), grid(16), 1e-8)
+    for step, expected in ((1, ErrorStatus.ESTIMATED), (2, ErrorStatus.NOT_CONVERGED)):
+        state = state_of_result(result, step)
+        field = stress_on_cells(state, depths=[0.0, 0.5 * A])
+        (deepest, *_) = (e for e in extremes(field) if e.measure == "max_shear")
+        (error,) = stress_errors(state, field, [deepest], at_depths=True)
+        assert error.status is expected, error.reason
+
+
 @pytest.mark.parametrize(("friction", "count"), [(0.1, 48), (0.6, 32)])
 def test_the_tension_behind_a_sliding_ball_is_covered(friction: float, count: int) -> None:
     """Its place is the trailing edge, where both the fit of the edge and its evaluation err."""
