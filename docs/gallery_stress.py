@@ -21,17 +21,15 @@ from semi_analytical.stress.near_edge import EdgeNotSeen, near_edge
 if TYPE_CHECKING:
     from gallery_claims import Entry, Ours, Solved
 
-# of the integral; where the layers have faded, over the outermost
-PANELS = 100
-DEEPEST = 30.0
+PANELS = 100  # of the integral over wavenumbers
+DEEPEST = 30.0  # wavenumber times the outermost thickness where the layers have no effect
 HERTZ = 3.1684041e9, 0.388196803830797e-3  # p_H and a_H of the ball on the bare substrate
 CLOSE = 2.4  # side of the window over the contact radius
 CUT = 2e-3  # of a tension: as much as it varies with where the edge lies in its cells
 MU = 0.1
 CELLS = (96, 144)
-# over a_H; E1/E2
-THICKNESSES = (0.125, 0.25, 0.5, 1.0, 2.0)
-RATIOS = (0.5, 2.0, 4.0)
+THICKNESSES = (0.125, 0.25, 0.5, 1.0, 2.0)  # over a_H
+RATIOS = (0.5, 2.0, 4.0)  # E1/E2
 
 
 def deflection(at: float, radius: float, pressure: float) -> Ours:

@@ -20,10 +20,9 @@ from slipstick import (
     solve,
 )
 
-# of the peak, of µ times the peak, relative
-PRESSURE = 5e-3
-SHEAR = 2e-2
-APPROACH = 1e-3
+PRESSURE = 5e-3  # of the peak
+SHEAR = 2e-2  # of µ times the peak
+APPROACH = 1e-3  # relative
 A = 0.32e-3  # about the contact radius: it lays out grid and mesh and does not decide the answer
 
 # What is solved: a rigid ball pressed on a coating twice as stiff as the body below. The surface

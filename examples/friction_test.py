@@ -11,7 +11,7 @@ import numpy as np
 
 from verification import Answer, Field, judge
 
-# c = a (1 - T/µW)^(1/n)
+# Exponents n of the stick radius c = a (1 - T/µW)^(1/n).
 SPHERE = 3
 CYLINDER = 2
 

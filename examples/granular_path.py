@@ -11,9 +11,8 @@ C in a shift, or if the law errs by less than 5 %.
 from verification import Answer, CannotDo, judge
 from verification.adapters.own_solvers import answer_on_radii
 
-# of the largest shift
 PATH = "changing_loads/nu=0.3"
-KNOWN = 0.05
+KNOWN = 0.05  # of the largest shift
 
 
 def without_history(problem, level):

@@ -14,9 +14,8 @@ from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import scalars
 from slipstick import load_scene, solve
 
-# window of 12 contact radii; relative error of pressure and radius
-CELLS = 256
-ALLOWED = 1e-2
+CELLS = 256  # along a window of 12 contact radii
+ALLOWED = 1e-2  # relative error of pressure and radius
 
 
 def response(layers, base, wavenumbers):

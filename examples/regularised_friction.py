@@ -20,9 +20,8 @@ from slipstick import (
     solve,
 )
 
-# contact moduli per element; of the shift
-STIFFNESS = (1.0, 2.0, 4.0)
-ALLOWED = 2e-3
+STIFFNESS = (1.0, 2.0, 4.0)  # contact moduli per element
+ALLOWED = 2e-3  # relative error of the shift
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.0)
 MU = 0.3
 W = 100.0

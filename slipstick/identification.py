@@ -36,14 +36,14 @@ EXPECTED = "key=first value above 0, such as friction.coefficient=.1 or rig.stif
 # Logarithm at the first value of each input. The tolerance of the optimiser is relative to the norm
 # of the logarithms, which then does not depend on units.
 ORIGIN = 10.0
-# Step of a logarithm for its slope: differences of curves that are solved to about 1e-8 keep four
-# digits, and a curve changes its course by about 1e-3.
+# Step of a logarithm for its slope. The slope errs by about 1e-5 by the tolerance 1e-8 of a solve,
+# and by about 1e-3 by its change over the step.
 STEP = 1e-3
 # Relative change of the inputs that ends the iteration: a tenth of the smallest useful scatter.
 PRECISION = 1e-4
 # Smallest ratio of the singular values of normalised slopes, which have an error of about STEP.
 INDEPENDENT = 10 * STEP
-# Iterations: a fit of two inputs to a loop takes 5 to 8 from values that are off by half.
+# Iterations. A fit of two inputs to a loop took 6 and 8, from first values off by a third to a half.
 MAX_ITERATIONS = 20
 # Residual of each point for inputs with which the scene cannot be solved: the curves are further
 # apart than curves of opposite sign.

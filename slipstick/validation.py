@@ -1,6 +1,6 @@
 """Validation uncertainty of the differences between a measured table and a run.
 
-By ASME V&V 20-2009, section 1-5, the difference E of a computed and a measured number is compared
+By ASME V&V 20-2009, section 1, the difference E of a computed and a measured number is compared
 with its standard uncertainty
 
     u² = u_num² + u_input² + u_D²

@@ -40,7 +40,7 @@ from verification.running.case_pool import ThisProcess
 FOLDER = Path(__file__).with_name("transcripts")
 INPUTS = (".toml", ".csv", ".py")
 SHOWN = 12  # values of a column that are shown one by one; of a longer one, as many samples
-# allowed difference, relative to a number and to its line's largest
+# Allowed difference, relative to a number and to the largest number of its line.
 RELATIVE = 1e-5
 OF_LINE = 1e-6
 LOOSER = (  # pattern of a line, allowed difference: relative, of the line's largest, absolute

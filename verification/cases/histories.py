@@ -583,9 +583,8 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
     )
 
 
-# coefficient of friction, and tangential force over µW
-MU = 0.2
-PART = 0.6
+MU = 0.2  # coefficient of friction
+PART = 0.6  # tangential force over µW
 PUSH = LoadStep(tangential_force=(PART * MU * NORMAL_FORCE, 0.0), increments=2)
 
 

@@ -38,7 +38,7 @@ LONGEST_BESIDE = 30  # letters of a legend's text beside the plot
 LONGEST_OF_TWO = 45  # and of two side by side below it
 LEGEND_LINE = 0.19  # inches
 MARKERS = ("o", "s", "^", "D", "v", "P")
-# the latter beside long names
+# Numbers of ticks, the smaller one beside long names.
 MAX_TICKS = 8
 FEW_TICKS = 6
 DECADE = 10.0
@@ -221,7 +221,7 @@ NO_METADATA = {"Date": None, "Creator": None, "Format": None, "Type": None}
 NUMBER = re.compile(r"-?\d+\.\d+")
 DIGITS = 6  # of the digest that stands for the name of a diagram
 DECIMALS = 1  # of a point, 1/72 inch
-# for the shapes of marks
+# Decimals of coordinates below SMALL, which the shapes of marks have.
 FINE_DECIMALS = 2
 SMALL = 10.0
 REFERENCE = re.compile(r'(?:xlink:href="#|url\(#)([^")]*)')

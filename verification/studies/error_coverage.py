@@ -424,7 +424,8 @@ def _requestable_quantities(known: KnownScene, share: float) -> Iterator[str]:
 
 
 ENOUGH = 100  # results of a group that a verdict requires
-# number; allowed false ones; allowed true error over request
+# Number of requested accuracies, allowed number of false ones, and their allowed true error over
+# the request.
 REQUESTS = 60
 FALSE = 2
 FACTOR = 2.0
