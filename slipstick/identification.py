@@ -43,7 +43,7 @@ STEP = 1e-3
 PRECISION = 1e-4
 # Smallest ratio of the singular values of normalised slopes, which have an error of about STEP.
 INDEPENDENT = 10 * STEP
-# Iterations. A fit of two inputs to a loop took 6 and 8, from first values off by a third to a half.
+# Iterations. A fit of two inputs to a loop took 6 and 8, from values off by a third to a half.
 MAX_ITERATIONS = 20
 # Residual of each point for inputs with which the scene cannot be solved: the curves are further
 # apart than curves of opposite sign.

@@ -1188,7 +1188,7 @@ def _goodman_problem(title: str, nu: float, ratio: float, increments: int) -> Pr
     )
 
 
-# Radii where shear is not compared, over the contact radius: at the axis, and beside the front.
+# Radii where shear is not compared, over the contact radius: at the axis, beside the front.
 INNERMOST = 0.05
 BESIDE = 0.05
 
