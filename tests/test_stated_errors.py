@@ -309,7 +309,7 @@ CONSTANTS = {
     *("PER_TOLERANCE", "LARGEST_SHARE", "REFERENCE_PRECISION"),
     *("ORDERS", "LIMITS", "FITTED_STICK", "ROUND_OFF", "PRECISION", "HIGHEST"),
     # of the coarse solves
-    *("SHARES", "FEW", "MANY", "FEWEST", "PER_RADIUS"),
+    *("SHARES", "FEW", "MANY", "PER_RADIUS"),
     *("NEGLIGIBLE", "ROOM", "MAX_ENLARGEMENTS"),
     *("FEWEST_ELEMENTS", "SMALLEST_BOX", "FEWEST_HARMONICS", "LARGEST_OVERLAP", "LINEAR"),
     *("NEAR", "COARSE", "OF_FINER", "OF_ANOTHER_FIT", "EDGE_PRECISION", "FINENESS"),
@@ -370,7 +370,7 @@ def test_increments_of_coarse_solves() -> None:
     many, few = coarse_increment_counts(counts, matters)
     assert many == (1, 32, 32, 40, 80)
     assert few == (1, 8, 8, 8, 8)
-    assert fewest_increments(counts, matters) == (1, 2, 4, 4, 4)
+    assert fewest_increments(counts, matters) == (1, 2, 5, 8, 8)
     # Without a load step of few increments, twice their number alone.
     assert coarse_increment_counts((1, 8, 40), (False, True, True)) == [(1, 32, 80)]
     # A step that inherits a state takes the ratio nearest to 1 so far.
@@ -754,8 +754,8 @@ EXPENSIVE: dict[str, Callable[[], Known]] = {
 # with a lower order than 1.
 MISSED = {
     ("cone pushed", "dissipated_energy"): 1.45,
-    # The part by the elements alone is 1.46 times too small with 8, and 1.69 with 4 increments.
-    ("elements coarser than a stiff film", PEAK): 1.6,
+    # The part by the elements alone is 1.46 times too small.
+    ("elements coarser than a stiff film", PEAK): 1.4,
 }
 
 # The elements are 0.24 % off and the profile through 24 points 0.21 %, with opposite signs.
