@@ -45,6 +45,11 @@ SHARES = (
     ("half the {} plus 2", 1 / 2, 2),
     ("1/3 of the {}", 1 / 3, 0),
 )
+# Solves of the comparison for small grids, whose coarse solves would not resolve the contact.
+SHARES_OF_SMALL = (
+    ("2/3 of the {}", 2 / 3, 0),
+    ("3/2 of the {}", 3 / 2, 0),
+)
 # The increments of a load step are compared with twice their number, at least MANY. If a load step
 # has fewer than FEW, its error follows no power of their number: FEW are compared, too. The coarse
 # solves that measure the error by the cells have at most FEW: with 4, the part by the cells of the
@@ -237,6 +242,13 @@ class DiscretisedSolver(ABC):
         """
         return coarse
 
+    def shares_of(self, space: Any) -> Sequence[Share]:
+        """Return the coarse solves in the cells, elements or rings for a result on a grid or mesh.
+
+        space  grid, mesh settings or ring factor of the result
+        """
+        return self.shares
+
     @abstractmethod
     def cell_sides(self, result: Any) -> tuple[float, ...]:
         """Return the side lengths of a cell, an element or a ring of a result.
@@ -389,7 +401,7 @@ def compare_with_coarse_solves(
       increments of the result and with twice as many, at least 32. If a load step has fewer than 8,
       also a solve with 8 increments, and the limit that 32 and 8 extrapolate to.
     - Cells, elements or rings: two or three solves with coarser discretisations, compared with the
-      result.
+      result. For small grids one of them is finer.
     - Other parameters of a mesh: one solve each, compared on the first coarse mesh.
     - Points of a measured indenter: one solve with half of them along a side, compared on the first
       coarse grid or mesh.
@@ -439,7 +451,8 @@ def compare_with_coarse_solves(
 
     references = solver.references() if by_references else ()
     half = solver.with_half_the_points()
-    shares = () if _all_known(result.scene, values, references) else solver.shares
+    known_all = _all_known(result.scene, values, references)
+    shares = () if known_all else solver.shares_of(run.space)
     spaces = [solver.coarser(result, share, more) for _, share, more in shares]
     required: dict[Part, Sequence[bool]] = {solver.part: [True] * len(values)}
     required["increments"] = matters
@@ -472,7 +485,7 @@ def compare_with_coarse_solves(
             break
 
     changes: dict[str, Any] | None = None
-    meshes: dict[float, Sequence[Values]] = {}
+    meshes: dict[float, tuple[Sequence[Values], Sequence[Features]]] = {}
     for (text, *_), space in zip(shares, spaces, strict=True):
         found = solved(
             text.format(solver.cells), replace(run, space=change_settings(space, **(changes or {})))
@@ -480,7 +493,8 @@ def compare_with_coarse_solves(
         if not found:
             continue
         sides = zip(solver.cell_sides(found[0]), solver.cell_sides(result), strict=True)
-        meshes[min(b / a for b, a in sides)] = add_effects(found[1], effects)
+        of_cells = add_effects(found[1], effects), solver.features(found[0])
+        meshes[min(b / a for b, a in sides)] = of_cells
         for coarse in solver.mesh_coarse_solves(space, result) if changes is None else ():
             required[coarse.part] = [True] * len(values)
             further = {**(changes or {}), coarse.key: coarse.value}
@@ -497,9 +511,11 @@ def compare_with_coarse_solves(
                 comparisons.append(Comparison("map", found[1], other[1], twice))
                 points = None
         changes = changes or {}
-    for ratio, coarse_values in meshes.items():
+    for ratio, (coarse_values, coarse_features) in meshes.items():
         factors = (ratio,) * len(values)
-        comparisons.append(Comparison(solver.part, values, coarse_values, factors))
+        comparisons.append(
+            Comparison(solver.part, values, coarse_values, factors, coarse_features)
+        )
     return SolvedRun(
         scene=result.scene,
         values=values,

@@ -10,7 +10,9 @@ of one spread, differ by √(r^(2p) + 1) times this spread. The part of the cell
 
     part = 3 √mean over the coarse solves of |Q - Q_coarse|² / (r^(2p) + 1)
 
-With several coarse solves, a chance agreement of one of them with the run has little effect.
+With several coarse solves, a chance agreement of one of them with the run has little effect. A
+coarse solve whose edge is not fitted, although that of the run is, has a larger error of another
+order. It is left out if another one remains. On small grids, one of the solves is finer (r < 1).
 
 All other parameters converge regularly (Richardson 1911):
 
@@ -327,12 +329,15 @@ class Comparison:
                   name
     ratios        coarsening factor of the parameter at the end of each load step; 1 if the
                   parameter has no effect up to this step, 0 if `coarse` has no error by it
+    features      sizes of contact, stick zone and layers in the cells of the coarser solve, at the
+                  end of each load step; empty if the cells of both solves are equal
     """
 
     part: Part
     base: Sequence[Values]
     coarse: Sequence[Values]
     ratios: Sequence[float]
+    features: Sequence[Features] = ()
 
     def part_of(self, step: int, name: str, order: float) -> Numbers | None:
         """Estimate the error of a scalar that one discretisation parameter causes, by two solves.
@@ -354,6 +359,21 @@ class Comparison:
         if self.part in BY_SPREAD:
             return SPREADS * np.abs(here - there) / sqrt(ratio ** (2 * order) + 1)
         return np.abs(here - there) / abs(ratio ** (BELIEVED * ORDERS[self.part]) - 1)
+
+
+    def fits_edge(self, step: int, name: str, order: float) -> bool:
+        """Return false if a radius or area has a lower order in the coarse solve than in the run.
+
+        The edge is then fitted within the cells of the run, and not within those of the coarse
+        solve. True for other scalars.
+
+        step   load step, from 0
+        name   name of the scalar
+        order  convergence order of the scalar in the run
+        """
+        if not self.features or name not in CONTACT_EDGE | STICK_EDGE:
+            return True
+        return self.features[step].convergence_order(name) >= order
 
 
 @dataclass(frozen=True)
@@ -493,18 +513,22 @@ class SolvedRun:
         name  name of the scalar
         """
         order = self.features[step].convergence_order(name)
-        found: dict[Part, list[Numbers]] = {}
+        found: dict[Part, list[tuple[bool, Numbers]]] = {}
         for comparison in self.comparisons:
             size = comparison.part_of(step, name, order)
             if size is not None:
-                found.setdefault(comparison.part, []).append(size)
+                found.setdefault(comparison.part, []).append(
+                    (comparison.fits_edge(step, name, order), size)
+                )
         largest = self.features[step].largest.get(name, np.inf)
-        return {
-            part: np.minimum(np.sqrt(np.mean(np.square(sizes), axis=0)), largest)
-            if part in BY_SPREAD
-            else np.max(sizes, axis=0)
-            for part, sizes in found.items()
-        }
+        parts = {}
+        for part, solves in found.items():
+            sizes = [size for alike, size in solves if alike] or [size for _, size in solves]
+            if part in BY_SPREAD:
+                parts[part] = np.minimum(np.sqrt(np.mean(np.square(sizes), axis=0)), largest)
+            else:
+                parts[part] = np.max(sizes, axis=0)
+        return parts
 
 
 def largest_so_far(values: Sequence[Values]) -> tuple[Values, ...]:

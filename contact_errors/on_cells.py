@@ -3,7 +3,7 @@
 The variable parameters are the grid of cells, the increments and the tolerance.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import ceil
 from typing import Any, ClassVar, Self
@@ -12,9 +12,11 @@ import numpy as np
 
 import semi_analytical
 from contact_errors.coarse_solves import (
+    SHARES_OF_SMALL,
     DiscretisedSolver,
     Fineness,
     Refinement,
+    Share,
     coarse_tolerance,
 )
 from contact_errors.cost_estimate import CELL_OVERHEAD, Work
@@ -47,6 +49,9 @@ from semi_analytical.solve import solve_within
 # Cells over the contact radius in the solves for the increment error. The effect of increments on
 # 24² and on 64² cells differs by at most 7 %.
 PER_RADIUS = 11
+# Cells along the shorter side of the largest small grid: a third of them are 10, with 4 to 5 per
+# contact radius on a fitted window. A contact needs 4.
+SMALL = 32
 # Largest height of a random surface over its root mean square, exceeded at 0.1 % of the positions.
 HIGHEST = 3.0
 # Cells along the shorter side of the first level: 11 per radius on a fitted window.
@@ -124,7 +129,7 @@ class CellSolver(DiscretisedSolver):
         return result.grid
 
     def coarser(self, result: Result, share: float, more: int) -> SurfaceGrid:
-        """Return a grid with fewer cells on the window of a result, for its error estimate.
+        """Return a grid with other cells on the window of a result, for its error estimate.
 
         The numbers of cells are increased to even numbers.
 
@@ -134,6 +139,15 @@ class CellSolver(DiscretisedSolver):
         """
         nx, ny = (2 * ceil(share * n / 2) + more if n > 1 else 1 for n in result.grid.cells)
         return align_to_edges(self.scene, SurfaceGrid((nx, ny), result.grid.window))
+
+    def shares_of(self, space: SurfaceGrid) -> Sequence[Share]:
+        """Return the coarse solves in the cells: on small grids, a coarser and a finer one.
+
+        A third or half of few cells would not resolve the contact, and less often its stick zone.
+        The finer solve takes about twice the time of the run.
+        """
+        least = space.cells[0] if space.of_strips else min(space.cells)
+        return SHARES_OF_SMALL if least <= SMALL else self.shares
 
     def few(self, coarse: Fineness, result: Result) -> Fineness:
         """Return the discretisation of the coarse solves that measure the increment error.

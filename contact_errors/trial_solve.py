@@ -101,5 +101,5 @@ def _solves_of_run(solver: DiscretisedSolver, run: Fineness) -> list[tuple[Finen
             for count in dict.fromkeys([run.increments, *others, fewest])
         ]
         run = replace(run, increments=fewest)
-    shares = [share for _, share, _ in solver.shares]
+    shares = [share for _, share, _ in solver.shares_of(run.space)]
     return solves + [(run, share) for share in shares]

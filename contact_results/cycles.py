@@ -53,6 +53,7 @@ class FrettingCycle(WithFields):
     input_work       None if a displacement of the indenter is undefined
     dissipation      None if the solver does not compute this field
     largest_slip     largest slip amplitude in the contact, at its edge [length]
+    largest_f1       largest F1 in the contact [force/length]
     largest_f2       largest F2 in the contact [force^2/length^3]; None if σ_T is None
     loop             numbers of the fretting loop from `loop_numbers`, by name
     surface_tension  σ_T of Ruiz [force/length^2]: largest normal stress of the surface along the
@@ -72,6 +73,7 @@ class FrettingCycle(WithFields):
     slip_amplitude: Annotated[Field, Reported("m", "Half the range of slip in the cycle.", F)]
     largest_shear: Annotated[Field, Reported("Pa", "Largest shear in the cycle.", F)]
     largest_slip: float
+    largest_f1: float
     largest_f2: float | None
     surface_tension: Annotated[
         Field | None,
@@ -91,7 +93,7 @@ class FrettingCycle(WithFields):
             "cycle_start": self.cycle.start,
             "energy_per_cycle": self.energy_per_cycle,
             "slip_amplitude": self.largest_slip,
-            "ruiz_f1": float(np.max(self.ruiz_f1)),
+            "ruiz_f1": self.largest_f1,
             "ruiz_f2": self.largest_f2,
             **self.loop,
         }
@@ -187,7 +189,9 @@ def _fretting_cycle(
     assert pressure is not None
     corrected = report is not None and report.cause is None
     shear = reduce(np.maximum, shears)
-    edge = CycleEdge(surface, corrected, pressure, amplitude, shear, tension)
+    edge = CycleEdge(
+        surface, corrected, pressure, amplitude, shear, tension, widest.contact_radius
+    )
     return FrettingCycle(
         cycle=cycle,
         input_work=_change_over_cycle(start.input_work, end.input_work),
@@ -197,6 +201,7 @@ def _fretting_cycle(
         ),
         slip_amplitude=amplitude,
         largest_slip=edge.largest_amplitude(),
+        largest_f1=edge.largest_f1(),
         largest_f2=edge.largest_f2(),
         largest_shear=shear,
         surface_tension=tension,

@@ -17,6 +17,9 @@ errors of the values of the cells and of the fits are:
     δ of the fit [%]            2.1   1.6   0.3   0.4   0.6   0.3
     F2 of the cells [%]          29    20    20     6     2     2
     F2 of both [%]                9     5     8     2     2     2
+
+On rings, whose outermost slipping one lies up to an element inside the edge, δ^(2/3) is continued
+along the radius to the radius of the contact.
 """
 
 from __future__ import annotations
@@ -25,7 +28,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from contact_results.surface import Cells, Surface
+from contact_results.surface import Cells, Rings, Surface
 from contact_scene.array_types import Field, Mask
 
 # Reach of the fits around a cell, in cells: two more cells, and three for the square of the
@@ -57,6 +60,7 @@ class CycleEdge:
     amplitude  slip amplitude [length]
     shear      largest shear [force/length^2]
     tension    largest tensile stress along the surface [force/length^2]; None if unknown
+    radius     contact radius at an end of a load step in the cycle [length]
     """
 
     surface: Surface
@@ -65,13 +69,16 @@ class CycleEdge:
     amplitude: Field
     shear: Field
     tension: Field | None
+    radius: float
 
     def largest_amplitude(self) -> float:
         """Compute the largest slip amplitude, at the edge if the largest cell is close to it.
 
-        Without fit, and on rings, it is the largest value of the points.
+        Without fit, it is the largest value of the points.
         """
         largest = float(np.max(self.amplitude))
+        if (on_rings := self._line_on_rings(self.amplitude)) is not None:
+            return max(largest, float(on_rings[1][-1]))
         for cell in self._best_inner_cells(self.amplitude, 1):
             line = self._line_to_edge(cell)
             if line is not None:
@@ -93,6 +100,51 @@ class CycleEdge:
             if line is not None:
                 found.append(float(np.max(np.prod(line, axis=0))))
         return max(found)
+
+    def largest_f1(self) -> float:
+        """Compute the largest F1 = τ δ of the points.
+
+        On rings, the outermost one in contact is left out: its shear exceeds that of the edge,
+        because it carries the load of the element up to the edge. The line from the next ring to
+        the edge replaces it.
+        """
+        of_points = self.shear * self.amplitude
+        line = self._line_on_rings(of_points)
+        if line is None:
+            return float(np.max(of_points))
+        inner, amplitude, shear = line
+        return float(max(np.max(of_points[:inner], initial=0.0), np.max(amplitude * shear)))
+
+    def _line_on_rings(self, values: Field) -> tuple[int, Field, Field] | None:
+        """Continue amplitude and shear along a radius to the edge, at the angle of a largest value.
+
+        With the radius a of the contact, on the line from the second ring inside the edge:
+
+            δ^(2/3) = d_0 + d r through the two outermost rings in contact,  τ = m √(a² - r²)
+
+        Returns the number of the first of the two rings, and `POINTS` values of both. None is
+        returned on cells, and if fewer rings are in contact.
+
+        values  field whose largest value is sought
+        """
+        if not isinstance(self.surface, Rings):
+            return None
+        radii = self.surface.radii
+        by_angle = values.reshape(len(radii), -1)
+        _, angle = np.unravel_index(np.argmax(by_angle), by_angle.shape)
+        pressure, powers, shear = (
+            each.reshape(len(radii), -1)[:, angle]
+            for each in (self.pressure, self.amplitude**POWER, self.shear)
+        )
+        touching = np.flatnonzero(pressure > 0)
+        if len(touching) < 2 or radii[touching[-1]] >= self.radius:
+            return None
+        inner, last = touching[-2:]
+        line = np.linspace(radii[inner], self.radius, POINTS)
+        slope = (powers[last] - powers[inner]) / (radii[last] - radii[inner])
+        amplitude = np.maximum(powers[inner] + slope * (line - radii[inner]), 0.0) ** (1 / POWER)
+        fall = np.maximum(self.radius**2 - line**2, 0.0) / (self.radius**2 - radii[inner] ** 2)
+        return int(inner), amplitude, shear[inner] * np.sqrt(fall)
 
     def _best_inner_cells(self, values: Field, count: int) -> list[tuple[int, int]]:
         """Return slipping cells inside the edge with the largest values, largest first.

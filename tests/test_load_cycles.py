@@ -99,7 +99,7 @@ def test_the_largest_slip_below_a_rim_is_that_of_the_cells():
     r = np.hypot(x[:, None], x)
     pressure = np.where(r < 1, 1 / np.sqrt(np.maximum(1 - r**2, 0.01)), 0.0)
     slip = np.where(r < 1, r**2, 0.0)
-    edge = CycleEdge(Cells(x, x, 1.0), True, pressure, slip, pressure, None)
+    edge = CycleEdge(Cells(x, x, 1.0), True, pressure, slip, pressure, None, 1.0)
     assert edge.largest_amplitude() == np.max(slip)
 
 

@@ -309,7 +309,7 @@ CONSTANTS = {
     *("PER_TOLERANCE", "LARGEST_SHARE", "REFERENCE_PRECISION"),
     *("ORDERS", "LIMITS", "FITTED_STICK", "ROUND_OFF", "PRECISION", "HIGHEST"),
     # of the coarse solves
-    *("SHARES", "FEW", "MANY", "PER_RADIUS"),
+    *("SHARES", "SHARES_OF_SMALL", "SMALL", "FEW", "MANY", "PER_RADIUS"),
     *("NEGLIGIBLE", "ROOM", "MAX_ENLARGEMENTS"),
     *("FEWEST_ELEMENTS", "SMALLEST_BOX", "FEWEST_HARMONICS", "LARGEST_OVERLAP", "LINEAR"),
     *("NEAR", "COARSE", "OF_FINER", "OF_ANOTHER_FIT", "EDGE_PRECISION", "FINENESS"),
@@ -969,7 +969,7 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
 ) -> None:
     """And no number with an error where none has a result."""
     posed = rubbed(push(0.6), body=Body(material=LOOSE))
-    result, refused = solve(posed, grid(16), 1e-8), {8}
+    result, refused = solve(posed, grid(16), 1e-8), {12}
     solved = CellSolver.solve
 
     def refusing(self: CellSolver, fineness: Fineness, *more: Any) -> Any:
@@ -981,7 +981,7 @@ def test_a_coarse_solve_without_result_leaves_its_part_to_the_other(
     stated = stated_errors(result)
     assert any("did not converge" in (solve.refused or "") for solve in stated.coarse_solves)
     assert stated.steps[1]["tangential_shift"].error is not None
-    refused |= {6, 10}
+    refused |= {24}
     last = stated_errors(result).steps[1]
     assert last["tangential_shift"].error is None
     assert last["approach"].error is not None  # known without a coarse solve
@@ -1010,12 +1010,14 @@ def test_points_are_left_out_of_a_map_alone_and_once(monkeypatch: pytest.MonkeyP
     assert stated_errors(result).steps[0]["approach"].error is None
 
 
-@pytest.mark.parametrize(("count", "solves"), [(14, 2), (16, 3)])
+@pytest.mark.parametrize(("count", "solves"), [(10, 2), (15, 3)])
 def test_equal_coarse_solves_count_once(count: int, solves: int) -> None:
-    """A third and 2/5 of 14² cells, rounded up to even numbers, are 6² cells each."""
-    result = package.solve(mapped("paraboloid", 16).scene, "semi-analytical", cells(count))
-    run, _ = coarse_solves.compare_with_coarse_solves(CellSolver.of(result), result)
-    assert len([one for one in run.comparisons if one.part == "cells"]) == solves
+    """A third and 2/5 of 10 elements, rounded up, are 4 elements each."""
+    posed = rubbed(push(0.6), body=Body(material=LOOSE))
+    asked = FiniteElementDiscretisation(elements_per_radius=count)
+    result = package.solve(posed, "fem-complementarity", asked)
+    run, _ = coarse_solves.compare_with_coarse_solves(ElementSolver.of(result), result)
+    assert len([one for one in run.comparisons if one.part == "elements"]) == solves
 
 
 def test_coarse_solves_are_cheap_and_their_tolerance_has_no_effect(
