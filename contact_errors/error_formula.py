@@ -188,15 +188,16 @@ class Features:
         )
         return min(self.largest_order, EDGE if first else SMOOTH)
 
-    def unresolved(self, name: str) -> str | None:
+    def unresolved(self, name: str, finest: float = 1.0) -> str | None:
         """Return the reason if a feature of the contact on which a scalar depends is unresolved.
 
         Features are the contact, layers, waves of a rough surface and the stick zone. Each must be
-        at least as large as its limit in cells. Scalars that depend on slip also require that no
-        stick zone is hidden within a cell. Otherwise the error estimate is unreliable. The result
-        is None if all features are resolved.
+        at least as large as its limit in the cells of the finest solve. Scalars that depend on slip
+        also require that no stick zone is hidden within a cell. Otherwise the error estimate is
+        unreliable. The result is None if all features are resolved.
 
-        name  name of the scalar, such as "stick_radius"
+        name    name of the scalar, such as "stick_radius"
+        finest  cell size of the finest of the compared solves over that of the run
         """
         # Below the friction limit a stick zone exists, even if it contains no cell.
         hidden = self.annulus == 0 or (self.stick == 0 and not self.slides)
@@ -210,7 +211,7 @@ class Features:
             STICK: self.stick if of_stick else None,
         }
         for feature, size in sizes.items():
-            if size is not None and size < LIMITS[feature]:
+            if size is not None and size / finest < LIMITS[feature]:
                 limit = f"{LIMITS[feature]:g} (half elements and half rings count as cells)"
                 return f"the {feature} is {size:.2g} cells, below the limit {limit}"
         return None
@@ -458,7 +459,10 @@ class SolvedRun:
         if np.all(largest <= floor) and np.all(sum(parts.values()) <= 2 * floor):
             # Zero within the tolerance at every fineness so far: no cell has to resolve its cause.
             return build_stated_error(parts, HIDDEN if name in AT_EDGES else None)
-        reason = features.unresolved(name) or (None if small else TOO_LARGE)
+        finest = min(
+            (one.ratios[step] for one in self.comparisons if one.part in BY_SPREAD), default=1.0
+        )
+        reason = features.unresolved(name, min(1.0, finest)) or (None if small else TOO_LARGE)
         return build_stated_error(parts, reason)
 
     def _difference_from_references(self, step: int, name: str) -> Numbers | None:
