@@ -86,8 +86,8 @@ class FrettingCycle(WithFields):
         """Scalars of the load cycle for the summary of a run.
 
         The names are those of `contact_scene.quantities.summary.ClosedCycle`. A field is
-        represented by its largest value in the contact. On cells, slip amplitude and F2 are fitted
-        near the edge.
+        represented by its largest value in the contact. The slip amplitude is fitted near the edge,
+        F1 on rings and F2 on cells, too.
         """
         return {
             "cycle_start": self.cycle.start,

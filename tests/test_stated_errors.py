@@ -371,6 +371,8 @@ def test_increments_of_coarse_solves() -> None:
     assert many == (1, 32, 32, 40, 80)
     assert few == (1, 8, 8, 8, 8)
     assert fewest_increments(counts, matters) == (1, 2, 5, 8, 8)
+    # Four increments less are not worth one more solve.
+    assert fewest_increments((8, 8, 8, 12), (True,) * 4) == (8, 8, 8, 12)
     # Without a load step of few increments, twice their number alone.
     assert coarse_increment_counts((1, 8, 40), (False, True, True)) == [(1, 32, 80)]
     # A step that inherits a state takes the ratio nearest to 1 so far.

@@ -94,8 +94,8 @@ class ClosedCycle:
         float | None,
         Reported(
             "m",
-            "Half the range of slip in the cycle, at the point where it is largest (on cells: at "
-            "the edge of the contact within its cell).",
+            "Half the range of slip in the cycle, at the point where it is largest: at the edge of "
+            "the contact within its cell or element.",
         ),
     ] = None
     ruiz_f1: Annotated[
