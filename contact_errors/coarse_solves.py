@@ -513,9 +513,7 @@ def compare_with_coarse_solves(
         changes = changes or {}
     for ratio, (coarse_values, coarse_features) in meshes.items():
         factors = (ratio,) * len(values)
-        comparisons.append(
-            Comparison(solver.part, values, coarse_values, factors, coarse_features)
-        )
+        comparisons.append(Comparison(solver.part, values, coarse_values, factors, coarse_features))
     return SolvedRun(
         scene=result.scene,
         values=values,

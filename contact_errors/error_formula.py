@@ -23,7 +23,8 @@ Only the fraction b = 0.6 of the order is believed, which is a safety factor of 
 a quantity or to a kind of scene.
 
 Errors from coarse solves do not decrease along a load history: each part of an error is at least as
-large as at the end of each earlier load step.
+large as at the end of each earlier load step. Radius, area and centre of the stick zone are left
+out, because a change of the load moves its edge to another place.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -361,7 +362,6 @@ class Comparison:
             return SPREADS * np.abs(here - there) / sqrt(ratio ** (2 * order) + 1)
         return np.abs(here - there) / abs(ratio ** (BELIEVED * ORDERS[self.part]) - 1)
 
-
     def fits_edge(self, step: int, name: str, order: float) -> bool:
         """Return false if a radius or area has a lower order in the coarse solve than in the run.
 
@@ -452,7 +452,8 @@ class SolvedRun:
         if not np.any(value) and not np.any(sum(parts.values()) - floor):
             # Zero at every fineness: its cause is absent, or too small for a cell.
             return unknown_error(HIDDEN) if name in AT_EDGES else EXACT
-        last = before.get(name, {})
+        # The edge of the stick zone depends on the last change of the load, not on earlier edges.
+        last = {} if name in STICK_EDGE else before.get(name, {})
         parts = {part: np.maximum(size, last.get(part, 0.0)) for part, size in parts.items()}
         before[name] = parts
         small = np.all(sum(parts.values()) <= LARGEST_SHARE * largest + parts["tolerance"])

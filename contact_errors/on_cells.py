@@ -201,7 +201,7 @@ class CellSolver(DiscretisedSolver):
             stick=cells.stick,
             annulus=0.0 if hides else cells.annulus,
             fitted=fitted,
-            stick_fitted=report is not None and report.stick is not None and not coupled,
+            stick_fitted=_fits_stick(result.plan, report),
             largest_order=largest_order,
             infinite=is_singular(indenter),
             cusp=coupled or has_cusp(indenter),
@@ -239,6 +239,20 @@ class CellSolver(DiscretisedSolver):
 
         stress = stress_on_cells.estimated_bytes(fineness.space)
         return max(run, memory.LIBRARIES + memory.SCIPY + stress)
+
+
+def _fits_stick(plan: Plan, report: EdgeReport | None) -> bool:
+    """Return true if the edge of the stick zone is fitted within the cells.
+
+    The edge correction fits it for uncoupled bodies, and `stick_area` for coupled ones. In torsion
+    the errors of that fit converge with the order 1 only.
+
+    plan    plan of the result
+    report  outcome of the edge correction; None if it failed
+    """
+    if plan.coupling is not Coupling.NONE:
+        return not plan.torsion
+    return report is not None and report.stick is not None
 
 
 def _remaining_edge_errors(report: EdgeReport) -> Mapping[str, float]:

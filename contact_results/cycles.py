@@ -189,9 +189,7 @@ def _fretting_cycle(
     assert pressure is not None
     corrected = report is not None and report.cause is None
     shear = reduce(np.maximum, shears)
-    edge = CycleEdge(
-        surface, corrected, pressure, amplitude, shear, tension, widest.contact_radius
-    )
+    edge = CycleEdge(surface, corrected, pressure, amplitude, shear, tension, widest.contact_radius)
     return FrettingCycle(
         cycle=cycle,
         input_work=_change_over_cycle(start.input_work, end.input_work),
