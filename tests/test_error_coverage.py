@@ -76,6 +76,7 @@ def test_the_interval_is_that_of_clopper_and_pearson() -> None:
         (row(1e-3, 1.1e-3), (1, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
         (row(1e-3, 1.1e-2), (1, 1), (0, 1), (0, 1), (0, 0), (0, 1), 0),
         (row(1e-3, 3.1e-2), (1, 1), (0, 1), (1, 1), (0, 0), (0, 1), 0),
+        (row(0.0, 5e-9, uncertain=0.0), (1, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
         (row(-1e-3, 0.9e-3), (0, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
         (row(1e-3, 1e-3 - 1e-10), (1, 1), (1, 1), (0, 1), (0, 0), (0, 1), 0),
         (row(1e-3, 1e-3, uncertain=2e-4), (0, 0), (0, 0), (0, 0), (0, 0), (0, 0), 1),
@@ -94,7 +95,8 @@ def test_the_interval_is_that_of_clopper_and_pearson() -> None:
         ),
     ],
     ids=[
-        *("covered", "ten times too large", "thirty times too large", "missed"),
+        *("covered", "ten times too large", "thirty times too large"),
+        *("below the eighth digit", "missed"),
         *("covered up to the reference", "undecided", "missed in any case"),
         *("falsely marked", "rightly marked", "wrongly exact", "exact"),
     ],

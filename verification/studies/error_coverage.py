@@ -164,6 +164,7 @@ COVERED_IN_ALL = 0.97
 SIGNIFICANT = 0.01  # probability of so few covered numbers at a true fraction of COVERED_IN_ALL
 TIMES = 10.0  # limit of stated over true error for a tight stated error
 TOO_WIDE = 30.0  # stated over true error beyond which a stated error is of no use
+SHOWN = 1e-8  # relative error that numbers with at most eight digits show
 # If errors scatter like normal numbers and 0.98 of them are covered, 0.82 are within 10 times and
 # 0.06 beyond 30 times the true error by chance.
 TIGHT = 0.75
@@ -271,19 +272,22 @@ def covers(row: Row) -> bool:
 def is_tight(row: Row) -> bool:
     """Return True if the stated error of a result is at most 10 times its true error.
 
-    Larger stated errors cover the true error, but are of little use.
+    Larger stated errors cover the true error, but are of little use. An error that the eight digits
+    of a page do not show is tight.
 
     row  true error, stated error and uncertainty of one result
     """
-    return value_of(row, STATED) <= TIMES * value_of(row, WRONG)
+    return value_of(row, STATED) <= max(TIMES * value_of(row, WRONG), SHOWN)
 
 
 def is_wide(row: Row) -> bool:
     """Return True if the stated error of a result is beyond 30 times its true error.
 
+    An error that the eight digits of a page do not show is not.
+
     row  true error, stated error and uncertainty of one result
     """
-    return value_of(row, STATED) > TOO_WIDE * value_of(row, WRONG)
+    return value_of(row, STATED) > max(TOO_WIDE * value_of(row, WRONG), SHOWN)
 
 
 def is_decided(row: Row) -> bool:
