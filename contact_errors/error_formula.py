@@ -144,6 +144,8 @@ class Features:
                   edge within a cell: the peak is nearer to the edge than to the middle, or is the
                   value at one ring of nodes (at a node the edge causes 7 times the error that it
                   causes in the middle of an element)
+    slip_by_line  true if the largest slip amplitude and F1 lie on a line through rings of nodes to
+                  the edge, which leaves an error of the order 2
     slides        true in gross slip, if no stick zone can be hidden within a cell
     left          relative errors of scalars, by name, that remain when the iteration of the edge
                   correction (subcell pressure at the contact edge) stops
@@ -162,6 +164,7 @@ class Features:
     infinite: bool = False
     cusp: bool = False
     peak_by_edge: bool = False
+    slip_by_line: bool = False
     slides: bool = False
     left: Mapping[str, float] = field(default_factory=dict)
     largest: Mapping[str, float] = field(default_factory=dict)
@@ -181,7 +184,7 @@ class Features:
         stick_fitted = self.fitted if self.annulus is None else self.stick_fitted and not small
         first = (
             name == LARGEST_TENSION  # at the edge of the contact, or inside
-            or name in AT_EDGES
+            or (name in AT_EDGES and not self.slip_by_line)
             or (name == PEAK and self.peak_by_edge)
             or (name in CONTACT_EDGE and not self.fitted)
             or (name in STICK_EDGE and not stick_fitted)

@@ -179,6 +179,7 @@ class ElementSolver(DiscretisedSolver):
             infinite=is_singular(indenter),
             cusp=cusped or has_cusp(indenter),
             peak_by_edge=True,
+            slip_by_line=True,
             slides=end.status is ContactStatus.GROSS_SLIDING,
             largest={"contact_radius": side, "contact_area": 2 * pi * end.contact_radius * side},
         )

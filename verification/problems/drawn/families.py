@@ -659,8 +659,11 @@ def _refined_truths(
 # the first seeds. Rules, families and the limits of resolution were tested with the second seeds.
 # The third seed is that of the judged scenes.
 CHOOSING = (11, 12, 34, 71993)
-TRIED = (5001, 5002, 5003, 5004, 7013, 9029, 31607, 40213, 55271, 77031, 86243)
-JUDGING = 91733
+TRIED = (
+    *(5001, 5002, 5003, 5004, 7013, 9029, 31607, 40213, 55011, 55012, 55013, 55014, 55015),
+    *(55271, 77031, 86243, 91733),
+)
+JUDGING = 604417
 
 T = TypeVar("T")
 
