@@ -33,16 +33,11 @@ from numpy.typing import NDArray
 import radial
 from contact_errors.error_formula import (
     BELIEVED,
-    EDGE,
     LARGEST_SHARE,
-    PRECISION,
     REFERENCE_PRECISION,
-    ROOT,
-    SMOOTH,
     SPREADS,
     TOO_LARGE,
     build_stated_error,
-    is_singular,
     unknown_error,
 )
 from contact_errors.known_pressing import pressing_alone
@@ -62,6 +57,8 @@ from contact_results.stress.stress_maxima import (
     extremes,
 )
 from contact_scene.accuracy import LARGEST_TENSION
+from contact_scene.contact_features import EDGE, ROOT, SMOOTH, is_singular
+from contact_scene.discretised import PRECISION
 from contact_scene.quantities.stated_error import (
     Part,
     StatedError,

@@ -34,16 +34,13 @@ import slipstick as package
 from contact_errors import coarse_solves
 from contact_errors import stress_errors as stress_errors_module
 from contact_errors.coarse_solves import (
-    Fineness,
     add_effects,
     coarse_increment_counts,
     fewest_increments,
     ratios,
 )
 from contact_errors.error_formula import (
-    PEAK,
     Comparison,
-    Features,
     SolvedRun,
     build_stated_error,
     characteristic_size,
@@ -53,9 +50,6 @@ from contact_errors.error_formula import (
     values_of,
 )
 from contact_errors.known_pressing import known_pressing
-from contact_errors.on_cells import CellSolver
-from contact_errors.on_elements import ElementSolver
-from contact_errors.on_radii import RingSolver
 from contact_errors.stress_errors import largest_stresses, on_wide_cells, stress_errors
 from contact_results.number_text import doubt_texts
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
@@ -78,7 +72,10 @@ from contact_scene import (
     RevolvedProfile,
     Scene,
     SurfaceDiscretisation,
+    discretised,
 )
+from contact_scene.contact_features import PEAK, Features
+from contact_scene.discretised import Fineness
 from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
@@ -94,7 +91,10 @@ from contact_scene.stepping.increment_error import (
 )
 from fem_reference import Method
 from fem_reference import Path as ElementPath
+from fem_reference.discretised import ElementSolver
+from radial.discretised import RingSolver
 from semi_analytical import SurfaceGrid, solve
+from semi_analytical.discretised import CellSolver
 from semi_analytical.edge_correction import pressure as pressure_correction
 from semi_analytical.edge_correction.pressure import left_over
 from slipstick import stated_errors
@@ -283,10 +283,13 @@ def test_a_stick_zone_in_the_middle_has_an_exact_centre() -> None:
 
 
 def test_constants_are_those_that_are_explained() -> None:
-    """A new constant in the package needs a derivation, and an entry here: no quantity and no kind
-    of scene has a constant of its own. Functions have units and round-off alone."""
+    """A new constant in the package, or where a solver describes its discretisation, needs a
+    derivation, and an entry here: no quantity and no kind of scene has a constant of its own.
+    Functions have units and round-off alone."""
     found, within = set(), set()
-    for path in Path(contact_errors.__file__).parent.glob("*.py"):
+    root = Path(contact_errors.__file__).parents[1]
+    features = root / "contact_scene" / "contact_features.py"
+    for path in (*root.glob("contact_errors/*.py"), *root.glob("*/discretised.py"), features):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         for node in tree.body:
             if isinstance(node, ast.Assign | ast.AnnAssign) and numbers_in(node.value or node):
@@ -950,7 +953,7 @@ def test_nobody_states_the_error_of_what_is_infinite(indenter: Any) -> None:
 def test_elements_leave_the_contact_radius_within_one_of_them(penalty: float) -> None:
     mesh = FiniteElementDiscretisation(elements_per_radius=16, penalty=penalty)
     result = fem_reference.solve(WEAK.problem(8).scene, mesh, Method.PENALTY)
-    stated = ElementSolver.stated_errors(result).steps[-1]["contact_radius"]
+    stated = stated_errors(result).steps[-1]["contact_radius"]
     assert stated.parts["elements"] <= result.radius / 16 < stated.parts["elements"] * 5
 
 
@@ -1027,7 +1030,7 @@ def test_coarse_solves_are_cheap_and_their_tolerance_has_no_effect(
     work = [(solve.convolutions or 0) * np.prod(solve.cells) for solve in stated.coarse_solves]
     # The third coarse solve has (2/3)² of the cells.
     assert sum(work) < (1 + 4 / 9) * sum(step.convolutions for step in result.increments) * 36**2
-    monkeypatch.setattr(coarse_solves, "NEGLIGIBLE", 0.0)
+    monkeypatch.setattr(discretised, "NEGLIGIBLE", 0.0)
     for errors, of_tight in zip(stated.steps, stated_errors(result).steps, strict=True):
         for name in ("approach", "peak_pressure", "elastic_energy", "dissipated_energy"):
             assert size(errors[name]) == pytest.approx(size(of_tight[name]), rel=0.02)

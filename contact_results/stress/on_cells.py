@@ -28,11 +28,9 @@ if TYPE_CHECKING:
     from semi_analytical.stress import NearEdge, SubsurfaceField
 
 
-# Half width of the window in half extents of the contact. It includes the contact edge, where the
-# tensile stress is largest, and the deflection of a coating outside the contact.
-MARGIN = 1.6
-# Half width for depths whose largest stress lies at the edge of the first window. Behind a contact
-# with tangential load the largest interface stress is about two radii from the centre.
+# Half width of the window, in half extents of the contact, for depths whose largest stress lies at
+# the edge of the first window. Behind a contact with tangential load the largest interface stress
+# is about two radii from the centre.
 WIDE_MARGIN = 2.4
 # Distance of chosen points from the origin in half windows: the window is extended to them.
 MAX_REACH = 10.0
@@ -42,17 +40,6 @@ LEVEL = ("depth", "layer")
 # for all depths, corners of cells. Written: coordinates, displacement, full tensor, invariants.
 COMPUTED = 9 + 9 + 8
 WRITTEN = 3 + 3 + 9 + 4
-
-
-def estimated_bytes(grid: SurfaceGrid) -> int:
-    """Estimate the peak memory of the stress computation for a contact that fills the grid [byte].
-
-    The memory is that of one level, without the fixed memory of the program.
-    """
-    from semi_analytical.stress.field import FIXED, required_bytes
-
-    nx, ny = (round(MARGIN * cells) for cells in grid.cells)
-    return required_bytes((nx, ny), 1) - FIXED
 
 
 @dataclass(frozen=True, eq=False)
@@ -266,6 +253,8 @@ def stress_on_cells(
 
     Raises ValueError for a depth outside the body, and ResourceRefused for too little memory.
     """
+
+    from semi_analytical.stress.field import MARGIN
 
     def below(depths: Sequence[float] | None, margin: float, **how: bool) -> StressField:
         window = CellWindow.around_contact(state, indenter, margin)

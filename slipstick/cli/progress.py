@@ -12,10 +12,10 @@ import numpy as np
 import typer
 
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
+from contact_scene.discretised import Progress
 from contact_scene.quantities.increment import ReportedIncrement
 from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
 from slipstick.cli.terminal import print_message
-from slipstick.solvers.solver import Progress
 
 if TYPE_CHECKING:
     from contact_results.surface import Result

@@ -9,13 +9,13 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from pkgutil import resolve_name
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from contact_errors.coarse_solves import DiscretisedSolver
+from contact_errors import coarse_solves
+from contact_results.solvers import solver_of
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.quantities.stated_error import ErrorStatus, StatedErrors
 from contact_scene.quantities.summary import EffectSummary
@@ -62,7 +62,6 @@ from verification.observed.contact_state import Imbalance
 from verification.observed.observed_laws import Observed, observed
 from verification.problems.problem import NUMERICAL, ROUNDING, ReferenceKind, identity
 from verification.quantities import largest_residual
-from verification.solver import Solver
 
 Results = Mapping[str, Any]
 
@@ -454,23 +453,10 @@ def stated_errors(case: Case, results: Mapping[str, Any]) -> dict[str, StatedErr
     """
     judged = {q.run for q in case.quantities if q.scalar is not None} & results.keys()
     return {
-        run.label: _discretised(run).stated_errors(results[run.label])
+        run.label: coarse_solves.stated_errors(results[run.label])
         for run in case.runs
         if run.label in judged and (not isinstance(run, Run) or run.edge == BY_DEFAULT)
     }
-
-
-# Solvers with variable discretisation; one that no run needs is not imported.
-DISCRETISED = {
-    Solver.CELLS: "contact_errors.on_cells:CellSolver",
-    Solver.ELEMENTS: "contact_errors.on_elements:ElementSolver",
-    Solver.RADII: "contact_errors.on_radii:RingSolver",
-}
-
-
-def _discretised(run: AnyRun) -> type[DiscretisedSolver]:
-    found: type[DiscretisedSolver] = resolve_name(DISCRETISED[run.solver])
-    return found
 
 
 def with_uncertainty(quantity: Quantity, case: Case, results: dict[str, Any]) -> Quantity:
@@ -489,7 +475,7 @@ def with_uncertainty(quantity: Quantity, case: Case, results: dict[str, Any]) ->
     label = quantity.labels[-1]
     coarse = quantity.coarse or f"{label}, half as fine"
     if coarse not in results:
-        solver = _discretised(case.run(label)).of(results[label])
+        solver = solver_of(results[label])
         space = solver.coarser(results[label], 1 / 2, 0)
         results[coarse] = solver.solve(replace(solver.fineness_of(results[label]), space=space))
     bound = quantity.measure(results[coarse], results[label])

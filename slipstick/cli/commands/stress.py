@@ -12,9 +12,11 @@ import numpy as np
 import typer
 from pydantic import TypeAdapter, ValidationError
 
+from contact_errors.coarse_solves import stated_errors
 from contact_errors.stress_errors import stress_at, stress_errors
 from contact_results.directory.run_directory import refuse_files_above
 from contact_results.radial_method import radial_advice
+from contact_results.solvers import SolverName
 from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import (
     RADIAL,
@@ -57,7 +59,6 @@ from slipstick.cli.options import (
 )
 from slipstick.cli.progress import accuracy_lines, show_coarse_solves, solve_progress
 from slipstick.cli.terminal import print_message, print_pairs, print_table
-from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
@@ -233,7 +234,11 @@ def stress(
                 output.parent.mkdir(parents=True, exist_ok=True)
                 refined = until_written.enter_context(
                     solve_to_accuracy(
-                        request, chosen.solver, contents, output, most_seconds, step=step
+                        request,
+                        chosen.solver.of_file(contents),
+                        output,
+                        most_seconds,
+                        step=step,
                     )
                 )
                 result, stated = refined.level.result, refined.level.stated
@@ -457,9 +462,8 @@ def _solve_scene(
 
     error  false to omit the error estimates; the second return value is then None
     """
-    chosen = name.solver
-    fineness = chosen.fineness(contents)
-    decided: Any = chosen.plan(contents.scene, fineness)
+    chosen = name.solver.of_file(contents)
+    decided = chosen.run_plan
     if name is SolverName.RADIAL:
         from radial.angular_grid import RingAngles
         from radial.largest_contact import expected_radius
@@ -469,11 +473,11 @@ def _solve_scene(
         if decided.circle is RingAngles.WHOLE:
             refuse_turned()
     with solve_progress(decided.increments) as observe:
-        result = chosen.solve(contents.scene, fineness, decided, observe)
+        result = chosen.run(observe)
     if not error:
         return result, None
     with show_coarse_solves():
-        return result, chosen.errors(result)
+        return result, stated_errors(result)
 
 
 def _refuse_beside_section(

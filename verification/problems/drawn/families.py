@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 import radial
 import semi_analytical
-from contact_errors.error_formula import AT_EDGES, Values, prescribed_scalars, values_of
+from contact_errors.error_formula import Values, prescribed_scalars, values_of
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.below_contact import stress_below_contact
 from contact_results.stress.loaded_bodies import state_of_result
@@ -36,6 +36,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.body_pair import contact_modulus, coupling
+from contact_scene.contact_features import AT_EDGES
 from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.stated_error import (
