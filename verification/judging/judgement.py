@@ -29,7 +29,6 @@ from verification.convergence.observed_order import (
     observed_order,
 )
 from verification.judging.case import (
-    BY_DEFAULT,
     OTHER_NORMS,
     OVER_ANGLES,
     OVER_RINGS,
@@ -38,10 +37,8 @@ from verification.judging.case import (
     Derived,
     Order,
     Quantity,
-    RadiiRun,
     Required,
     Run,
-    SectionRun,
 )
 from verification.judging.outcome import (
     IMBALANCE,
@@ -455,7 +452,7 @@ def stated_errors(case: Case, results: Mapping[str, Any]) -> dict[str, StatedErr
     return {
         run.label: coarse_solves.stated_errors(results[run.label])
         for run in case.runs
-        if run.label in judged and (not isinstance(run, Run) or run.edge == BY_DEFAULT)
+        if run.label in judged and run.as_users
     }
 
 
@@ -527,24 +524,17 @@ def _required_runs(quantity: Quantity) -> set[str]:
 
 
 def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:
-    grid = run.grid if isinstance(run, Run) else None
-    mesh = run.discretisation if isinstance(run, SectionRun) else None
+    # Fields that not every solver has, for those that lack them.
+    own = {"cells": None, "window": None, "convolutions": 0, **run.record(result)}
     return RunRecord(
         label=run.label,
-        cells=grid.cells if grid else None,
-        window=grid.window if grid else None,
-        elements_per_radius=mesh.elements_per_radius if mesh else None,
-        rings=run.rings if isinstance(run, RadiiRun) else None,
-        method=run.method if isinstance(run, SectionRun) else None,
         problem=run.problem,
         planned=_planned_run(run, case),
         tolerance=run.tolerance,
         increments=len(result.increments),
         iterations=sum(increment.iterations for increment in result.increments),
-        convolutions=sum(i.convolutions for i in result.increments) if grid else 0,
-        factorizations=sum(i.factorizations for i in result.increments) if mesh else 0,
         largest_residual=finite(largest_residual(result)),
-        edge_change=max(i.edge_change or 0.0 for i in result.increments) if grid else 0.0,
+        **own,
     )
 
 
