@@ -23,7 +23,7 @@ import numpy as np
 from contact_errors.coarse_solves import stated_errors
 from contact_errors.error_formula import TOO_LARGE, build_stated_error, unknown_error
 from contact_errors.stress_errors import stress_errors
-from contact_results.stress.below_contact import stress_below_contact
+from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.points import layer_name
 from contact_results.stress.stress_maxima import Extreme, extremes
@@ -306,7 +306,7 @@ class LoadFactorSearch:
                 continue
             state = self._state(result, end.step)
             for which in {body for body, _, _ in self.wanted}:
-                stress = stress_below_contact(state, indenter=which == "indenter")
+                stress = body_response(state, indenter=which == "indenter").stress()
                 for one in extremes(stress):
                     key = which, one.region, one.measure
                     smallest = found[key][0].value if key in found else 0.0
@@ -349,7 +349,7 @@ class LoadFactorSearch:
         try:
             result = self._solve(x)
             state = self._state(result, end.step, stated_errors(result))
-            below = stress_below_contact(state, indenter=upper)
+            below = body_response(state, indenter=upper).stress()
             (error,) = stress_errors(state, below, [extreme], indenter=upper)
         except SolverError as failed:
             return unknown_error(str(failed))

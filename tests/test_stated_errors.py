@@ -32,7 +32,6 @@ import contact_errors
 import fem_reference
 import slipstick as package
 from contact_errors import coarse_solves
-from contact_errors import stress_errors as stress_errors_module
 from contact_errors.coarse_solves import (
     add_effects,
     coarse_increment_counts,
@@ -50,10 +49,10 @@ from contact_errors.error_formula import (
     values_of,
 )
 from contact_errors.known_pressing import known_pressing
-from contact_errors.stress_errors import largest_stresses, on_wide_cells, stress_errors
+from contact_errors.stress_errors import largest_stresses, stress_at, stress_errors
 from contact_results.number_text import doubt_texts
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
-from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_cells import OnCells
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
     RIGID,
@@ -846,7 +845,7 @@ def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
     state = state_of_result(result, 1, stated_errors(result))
     radius = result.steps[0].contact_radius
     depths = [z * radius for z in (0.0, 0.2, 0.35 + deeper, 0.55 + deeper, 0.8, 1.2)]
-    field = stress_on_cells(state, depths=depths)
+    field = OnCells(state).stress(depths)
     found = [e for e in extremes(field) if e.measure != "max_principal"]
     assert found
     z = np.linspace(0.3, 0.7, 4001)
@@ -862,12 +861,10 @@ def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
 def test_the_error_of_two_coarse_tractions_is_their_root_mean_square(monkeypatch) -> None:
     result = solve(scene(PRESS), grid(24), 1e-8)
     state, sizes = state_of_result(result, 1, stated_errors(result)), {}
-    field = stress_on_cells(state, depths=[0.0, 0.5 * A])
+    field = OnCells(state).stress([0.0, 0.5 * A])
     for shifts in ((0, 1), (0, 0), (1, 1)):
         monkeypatch.setattr(
-            stress_errors_module,
-            "on_wide_cells",
-            lambda state, shift, of=shifts: on_wide_cells(state, of[shift]),
+            OnCells, "compared", lambda cells, of=shifts: [*map(cells.on_wide_cells, of)]
         )
         found = stress_errors(state, field, extremes(field), at_depths=True)
         sizes[shifts] = np.array([one.error for one in found])
@@ -880,16 +877,15 @@ def test_the_error_of_two_coarse_tractions_is_their_root_mean_square(monkeypatch
 def test_stress_near_the_surface_improves_slower_with_cells_than_that_below(monkeypatch) -> None:
     """The same change between cells leaves the larger error where the order is lower."""
     state = state_of_result(solve(scene(PRESS), grid(24), 1e-8), 1)
-    depth, wide = np.array([0.01 * A, A]), on_wide_cells(state, 0)
-    monkeypatch.setattr(stress_errors_module, "on_wide_cells", lambda *_: wide)
+    depth = np.array([0.01 * A, A])
     monkeypatch.setattr(
-        stress_errors_module,
-        "stress_at_cells",
-        lambda one, *_, **__: SimpleNamespace(
-            depth=depth, stress=np.full((6, 2), float(one is wide))
+        OnCells,
+        "stress_at",
+        lambda one, *_: SimpleNamespace(
+            depth=depth, stress=np.full((6, 2), float(one.state is not state))
         ),
     )
-    _, (near, below) = stress_errors_module.stress_at(state, depth, depth, [])
+    _, (near, below) = stress_at(state, depth, depth, [])
     assert near > 1.2 * below > 0
 
 
@@ -898,7 +894,7 @@ def test_a_stress_by_tractions_of_unknown_error_is_marked() -> None:
     result = solve(scene(PRESS, push(0.5)), grid(16), 1e-8)
     for step, expected in ((1, ErrorStatus.ESTIMATED), (2, ErrorStatus.NOT_CONVERGED)):
         state = state_of_result(result, step)
-        field = stress_on_cells(state, depths=[0.0, 0.5 * A])
+        field = OnCells(state).stress([0.0, 0.5 * A])
         (deepest, *_) = (e for e in extremes(field) if e.measure == "max_shear")
         (error,) = stress_errors(state, field, [deepest], at_depths=True)
         assert error.status is expected, error.reason
@@ -1075,7 +1071,8 @@ def test_wide_cells_carry_the_same_force_at_the_same_place(shift: int) -> None:
     pressure = np.random.default_rng(1).random((9, 12))
     axes = {"x": on.x, "y": on.y}
     body = Body(material=steel())
-    wide = on_wide_cells(LoadedBodies("", body, body, 1, axes, {"pressure": pressure}, None), shift)
+    state = LoadedBodies("", body, body, 1, axes, {"pressure": pressure}, None)
+    wide = OnCells(state).on_wide_cells(shift).state
     assert [len(wide.axes[axis]) for axis in "xy"] == [5, 6 + shift]
     means = wide.tractions["pressure"]
     assert 4 * np.sum(means) == pytest.approx(np.sum(pressure))

@@ -17,7 +17,7 @@ from contact_errors.stress_errors import stress_at, stress_errors
 from contact_results.directory.run_directory import refuse_files_above
 from contact_results.radial_method import radial_advice
 from contact_results.solvers import SolverName
-from contact_results.stress.below_contact import stress_below_contact
+from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import (
     RADIAL,
     LoadedBodies,
@@ -526,7 +526,7 @@ def _stress_field(
     elif state.on_rings:
         _refuse_beside_section(SolverName.FEM, depths, volume)
     _depth_levels(state, indenter, depths or (), "--depths")
-    return stress_below_contact(state, indenter=indenter, depths=depths, volume=volume)
+    return body_response(state, indenter=indenter).stress(depths, volume=volume)
 
 
 def _parse_length(text: str, option: str = "--depths") -> float:
