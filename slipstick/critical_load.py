@@ -326,10 +326,7 @@ class LoadFactorSearch:
         return self.last[1]
 
     def _state(self, result: Any, number: int, stated: Any = None) -> LoadedBodies:
-        """Return the loaded bodies at the end of a load step, with all layers of the scene.
-
-        A solver merges layers of equal elastic constants, whose strengths may differ.
-        """
+        """Return the loaded bodies with all layers: solvers merge those of equal constants."""
         state = state_of_result(result, number, stated)
         scene = self.solver.scene
         upper = Body(material=scene.indenter.material, layers=scene.indenter.layers)

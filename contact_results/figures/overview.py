@@ -163,10 +163,6 @@ def _place_labels(figure: Figure, panels: Iterable[Any]) -> None:
 
 
 def _write_numbers(ax: Any, report: ResultReport) -> None:
-    """Write status and key numbers of the last load step into a panel of the overview.
-
-    ax  axes of matplotlib
-    """
     ax.set_axis_off()
     lines = [f"status: {report.steps[-1].status.value}"]
     lines += [f"{name}: {text}" for name, text in key_numbers(report.steps, report.end_errors)]

@@ -155,10 +155,7 @@ def _divide_into_triangles(
 
 
 def _visible_quadrilaterals(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:
-    """Return the corners (n, 4) of the quadrilaterals of all cells that are partly visible.
-
-    reach, depth  extent of the figure to the sides and in depth [length]
-    """
+    """Return the corners (n, 4) of the quadrilaterals of all cells that are partly visible."""
     assert points.cells is not None
     kind, cells = points.cells
     across, down = np.abs(points.x.ravel()), points.depth.ravel()

@@ -420,10 +420,6 @@ def _sharpen_cell_means(means: Field, loaded: NDArray[np.bool_]) -> Field:
 
 
 def _edge_points(edge: NearEdge, stress: Field) -> StressPoints:
-    """Return the points on the fitted contact edge at the surface (n,); displacements are NaN.
-
-    stress  stress at these points (6, n) [force/length^2]
-    """
     nothing = np.zeros(len(edge.x))
     return StressPoints(
         edge.x,
@@ -497,7 +493,6 @@ def _stress_points(
 
 
 def _axis_points(section: SubsurfaceField) -> StressPoints:
-    """Interpolate displacement and stress of the section on the z axis, one point per depth."""
     displacement, stress = section.below()
     nothing = np.zeros(len(section.levels))
     return StressPoints(

@@ -147,7 +147,6 @@ def accuracy_lines(accuracy: AccuracyReached) -> Iterator[tuple[str, str]]:
 
 
 def _request_text(requested: float, reached: float | None) -> str:
-    """Return the text of a requested and a reached relative error, in per cent."""
     found = "not converged" if reached is None else f"reached {100 * reached:.2g} %"
     return f"requested {100 * requested:.3g} %, {found}"
 

@@ -213,7 +213,6 @@ def against(
 
 
 def _compare(measured: Mapping[str, Numbers], run: StoredRun, step: int | None) -> Comparison:
-    """Compare a measured table with a stored run that has the load step."""
     if step is not None and step > len(run.summary.steps):
         raise NothingToCompare(f"got step {step}, expected 1 to {len(run.summary.steps)}")
     return comparison(measured, run, step)

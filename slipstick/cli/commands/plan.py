@@ -66,7 +66,6 @@ def plan(
 
 
 def _work(solver: "DiscretisedSolver") -> "Pairs":
-    """Yield names and texts of discretisation, increments, time and memory of a run."""
     yield from solver.describe_run()
     yield "time", estimated_time(solver)
     yield "memory", f"about {solver.run_memory() / 2**20:.0f} MiB"

@@ -253,7 +253,6 @@ def _uncertainty_by_inputs(
 
 
 def _source(contents: "SceneFile", solver: SolverName) -> "Source":
-    """Return the origin of the numbers of a run, for the comparison with expected numbers."""
     from slipstick.expected import Source, scene_keys
 
     return Source("run", scene_keys(contents.scene), solver.value)

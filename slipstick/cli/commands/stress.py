@@ -372,12 +372,6 @@ def _write_points(
 
 
 def _elastic_body(bodies: Scene | LoadedBodies, indenter: bool) -> tuple[str, Body]:
-    """Return the name and the layers of the body in which the stress is computed.
-
-    Raises BadParameter if the body is rigid.
-
-    indenter  true for the indenter, false for the lower body
-    """
     which, body = ("indenter", bodies.indenter) if indenter else ("body", bodies.body)
     if not body.deforms:
         raise typer.BadParameter(f"the {which} is rigid and has no stress")
@@ -443,12 +437,6 @@ def _read_points(
 def _depth_levels(
     bodies: Scene | LoadedBodies, indenter: bool, depths: Sequence[float], option: str
 ) -> Sequence[Any]:
-    """Return the depths in a body with the materials there; raises BadParameter outside the body.
-
-    indenter  true for the indenter, false for the lower body
-    depths    depths below the surface [length]
-    option    name of the option, for the message
-    """
     try:
         return levels_of(stack_of(_elastic_body(bodies, indenter)[1]), depths)
     except ValueError as error:
