@@ -4,8 +4,9 @@ The variable parameters are the elements over the contact radius, the increments
 size of the meshed section, the overlap of the penalty method and the angular harmonics.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import ceil, pi
 from typing import Any, ClassVar, Self
 
@@ -98,9 +99,8 @@ class ElementSolver(DiscretisedSolver):
 
     def run_memory(self) -> float:
         """Estimate the peak memory of a run, including libraries and figures [byte]."""
-        sections = sections_of(self.scene, self.discretisation)
-        points = count_points(sections, self.plan.path, self.discretisation.harmonics)
-        return run_bytes(self._factoring_bytes(sections), points)
+        points = count_points(self._sections, self.plan.path, self.discretisation.harmonics)
+        return run_bytes(self._factoring_bytes(self._sections), points)
 
     def describe_space(self) -> Pairs:
         asked = self.discretisation
@@ -108,7 +108,7 @@ class ElementSolver(DiscretisedSolver):
         chosen = "" if asked.contact_radius else ", estimated without friction"
         yield "method", _method_text(self.method, asked)
         yield "contact radius", f"{quantity(radius, 'm')}{chosen}"
-        yield "mesh", _mesh_text(sections_of(self.scene, asked), asked)
+        yield "mesh", _mesh_text(self._sections, asked)
 
     def describe_work(self) -> Pairs:
         """Yield the number of factorisations: one per body and angular harmonic, if there are."""
@@ -118,8 +118,7 @@ class ElementSolver(DiscretisedSolver):
         elif path in PRESSED:
             motions = 1
         text = "one per body and angular harmonic" if motions > 1 else "one per body"
-        bodies = len(sections_of(self.scene, self.discretisation))
-        yield "factorisations", f"{motions * bodies}, {text}"
+        yield "factorisations", f"{motions * len(self._sections)}, {text}"
 
     def describe_result(self, result: Result) -> Pairs:
         yield "method", _method_text(self.method, result.discretisation)
@@ -282,6 +281,11 @@ class ElementSolver(DiscretisedSolver):
         sections = sections_of(self.scene, mesh)
         points = count_points(sections, self.plan.path, mesh.harmonics)
         return max(self._factoring_bytes(sections), int(matrix_bytes(points)))
+
+    @cached_property
+    def _sections(self) -> Sequence[SectionMesh]:
+        """Meshes of a run, without those of equal bodies."""
+        return sections_of(self.scene, self.discretisation)
 
     def _factoring_bytes(self, sections: Iterable[SectionMesh]) -> int:
         elements = max(each.quads.shape[1] for each in sections)

@@ -45,8 +45,8 @@ RING_OVERHEAD = 1.0
 class RingSolver(DiscretisedSolver):
     """Radial solver of one scene, with variable numbers of rings, angles and increments.
 
-    A single factor multiplies the default numbers of rings and angles. Without
-    friction, it multiplies the numbers of Legendre orders and quadrature points instead.
+    A single factor multiplies the default numbers of rings and angles. Without friction, it
+    multiplies the numbers of Legendre orders and quadrature points instead.
 
     discretisation  settings of the scene file or of a result
     chosen_plan     plan of a solved result (modelled effects, increments); None for the plan made
