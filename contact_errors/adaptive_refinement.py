@@ -17,22 +17,14 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 
-from contact_errors.coarse_solves import (
-    DiscretisedSolver,
-    Fineness,
-    Refinement,
-    compare_with_coarse_solves,
-    solve_coarsest,
-)
-from contact_errors.cost_estimate import Work, estimated_run_seconds
+from contact_errors.coarse_solves import compare_with_coarse_solves, solve_coarsest
+from contact_errors.cost_estimate import estimated_run_seconds
 from contact_errors.error_formula import (
-    EDGE,
     ORDERS,
-    PEAK,
     SolvedRun,
     Values,
     characteristic_size,
@@ -43,6 +35,8 @@ from contact_errors.stress_errors import largest_stresses
 from contact_results.radial_method import radial_advice
 from contact_results.stress.loaded_bodies import RADIAL
 from contact_scene.accuracy import LARGEST_TENSION, AccuracyRequest
+from contact_scene.contact_features import EDGE, PEAK
+from contact_scene.discretised import DiscretisedSolver, Fineness, Refinement, Work
 from contact_scene.machine import available_bytes
 from contact_scene.quantities.stated_error import (
     AccuracyReached,
@@ -243,6 +237,24 @@ class Levels:
     watching: InContext = lambda _: nullcontext()
     keeping: InContext = lambda _: nullcontext()
 
+    @classmethod
+    def of_request(
+        cls,
+        solver: DiscretisedSolver,
+        stress: bool,
+        *hooks: InContext,
+        step: int | None = None,
+    ) -> Self:
+        """Return the levels of a scene for a requested accuracy.
+
+        solver  solver of the scene
+        stress  true if the accuracy applies to the largest tensile stress in the body
+        hooks   `watching` and `keeping`
+        step    load step at whose end this stress is computed, from 1; None for the last
+        """
+        stress_at = (step or len(solver.scene.loading)) if stress else None
+        return cls(solver, stress_at, *hooks)
+
     def solve_first_level(self) -> RefinementLevel:
         """Solve the first level: the coarsest discretisation whose cells resolve the contact.
 
@@ -346,6 +358,14 @@ class Levels:
             return None
         return f"a level with {name} = {size} exceeds the limit {self.solver.most:g}"
 
+    def memory(self, fineness: Fineness) -> int:
+        """Estimate the peak memory of a level: of the solve, or of the stress in the body [byte].
+
+        fineness  grid or mesh, increments and tolerance of the solve
+        """
+        run = self.solver.memory(fineness)
+        return run if self.stress_at is None else max(run, self.solver.stress_memory(fineness))
+
     def beyond_memory(self, fineness: Fineness) -> str | None:
         """Return a message if a solve needs more than the available memory; else None.
 
@@ -354,7 +374,7 @@ class Levels:
         fineness  grid or mesh, increments and tolerance of the solve
         """
         ((name, size),) = self.solver.record_entry(fineness.space).items()
-        needed, available = self.solver.memory(fineness), available_bytes()
+        needed, available = self.memory(fineness), available_bytes()
         if needed <= available:
             return None
         return (

@@ -33,27 +33,22 @@ from numpy.typing import NDArray
 import radial
 from contact_errors.error_formula import (
     BELIEVED,
-    EDGE,
     LARGEST_SHARE,
-    PRECISION,
     REFERENCE_PRECISION,
-    ROOT,
-    SMOOTH,
     SPREADS,
     TOO_LARGE,
     build_stated_error,
-    is_singular,
     unknown_error,
 )
 from contact_errors.known_pressing import pressing_alone
-from contact_results.stress.below_contact import stress_below_contact
+from contact_results.stress.below_contact import body_response
+from contact_results.stress.body_response import BodyResponse
 from contact_results.stress.loaded_bodies import (
     LoadedBodies,
     NoSuchState,
     state_of_result,
 )
-from contact_results.stress.on_cells import stress_at_cells
-from contact_results.stress.on_disc import stress_at_radii, stress_on_disc
+from contact_results.stress.on_disc import OnDisc
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.radial_body import is_sheared
 from contact_results.stress.stress_maxima import (
@@ -62,6 +57,8 @@ from contact_results.stress.stress_maxima import (
     extremes,
 )
 from contact_scene.accuracy import LARGEST_TENSION
+from contact_scene.contact_features import EDGE, ROOT, SMOOTH, is_singular
+from contact_scene.discretised import PRECISION
 from contact_scene.quantities.stated_error import (
     Part,
     StatedError,
@@ -108,7 +105,7 @@ def largest_stresses(
     state = state_of_result(result, step, errors)  # type: ignore[arg-type]
     if not state.body.deforms:
         return {}
-    field = stress_below_contact(state)
+    field = body_response(state).stress()
     largest: dict[str, Extreme] = {}
     for each in sorted(extremes(field), key=lambda extreme: extreme.value):
         words = each.region.split()
@@ -134,22 +131,12 @@ def stress_at(
     levels    depth and material of each of the n points
     indenter  true for points in the indenter, false for points in the lower body
     """
+    response = body_response(state, indenter=indenter)
+    here = response.stress_at(x, y, levels)
+    others = [one.stress_at(x, y, levels) for one in response.compared()]
     if state.pressed is not None:
-        here, other = (
-            stress_at_radii(state, x, y, levels, indenter=indenter, fineness=fineness)
-            for fineness in (1, int(COARSE))
-        )
-        others, per_spread = [other], np.full(len(x), OF_FINER)
-    elif state.on_rings:
-        raise UnsupportedScene(
-            "finite elements give the stress at their nodes in one plane; solve the scene with "
-            "--solver semi-analytical or radial"
-        )
+        per_spread = np.full(len(x), OF_FINER)
     else:
-        here, *others = (
-            stress_at_cells(one, x, y, levels, indenter=indenter)
-            for one in (state, on_wide_cells(state, 0), on_wide_cells(state, 1))
-        )
         near = here.depth < NEAR * _traction_cell_width(state)
         per_spread = np.where(near, _error_per_spread(ROOT), _error_per_spread(SMOOTH))
     apart = [np.max(np.abs(here.stress - other.stress), axis=0) for other in others]
@@ -178,9 +165,10 @@ def stress_errors(
     indenter   true for the indenter, false for the lower body
     at_depths  true if `found` are largest stresses at chosen depths, not in whole regions
     """
+    response = body_response(state, indenter=indenter)
     if state.pressed is not None:
-        return _stress_errors_on_disc(state, field.points, found, indenter)
-    part: Part = "elements" if state.on_rings else "cells"
+        return _stress_errors_on_disc(response, field.points, found)
+    part = response.part
     errors: list[StatedError] = []
     known = None if at_depths else _reference_maxima(state, found, indenter)
     if known is not None:
@@ -193,16 +181,9 @@ def stress_errors(
         return tuple(errors)
     depths = np.unique(field.points.depth).tolist()
     sampled = depths[::2] if len(depths) > 2 else depths
-    if state.on_rings:
-        two = [on_half_the_elements(state, every) for every in (1, 2)]
-    else:
-        two = [on_wide_cells(state, shift) for shift in (0, 1)]
     near = NEAR * _traction_cell_width(state)
     here = _largest_by_place(field, near)
-    there = [
-        _largest_by_place(stress_below_contact(one, indenter=indenter, depths=sampled), near)
-        for one in two
-    ]
+    there = [_largest_by_place(coarse.stress(sampled), near) for coarse in response.compared()]
     # The largest stress adjacent to a fitted contact edge converges with a higher order.
     fitted = bool(field.how.get("edges")) if field.edge is None else field.edge.determined
     infinite = state.scene is not None and is_singular(state.scene.indenter)
@@ -261,7 +242,7 @@ def _reference_maxima(
     try:
         result = radial.solve(alone.model_copy(update={"loading": (load,)}))
         known = replace(state_of_result(result, None), strain=state.strain)
-        field = stress_on_disc(known, indenter=indenter, measures=measures)
+        field = OnDisc(known, indenter, measures=measures).stress()
     except (SolverError, NoSuchState):
         return None
     return {(e.region, e.measure): e.value for e in extremes(field)}
@@ -357,61 +338,8 @@ def _traction_cell_width(state: LoadedBodies) -> float:
     return float(places[-1] - places[0]) / (len(places) - 1)
 
 
-def on_wide_cells(state: LoadedBodies, shift: int = 0) -> LoadedBodies:
-    """Return a contact state whose surface tractions are means over two by two cells.
-
-    Strips are combined in pairs. The total force is preserved. The stress below these coarse
-    tractions is compared with that below the fine tractions, for an error estimate.
-
-    state  bodies and surface tractions on cells
-    shift  0 or 1, number of empty cells before the first pair of cells along each side; it selects
-           the position of the coarse cells
-    """
-    sides = [state.axes[axis] for axis in ("x", "y")]
-    line = len(sides[1]) == 1
-    pads = [(shift, (len(side) + shift) % 2) for side in sides]
-    axes, counts = {}, [(len(side) + sum(pad)) // 2 for side, pad in zip(sides, pads, strict=True)]
-    if line:
-        axes["y"], pads[1], counts[1] = sides[1], (0, 0), 1
-    for axis, side, count in list(zip(("x", "y"), sides, counts, strict=True))[: 2 - line]:
-        h = side[1] - side[0]
-        axes[axis] = side[0] + h * (2 * np.arange(count) + 1 / 2 - shift)
-    tractions = {}
-    for name, field in state.tractions.items():
-        even = np.pad(field, [*[(0, 0)] * (field.ndim - 2), *pads])
-        pairs = even.reshape(*field.shape[:-2], counts[0], 2, counts[1], 2 - line)
-        tractions[name] = np.asarray(pairs.mean(axis=(-3, -1)))
-    return replace(state, axes=axes, tractions=tractions)
-
-
-def on_half_the_elements(state: LoadedBodies, every: int = 1) -> LoadedBodies:
-    """Return a finite-element state with half the elements per radius and fewer traction rings.
-
-    The stress of this state is compared with that of the fine mesh, for its error estimate.
-
-    state  bodies and surface tractions on rings
-    every  1 to keep the tractions of all rings, 2 to keep those of every second ring
-    """
-    asked, radii = state.discretisation, state.axes["radii"]
-    assert asked is not None
-    half = max(2, asked.elements_per_radius // 2)
-    # An additional unloaded ring preserves the last ring if their number is even.
-    pad = (len(radii) - 1) % every
-    more = [*radii, *[2 * radii[-1] - radii[-2]] * pad]
-    tractions = {}
-    for name, field in state.tractions.items():
-        pads = [(0, len(more) - len(field)), *[(0, 0)] * (field.ndim - 1)]
-        tractions[name] = np.asarray(np.pad(field, pads)[::every])
-    return replace(
-        state,
-        axes={**state.axes, "radii": np.array(more[::every])},
-        tractions=tractions,
-        discretisation=asked.model_copy(update={"elements_per_radius": half}),
-    )
-
-
 def _stress_errors_on_disc(
-    state: LoadedBodies, points: StressPoints, found: Sequence[Extreme], indenter: bool
+    response: BodyResponse, points: StressPoints, found: Sequence[Extreme]
 ) -> tuple[StatedError, ...]:
     """Estimate the errors of the largest stresses below the tractions of the radial solver.
 
@@ -419,22 +347,22 @@ def _stress_errors_on_disc(
     quadrature points. The differences yield the errors, with the excess of a maximum between the
     depths of the points.
 
-    state     bodies and surface tractions of the radial solver
+    response  body below the tractions of the radial solver
     points    points of the stress field
     found     largest stress of each region and measure among these points
-    indenter  true for the indenter, false for the lower body
     """
     from semi_analytical.frf.depth import Level
 
+    state = response.state
     state = state if is_sheared(state) else replace(state, by_increments=0.0)
     measures, levels = points.measures, []
     for e in found:
         here = (points.depth == e.depth) & (measures[e.measure] == e.value)
         levels.append(Level(e.depth, int(points.material[np.argmax(here)])))
     x, y = np.array([(e.x, e.y) for e in found]).T
-    fineness = int(COARSE)
+    (finer,) = response.compared()
     try:
-        again = stress_at_radii(state, x, y, levels, indenter=indenter, fineness=fineness).measures
+        again = finer.stress_at(x, y, levels).measures
     except UnsupportedScene:  # the finer fit has no edge: the errors are unknown
         return (unknown_error("the finer fit has no edge"),) * len(found)
     errors = []
@@ -442,5 +370,5 @@ def _stress_errors_on_disc(
         size = OF_FINER * abs(again[e.measure][k] - e.value)
         size += PRECISION * abs(e.value) + _between_levels(points, measures[e.measure], e)
         reason = AT_WINDOW_EDGE if e.at_window_edge else None
-        errors.append(_stated(state, "quadrature", e.value, size, reason))
+        errors.append(_stated(state, response.part, e.value, size, reason))
     return tuple(errors)

@@ -15,14 +15,12 @@ from dataclasses import replace
 from typing import Any
 
 from contact_errors.coarse_solves import (
-    DiscretisedSolver,
-    Fineness,
     coarse_increment_counts,
     fewest_increments,
     solve_coarsest,
 )
-from contact_errors.cost_estimate import EXPONENT
 from contact_scene import Scene
+from contact_scene.discretised import EXPONENT, DiscretisedSolver, Fineness
 from contact_scene.stepping.increment_error import has_increment_error
 
 # Increments of each load step: the first one of a step may include set-up, the last one does not.

@@ -95,10 +95,6 @@ def outcome_columns(
 def _column_texts(
     first: dict[str, list[str]], columns: Iterable[_Column], gap: int | None
 ) -> dict[str, list[str]]:
-    """Return the texts of a table: given first columns, and columns of numbers by heading and unit.
-
-    gap  index of the row of dots for omitted rows; None without omitted rows
-    """
     texts = first | {f"{heading}\n{unit}": texts for heading, unit, texts in _number_texts(columns)}
     if gap is not None:
         for column in texts.values():
@@ -133,13 +129,7 @@ def _number_texts(columns: Iterable[_Column]) -> Iterator[tuple[str, str, list[s
 
 
 def _select_rows(steps: Sequence[Shown]) -> tuple[list[Shown], int | None]:
-    """Select the table rows of a long history: the first FIRST and the last LAST.
-
-    steps  all rows, of load steps or load cycles
-
-    Returns the selected rows and the index of the omitted part. A short history is returned whole,
-    with None as the index.
-    """
+    """Select the first FIRST and the last LAST rows; return them with the place of the gap."""
     if len(steps) <= FIRST + LAST + 1:
         return list(steps), None
     return [*steps[:FIRST], *steps[-LAST:]], FIRST
@@ -178,7 +168,6 @@ def _quantity_columns(
 
 
 def _without_round_off(value: float | None, negligible: float) -> float | None:
-    """Replace a value by 0 if its magnitude does not exceed a negligible amount; keep None."""
     return 0.0 if value is not None and abs(value) <= negligible else value
 
 

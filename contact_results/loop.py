@@ -97,14 +97,6 @@ def loop_numbers(
 
 
 def _components_along(path: Sequence[Increment], name: str, direction: Vector) -> Vector | None:
-    """Return the component of a vector quantity along a direction, for each increment (n,).
-
-    path       increments of a load cycle
-    name       name of the quantity, such as "tangential_shift"
-    direction  unit vector (2,)
-
-    Returns None if any increment lacks the quantity.
-    """
     values = [getattr(increment, name) for increment in path]
     if any(value is None for value in values):
         return None
@@ -112,10 +104,6 @@ def _components_along(path: Sequence[Increment], name: str, direction: Vector) -
 
 
 def _half_range(values: Vector) -> float:
-    """Return half the range of a quantity in a load cycle: half of largest minus smallest value.
-
-    values  quantity at the end of each increment (n,)
-    """
     return float(np.ptp(values)) / 2
 
 

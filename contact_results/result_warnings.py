@@ -8,12 +8,9 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from contact_scene import HeightMap
-from contact_scene.array_types import Field
-from contact_scene.body_pair import contact_modulus
 from contact_scene.checks.expected_contact import beyond_linear_theory
 from contact_scene.checks.plausibility import unlikely_numbers
 from contact_scene.friction_limit import undefined_motion_warning
-from contact_scene.height_map import interpolate
 from contact_scene.quantities.cycles import load_cycles
 from contact_scene.stepping.increment_error import (
     NEAR_GROSS_SLIP,
@@ -99,6 +96,8 @@ def _warn_of_roughness(result: semi_analytical.Result) -> Iterator[str]:
 
     The warning states the pressure that would flatten the unresolved roughness.
     """
+    from semi_analytical.resolution import unresolved_pressure
+
     share, indenter = unresolved_pressure(result), result.scene.indenter
     if share > NEGLIGIBLE and isinstance(indenter, HeightMap):
         nx, ny = (int(np.ceil(n)) for n in np.divide(result.grid.window, indenter.spacing))
@@ -126,44 +125,3 @@ def _warn_of_edges(result: semi_analytical.Result) -> Iterator[str]:
             left.setdefault(NO_BORDER, []).append(str(end.step))
     for text, steps in left.items():
         yield f"at the end of step {', '.join(steps)} {text}"
-
-
-def unresolved_pressure(result: semi_analytical.Result) -> float:
-    """Estimate the pressure that flattens the roughness between the centres of the cells.
-
-    The estimate is relative to the peak pressure. The roughness is the height map minus its
-    interpolation from the cell centres, within the largest contact. The root mean square pressure
-    is E* √(mean square slope) / 2 (Persson 2001) with the contact modulus E*: a wave of amplitude h
-    and wavenumber k requires E* k h / 2 (Johnson 1985, eq. 13.7). Returns 0 if the cells are no
-    wider than the spacing of the height map.
-    """
-    indenter, grid = result.scene.indenter, result.grid
-    if not isinstance(indenter, HeightMap):
-        return 0.0
-    if all(np.less_equal(grid.spacing, np.multiply(indenter.spacing, 1 + 1e-9))):
-        return 0.0
-    end = max(result.steps, key=lambda step: step.contact_area)
-    cells = grid.coordinates()
-    x, y = (
-        _map_coordinates(count, spacing, at[end.in_contact])
-        for count, spacing, at in zip(indenter.file.shape, indenter.spacing, cells, strict=True)
-    )
-    if min(len(x), len(y)) < 2:
-        return 0.0
-    seen = interpolate(indenter.initial_gap(*cells), grid.spacing, x[:, None], y)
-    lost = indenter.initial_gap(x[:, None], y) - seen
-    # Differences of adjacent points: central differences miss the shortest waves.
-    slopes = (np.diff(lost, axis=axis) / indenter.spacing[axis] for axis in (0, 1))
-    steepness = float(np.sqrt(sum(np.mean(np.square(slope)) for slope in slopes)))
-    return contact_modulus(result.scene) * steepness / 2 / end.peak_pressure
-
-
-def _map_coordinates(count: int, spacing: float, within: Field) -> Field:
-    """Return the coordinates of the height-map points along one axis within the contact [length].
-
-    count    number of map points along the axis
-    spacing  distance of adjacent map points [length]
-    within   coordinates of the cells in contact along this axis [length]
-    """
-    points = (np.arange(count) - (count - 1) / 2) * spacing
-    return np.asarray(points[(points >= np.min(within)) & (points <= np.max(within))])

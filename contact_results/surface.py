@@ -300,35 +300,19 @@ class Rings:
         return self.along(self._rotate_from_load_axes(vector, -1))
 
     def _repeat_at_angles(self, field: NDArray[Any] | None) -> NDArray[Any] | None:
-        """Repeat a field that depends on the radius alone at every angle of the surface grid.
-
-        field  values (rings,), which become (rings, angles); fields with angles, and None, are
-               returned unchanged
-        """
         if field is None or self.angles is None or field.ndim > 1:
             return field
         return np.broadcast_to(field[:, None], (len(self.radii), len(self.angles)))
 
     def _rotate_from_load_axes(self, vector: Field, sense: int = 1) -> Field:
-        """Rotate a vector field (2, …) from load axes to scene axes, or back.
-
-        vector  components along and across the tangential load; x and y components for the rotation
-                back
-        sense   1 rotates to x and y; −1 rotates back to the load axes
-        """
+        """Rotate a vector field (2, …) from load axes to scene axes, or back with sense = -1."""
         (x, y), (along, across) = self.direction, vector
         y *= sense
         return np.stack([along * x - across * y, along * y + across * x])
 
 
 def _reflect_field(name: str, field: NDArray[Any] | None) -> NDArray[Any] | None:
-    """Extend a field on rings from the half circle to the full circle by reflection.
-
-    name   name of the field; circumferential components are odd in the angle, all others even
-    field  values (rings, angles) on the half circle
-
-    A field that depends on the radius alone, and None, are returned unchanged.
-    """
+    """Extend a field on rings to the full circle. Circumferential components are odd."""
     if field is None or field.ndim == 1:
         return field
     image = field[:, -2:0:-1]

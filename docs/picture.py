@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 
 from contact_results.figures import style
 from contact_results.stress.loaded_bodies import state_of_result
-from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_cells import OnCells
 from contact_scene import read_scene_file
 from slipstick import solve
 
@@ -34,7 +34,7 @@ def main() -> None:
     """Solve the scene, draw tractions and stress, and write the picture."""
     result = solve(read_scene_file(SCENE, CHANGES))
     end, scene = result.steps[-1], result.scene
-    section = stress_on_cells(state_of_result(result, None)).section
+    section = OnCells(state_of_result(result, None)).stress().section
     with style.figure_style():
         figure = style.new_figure(7.2, 5.8)
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1, 1.5))

@@ -12,11 +12,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from unittest.mock import patch
 
-import semi_analytical
 from contact_errors.coarse_solves import compare_with_coarse_solves
 from contact_errors.error_formula import SolvedRun
-from contact_errors.on_cells import CellSolver
-from contact_scene import SurfaceDiscretisation
+from contact_results.solvers import solver_of
 from verification.problems.drawn.drawing import STRESSES, KnownScene
 from verification.problems.drawn.families import FAMILIES, drawn
 from verification.running.study import Row
@@ -30,10 +28,8 @@ def solved_scenes(seed: int, families: list[str]) -> Iterator[tuple[KnownScene, 
     for family in families:
         for number in range(FAMILIES[family].count):
             known = drawn(family, seed, number)
-            asked = known.fineness.asked
-            assert isinstance(asked, SurfaceDiscretisation)
-            result = semi_analytical.solve_discretised(known.scene, asked)
-            yield known, compare_with_coarse_solves(CellSolver.of(result), result)[0]
+            result = known.solver.run()
+            yield known, compare_with_coarse_solves(solver_of(result), result)[0]
 
 
 def error_rows(known: KnownScene, run: SolvedRun, solves: int) -> Iterator[Row]:

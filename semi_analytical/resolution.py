@@ -10,6 +10,8 @@ import numpy as np
 
 from contact_scene import HeightMap
 from contact_scene.array_types import Field, Indices, Mask
+from contact_scene.body_pair import contact_modulus
+from contact_scene.height_map import interpolate
 from contact_scene.solver_errors import ContactNotResolved, SolverError
 from semi_analytical.default_grid import fit_window
 from semi_analytical.fields import Increment, Result
@@ -209,3 +211,44 @@ def _wavelength_cells(result: Result, touched: Mask) -> float | None:
     m_2 = np.mean(np.square([slope[about] for slope in slopes]))
     m_4 = np.mean(np.square([*bends, twist, twist]))
     return 2 * pi * float(np.sqrt(m_2 / m_4 / 2)) if m_4 > 0 else None
+
+
+def unresolved_pressure(result: Result) -> float:
+    """Estimate the pressure that flattens the roughness between the centres of the cells.
+
+    The estimate is relative to the peak pressure. The roughness is the height map minus its
+    interpolation from the cell centres, within the largest contact. The root mean square pressure
+    is E* √(mean square slope) / 2 (Persson 2001) with the contact modulus E*: a wave of amplitude h
+    and wavenumber k requires E* k h / 2 (Johnson 1985, eq. 13.7). Returns 0 if the cells are no
+    wider than the spacing of the height map.
+    """
+    indenter, grid = result.scene.indenter, result.grid
+    if not isinstance(indenter, HeightMap):
+        return 0.0
+    if all(np.less_equal(grid.spacing, np.multiply(indenter.spacing, 1 + 1e-9))):
+        return 0.0
+    end = max(result.steps, key=lambda step: step.contact_area)
+    cells = grid.coordinates()
+    x, y = (
+        _map_coordinates(count, spacing, at[end.in_contact])
+        for count, spacing, at in zip(indenter.file.shape, indenter.spacing, cells, strict=True)
+    )
+    if min(len(x), len(y)) < 2:
+        return 0.0
+    seen = interpolate(indenter.initial_gap(*cells), grid.spacing, x[:, None], y)
+    lost = indenter.initial_gap(x[:, None], y) - seen
+    # Differences of adjacent points: central differences miss the shortest waves.
+    slopes = (np.diff(lost, axis=axis) / indenter.spacing[axis] for axis in (0, 1))
+    steepness = float(np.sqrt(sum(np.mean(np.square(slope)) for slope in slopes)))
+    return contact_modulus(result.scene) * steepness / 2 / end.peak_pressure
+
+
+def _map_coordinates(count: int, spacing: float, within: Field) -> Field:
+    """Return the coordinates of the height-map points along one axis within the contact [length].
+
+    count    number of map points along the axis
+    spacing  distance of adjacent map points [length]
+    within   coordinates of the cells in contact along this axis [length]
+    """
+    points = (np.arange(count) - (count - 1) / 2) * spacing
+    return np.asarray(points[(points >= np.min(within)) & (points <= np.max(within))])

@@ -236,7 +236,6 @@ class _Loop:
 
 
 def _loop_centre(values: Numbers) -> float:
-    """Return the mean of the largest and the smallest value, the centre of a load loop."""
     return float(np.max(values) + np.min(values)) / 2
 
 
@@ -448,22 +447,12 @@ def _compare_profiles(table: Mapping[str, Numbers], run: StoredRun, step: int) -
 
 
 def _stated_error(end: StepSummary, name: str) -> float | None:
-    """Return the stated error of a scalar at the end of a load step; None if unknown.
-
-    For a vector, the larger error of its components is returned.
-    """
+    """Return the stated error of a scalar, of a vector the larger one; None if unknown."""
     stated = (end.errors or {}).get(name)
     return None if stated is None or stated.error is None else float(np.max(stated.error))
 
 
 def _relative_error(end: StepSummary, name: str) -> float | None:
-    """Return the relative error of a scalar at the end of a load step; None if unknown.
-
-    The stated error is divided by the largest component of the scalar.
-
-    end   scalars at the end of a load step
-    name  name of the scalar
-    """
     error, value = _stated_error(end, name), np.max(np.abs(getattr(end, name) or 0.0))
     return error / float(value) if error and value else error
 
@@ -471,10 +460,6 @@ def _relative_error(end: StepSummary, name: str) -> float | None:
 def _compare_number(
     name: str, unit: str, measured: float, computed: float, error: float | None
 ) -> ComparedNumber:
-    """Build the comparison of one measured and one computed number, with their difference.
-
-    error  stated error of the computed number; None if unknown
-    """
     return ComparedNumber(name, unit, measured, computed, error, abs(measured - computed))
 
 
@@ -486,12 +471,6 @@ def _compare_curves(
     error: float | None,
     differences: Numbers,
 ) -> ComparedNumber:
-    """Build the comparison of two curves by the root mean square of their differences.
-
-    measured, computed  largest values of the curves
-    error               stated error of the computed curve; None if unknown
-    differences         measured minus computed values at equal places (n,)
-    """
     gap = root_mean_square(differences)
     return ComparedNumber(name, unit, measured, computed, error, gap, differences=differences)
 

@@ -20,25 +20,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contact_errors.error_formula import (
-    TOO_LARGE,
-    build_stated_error,
-    is_singular,
-    unknown_error,
-)
+from contact_errors.coarse_solves import stated_errors
+from contact_errors.error_formula import TOO_LARGE, build_stated_error, unknown_error
 from contact_errors.stress_errors import stress_errors
-from contact_results.stress.below_contact import stress_below_contact
+from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
 from contact_results.stress.points import layer_name
 from contact_results.stress.stress_maxima import Extreme, extremes
 from contact_scene import Body, Scene, SceneFile
+from contact_scene.contact_features import is_singular
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.reading.description import Description
 from contact_scene.solver_errors import SolverError, UnsupportedScene
 from slipstick.solving import check_arguments
 
 if TYPE_CHECKING:
-    from slipstick.solvers.solver import Discretisation, Solver
+    from contact_scene.discretised import Discretisation, DiscretisedSolver
 
 # "body" or "indenter", region of the body as in `stress_maxima`, and stress measure.
 Key = tuple[str, str, str]
@@ -169,19 +166,19 @@ def critical_loads(
     SolverError
         UnsupportedScene without strengths, and errors of the scene at the load factor 1.
     """
-    chosen, solved, fineness = check_arguments(scene, solver, discretisation)
-    wanted = strengths(solved)
+    chosen = check_arguments(scene, solver, discretisation)
+    wanted = strengths(chosen.scene)
     if not wanted:
         raise UnsupportedScene(
             "the scene has no strength: add yield_strength or tensile_strength to a material, or "
             'interface_strength = { shear = "…", tension = "…" } to a layer'
         )
-    search = LoadFactorSearch(solved, chosen, fineness, wanted, progress)
+    search = LoadFactorSearch(chosen, wanted, progress)
     search.largest_stresses(0.0)
     limits = sorted(map(search.critical_load, wanted), key=lambda one: one.load_factor or inf)
     factors = tuple(map(exp, sorted(search.solved)))
     return CriticalLoads(
-        title=solved.title, solver=solver, load_factors=factors, limits=tuple(limits)
+        title=chosen.scene.title, solver=solver, load_factors=factors, limits=tuple(limits)
     )
 
 
@@ -207,19 +204,15 @@ def strengths(scene: Scene) -> dict[Key, float]:
 class LoadFactorSearch:
     """Solves of a scene at several load factors, and the search of the roots among them.
 
-    scene           scene at the load factor 1
-    solver          solver of the scene
-    discretisation  settings of the solver
-    wanted          strengths whose critical loads are searched [force/length^2]
-    progress        function that is called before each solve, or None
-    solved          largest stresses by ln f, each with the increment at the end of its load step;
-                    without stresses that are nowhere positive
-    last            ln f and result of the last solve
+    solver    solver of the scene at the load factor 1
+    wanted    strengths whose critical loads are searched [force/length^2]
+    progress  function that is called before each solve, or None
+    solved    largest stresses by ln f, each with the increment at the end of its load step; without
+              stresses that are nowhere positive
+    last      ln f and result of the last solve
     """
 
-    scene: Scene
-    solver: Solver
-    discretisation: Discretisation
+    solver: DiscretisedSolver
     wanted: Mapping[Key, float]
     progress: Callable[[float], None] | None
     solved: dict[float, dict[Key, tuple[Extreme, Any]]] = field(default_factory=dict)
@@ -230,7 +223,11 @@ class LoadFactorSearch:
         which, region, measure = key
         limit: dict[str, Any] = {"body": which, "region": region.removesuffix(" above")}
         limit |= {"measure": measure, "strength": self.wanted[key]}
-        if measure == "von_mises" and region in OUTERMOST and is_singular(self.scene.indenter):
+        if (
+            measure == "von_mises"
+            and region in OUTERMOST
+            and is_singular(self.solver.scene.indenter)
+        ):
             return CriticalLoad(**limit, reason=SINGULAR)
         try:
             x = self._find_root(key)
@@ -309,7 +306,7 @@ class LoadFactorSearch:
                 continue
             state = self._state(result, end.step)
             for which in {body for body, _, _ in self.wanted}:
-                stress = stress_below_contact(state, indenter=which == "indenter")
+                stress = body_response(state, indenter=which == "indenter").stress()
                 for one in extremes(stress):
                     key = which, one.region, one.measure
                     smallest = found[key][0].value if key in found else 0.0
@@ -323,21 +320,17 @@ class LoadFactorSearch:
         if self.last[0] != x:
             if self.progress is not None:
                 self.progress(exp(x))
-            scene = self.scene.with_loads_multiplied(exp(x))
-            fineness = _without_sizes(self.discretisation, scene)
-            plan = self.solver.plan(scene, fineness)
-            self.last = x, self.solver.solve(scene, fineness, plan)
+            scene = self.solver.scene.with_loads_multiplied(exp(x))
+            fineness = _without_sizes(self.solver.discretisation, scene)
+            self.last = x, replace(self.solver, scene=scene, discretisation=fineness).run()
         return self.last[1]
 
     def _state(self, result: Any, number: int, stated: Any = None) -> LoadedBodies:
-        """Return the loaded bodies at the end of a load step, with all layers of the scene.
-
-        A solver merges layers of equal elastic constants, whose strengths may differ.
-        """
+        """Return the loaded bodies with all layers: solvers merge those of equal constants."""
         state = state_of_result(result, number, stated)
-        indenter = self.scene.indenter
-        upper = Body(material=indenter.material, layers=indenter.layers)
-        return replace(state, body=self.scene.body, indenter=upper)
+        scene = self.solver.scene
+        upper = Body(material=scene.indenter.material, layers=scene.indenter.layers)
+        return replace(state, body=scene.body, indenter=upper)
 
     def _error_of_factor(self, key: Key, x: float, factor: float, slope: float) -> StatedError:
         """Convert the error of the stress at a root to the error of the load factor.
@@ -352,8 +345,8 @@ class LoadFactorSearch:
         upper = key[0] == "indenter"
         try:
             result = self._solve(x)
-            state = self._state(result, end.step, self.solver.errors(result))
-            below = stress_below_contact(state, indenter=upper)
+            state = self._state(result, end.step, stated_errors(result))
+            below = body_response(state, indenter=upper).stress()
             (error,) = stress_errors(state, below, [extreme], indenter=upper)
         except SolverError as failed:
             return unknown_error(str(failed))

@@ -203,7 +203,6 @@ def _residuals(numbers: Sequence[ComparedNumber]) -> Numbers:
 
 
 def _residual_errors(numbers: Sequence[ComparedNumber]) -> Numbers | None:
-    """Return the errors of the residuals by both curves (n,); None if one is unknown."""
     curves = [each for each in numbers if each.differences is not None]
     if any(each.error is None for each in curves):
         return None
@@ -217,10 +216,6 @@ def _residual_errors(numbers: Sequence[ComparedNumber]) -> Numbers | None:
 
 
 def _is_weak(slopes: Numbers) -> bool:
-    """Return True if a change of an input by itself changes curves by less than a thousandth.
-
-    slopes  slope of each residual by the logarithm of the input (n,)
-    """
     return root_mean_square(slopes) < STEP
 
 

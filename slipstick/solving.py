@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import warnings
 from contextlib import nullcontext
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, overload
 
+from contact_results.solvers import SolverName, solver_of
 from contact_scene import Scene, SceneFile
 from contact_scene.solver_errors import AccuracyOutOfReach
-from slipstick.solvers.names import SolverName, solver_of
 
 if TYPE_CHECKING:
     import fem_reference
@@ -23,8 +24,8 @@ if TYPE_CHECKING:
         SurfaceDiscretisation,
     )
     from contact_scene.accuracy import AccuracyRequest
+    from contact_scene.discretised import Discretisation, DiscretisedSolver, Progress
     from contact_scene.quantities.stated_error import StatedErrors
-    from slipstick.solvers.solver import Discretisation, Progress, Solver
 
 Cells: TypeAlias = Literal["semi-analytical"]
 Elements: TypeAlias = Literal["fem", "fem-complementarity"]
@@ -77,8 +78,7 @@ def plan(
     UnsupportedScene
         The solver does not support the scene.
     """
-    chosen, solved, fineness = check_arguments(scene, solver, discretisation)
-    return chosen.plan(solved, fineness)
+    return check_arguments(scene, solver, discretisation).run_plan
 
 
 @overload
@@ -147,13 +147,13 @@ def solve(
         UnsupportedScene, NotConverged, GrossSliding, ResourceRefused and others of
         `contact_scene.solver_errors`; AccuracyOutOfReach if the requested accuracy is not met.
     """
-    chosen, solved, fineness = check_arguments(scene, solver, discretisation)
+    chosen = check_arguments(scene, solver, discretisation)
     if not (progress is None or callable(progress)):
         kind = type(progress).__name__
         raise TypeError(f"progress is a {kind}, expected a function of an increment, or None")
     if isinstance(scene, SceneFile) and scene.accuracy is not None:
-        return _solve_to_accuracy(scene.accuracy, chosen, solved, fineness, progress)
-    return chosen.solve(solved, fineness, chosen.plan(solved, fineness), progress)
+        return _solve_to_accuracy(scene.accuracy, chosen, progress)
+    return chosen.run(progress)
 
 
 def stated_errors(result: Result) -> StatedErrors:
@@ -166,7 +166,9 @@ def stated_errors(result: Result) -> StatedErrors:
         scalar, with the parts of the error and its status. `coarse_solves` lists the coarse
         solves. If a coarse solve fails, the errors that need it are unknown.
     """
-    return solver_of(result).errors(result)
+    from contact_errors.coarse_solves import stated_errors
+
+    return stated_errors(result)
 
 
 def save(
@@ -221,23 +223,16 @@ def save(
 
 
 def _solve_to_accuracy(
-    request: AccuracyRequest,
-    chosen: Solver,
-    scene: Scene,
-    fineness: Discretisation,
-    progress: Progress | None,
+    request: AccuracyRequest, chosen: DiscretisedSolver, progress: Progress | None
 ) -> Any:
     """Solve a scene with refined discretisations until its errors meet an accuracy request.
 
     Returns the result of the last level. Raises AccuracyOutOfReach if the request is not met.
-
-    chosen    solver
-    fineness  discretisation of the scene file
     """
-    from contact_errors.adaptive_refinement import refine
+    from contact_errors.adaptive_refinement import Levels, refine
 
     stress = request.binds_stress
-    levels = chosen.levels(scene, fineness, stress, lambda _: nullcontext(progress))
+    levels = Levels.of_request(chosen, stress, lambda _: nullcontext(progress))
     made = refine(levels, request)
     if not made.accuracy.met:
         raise AccuracyOutOfReach(f"the accuracy was not reached: {made.accuracy.stopped}")
@@ -246,8 +241,8 @@ def _solve_to_accuracy(
 
 def check_arguments(
     scene: Scene | SceneFile, solver: str, discretisation: Discretisation | None
-) -> tuple[Solver, Scene, Discretisation]:
-    """Check the arguments of `plan` and `solve`; return solver, scene and discretisation.
+) -> DiscretisedSolver:
+    """Check the arguments of `plan` and `solve`; return the solver of the scene.
 
     A given discretisation replaces that of a scene file. Raises TypeError or ValueError.
     """
@@ -259,11 +254,13 @@ def check_arguments(
     if solver not in names:
         raise ValueError(f"there is no solver {solver!r}; expected one of {', '.join(names)}")
     chosen = SolverName(solver).solver
-    fineness = chosen.fineness(scene) if isinstance(scene, SceneFile) else chosen.discretisation()
-    if discretisation is not None:
-        if type(discretisation) is not type(fineness):
-            raise ValueError(
-                f"{solver} takes a {type(fineness).__name__}, got {type(discretisation).__name__}"
-            )
-        fineness = discretisation
-    return chosen, scene.scene if isinstance(scene, SceneFile) else scene, fineness
+    own = (
+        chosen.of_file(scene) if isinstance(scene, SceneFile) else chosen(scene, chosen.settings())
+    )
+    if discretisation is None:
+        return own
+    if type(discretisation) is not chosen.settings:
+        raise ValueError(
+            f"{solver} takes a {chosen.settings.__name__}, got {type(discretisation).__name__}"
+        )
+    return replace(own, discretisation=discretisation)

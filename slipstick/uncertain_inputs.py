@@ -142,7 +142,6 @@ def uncertain_numbers(
 
 
 def _component(value: Any, axis: str) -> Any:
-    """Return a scalar, or one component of a vector; None if there is no value."""
     return value["xy".index(axis)] if axis and value is not None else value
 
 

@@ -44,10 +44,6 @@ def with_uncertainties(
 
 
 def _change(less: ComparedNumber, more: ComparedNumber) -> float:
-    """Return the change of a computed number, or of a computed curve, by one deviation.
-
-    Curves with other numbers of points are compared by their largest values.
-    """
     one, other = less.differences, more.differences
     if one is None or other is None or len(one) != len(other):
         return (more.computed - less.computed) / 2

@@ -44,15 +44,10 @@ from contact_errors.adaptive_refinement import (
     refine,
     targets_of,
 )
-from contact_errors.coarse_solves import Fineness
-from contact_errors.error_formula import Features, SolvedRun
-from contact_errors.on_cells import CellSolver, scale_cells
-from contact_errors.on_elements import ElementSolver
-from contact_errors.on_radii import RingSolver
+from contact_errors.error_formula import SolvedRun
 from contact_errors.stress_errors import largest_stresses
 from contact_results import result_files
 from contact_results.directory import checkpoint
-from contact_results.stress import on_cells as stress_on_cells
 from contact_scene import (
     RIGID,
     Body,
@@ -66,6 +61,8 @@ from contact_scene import (
     Scene,
     SurfaceDiscretisation,
 )
+from contact_scene.contact_features import Features
+from contact_scene.discretised import Fineness
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
     StatedError,
@@ -78,8 +75,12 @@ from contact_scene.reading.scene_file import (
 )
 from contact_scene.solver_errors import AccuracyOutOfReach
 from fem_reference import Method
+from fem_reference.discretised import ElementSolver
+from radial.discretised import RingSolver
 from semi_analytical import solve
+from semi_analytical.discretised import CellSolver, scale_cells
 from semi_analytical.memory import LIBRARIES, SCIPY
+from semi_analytical.stress.field import bytes_below_contact
 from slipstick import solve as solve_file
 from verification.closed_forms.cattaneo_mindlin import PartialSlip
 from verification.closed_forms.hertz import tangential_modulus
@@ -104,8 +105,7 @@ def request(text: str):
 
 
 def on_cells(of: Scene, stress_at: int | None = None, **asked: str) -> Levels:
-    solver = CellSolver(of, SurfaceDiscretisation(**asked), stress=stress_at is not None)
-    return Levels(solver, stress_at)
+    return Levels(CellSolver(of, SurfaceDiscretisation(**asked)), stress_at)
 
 
 def climbed(of: Scene, asked: str, **limits: float) -> Refined:
@@ -204,15 +204,15 @@ def test_levels_with_a_largest_stress_take_the_memory_that_is_estimated() -> Non
     pressed = scene(PRESS, friction=None)
     grid = semi_analytical.discretise(pressed, SurfaceDiscretisation(cells=(64, 64)))
     result = solve(pressed, grid, 1e-6)
-    expected = stress_on_cells.estimated_bytes(grid)
+    expected = bytes_below_contact(grid)
     tracemalloc.start()
     largest_stresses(result, StatedErrors(({},), ()), ["max_principal@body"])
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert 0.5 * expected < peak < expected
     finer = Fineness(grid.refined().refined().refined(), (1,), 1e-6)
-    with_stress, without = (on_cells(pressed, at).solver.memory(finer) for at in (1, None))
-    assert without < with_stress == LIBRARIES + SCIPY + stress_on_cells.estimated_bytes(finer.space)
+    with_stress, without = (on_cells(pressed, at).memory(finer) for at in (1, None))
+    assert without < with_stress == LIBRARIES + SCIPY + bytes_below_contact(finer.space)
 
 
 def test_the_largest_tension_is_as_accurate_as_was_asked() -> None:

@@ -13,9 +13,9 @@ import pytest
 from command import slipstick
 from synthetic_result import synthetic_result
 
-import semi_analytical
 from contact_results.blas_threads import VARIABLES
 from contact_results.directory.file_names import SUMMARY
+from contact_results.solvers import SolverName
 from contact_scene.solver_errors import (
     AccuracyOutOfReach,
     ContactAtWindowEdge,
@@ -30,8 +30,8 @@ from contact_scene.solver_errors import (
     UnsupportedScene,
 )
 from fem_reference.mesh.gmsh_mesh import GmshMissing
+from semi_analytical.discretised import CellSolver
 from slipstick.cli import main
-from slipstick.solvers.names import SolverName
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -69,9 +69,7 @@ def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None
     """Replace the solver by one that hands out a ready result, or fails as it is told."""
 
     def replace_by(failure: Exception | None) -> None:
-        def solve(
-            scene: Any, discretisation: Any, progress: Any, plan: Any, store: Any = None
-        ) -> Any:
+        def run(solver: CellSolver, progress: Any, store: Any = None) -> Any:
             result = synthetic_result()
             for increment in result.increments:
                 progress(increment)
@@ -79,7 +77,7 @@ def solver(monkeypatch: pytest.MonkeyPatch) -> Callable[[Exception | None], None
                 raise failure
             return result
 
-        monkeypatch.setattr(semi_analytical, "solve_discretised", solve)
+        monkeypatch.setattr(CellSolver, "run", run)
 
     return replace_by
 

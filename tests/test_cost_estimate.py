@@ -8,19 +8,18 @@ from typing import Any
 
 import pytest
 
-from contact_errors.coarse_solves import Fineness
+from contact_errors.coarse_solves import stated_errors
 from contact_errors.cost_estimate import (
-    CELL_OVERHEAD,
-    ELEMENT_OVERHEAD,
-    Work,
     estimated_run_seconds,
 )
-from contact_errors.on_cells import CellSolver
 from contact_errors.trial_solve import estimate_seconds
-from contact_scene import SceneFile, read_scene_file
+from contact_results.solvers import SolverName
+from contact_scene import read_scene_file
+from contact_scene.discretised import Fineness, Work
 from contact_scene.disk_cache import without_cache
-from slipstick.solvers.names import SolverName
-from slipstick.solvers.solver import time_text
+from fem_reference.discretised import ELEMENT_OVERHEAD
+from semi_analytical.discretised import CELL_OVERHEAD, CellSolver
+from slipstick.cli.time_estimate import estimated_time, time_text
 
 SCENES = Path(__file__).parents[1] / "scenes"
 FACTOR = 2.0
@@ -43,17 +42,15 @@ SHARE = 0.2  # of the time of a run that its estimate may take
     ],
 )
 def test_runs_take_half_to_twice_the_estimate(scene: str, name: SolverName) -> None:
-    contents, solver = read_scene_file(SCENES / f"{scene}.toml"), name.solver
-    posed, fineness = contents.scene, solver.fineness(contents)
-    refinable = solver.refined(posed, fineness)
+    solver = name.solver.of_file(read_scene_file(SCENES / f"{scene}.toml"))
     with without_cache():
         began = time.process_time()
-        result = solver.solve(posed, fineness, solver.plan(posed, fineness))
-        solver.errors(result)
+        result = solver.run()
+        stated_errors(result)
         taken = time.process_time() - began
-        run = refinable.fineness_of(result)
+        run = solver.fineness_of(result)
         began = time.process_time()
-        stated = estimate_seconds(refinable, run)
+        stated = estimate_seconds(solver, run)
         trial = time.process_time() - began
     stated, taken = max(LEAST_SECONDS, stated), max(LEAST_SECONDS, taken)
     assert 1 / FACTOR <= stated / taken <= FACTOR
@@ -69,16 +66,9 @@ def test_a_plan_solves_a_few_increments_alone(monkeypatch: pytest.MonkeyPatch) -
         return solve(solver, fineness, *further)
 
     monkeypatch.setattr(CellSolver, "solve", counted)
-    contents, solver = read_scene_file(SCENES / "fretting_loop.toml"), SolverName.SEMI_ANALYTICAL
-    rows = dict(solver.solver.work(contents.scene, *_planned(contents, solver)))
-    assert rows["time"].startswith("about")
+    solver = CellSolver.of_file(read_scene_file(SCENES / "fretting_loop.toml"))
+    assert estimated_time(solver).startswith("about")
     assert solved == [(2, 2, 2)]
-
-
-def _planned(contents: SceneFile, name: SolverName) -> tuple[Any, Any]:
-    """Return the discretisation of a scene file for a solver, and the plan of its solve."""
-    fineness = name.solver.fineness(contents)
-    return fineness, name.solver.plan(contents.scene, fineness)
 
 
 def test_a_worked_example() -> None:

@@ -13,8 +13,6 @@ from contact_scenes import LIMIT, LOAD, RADIUS, grid, hertz, steel
 import fem_reference
 import radial
 import semi_analytical
-from contact_errors.on_elements import ElementSolver
-from contact_errors.on_radii import RingSolver
 from contact_results.figures.profile_plot import profile_plot
 from contact_results.result_report import ResultReport
 from contact_scene import (
@@ -31,7 +29,9 @@ from contact_scene import (
 from contact_scene.checks.axisymmetric import SYMMETRIC
 from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import GrossSliding, UnsupportedScene
+from fem_reference.discretised import ElementSolver
 from fem_reference.plan import ANGULAR
+from radial.discretised import RingSolver
 from verification.judging.case import OVER_ANGLES
 from verification.observed.observed_laws import observed
 

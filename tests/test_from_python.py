@@ -11,13 +11,13 @@ from command import rows
 
 import slipstick
 from contact_results.cycles import fretting_cycles
+from contact_results.solvers import SolverName
 from contact_results.stress.loaded_bodies import state_of_result, state_of_run
 from contact_results.surface import surface_of
 from contact_scene import HeightMap, SceneError
 from contact_scene.quantities.field_metadata import reported
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.stated_error import Part
-from slipstick.solvers.names import SolverName
 
 ROOT = Path(__file__).resolve().parents[1]
 STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)

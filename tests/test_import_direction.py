@@ -6,6 +6,7 @@ its own row and earlier ones only. The modules and folders of a package have no 
 """
 
 import ast
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -91,6 +92,8 @@ def imports(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
                     yield member if member in known else source
             case ast.Call(func=ast.Attribute(attr="import_module") | ast.Name(id="__import__")):
                 yield from (arg.value for arg in node.args[:1] if isinstance(arg, ast.Constant))
+            case ast.Constant(value=str() as text) if re.fullmatch(r"[\w.]+:\w+", text):
+                yield text.partition(":")[0]  # an object that pkgutil.resolve_name imports
 
 
 def layer(name: str) -> int | None:
@@ -203,6 +206,7 @@ PLANTED = {
     "importlib.import_module('semi_analytical.grid')",
     "radial/normal/disc.py": "from semi_analytical.grid import SurfaceGrid",
     "radial/plan.py": "from fem_reference.plan import plan",
+    "radial/fields.py": "SOLVER = 'fem_reference.plan:plan'",
     "contact_results/files.py": "from verification.norms import relative_l2",
     "verification/judging/case.py": "from verification.cases import catalogue",
     "verification/running/study.py": "def draw():\n    from verification.report import page",

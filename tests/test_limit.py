@@ -246,7 +246,7 @@ class Formula(LoadFactorSearch):
 
 def search_root(law: Any) -> tuple[Any, int]:
     """Critical load of a law of the load factor for the strength 1, and the number of solves."""
-    search = Formula(None, None, None, {KEY: 1.0}, None, law=law)  # type: ignore[arg-type]
+    search = Formula(None, {KEY: 1.0}, None, law=law)  # type: ignore[arg-type]
     search.largest_stresses(0.0)
     return search.critical_load(KEY), len(search.solved)
 

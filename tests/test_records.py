@@ -24,7 +24,7 @@ DEPENDS = {
         "verification/cases",
     ),
     "verification.cases": (
-        {"verification/cases/indenters.py", "contact_errors/on_cells.py"},
+        {"verification/cases/indenters.py", "semi_analytical/discretised.py"},
         "slipstick",
     ),
     "verification.studies.seeded_defects": ({"verification/cases/indenters.py"}, "slipstick"),

@@ -11,15 +11,14 @@ from command import slipstick
 from contact_scenes import APPROACH, INDENTERS, PRESS, RADIUS, A, bump, grid, push, scene, steel
 from scipy.stats import norm
 
-from contact_errors import on_cells
-from contact_errors.on_cells import CellSolver
 from contact_results.result_warnings import warnings_of
 from contact_scene import (
     Ellipsoid,
     HeightMap,
     SurfaceDiscretisation,
 )
-from semi_analytical import ContactNotResolved, SurfaceGrid, solve, solve_discretised
+from semi_analytical import ContactNotResolved, SurfaceGrid, discretised, solve, solve_discretised
+from semi_analytical.discretised import CellSolver
 from semi_analytical.resolution import resolution
 
 SETTING = r"--set semi_analytical\.(cells|window)=(\[[^\]]*\])"
@@ -125,7 +124,7 @@ def test_waves_that_the_cells_do_not_see_are_told_by_what_they_take_from_the_pea
 
 def test_what_waves_between_cells_take_counts_with_their_highest(monkeypatch) -> None:
     """A height of a Gaussian surface that one place in a thousand exceeds."""
-    monkeypatch.setattr(on_cells, "unresolved_pressure", lambda result: 0.1)
+    monkeypatch.setattr(discretised, "unresolved_pressure", lambda result: 0.1)
     lost = CellSolver(scene(PRESS), SurfaceDiscretisation()).neglected_errors(cast("Any", None))
     assert lost["peak_pressure"] == pytest.approx(0.1 * norm.isf(1e-3), rel=0.05)
 

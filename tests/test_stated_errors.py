@@ -32,18 +32,14 @@ import contact_errors
 import fem_reference
 import slipstick as package
 from contact_errors import coarse_solves
-from contact_errors import stress_errors as stress_errors_module
 from contact_errors.coarse_solves import (
-    Fineness,
     add_effects,
     coarse_increment_counts,
     fewest_increments,
     ratios,
 )
 from contact_errors.error_formula import (
-    PEAK,
     Comparison,
-    Features,
     SolvedRun,
     build_stated_error,
     characteristic_size,
@@ -53,13 +49,10 @@ from contact_errors.error_formula import (
     values_of,
 )
 from contact_errors.known_pressing import known_pressing
-from contact_errors.on_cells import CellSolver
-from contact_errors.on_elements import ElementSolver
-from contact_errors.on_radii import RingSolver
-from contact_errors.stress_errors import largest_stresses, on_wide_cells, stress_errors
+from contact_errors.stress_errors import largest_stresses, stress_at, stress_errors
 from contact_results.number_text import doubt_texts
 from contact_results.stress.loaded_bodies import LoadedBodies, state_of_result
-from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_cells import OnCells
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
     RIGID,
@@ -78,7 +71,10 @@ from contact_scene import (
     RevolvedProfile,
     Scene,
     SurfaceDiscretisation,
+    discretised,
 )
+from contact_scene.contact_features import PEAK, Features
+from contact_scene.discretised import Fineness
 from contact_scene.quantities.field_metadata import Kind
 from contact_scene.quantities.stated_error import (
     ErrorStatus,
@@ -94,7 +90,10 @@ from contact_scene.stepping.increment_error import (
 )
 from fem_reference import Method
 from fem_reference import Path as ElementPath
+from fem_reference.discretised import ElementSolver
+from radial.discretised import RingSolver
 from semi_analytical import SurfaceGrid, solve
+from semi_analytical.discretised import CellSolver
 from semi_analytical.edge_correction import pressure as pressure_correction
 from semi_analytical.edge_correction.pressure import left_over
 from slipstick import stated_errors
@@ -283,10 +282,13 @@ def test_a_stick_zone_in_the_middle_has_an_exact_centre() -> None:
 
 
 def test_constants_are_those_that_are_explained() -> None:
-    """A new constant in the package needs a derivation, and an entry here: no quantity and no kind
-    of scene has a constant of its own. Functions have units and round-off alone."""
+    """A new constant in the package, or where a solver describes its discretisation, needs a
+    derivation, and an entry here: no quantity and no kind of scene has a constant of its own.
+    Functions have units and round-off alone."""
     found, within = set(), set()
-    for path in Path(contact_errors.__file__).parent.glob("*.py"):
+    root = Path(contact_errors.__file__).parents[1]
+    features = root / "contact_scene" / "contact_features.py"
+    for path in (*root.glob("contact_errors/*.py"), *root.glob("*/discretised.py"), features):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         for node in tree.body:
             if isinstance(node, ast.Assign | ast.AnnAssign) and numbers_in(node.value or node):
@@ -845,7 +847,7 @@ def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
     state = state_of_result(result, 1, stated_errors(result))
     radius = result.steps[0].contact_radius
     depths = [z * radius for z in (0.0, 0.2, 0.35 + deeper, 0.55 + deeper, 0.8, 1.2)]
-    field = stress_on_cells(state, depths=depths)
+    field = OnCells(state).stress(depths)
     found = [e for e in extremes(field) if e.measure != "max_principal"]
     assert found
     z = np.linspace(0.3, 0.7, 4001)
@@ -861,12 +863,10 @@ def test_a_largest_stress_between_depths_is_covered(deeper: float) -> None:
 def test_the_error_of_two_coarse_tractions_is_their_root_mean_square(monkeypatch) -> None:
     result = solve(scene(PRESS), grid(24), 1e-8)
     state, sizes = state_of_result(result, 1, stated_errors(result)), {}
-    field = stress_on_cells(state, depths=[0.0, 0.5 * A])
+    field = OnCells(state).stress([0.0, 0.5 * A])
     for shifts in ((0, 1), (0, 0), (1, 1)):
         monkeypatch.setattr(
-            stress_errors_module,
-            "on_wide_cells",
-            lambda state, shift, of=shifts: on_wide_cells(state, of[shift]),
+            OnCells, "compared", lambda cells, of=shifts: [*map(cells.on_wide_cells, of)]
         )
         found = stress_errors(state, field, extremes(field), at_depths=True)
         sizes[shifts] = np.array([one.error for one in found])
@@ -879,16 +879,15 @@ def test_the_error_of_two_coarse_tractions_is_their_root_mean_square(monkeypatch
 def test_stress_near_the_surface_improves_slower_with_cells_than_that_below(monkeypatch) -> None:
     """The same change between cells leaves the larger error where the order is lower."""
     state = state_of_result(solve(scene(PRESS), grid(24), 1e-8), 1)
-    depth, wide = np.array([0.01 * A, A]), on_wide_cells(state, 0)
-    monkeypatch.setattr(stress_errors_module, "on_wide_cells", lambda *_: wide)
+    depth = np.array([0.01 * A, A])
     monkeypatch.setattr(
-        stress_errors_module,
-        "stress_at_cells",
-        lambda one, *_, **__: SimpleNamespace(
-            depth=depth, stress=np.full((6, 2), float(one is wide))
+        OnCells,
+        "stress_at",
+        lambda one, *_: SimpleNamespace(
+            depth=depth, stress=np.full((6, 2), float(one.state is not state))
         ),
     )
-    _, (near, below) = stress_errors_module.stress_at(state, depth, depth, [])
+    _, (near, below) = stress_at(state, depth, depth, [])
     assert near > 1.2 * below > 0
 
 
@@ -897,7 +896,7 @@ def test_a_stress_by_tractions_of_unknown_error_is_marked() -> None:
     result = solve(scene(PRESS, push(0.5)), grid(16), 1e-8)
     for step, expected in ((1, ErrorStatus.ESTIMATED), (2, ErrorStatus.NOT_CONVERGED)):
         state = state_of_result(result, step)
-        field = stress_on_cells(state, depths=[0.0, 0.5 * A])
+        field = OnCells(state).stress([0.0, 0.5 * A])
         (deepest, *_) = (e for e in extremes(field) if e.measure == "max_shear")
         (error,) = stress_errors(state, field, [deepest], at_depths=True)
         assert error.status is expected, error.reason
@@ -952,7 +951,7 @@ def test_nobody_states_the_error_of_what_is_infinite(indenter: Any) -> None:
 def test_elements_leave_the_contact_radius_within_one_of_them(penalty: float) -> None:
     mesh = FiniteElementDiscretisation(elements_per_radius=16, penalty=penalty)
     result = fem_reference.solve(WEAK.problem(8).scene, mesh, Method.PENALTY)
-    stated = ElementSolver.stated_errors(result).steps[-1]["contact_radius"]
+    stated = stated_errors(result).steps[-1]["contact_radius"]
     assert stated.parts["elements"] <= result.radius / 16 < stated.parts["elements"] * 5
 
 
@@ -1031,7 +1030,7 @@ def test_coarse_solves_are_cheap_and_their_tolerance_has_no_effect(
     work = [(solve.convolutions or 0) * np.prod(solve.cells) for solve in stated.coarse_solves]
     # The third coarse solve has (2/3)² of the cells.
     assert sum(work) < (1 + 4 / 9) * sum(step.convolutions for step in result.increments) * 36**2
-    monkeypatch.setattr(coarse_solves, "NEGLIGIBLE", 0.0)
+    monkeypatch.setattr(discretised, "NEGLIGIBLE", 0.0)
     for errors, of_tight in zip(stated.steps, stated_errors(result).steps, strict=True):
         for name in ("approach", "peak_pressure", "elastic_energy", "dissipated_energy"):
             assert size(errors[name]) == pytest.approx(size(of_tight[name]), rel=0.02)
@@ -1076,7 +1075,8 @@ def test_wide_cells_carry_the_same_force_at_the_same_place(shift: int) -> None:
     pressure = np.random.default_rng(1).random((9, 12))
     axes = {"x": on.x, "y": on.y}
     body = Body(material=steel())
-    wide = on_wide_cells(LoadedBodies("", body, body, 1, axes, {"pressure": pressure}, None), shift)
+    state = LoadedBodies("", body, body, 1, axes, {"pressure": pressure}, None)
+    wide = OnCells(state).on_wide_cells(shift).state
     assert [len(wide.axes[axis]) for axis in "xy"] == [5, 6 + shift]
     means = wide.tractions["pressure"]
     assert 4 * np.sum(means) == pytest.approx(np.sum(pressure))

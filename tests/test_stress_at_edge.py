@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_cells import OnCells
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import Body, IsotropicMaterial, Layer
 from semi_analytical import SurfaceGrid
@@ -135,7 +135,7 @@ def test_a_field_says_whether_the_edge_was_fitted(reason: str | None) -> None:
     tractions = {"pressure": pressure, "shear": np.stack([MU * pressure, 0 * pressure])}
     axes = {"x": grid.x, "y": grid.y}
     state = LoadedBodies("", body, body, 1, axes, tractions, None, reason)
-    field = stress_on_cells(state, depths=[0.0])
+    field = OnCells(state).stress([0.0])
     (tension,) = (e for e in extremes(field) if e.measure == "max_principal")
     exact = trailing_edge_tension(1.0, MU, NU)
     if reason is None:
@@ -162,7 +162,7 @@ def test_an_edge_fitted_on_one_side_of_a_mirror_plane_alone_stays_a_candidate(
         raise EdgeNotSeen("seen in part", replace(edge, phi=below))
 
     monkeypatch.setattr("semi_analytical.stress.near_edge", partly)
-    field = stress_on_cells(state, depths=[0.0])
+    field = OnCells(state).stress([0.0])
     assert field.edge is not None
     assert np.all(field.edge.points.y < -2)
     assert field.how["edge"] == {"fitted": False, "because": "seen in part"}
@@ -177,7 +177,7 @@ def test_a_stress_that_is_largest_far_behind_the_contact_is_found() -> None:
     body = Body(material=soft, layers=(Layer(thickness=0.25 * radius, material=hard),))
     tractions = {"pressure": pressure, "shear": np.stack([0.2 * pressure, 0 * pressure])}
     state = LoadedBodies("", body, body, 1, {"x": grid.x, "y": grid.y}, tractions, None)
-    field = stress_on_cells(state)
+    field = OnCells(state).stress()
     found = {(e.region, e.measure): e for e in extremes(field)}
     for key in (("interface 1 above", "interface_tensile_stress"), ("base", "max_principal")):
         assert not found[key].at_window_edge

@@ -16,8 +16,8 @@ from contact_results.figures.style import figure_style
 from contact_results.files.mesh_file import Mesh, write_mesh
 from contact_results.stress import on_cells
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.on_cells import stress_on_cells
-from contact_results.stress.on_section import stress_on_section
+from contact_results.stress.on_cells import OnCells
+from contact_results.stress.on_section import OnSection
 from contact_results.stress.points import StressField
 from contact_results.stress.stress_maxima import extremes
 from contact_results.stress_result import write_stress
@@ -44,9 +44,9 @@ STATES["rings, along y"] = replace(STATES["rings"], direction=ALONG_Y)
 
 @pytest.fixture(scope="module")
 def fields() -> dict[str, StressField]:
-    on_rings = stress_on_section(STATES["rings"])
+    on_rings = OnSection(STATES["rings"]).stress()
     return {
-        "cells": stress_on_cells(STATES["cells"], see_edge=False),
+        "cells": OnCells(STATES["cells"], see_edge=False).stress(),
         "rings": on_rings,
         "rings, along y": replace(on_rings, direction=ALONG_Y),
     }
@@ -116,14 +116,14 @@ def test_stress_is_refused_before_it_takes_more_memory_than_there_is(
     monkeypatch.setattr(stress_field, "FIXED", 0)
     monkeypatch.setattr(machine, "available_bytes", lambda: max(required, default=1 << 40))
     tracemalloc.start()
-    volume = on_cells.stress_on_cells(state, volume=True, see_edge=False).volume
+    volume = OnCells(state, see_edge=False).stress(volume=True).volume
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     required.append(int(0.95 * peak))
     with pytest.raises(ResourceRefused, match="Use fewer cells or depths"):
-        on_cells.stress_on_cells(state, volume=True, see_edge=False)
+        OnCells(state, see_edge=False).stress(volume=True)
     required.append(int((1 + on_cells.WRITTEN / on_cells.COMPUTED) * peak))
-    again = on_cells.stress_on_cells(state, volume=True, see_edge=False).volume
+    again = OnCells(state, see_edge=False).stress(volume=True).volume
     assert volume is not None
     assert again is not None
     assert again.stress.shape == volume.stress.shape

@@ -17,7 +17,7 @@ import radial.history
 import slipstick
 from contact_errors.stress_errors import stress_errors
 from contact_results.stress.loaded_bodies import state_of_result
-from contact_results.stress.on_disc import stress_at_radii, stress_on_disc
+from contact_results.stress.on_disc import OnDisc
 from contact_results.stress.points import StressField
 from contact_results.stress.stress_maxima import (
     Extreme,
@@ -110,7 +110,7 @@ def test_an_interface_carries_what_it_is_given(
 
 def field_of(scene: Scene) -> tuple[StressField, tuple[Extreme, ...], tuple[StatedError, ...]]:
     state = state_of_result(radial.solve(scene), None)
-    field = stress_on_disc(state)
+    field = OnDisc(state).stress()
     found = extremes(field)
     return field, found, stress_errors(state, field, found)
 
@@ -260,9 +260,7 @@ def test_an_oblique_load_has_its_profile_along_it_and_acts_on_the_indenter_in_re
     *_, at_places = comparison(table, slipstick.load(tmp_path / "run")).numbers
     assert at_places.gap < 1e-9 * end.peak_pressure
     state = state_of_result(result, None)
-    lower, upper = (
-        stress_on_disc(state, indenter=of, depths=[0.3]).axis.components for of in (False, True)
-    )
+    lower, upper = (OnDisc(state, of).stress([0.3]).axis.components for of in (False, True))
     assert np.max(np.abs(lower["xz"])) > 1e-3 * end.peak_pressure
     assert_allclose(upper["xz"], -lower["xz"])
     assert_allclose(upper["zz"], lower["zz"])
@@ -272,7 +270,7 @@ def test_an_oblique_load_has_its_profile_along_it_and_acts_on_the_indenter_in_re
 def test_a_stress_turns_as_a_tensor(
     direction: tuple[float, float], rng: np.random.Generator
 ) -> None:
-    axis = stress_on_disc(state_of_result(radial.solve(scene_of(BARE)), None), depths=[0.3]).axis
+    axis = OnDisc(state_of_result(radial.solve(scene_of(BARE)), None)).stress([0.3]).axis
     points = replace(axis, stress=rng.normal(size=axis.stress.shape))
     c, s = direction
     turn, voigt = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), [[0, 5, 4], [5, 1, 3], [4, 3, 2]]
@@ -288,9 +286,9 @@ TWISTED = frictional(
 @pytest.mark.parametrize("scene", [TWISTED, pushed()], ids=["twisted", "pushed"])
 def test_a_section_has_on_both_sides_the_stress_of_its_points(scene: Scene) -> None:
     state = state_of_result(radial.solve(scene), None)
-    section = stress_on_disc(state, depths=[0.3]).section.select_columns(slice(None, None, 9))
+    section = OnDisc(state).stress([0.3]).section.select_columns(slice(None, None, 9))
     levels = [Level(0.3, 0)] * section.x.size
-    at_points = stress_at_radii(state, section.x.ravel(), section.y.ravel(), levels)
+    at_points = OnDisc(state).stress_at(section.x.ravel(), section.y.ravel(), levels)
     peak = np.max(np.abs(section.stress))
     assert np.min(section.x) < 0
     assert_allclose(at_points.stress, section.stress[:, 0], atol=1e-9 * peak)

@@ -13,8 +13,8 @@ from stored_mesh import read_mesh
 from contact_results.files.surface_file import write_surface
 from contact_results.stress.invariants import principal_stresses, von_mises
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.on_cells import stress_on_cells
-from contact_results.stress.on_section import stress_on_section
+from contact_results.stress.on_cells import OnCells
+from contact_results.stress.on_section import OnSection
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.surface import SURFACE_FIELDS, Cells, Rings, Surface
 from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial, Layer
@@ -159,14 +159,14 @@ def pressed_and_pushed(axes: dict[str, np.ndarray], pressure: np.ndarray) -> Loa
 def on_section() -> StressField:
     radii = np.linspace(0, 1.2, 61)
     pressure = np.sqrt(np.maximum(1 - radii**2, 0))
-    return stress_on_section(pressed_and_pushed({"radii": radii}, pressure))
+    return OnSection(pressed_and_pushed({"radii": radii}, pressure)).stress()
 
 
 @pytest.fixture(scope="module")
 def stress_by_cells() -> StressField:
     x = (np.arange(33) - 16) * 2.4 / 33
     pressure = np.sqrt(np.maximum(1 - x[:, None] ** 2 - x**2, 0))
-    return stress_on_cells(pressed_and_pushed({"x": x, "y": x}, pressure), depths=DEPTHS)
+    return OnCells(pressed_and_pushed({"x": x, "y": x}, pressure)).stress(DEPTHS)
 
 
 def test_cells_and_rings_draw_the_same_picture(

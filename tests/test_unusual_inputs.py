@@ -34,7 +34,8 @@ from contact_scene.solver_errors import (
     ContactNotResolved,
     UnsupportedScene,
 )
-from slipstick.solvers.on_cells import OnCells
+from semi_analytical.discretised import CellSolver
+from slipstick.cli.time_estimate import estimated_time
 
 R = 10e-3
 E = 70e9
@@ -340,6 +341,7 @@ def test_the_plan_of_an_unresolved_contact_is_refused_as_its_solve() -> None:
     cone = Cone(material=RIGID, slope_angle=np.pi / 180)
     asked = scene({"approach": APPROACH}, indenter=cone)
     fineness = SurfaceDiscretisation(cells=(8, 8), window=(4e-3, 4e-3))
-    for call in (OnCells().work, lambda *given: OnCells().solve(*given)):
+    solver = CellSolver(asked, fineness)
+    for call in (estimated_time, CellSolver.run):
         with pytest.raises(ContactNotResolved, match="Use more cells"):
-            list(call(asked, fineness, slipstick.plan(asked)))
+            call(solver)

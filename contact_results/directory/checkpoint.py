@@ -149,10 +149,7 @@ class CheckpointDirectory:
         return standing
 
     def _drop_from(self, first: int) -> None:
-        """Remove all checkpoint files from the number `first` on.
-
-        Other files in the directory are removed as well.
-        """
+        """Remove the checkpoint files from the number `first` on, and all other files."""
         kept = {self._part_path(number).name for number in range(first)}
         for name in os.listdir(self._directory) if self._directory.is_dir() else ():
             if name not in kept:
@@ -160,7 +157,6 @@ class CheckpointDirectory:
         del self._ends[first:]
 
     def _part_path(self, number: int) -> Path:
-        """Return the path of the checkpoint file with this number, from 0."""
         return self._directory / f"part-{number:06d}"
 
 

@@ -64,7 +64,6 @@ def version_of(name: str) -> str | None:
 
 
 def _processor_name() -> str:
-    """Return the name of the processor."""
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as lines:
             names = [line.partition(":")[2].strip() for line in lines if "model name" in line]

@@ -134,7 +134,6 @@ def _refuse_occupied(target: Path, overwrite: bool) -> None:
 
 
 def _is_earlier_run(directory: Path) -> bool:
-    """Return True if slipstick has written the `timing.json` in this directory."""
     try:
         record = json.loads((directory / TIMING).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -185,10 +184,6 @@ def _replace_files(staging: Path, target: Path, summary: str, earlier: Sequence[
 
 
 def _flush_to_disk(path: Path) -> None:
-    """Write a file or the entries of a directory to the disk.
-
-    They then survive a power failure.
-    """
     descriptor = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)
     try:
         os.fsync(descriptor)

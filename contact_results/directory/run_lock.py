@@ -109,7 +109,6 @@ def _open_lock_file(path: Path) -> int | None:
 
 
 def _this_process() -> str:
-    """Return the number of this process and the name of its machine, for messages."""
     return f"process {os.getpid()} on {socket.gethostname()}"
 
 

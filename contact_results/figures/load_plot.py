@@ -97,20 +97,13 @@ def draw_loop(ax: Any, loop: Loop) -> None:
 
 
 def _force_direction(force: Values) -> Values:
-    """Return the unit vector along the largest force, with a positive largest component.
-
-    force  tangential force of each increment (n, 2)
-    """
+    """Return the unit vector along the largest force (n, 2), its largest component positive."""
     largest = force[np.argmax(np.hypot(force[:, 0], force[:, 1]))]
     largest = largest * np.sign(largest[np.argmax(np.abs(largest))])
     return np.asarray(largest / np.hypot(*largest))
 
 
 def _direction_name(direction: Values) -> str:
-    """Return the name of a direction in the plane of contact, such as "along x".
-
-    direction  unit vector (2,)
-    """
     degrees = np.degrees(np.arctan2(direction[1], direction[0]))
     names = {0: "along x", 90: "along y"}
     return names.get(round(degrees, 3), f"at {degrees:.1f}° to x")

@@ -93,10 +93,6 @@ class RingsAbove:
         return rings.in_scene_axes(sampled, self._polar_coordinates()[1])
 
     def _polar_coordinates(self) -> tuple[Field, Field]:
-        """Return the polar coordinates of every cell centre, each of shape (nx, ny).
-
-        These are the radius [length] and the angle from the load, in [0, 2π).
-        """
         x, y = np.meshgrid(self.x, self.y, indexing="ij")
         cos, sin = self.rings.direction
         angle = np.arctan2(cos * y - sin * x, cos * x + sin * y)
@@ -123,10 +119,6 @@ class RingsAbove:
 
 
 def _rings_with_contact(field: NDArray[Any] | None) -> NDArray[np.bool_]:
-    """Return a mask of the rings at which a field is true at any angle (rings,).
-
-    field  mask (rings,) or (rings, angles)
-    """
     assert field is not None
     return np.asarray(field.any(axis=tuple(range(1, field.ndim))))
 
@@ -204,11 +196,6 @@ def _window_boundary(centres: Field) -> float:
 
 
 def _half_extent(centres: Field, touched: NDArray[np.bool_]) -> float:
-    """Return the half side of a map along one axis, just larger than the contact [length].
-
-    centres  coordinates of the cell centres along the axis (n,) [length]
-    touched  mask of the centres that have a cell in contact (n,)
-    """
     edge = _window_boundary(centres)
     reach = np.max(np.abs(centres[touched]), initial=0.0) + edge - centres[-1]
     return float(min(MARGIN * reach, edge))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
@@ -17,11 +16,12 @@ from contact_results.figures.load_plot import draw_loading, draw_loop, load_loop
 from contact_results.figures.map_panels import MapFrame
 from contact_results.figures.maps import draw_panel, draw_zones, zone_patches
 from contact_results.figures.profile_plot import draw_end, draw_slip
-from contact_results.figures.section_panel import draw_section, stretches
+from contact_results.figures.section_panel import draw_section
 from contact_results.figures.stress_plot import draw_depth, draw_surface
 from contact_results.key_numbers import key_numbers
 from contact_results.result_report import ResultReport
-from contact_results.stress.loaded_bodies import LoadedBodies, loaded_bodies
+from contact_results.stress.below_contact import body_response
+from contact_results.stress.loaded_bodies import loaded_bodies
 from contact_results.surface import Cells
 from contact_scene.reading.engineering_units import (
     engineering_unit,
@@ -32,9 +32,6 @@ if TYPE_CHECKING:
     from contact_results.stress.points import StressField
 
 LEAST_MOVES = 3  # smallest number of increments with tangential load for a loop
-# Largest number of cells along a side for the stress, which then takes less than a second.
-MAX_CELLS = 64
-EVERY = 2  # interval of the default depths that are used
 DOTS_PER_INCH = 90
 # Sides of a panel, and of its place with labels, legend and colour bar [inch].
 PANEL = (2.6, 2.55)
@@ -53,11 +50,15 @@ def overview(report: ResultReport, frame: MapFrame | None) -> Figure:
     """Draw the overview: profile, zones, history, stress on section and surface, key numbers.
 
     A result with a single increment has the stress on the z axis instead of a history. The stress
-    is omitted if `section_stress` is None. Call within `figure_style`.
+    is omitted without contact, for a rigid body, and if it would take too long. Call within
+    `figure_style`.
 
     frame  frame of the map; None for a line contact
     """
-    field = section_stress(report)
+    state = loaded_bodies(report.result, report.surface, report.steps[-1])
+    field = None
+    if state is not None and state.body.deforms:
+        field = body_response(state).drawn_stress()
     columns = 3 if field else 2
     width, height = columns * PLACE[0], 2 * PLACE[1] + TITLE
     figure = style.new_figure(width, height, arranged=False)
@@ -97,65 +98,6 @@ def overview(report: ResultReport, frame: MapFrame | None) -> Figure:
     _write_numbers(numbers, report)
     _place_labels(figure, (profile, zones, history, *stressed))
     return figure
-
-
-def section_stress(report: ResultReport) -> StressField | None:
-    """Compute the stress in the lower body under the final tractions, for the overview.
-
-    On cells, the tractions are averaged to at most `MAX_CELLS` cells along a side, and the contact
-    edge is fitted. Returns None
-    - for finite elements, whose mesh would take longer than the run,
-    - for a rigid lower body and without contact,
-    - if the numbers of cells have no small common divisor,
-    - for shear of the radial solver.
-    """
-    state = loaded_bodies(report.result, report.surface, report.steps[-1])
-    if state is None or not state.body.deforms:
-        return None
-    if state.pressed is not None:
-        if len(state.tractions) > 1:
-            return None
-        from contact_results.stress.on_disc import stress_on_disc
-
-        return stress_on_disc(state)
-    if state.on_rings:
-        return None
-    if not report.scene.indenter.is_line:
-        state = coarser(state, MAX_CELLS)
-        if max(state.tractions["pressure"].shape) > MAX_CELLS:
-            return None
-    from contact_results.stress.on_cells import stress_on_cells
-    from semi_analytical.stress import default_depths
-
-    assert state.contact_radius is not None
-    levels = default_depths(state.body, state.contact_radius)
-    depths = {level.depth for level in levels[::EVERY]}
-    if stretches(state.body, levels[-1].depth):
-        depths |= {level.depth for level in levels if level.layer < len(state.body.layers)}
-    return stress_on_cells(state, depths=sorted(depths), section_only=True)
-
-
-def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
-    """Compute means of the tractions over blocks of cells, for up to `most` cells along a side.
-
-    The averages preserve the forces. The result has more cells if the cell numbers have no common
-    divisor 2, 3, 5 or 7.
-
-    state  bodies and tractions on cells
-    most   requested largest number of cells along a side
-    """
-    while max(shape := state.tractions["pressure"].shape) > most:
-        by = next((p for p in (2, 3, 5, 7) if not any(n % p for n in shape)), None)
-        if by is None:
-            break
-        nx, ny = (n // by for n in shape)
-        axes = {name: c.reshape(-1, by).mean(axis=1) for name, c in state.axes.items()}
-        tractions = {
-            name: f.reshape(*f.shape[:-2], nx, by, ny, by).mean(axis=(-3, -1))
-            for name, f in state.tractions.items()
-        }
-        state = replace(state, axes=axes, tractions=tractions)
-    return state
 
 
 def _draw_surface_map(figure: Figure, ax: Any, report: ResultReport, frame: MapFrame) -> None:
@@ -221,10 +163,6 @@ def _place_labels(figure: Figure, panels: Iterable[Any]) -> None:
 
 
 def _write_numbers(ax: Any, report: ResultReport) -> None:
-    """Write status and key numbers of the last load step into a panel of the overview.
-
-    ax  axes of matplotlib
-    """
     ax.set_axis_off()
     lines = [f"status: {report.steps[-1].status.value}"]
     lines += [f"{name}: {text}" for name, text in key_numbers(report.steps, report.end_errors)]

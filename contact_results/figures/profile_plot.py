@@ -121,28 +121,19 @@ def draw_slip(ax: Any, report: ResultReport) -> None:
 
 
 def _pressure_curves(surface: Surface, steps: Sequence[Increment]) -> Curves:
-    """Return the profiles of the pressure along the line, at the ends of the given load steps."""
     lines = {step.step: surface.along(_pressure_field(step, surface)) for step in steps}
     unit = engineering_unit(max(step.peak_pressure for step in steps), "Pa")
     return Curves("pressure p", lines, unit)
 
 
 def _shear_curves(surface: Surface, steps: Sequence[Increment]) -> list[Curves]:
-    """Return the profiles of the shear components along and across the line."""
     return _vector_curves(surface, steps, "shear", "shear q", "Pa")
 
 
 def _vector_curves(
     surface: Surface, steps: Sequence[Increment], name: str, label: str, unit: str
 ) -> list[Curves]:
-    """Return the profiles of the components of a vector field along and across the line.
-
-    Components that are round-off at the ends of all given load steps are omitted.
-
-    name   "shear" or "slip"
-    label  label of the axis, without the component
-    unit   SI unit of the field
-    """
+    """Return the components of shear or slip along and across the line that exceed round-off."""
     found = ((step.step, surface.vector(step, name)) for step in steps)
     lines = {step: surface.vector_along(vector) for step, vector in found if vector is not None}
     sizes = [np.max(np.abs(vector), axis=1) for vector in lines.values()]
@@ -178,7 +169,6 @@ def _line_axis(ax: Any, report: ResultReport) -> EngineeringUnit:
 
 
 def _pressure_field(step: Increment, surface: Surface) -> Field:
-    """Return the pressure at the end of a load step, at all points of the surface grid."""
     pressure = surface.scalar(step, "pressure")
     assert pressure is not None
     return pressure

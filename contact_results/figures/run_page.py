@@ -122,10 +122,6 @@ def write_stress_page(
 
 
 def _write_html(path: Path, title: str, parts: Iterable[str]) -> None:
-    """Write an HTML page.
-
-    parts  pieces of HTML below the title
-    """
     title = escape(title)
     page = [
         '<!doctype html><html lang="en"><head><meta charset="utf-8">',
@@ -169,10 +165,6 @@ def _cycle_section(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
 
 
 def _table_html(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    """Yield the HTML of a table.
-
-    columns  texts of the cells by heading of their column
-    """
     yield '<div class="wide"><table><tr>'
     yield from (f'<th scope="col">{_text_html(heading)}</th>' for heading in columns)
     for texts in zip(*columns.values(), strict=True):
@@ -181,12 +173,10 @@ def _table_html(columns: Mapping[str, Sequence[str]]) -> Iterator[str]:
 
 
 def _doubts_html(doubts: Sequence[str]) -> Iterator[str]:
-    """Yield the HTML of the reasons of question marks, one paragraph each."""
     yield from (f'<p class="soft">{escape(text)}.</p>' for text in doubts)
 
 
 def _row_html(name: str, text: str) -> str:
-    """Return the HTML of a table row with a name and a text."""
     return f'<tr><th scope="row">{_text_html(name)}</th><td>{_text_html(text)}</td></tr>'
 
 
@@ -197,10 +187,6 @@ def _text_html(text: str) -> str:
 
 
 def _figures_html(paths: Iterable[Path]) -> Iterator[str]:
-    """Yield the HTML of the figures whose files exist.
-
-    paths  paths of image files
-    """
     for path in paths:
         if path.is_file():
             overview = path.name == file_names.OVERVIEW_FIGURE
@@ -232,7 +218,6 @@ def _panels_html(path: Path) -> str:
 
 
 def _figure_html(path: Path) -> str:
-    """Return the HTML of one figure, with the image data included."""
     name = HEADINGS.get(path.stem, path.stem.replace("_", " ").capitalize())
     data = b64encode(path.read_bytes()).decode("ascii")
     return (

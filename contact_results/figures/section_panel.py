@@ -14,9 +14,9 @@ from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
 from contact_results.figures import style
+from contact_results.stress.body_response import are_layers_thin
 from contact_results.stress.points import StressField, StressPoints
 from contact_results.stress.stress_maxima import interface_sides
-from contact_scene import Body
 from contact_scene.reading.engineering_units import (
     EngineeringUnit,
     engineering_unit,
@@ -28,9 +28,7 @@ QUADRILATERALS = {
     "quad9": ((0, 4, 8, 7), (4, 1, 5, 8), (8, 5, 2, 6), (7, 8, 6, 3)),
 }
 MAX_LEVELS = 12
-# If the layers together are thinner than THIN times the visible depth, they are drawn on the share
-# STRETCHED of the depth axis.
-THIN = 0.125
+# Share of the depth axis on which thin layers are drawn.
 STRETCHED = 0.3
 HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
 
@@ -86,15 +84,6 @@ def draw_section(
     return length
 
 
-def stretches(body: Body, deepest: float) -> bool:
-    """Return True if the layers are so thin that a figure must stretch its depth axis there.
-
-    body     layers and base
-    deepest  largest depth of the figure [length]
-    """
-    return 0 < sum(layer.thickness for layer in body.layers) < THIN * deepest
-
-
 def show_depths(ax: Any, field: StressField, length: EngineeringUnit) -> bool:
     """Draw a line at every interface, and scale the depth axis so that thin layers are visible.
 
@@ -105,7 +94,7 @@ def show_depths(ax: Any, field: StressField, length: EngineeringUnit) -> bool:
     Returns True if the depth axis stretches thin layers.
     """
     body, (_, deepest) = field.body, field.shown
-    stretched = stretches(body, deepest)
+    stretched = are_layers_thin(body, deepest)
     if stretched:
         films = sum(layer.thickness for layer in body.layers) / deepest
         depths, shown = np.array([0.0, films, 1.0]) * deepest / length.size, (0.0, STRETCHED, 1.0)
@@ -166,10 +155,7 @@ def _divide_into_triangles(
 
 
 def _visible_quadrilaterals(points: StressPoints, reach: float, depth: float) -> NDArray[np.int64]:
-    """Return the corners (n, 4) of the quadrilaterals of all cells that are partly visible.
-
-    reach, depth  extent of the figure to the sides and in depth [length]
-    """
+    """Return the corners (n, 4) of the quadrilaterals of all cells that are partly visible."""
     assert points.cells is not None
     kind, cells = points.cells
     across, down = np.abs(points.x.ravel()), points.depth.ravel()

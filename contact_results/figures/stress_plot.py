@@ -180,7 +180,6 @@ def _contact_radius(field: StressField) -> float:
 
 
 def _surface_points(field: StressField) -> StressPoints:
-    """Select the points of the stress section at its smallest depth, sorted along x."""
     points = field.section
     at = np.flatnonzero(points.depth == points.depth.min())
     return points.select(at[np.argsort(points.x.flat[at], kind="stable")])
@@ -234,10 +233,6 @@ def draw_depth(ax: Any, field: StressField, points: StressPoints, where: str) ->
 
 
 def _titled_figure(width: float, height: float, title: str) -> Figure:
-    """Create a figure with a title that is wrapped to its width.
-
-    width, height  size of the figure [inch]
-    """
     figure = style.new_figure(width, height, arranged=False)
     figure.suptitle(fill(title, int(13 * width)), fontsize=9.0, parse_math=False)
     return figure

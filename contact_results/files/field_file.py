@@ -190,10 +190,6 @@ def _write_field(
 
 
 def _write_cycle(group: h5py.Group, cycle: FrettingCycle, places: tuple[str, ...]) -> None:
-    """Write the surface fields of one load cycle to a group of an HDF5 file.
-
-    places  labels of the array indices of the fields, such as ("x", "y")
-    """
     group.attrs["start_step"], group.attrs["end_step"] = cycle.cycle.start, cycle.cycle.end
     for name, mark in reported(type(cycle)).items():
         values = getattr(cycle, name)
@@ -209,19 +205,12 @@ def _write_dataset(
     indices: tuple[str, ...] = (),
     **how: Any,
 ) -> None:
-    """Write values to a new dataset of an HDF5 file, with unit, meaning and index labels.
-
-    mark     unit and meaning of the values
-    indices  label of each array index
-    how      further arguments of h5py, such as the compression
-    """
     _describe_dataset(
         group.create_dataset(name, data=values, track_times=False, **how), mark, indices
     )
 
 
 def _describe_dataset(dataset: h5py.Dataset, mark: Reported, indices: tuple[str, ...]) -> None:
-    """Add unit, meaning and the labels of the array indices to an HDF5 dataset."""
     dataset.attrs["unit"] = mark.unit
     dataset.attrs["description"] = mark.meaning
     for number, index in enumerate(indices):

@@ -75,12 +75,6 @@ def _step_summary(
     cycle: FrettingCycle | None,
     errors: Mapping[str, StatedError] | None,
 ) -> StepSummary:
-    """Create the summary of one load step from its increments.
-
-    within  increments of the load step
-    cycle   load cycle that closes at the end of the load step; None if there is none
-    errors  stated errors at the end of the load step; None if they were not computed
-    """
     end = within[-1]
     residuals: dict[str, Any] = {
         name: None if value is None else float(value) for name, value in vars(end.residuals).items()

@@ -54,11 +54,6 @@ def write_surface(surface: Surface, increment: Any, path: Path, convention: str)
 
 
 def _cell_mesh(cells: Surface) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
-    """Create the mesh of the cells of a surface grid.
-
-    Returns the corners of the cells (n, 3) [length], the cell type, and the corner numbers of each
-    cell (m, 4).
-    """
     x, y = (_cell_boundaries(centres) for centres in cells.axes.values())
     places = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
     index = np.arange(len(places)).reshape(len(x), len(y))
@@ -67,10 +62,7 @@ def _cell_mesh(cells: Surface) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
 
 
 def _cell_boundaries(centres: Places) -> Places:
-    """Return the boundaries of cells along one axis (n + 1,) from the centres (n,) [length].
-
-    A single cell is a strip of a line contact, 1 m long.
-    """
+    """Return the boundaries of cells along one axis. A single cell is a strip, 1 m long."""
     if len(centres) == 1:
         return np.array([centres[0] - 0.5, centres[0] + 0.5])
     half = (centres[-1] - centres[0]) / (len(centres) - 1) / 2
@@ -78,13 +70,6 @@ def _cell_boundaries(centres: Places) -> Places:
 
 
 def _disc_mesh(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
-    """Create the mesh of quadrilaterals between adjacent rings, closed around the axis.
-
-    rings  rings with angles over the full circle
-
-    Returns the points (n, 3) [length], the cell type, and the corner numbers of each quadrilateral
-    (m, 4).
-    """
     places = np.moveaxis(rings.positions, 0, -1)
     index = np.arange(places[..., 0].size).reshape(places.shape[:2])
     ahead = np.roll(index, -1, axis=1)
@@ -93,12 +78,6 @@ def _disc_mesh(rings: Rings) -> tuple[Places, tuple[str, NDArray[np.int64]]]:
 
 
 def _add_zero_depth(places: Places) -> Places:
-    """Add the depth coordinate z = 0 to points on the surface.
-
-    places  coordinates x and y (n, 2) [length]
-
-    Returns x, y and z (n, 3).
-    """
     return np.column_stack([places, np.zeros(len(places))]) + 0.0
 
 

@@ -98,13 +98,7 @@ def _profile_rows(surface: Surface, step: Increment) -> Iterator[tuple[object, .
 
 
 def _column_cells(values: Any, size: int) -> list[float | None]:
-    """Convert the values of a table column to floats, without negative zeros.
-
-    values  array (size,); None gives `size` empty cells
-    size    number of rows
-
-    Values that are not finite become None, which is an empty cell.
-    """
+    """Convert the values of a column to floats. Values that are not finite become empty cells."""
     if values is None:
         return [None] * size
     return [v + 0.0 if np.isfinite(v) else None for v in values.tolist()]

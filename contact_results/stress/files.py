@@ -177,10 +177,7 @@ def interface_points(field: StressField) -> Iterator[tuple[int, str, StressPoint
 
 
 def _point_rows(points: StressPoints, body: Body) -> Iterator[tuple[object, ...]]:
-    """Yield the table rows of stress points: place, material, displacement, stress, invariants.
-
-    The unknown displacement below a line contact is None.
-    """
+    """Yield the table rows. The displacement below a line contact is unknown: None."""
     numbers = np.vstack([points.displacement, points.stress, points.von_mises, points.principal])
     materials = [layer_name(material, len(body.layers)) for material in points.material.tolist()]
     # The addition of 0.0 removes the sign of negative zeros.

@@ -289,7 +289,6 @@ def _reason_without_root(indenter: ShapedBody, friction: CoulombFriction | None)
 
 
 def _require_contact(state: LoadedBodies | None) -> LoadedBodies:
-    """Return the bodies of a load step that ends in contact; raise NoSuchState for None."""
     if state is None:
         raise NoSuchState(
             "the bodies are separated at the end of this step, and the stress is zero everywhere; "
@@ -299,13 +298,7 @@ def _require_contact(state: LoadedBodies | None) -> LoadedBodies:
 
 
 def _step_index(step: int | None, count: int) -> int:
-    """Return the index of a load step in the history: the requested one, or the last for None.
-
-    step   requested load step, from 1
-    count  number of load steps
-
-    Raises NoSuchState if the requested load step does not exist.
-    """
+    """Return the index of load step `step`, from 1; the last for None. Raises NoSuchState."""
     if step is not None and not 1 <= step <= count:
         raise NoSuchState(f"there is no step {step}; the run has steps 1 to {count}")
     return (count if step is None else step) - 1

@@ -9,16 +9,18 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import ceil
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_results.stress.body_response import BodyResponse, are_layers_thin
 from contact_results.stress.loaded_bodies import LoadedBodies
 from contact_results.stress.points import FittedEdge, StressField, StressPoints
 from contact_results.stress.stress_maxima import extremes
 from contact_scene.array_types import Field, Indices
 from contact_scene.machine import one_thread
+from contact_scene.quantities.stated_error import Part
 from contact_scene.solver_errors import ResourceRefused
 
 if TYPE_CHECKING:
@@ -28,31 +30,22 @@ if TYPE_CHECKING:
     from semi_analytical.stress import NearEdge, SubsurfaceField
 
 
-# Half width of the window in half extents of the contact. It includes the contact edge, where the
-# tensile stress is largest, and the deflection of a coating outside the contact.
-MARGIN = 1.6
-# Half width for depths whose largest stress lies at the edge of the first window. Behind a contact
-# with tangential load the largest interface stress is about two radii from the centre.
+# Half width of the window, in half extents of the contact, for depths whose largest stress lies at
+# the edge of the first window. Behind a contact with tangential load the largest interface stress
+# is about two radii from the centre.
 WIDE_MARGIN = 2.4
 # Distance of chosen points from the origin in half windows: the window is extended to them.
 MAX_REACH = 10.0
+# Largest number of cells along a side for the overview, whose stress then takes less than a second,
+# and interval of the default depths that it uses.
+MAX_DRAWN = 64
+EVERY = 2
 NEIGHBOURS = 4  # adjacent cells of a point that the interpolation uses
 LEVEL = ("depth", "layer")
 # Numbers in memory per point of the volume. Computed: displacement and stress by depth, the same
 # for all depths, corners of cells. Written: coordinates, displacement, full tensor, invariants.
 COMPUTED = 9 + 9 + 8
 WRITTEN = 3 + 3 + 9 + 4
-
-
-def estimated_bytes(grid: SurfaceGrid) -> int:
-    """Estimate the peak memory of the stress computation for a contact that fills the grid [byte].
-
-    The memory is that of one level, without the fixed memory of the program.
-    """
-    from semi_analytical.stress.field import FIXED, required_bytes
-
-    nx, ny = (round(MARGIN * cells) for cells in grid.cells)
-    return required_bytes((nx, ny), 1) - FIXED
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,86 +196,150 @@ class CellWindow:
             yield replace(field, stress=field.stress + bulk[:, None, None])
 
 
-@one_thread()
-def stress_at_cells(
-    state: LoadedBodies, x: Field, y: Field, levels: Sequence[Level], *, indenter: bool = False
-) -> StressPoints:
-    """Compute the stress at given points below tractions on cells.
+@dataclass(frozen=True, eq=False)
+class OnCells(BodyResponse):
+    """One body below tractions on the cells of a surface grid.
 
-    The stress at a point is interpolated cubically between the positions of the cells at its depth.
-
-    state     bodies and tractions that cause the stress
-    x, y      coordinates of the points (n,) [length]
-    levels    depth and layer of each point (n,)
-    indenter  True for the stress in the indenter, False for the lower body
-
-    Raises ResourceRefused if a point is too far from the contact, or for too little memory.
-    """
-    from semi_analytical.stress import subsurface
-
-    reach = [float(np.max(np.abs(places))) for places in (x, y)]
-    far, half = max(reach), max(float(np.max(state.axes[axis])) for axis in "xy")
-    if far > MAX_REACH * half:
-        raise ResourceRefused(
-            f"a point is {far:.3g} m from the origin, expected at most {MAX_REACH:g} half windows "
-            f"of {half:.3g} m; check the units of the points, or use a larger window"
-        )
-    window = CellWindow.around_contact(state, indenter, 0.0, reach)
-    grid, tractions = window.grid, window.far_tractions
-    fields = {level: subsurface(window.body, grid, *tractions, [level]) for level in set(levels)}
-    rows = np.zeros_like(y) if grid.of_strips else y  # the same at every y
-    found = [fields[level].below(*at) for *at, level in zip(x, rows, levels, strict=True)]
-    displacement, stress = (np.concatenate(parts).T for parts in zip(*found, strict=True))
-    depth, layer = (np.array([getattr(level, name) for level in levels]) for name in LEVEL)
-    points = StressPoints(x, y, depth, layer, displacement, stress, at_edge=x != x)
-    return state.add_bulk_stress(points, indenter)
-
-
-@one_thread()
-def stress_on_cells(
-    state: LoadedBodies,
-    *,
-    indenter: bool = False,
-    depths: Sequence[float] | None = None,
-    volume: bool = False,
-    see_edge: bool = True,
-    section_only: bool = False,
-) -> StressField:
-    """Compute the stress at depths below a window of the surface that contains the contact.
-
-    Near the edge of a smooth contact, the tractions fall like the square root of the distance from
-    the edge. The contact edge is then fitted between the cells, and the result has additional
-    points on the fitted edge. `how` of the result states the cause if no edge was fitted. If a
-    maximum under tangential load lies at the edge of the window, its depth is computed again below
-    a wider window.
-
-    state         bodies and tractions that cause the stress
-    indenter      True for the stress in the indenter, False for the lower body
-    depths        depths [length], without both sides of every interface, which are always included;
-                  None chooses them from the contact and the layers
-    volume        return the points and cells of the volume as well
     see_edge      fit the contact edge
     section_only  compute the section alone, without the search for the largest values
-
-    Raises ValueError for a depth outside the body, and ResourceRefused for too little memory.
     """
 
-    def below(depths: Sequence[float] | None, margin: float, **how: bool) -> StressField:
-        window = CellWindow.around_contact(state, indenter, margin)
-        return _stress_in_window(window, depths, **how)
+    see_edge: bool = True
+    section_only: bool = False
 
-    field = below(depths, MARGIN, volume=volume, see_edge=see_edge, section_only=section_only)
-    if section_only or not np.any(state.tractions.get("shear", 0.0)):
+    part: ClassVar[Part] = "cells"
+
+    @one_thread()
+    def stress(self, depths: Sequence[float] | None = None, *, volume: bool = False) -> StressField:
+        """Compute the stress at depths below a window of the surface that contains the contact.
+
+        Near the edge of a smooth contact, the tractions fall like the square root of the distance
+        from the edge. The contact edge is then fitted between the cells, and the result has
+        additional points on the fitted edge. `how` of the result states the cause if no edge was
+        fitted. If a maximum under tangential load lies at the edge of the window, its depth is
+        computed again below a wider window. Both sides of every interface are always included.
+        """
+        from semi_analytical.stress.field import MARGIN
+
+        def below(depths: Sequence[float] | None, margin: float, **how: bool) -> StressField:
+            window = CellWindow.around_contact(self.state, self.indenter, margin)
+            return _stress_in_window(window, depths, **how)
+
+        field = below(
+            depths, MARGIN, volume=volume, see_edge=self.see_edge, section_only=self.section_only
+        )
+        if self.section_only or not np.any(self.state.tractions.get("shear", 0.0)):
+            return field
+        far = sorted({e.depth for e in extremes(field) if e.at_window_edge and e.value > 0})
+        if not far:
+            return field
+        with suppress(ResourceRefused):  # then the largest values keep the mark `at_window_edge`
+            beyond = below(far, WIDE_MARGIN, see_edge=False)
+            wide = below(depths, WIDE_MARGIN, see_edge=self.see_edge, section_only=True)
+            points = StressPoints.concatenate([beyond.points, field.points])
+            return replace(wide, points=points, edge=field.edge, volume=field.volume)
         return field
-    far = sorted({e.depth for e in extremes(field) if e.at_window_edge and e.value > 0})
-    if not far:
-        return field
-    with suppress(ResourceRefused):  # then the largest values keep the mark `at_window_edge`
-        beyond = below(far, WIDE_MARGIN, see_edge=False)
-        wide = below(depths, WIDE_MARGIN, see_edge=see_edge, section_only=True)
-        points = StressPoints.concatenate([beyond.points, field.points])
-        return replace(wide, points=points, edge=field.edge, volume=field.volume)
-    return field
+
+    @one_thread()
+    def stress_at(self, x: Field, y: Field, levels: Sequence[Level]) -> StressPoints:
+        """Compute the stress at given points.
+
+        It is interpolated cubically between the positions of the cells at the depth of a point.
+        """
+        from semi_analytical.stress import subsurface
+
+        state = self.state
+        reach = [float(np.max(np.abs(places))) for places in (x, y)]
+        far, half = max(reach), max(float(np.max(state.axes[axis])) for axis in "xy")
+        if far > MAX_REACH * half:
+            raise ResourceRefused(
+                f"a point is {far:.3g} m from the origin, expected at most {MAX_REACH:g} half "
+                f"windows of {half:.3g} m; check the units of the points, or use a larger window"
+            )
+        window = CellWindow.around_contact(state, self.indenter, 0.0, reach)
+        grid, tractions = window.grid, window.far_tractions
+        fields = {
+            level: subsurface(window.body, grid, *tractions, [level]) for level in set(levels)
+        }
+        rows = np.zeros_like(y) if grid.of_strips else y  # the same at every y
+        found = [fields[level].below(*at) for *at, level in zip(x, rows, levels, strict=True)]
+        displacement, stress = (np.concatenate(parts).T for parts in zip(*found, strict=True))
+        depth, layer = (np.array([getattr(level, name) for level in levels]) for name in LEVEL)
+        points = StressPoints(x, y, depth, layer, displacement, stress, at_edge=x != x)
+        return state.add_bulk_stress(points, self.indenter)
+
+    def compared(self) -> Sequence[OnCells]:
+        return [self.on_wide_cells(shift) for shift in (0, 1)]
+
+    def on_wide_cells(self, shift: int = 0) -> OnCells:
+        """Return the response to tractions that are means over two by two cells.
+
+        Strips are combined in pairs. The total force is preserved.
+
+        shift  0 or 1, number of empty cells before the first pair of cells along each side; it
+               selects the position of the coarse cells
+        """
+        state = self.state
+        sides = [state.axes[axis] for axis in ("x", "y")]
+        line = len(sides[1]) == 1
+        pads = [(shift, (len(side) + shift) % 2) for side in sides]
+        axes, counts = (
+            {},
+            [(len(side) + sum(pad)) // 2 for side, pad in zip(sides, pads, strict=True)],
+        )
+        if line:
+            axes["y"], pads[1], counts[1] = sides[1], (0, 0), 1
+        for axis, side, count in list(zip(("x", "y"), sides, counts, strict=True))[: 2 - line]:
+            h = side[1] - side[0]
+            axes[axis] = side[0] + h * (2 * np.arange(count) + 1 / 2 - shift)
+        tractions = {}
+        for name, field in state.tractions.items():
+            even = np.pad(field, [*[(0, 0)] * (field.ndim - 2), *pads])
+            pairs = even.reshape(*field.shape[:-2], counts[0], 2, counts[1], 2 - line)
+            tractions[name] = np.asarray(pairs.mean(axis=(-3, -1)))
+        return replace(self, state=replace(state, axes=axes, tractions=tractions))
+
+    def drawn_stress(self) -> StressField | None:
+        """Compute the stress on the section, with tractions on at most `MAX_DRAWN` cells a side.
+
+        The result is None if the numbers of cells have no small common divisor.
+        """
+        from semi_analytical.stress import default_depths
+
+        state = self.state
+        if len(state.axes["y"]) > 1:
+            state = coarser(state, MAX_DRAWN)
+            if max(state.tractions["pressure"].shape) > MAX_DRAWN:
+                return None
+        assert state.contact_radius is not None
+        levels = default_depths(self.body, state.contact_radius)
+        depths = {level.depth for level in levels[::EVERY]}
+        if are_layers_thin(self.body, levels[-1].depth):
+            depths |= {level.depth for level in levels if level.layer < len(self.body.layers)}
+        return replace(self, state=state, section_only=True).stress(sorted(depths))
+
+
+def coarser(state: LoadedBodies, most: int) -> LoadedBodies:
+    """Compute means of the tractions over blocks of cells, for up to `most` cells along a side.
+
+    The averages preserve the forces. The result has more cells if the cell numbers have no common
+    divisor 2, 3, 5 or 7.
+
+    state  bodies and tractions on cells
+    most   requested largest number of cells along a side
+    """
+    while max(shape := state.tractions["pressure"].shape) > most:
+        by = next((p for p in (2, 3, 5, 7) if not any(n % p for n in shape)), None)
+        if by is None:
+            break
+        nx, ny = (n // by for n in shape)
+        axes = {name: c.reshape(-1, by).mean(axis=1) for name, c in state.axes.items()}
+        tractions = {
+            name: f.reshape(*f.shape[:-2], nx, by, ny, by).mean(axis=(-3, -1))
+            for name, f in state.tractions.items()
+        }
+        state = replace(state, axes=axes, tractions=tractions)
+    return state
 
 
 def _stress_in_window(
@@ -293,7 +350,7 @@ def _stress_in_window(
     see_edge: bool = True,
     section_only: bool = False,
 ) -> StressField:
-    """Compute the stress below a window of the surface, see `stress_on_cells`."""
+    """Compute the stress below a window of the surface, see `OnCells.stress`."""
     from semi_analytical.stress import SubsurfaceField, refuse_beyond_memory
 
     state, grid, radius = window.state, window.grid, window.state.contact_radius
@@ -363,10 +420,6 @@ def _sharpen_cell_means(means: Field, loaded: NDArray[np.bool_]) -> Field:
 
 
 def _edge_points(edge: NearEdge, stress: Field) -> StressPoints:
-    """Return the points on the fitted contact edge at the surface (n,); displacements are NaN.
-
-    stress  stress at these points (6, n) [force/length^2]
-    """
     nothing = np.zeros(len(edge.x))
     return StressPoints(
         edge.x,
@@ -440,7 +493,6 @@ def _stress_points(
 
 
 def _axis_points(section: SubsurfaceField) -> StressPoints:
-    """Interpolate displacement and stress of the section on the z axis, one point per depth."""
     displacement, stress = section.below()
     nothing = np.zeros(len(section.levels))
     return StressPoints(

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from contact_results.stress.loaded_bodies import LoadedBodies
+from contact_results.stress.body_response import BodyResponse
 from contact_results.stress.points import MEASURES, StressField, StressPoints
-from contact_results.stress.radial_body import RadialBody
+from contact_results.stress.radial_body import RadialBody, is_sheared
 from contact_results.stress.stress_maxima import extremes
 from contact_scene.array_types import Field
 from contact_scene.machine import one_thread
+from contact_scene.quantities.stated_error import Part
 
 if TYPE_CHECKING:
     from semi_analytical.frf.depth import Level
@@ -21,92 +22,86 @@ if TYPE_CHECKING:
 SHOWN = 3.0  # extent of figures to the sides and in depth, in contact radii
 
 
-@one_thread()
-def stress_on_disc(
-    state: LoadedBodies,
-    *,
-    indenter: bool = False,
-    depths: Sequence[float] | None = None,
-    measures: Collection[str] = MEASURES,
-) -> StressField:
-    """Compute the stress in the plane of the load below the tractions of the radial solver.
+@dataclass(frozen=True, eq=False)
+class OnDisc(BodyResponse):
+    """One body below the tractions of the radial solver.
 
-    The stress is computed on a grid of positions and depths, and at points around its maxima.
-
-    state     bodies and tractions that cause the stress
-    indenter  True for the stress in the indenter, False for the lower body
-    depths    depths [length], without both sides of every interface, which are always included;
-              None chooses them from contact and layers, and refines the maxima
-    measures  names of the stress measures whose maxima are refined
-
-    Raises ValueError for a depth outside the body, and UnsupportedScene as `RadialBody.from_state`
-    does.
-    """
-    body = RadialBody.from_state(state, indenter)
-    levels, x, radius = tuple(body.parts.stress_levels(depths)), body.section, body.parts.radius
-    grid = body.stress_points(levels, x, np.zeros_like(x))
-    whole = _both_sides(grid) if body.is_round else grid
-    section = whole.add_cells()
-    found = [grid.flattened, *([] if body.is_round else [body.beside(levels).flattened])]
-    field = StressField(
-        state.loaded_body(indenter),
-        StressPoints.concatenate(found),
-        None,
-        section,
-        section.select(section.x == 0),
-        None,
-        "x at y = 0" if body.is_round else "x along the load",
-        (SHOWN * radius, min(SHOWN * radius, float(np.max(section.depth)))),
-        {
-            "contact_radius": radius,
-            "first_depth": body.parts.first,
-            "edge_from": body.centre - radius,
-            "edge_to": body.centre + radius,
-        },
-        body.direction,
-    )
-    if depths is not None:
-        return field
-    nearer = [
-        body.largest(one)
-        for one in extremes(field)
-        if one.region in body.parts.named and one.measure in measures
-    ]
-    return replace(field, points=StressPoints.concatenate([field.points, *nearer]))
-
-
-@one_thread()
-def stress_at_radii(
-    state: LoadedBodies,
-    x: Field,
-    y: Field,
-    levels: Sequence[Level],
-    *,
-    indenter: bool = False,
-    fineness: int = 1,
-) -> StressPoints:
-    """Compute the stress at given points below the tractions of the radial solver.
-
-    state     bodies and tractions that cause the stress
-    x, y      coordinates of the points (n,) [length]
-    levels    depth and layer of each point (n,)
-    indenter  True for the stress in the indenter, False for the lower body
     fineness  multiple of the numbers of polynomials and quadrature points
-
-    Raises UnsupportedScene as `RadialBody.from_state` does.
+    measures  names of the stress measures whose maxima are refined
     """
-    body = RadialBody.from_state(state, indenter, fineness)
-    c, s = body.direction
-    along, across = c * x + s * y, c * y - s * x
-    found = []
-    for px, py, level in zip(along, across, levels, strict=True):
-        if body.is_round:
-            r = np.hypot(px, py)
-            point = body.stress_points([level], np.array([r]), np.zeros(1)).flattened
-            found.append(point.rotate_to_scene((px / r, py / r) if r else (1.0, 0.0)))
-        else:
-            found.append(body.stress_points([level], np.array([px]), np.array([py])).flattened)
-    return StressPoints.concatenate(found).rotate_to_scene(body.direction)
+
+    fineness: int = 1
+    measures: Collection[str] = tuple(MEASURES)
+
+    part: ClassVar[Part] = "quadrature"
+
+    @property
+    def radial_body(self) -> RadialBody:
+        """The body with the functions that compute its stress.
+
+        Raises UnsupportedScene as `RadialBody.from_state` does.
+        """
+        return RadialBody.from_state(self.state, self.indenter, self.fineness)
+
+    @one_thread()
+    def stress(self, depths: Sequence[float] | None = None, *, volume: bool = False) -> StressField:
+        """Compute the stress in the plane of the load, on a grid of positions and depths.
+
+        Without given depths, the maxima are refined. Both sides of every interface are always
+        included. A volume has no effect.
+        """
+        body = self.radial_body
+        levels, x, radius = tuple(body.parts.stress_levels(depths)), body.section, body.parts.radius
+        grid = body.stress_points(levels, x, np.zeros_like(x))
+        whole = _both_sides(grid) if body.is_round else grid
+        section = whole.add_cells()
+        found = [grid.flattened, *([] if body.is_round else [body.beside(levels).flattened])]
+        field = StressField(
+            self.body,
+            StressPoints.concatenate(found),
+            None,
+            section,
+            section.select(section.x == 0),
+            None,
+            "x at y = 0" if body.is_round else "x along the load",
+            (SHOWN * radius, min(SHOWN * radius, float(np.max(section.depth)))),
+            {
+                "contact_radius": radius,
+                "first_depth": body.parts.first,
+                "edge_from": body.centre - radius,
+                "edge_to": body.centre + radius,
+            },
+            body.direction,
+        )
+        if depths is not None:
+            return field
+        nearer = [
+            body.largest(one)
+            for one in extremes(field)
+            if one.region in body.parts.named and one.measure in self.measures
+        ]
+        return replace(field, points=StressPoints.concatenate([field.points, *nearer]))
+
+    @one_thread()
+    def stress_at(self, x: Field, y: Field, levels: Sequence[Level]) -> StressPoints:
+        body = self.radial_body
+        c, s = body.direction
+        along, across = c * x + s * y, c * y - s * x
+        found = []
+        for px, py, level in zip(along, across, levels, strict=True):
+            if body.is_round:
+                r = np.hypot(px, py)
+                point = body.stress_points([level], np.array([r]), np.zeros(1)).flattened
+                found.append(point.rotate_to_scene((px / r, py / r) if r else (1.0, 0.0)))
+            else:
+                found.append(body.stress_points([level], np.array([px]), np.array([py])).flattened)
+        return StressPoints.concatenate(found).rotate_to_scene(body.direction)
+
+    def compared(self) -> Sequence[OnDisc]:
+        return [replace(self, fineness=2 * self.fineness)]
+
+    def drawn_stress(self) -> StressField | None:
+        return None if is_sheared(self.state) else self.stress()
 
 
 def _both_sides(right: StressPoints) -> StressPoints:

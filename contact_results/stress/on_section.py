@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from math import cos, pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from contact_results.stress.loaded_bodies import LoadedBodies
+from contact_results.stress.body_response import BodyResponse
 from contact_results.stress.points import StressField, StressPoints
+from contact_scene.array_types import Field
 from contact_scene.machine import one_thread
+from contact_scene.quantities.stated_error import Part
+from contact_scene.solver_errors import UnsupportedScene
 
 if TYPE_CHECKING:
     from fem_reference.stress import SectionField
+    from semi_analytical.frf.depth import Level
 
 RECOVERY = (
     "stress at the 2 x 2 Gauss points, extrapolated bilinearly to the nodes and averaged over the "
@@ -22,59 +28,96 @@ NEAR = 5.0  # extent of the files in loaded radii; the mesh extends to hundreds
 SHOWN = (2.0, 3.0)  # extent of figures to the sides and in depth, in loaded radii
 
 
-@one_thread()
-def stress_on_section(state: LoadedBodies, *, indenter: bool = False) -> StressField:
-    """Compute the stress in one body below tractions on rings by finite elements.
+@dataclass(frozen=True, eq=False)
+class OnSection(BodyResponse):
+    """One body below tractions on rings, by finite elements on its section."""
 
-    The result is the stress at the nodes of a new mesh. The mesh has as many elements over the
-    loaded radius as the mesh of the contact solve has over the contact radius.
+    part: ClassVar[Part] = "elements"
 
-    state     bodies and tractions that cause the stress
-    indenter  True for the stress in the indenter, False for the lower body
+    @one_thread()
+    def stress(self, depths: Sequence[float] | None = None, *, volume: bool = False) -> StressField:
+        """Compute the stress at the nodes of a new mesh; depths and volume have no effect.
 
-    Raises the errors of `fem_reference.stress.subsurface`.
-    """
-    from fem_reference.compliance.ring_edge import beyond_pressure
-    from fem_reference.stress import SurfaceTractions, subsurface
+        The mesh has as many elements over the loaded radius as the mesh of the contact solve has
+        over the contact radius. Raises the errors of `fem_reference.stress.subsurface`.
+        """
+        from fem_reference.compliance.ring_edge import beyond_pressure
+        from fem_reference.stress import SurfaceTractions, subsurface
 
-    assert state.discretisation is not None
-    tractions = SurfaceTractions(
-        radii=state.axes["radii"],
-        angles=state.axes.get("angles"),
-        **state.tractions,
-        rooted=state.no_root is None,
-        edge=beyond_pressure(state.body, state.indenter),
-    )
-    # Fit the mesh to the radius that is loaded now, not to the largest one of the history.
-    asked = state.discretisation.model_copy(update={"contact_radius": None})
-    body = state.loaded_body(indenter)
-    field = subsurface(body, tractions, asked, upper=indenter)
-    radius = tractions.loaded_radius
-    section = state.add_bulk_stress(_section_points(field), indenter)
-    reach = NEAR * radius
-    near = section.near(reach)
-    assert section.cells is not None
-    assert near.cells is not None
-    return StressField(
-        body,
-        section,
-        None,
-        near,
-        _axis_points(near, reach),
-        None,
-        "x along the load",
-        (SHOWN[0] * radius, min(SHOWN[1] * radius, float(section.depth.max()))),
-        {
-            "loaded_radius": radius,
-            "elements_per_radius": asked.elements_per_radius,
-            "edges": tractions.edges.tolist(),
-            "recovery": RECOVERY,
-            "written_to": reach,
-            "elements": len(section.cells[1]),
-            "elements_written": len(near.cells[1]),
-        },
-        state.direction,
-    )
+        state, asked = self.state, self.state.discretisation
+        assert asked is not None
+        tractions = SurfaceTractions(
+            radii=state.axes["radii"],
+            angles=state.axes.get("angles"),
+            **state.tractions,
+            rooted=state.no_root is None,
+            edge=beyond_pressure(state.body, state.indenter),
+        )
+        # Fit the mesh to the radius that is loaded now, not to the largest one of the history.
+        asked = asked.model_copy(update={"contact_radius": None})
+        field = subsurface(self.body, tractions, asked, upper=self.indenter)
+        radius = tractions.loaded_radius
+        section = state.add_bulk_stress(_section_points(field), self.indenter)
+        reach = NEAR * radius
+        near = section.near(reach)
+        assert section.cells is not None
+        assert near.cells is not None
+        return StressField(
+            self.body,
+            section,
+            None,
+            near,
+            _axis_points(near, reach),
+            None,
+            "x along the load",
+            (SHOWN[0] * radius, min(SHOWN[1] * radius, float(section.depth.max()))),
+            {
+                "loaded_radius": radius,
+                "elements_per_radius": asked.elements_per_radius,
+                "edges": tractions.edges.tolist(),
+                "recovery": RECOVERY,
+                "written_to": reach,
+                "elements": len(section.cells[1]),
+                "elements_written": len(near.cells[1]),
+            },
+            state.direction,
+        )
+
+    def stress_at(self, x: Field, y: Field, levels: Sequence[Level]) -> StressPoints:
+        raise UnsupportedScene(
+            "finite elements give the stress at their nodes in one plane; solve the scene with "
+            "--solver semi-analytical or radial"
+        )
+
+    def compared(self) -> Sequence[OnSection]:
+        return [self.on_half_the_elements(every) for every in (1, 2)]
+
+    def on_half_the_elements(self, every: int = 1) -> OnSection:
+        """Return the response with half the elements per radius and fewer traction rings.
+
+        every  1 to keep the tractions of all rings, 2 to keep those of every second ring
+        """
+        state, asked = self.state, self.state.discretisation
+        radii = state.axes["radii"]
+        assert asked is not None
+        half = max(2, asked.elements_per_radius // 2)
+        # An additional unloaded ring preserves the last ring if their number is even.
+        pad = (len(radii) - 1) % every
+        more = [*radii, *[2 * radii[-1] - radii[-2]] * pad]
+        tractions = {}
+        for name, field in state.tractions.items():
+            pads = [(0, len(more) - len(field)), *[(0, 0)] * (field.ndim - 1)]
+            tractions[name] = np.asarray(np.pad(field, pads)[::every])
+        coarse = replace(
+            state,
+            axes={**state.axes, "radii": np.array(more[::every])},
+            tractions=tractions,
+            discretisation=asked.model_copy(update={"elements_per_radius": half}),
+        )
+        return replace(self, state=coarse)
+
+    def drawn_stress(self) -> None:
+        """Return None: the mesh would take longer than the run."""
 
 
 def _section_points(field: SectionField) -> StressPoints:

@@ -129,3 +129,15 @@ def _quantity_units(parts: Iterable[object]) -> Iterator[str]:
         if isinstance(part, Quantity):
             yield part.kind.si
         yield from _quantity_units(get_args(part))
+
+
+def increments_text(counts: tuple[int, ...]) -> str:
+    """Return the text of the numbers of increments, such as "30 = 10 + 20 in 2 steps".
+
+    counts  number of increments of each load step
+    """
+    if len(counts) == 1:
+        return str(counts[0])
+    shown = " + ".join(map(str, counts[:MAX_STEPS_SHOWN]))
+    more = " + …" if len(counts) > MAX_STEPS_SHOWN else ""
+    return f"{sum(counts)} = {shown}{more} in {len(counts)} steps"

@@ -77,8 +77,6 @@ class AngularGrid:
     def amplitudes(self, values: Matrix, components: Sequence[int] = (R, THETA, Z)) -> Matrix:
         """Transform fields at the points of rings to amplitudes of angular harmonics.
 
-        A ring is a circle around the axis on the surface.
-
         values      fields at the points (fields, rings, points)
         components  component r, θ or z as which each field is transformed (fields,)
         returns     amplitudes of the fields in each family (families, fields, rings, harmonics)

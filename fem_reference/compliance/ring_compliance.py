@@ -66,8 +66,7 @@ class RingCompliance:
     def contact_edge(self, pressure: Vector, shear: Vector | None = None) -> float:
         """Compute the radius of the contact edge from the pressure at the rings [length].
 
-        The pressure decreases to zero at the contact edge, which may lie between two rings. A ring
-        is a circle around the axis on the surface.
+        The pressure decreases to zero at the contact edge, which may lie between two rings.
 
         pressure  pressure at the rings (rings,) [force/length^2]
         shear     outward shear at the rings (rings,) [force/length^2]; None without shear

@@ -126,8 +126,7 @@ class ContactMethod:
     def undeformed_gap(self) -> NDArray[np.float64]:
         """Gap between the undeformed surfaces at first contact, at the rings (rings,) [length].
 
-        A ring is a circle around the axis on the surface. The value of a ring is the weighted mean
-        over its basis function.
+        The value of a ring is the weighted mean over its basis function.
         """
         return self._axisymmetric_contact.gap
 
@@ -135,7 +134,7 @@ class ContactMethod:
     def _axisymmetric_contact(self) -> PointContact:
         """Contact problem with one point per ring of the surface, without loads.
 
-        A ring is a circle around the axis. Used while the tractions do not depend on the angle.
+        Used while the tractions do not depend on the angle.
         """
         return point_contact(self.model, self.plan.path, axisymmetric_grid(), self.penalty)
 
@@ -143,8 +142,7 @@ class ContactMethod:
     def _angular_contact(self) -> PointContact:
         """Contact problem with points at several angles on each ring of the surface, without loads.
 
-        A ring is a circle around the axis. Used for coupled bodies under a tangential load, whose
-        tractions depend on the angle.
+        Used for coupled bodies under a tangential load, whose tractions depend on the angle.
         """
         assert self.around is not None
         return point_contact(self.model, self.plan.path, self.around, self.penalty)

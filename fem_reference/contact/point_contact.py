@@ -102,8 +102,8 @@ class PointContact:
     def extend_to_points(self, state: PointState) -> PointState:
         """Extend an axisymmetric contact state to several points on each ring of the surface.
 
-        A ring is a circle around the axis. Used when the first tangential load on coupled bodies
-        ends the axisymmetry. Every point takes the values of its ring.
+        Used when the first tangential load on coupled bodies ends the axisymmetry. Every point
+        takes the values of its ring.
 
         state  contact state with one point per ring
         """
@@ -119,9 +119,8 @@ def point_contact(
 ) -> PointContact:
     """Create the contact problem of two bodies on the rings of their mesh and the angles of a grid.
 
-    A ring is a circle around the axis on the surface. The penalty law acts at Gauss points, except
-    on paths with angles, where it acts at nodes. Raise ResourceRefused if the memory is
-    insufficient for the compliance matrix of all points.
+    The penalty law acts at Gauss points, except on paths with angles, where it acts at nodes. Raise
+    ResourceRefused if the memory is insufficient for the compliance matrix of all points.
 
     model    the two bodies with their meshes, compliances, undeformed gap and friction
     path     tractions that the solve computes

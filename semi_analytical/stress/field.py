@@ -35,6 +35,9 @@ DOUBLE = 8
 # of the closed form, spectra. Measured with shear at 90² and 176² cells: 222.
 WORK = 9 * len(FIELDS) * len(TRACTIONS)
 FIXED = 100 << 20
+# Half width of the window in half extents of the contact. It includes the contact edge, where the
+# tensile stress is largest, and the deflection of a coating outside the contact.
+MARGIN = 1.6
 
 
 @dataclass(frozen=True)
@@ -315,6 +318,15 @@ def required_bytes(cells: tuple[int, int], levels: int, numbers: int = 0) -> int
     """
     arrays = max(WORK + len(FIELDS) * levels, numbers * levels)
     return DOUBLE * cells[0] * cells[1] * arrays + FIXED
+
+
+def bytes_below_contact(grid: SurfaceGrid) -> int:
+    """Estimate the peak memory of the stress below a contact that fills the grid [byte].
+
+    The memory is that of one level, without the fixed memory of the program.
+    """
+    nx, ny = (round(MARGIN * cells) for cells in grid.cells)
+    return required_bytes((nx, ny), 1) - FIXED
 
 
 def refuse_beyond_memory(cells: tuple[int, int], levels: int, numbers: int = 0) -> None:

@@ -20,10 +20,10 @@ from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import optional, refuse_if
 from slipstick.cli.progress import print_level, solve_progress
 from slipstick.cli.terminal import print_message
-from slipstick.solvers.solver import Progress, Solver
 
 if TYPE_CHECKING:
     from contact_errors.adaptive_refinement import Refined
+    from contact_scene.discretised import DiscretisedSolver, Progress
 
 AccuracyOption: TypeAlias = Annotated[
     str | None,
@@ -109,8 +109,7 @@ def remove_level_checkpoints(output: Path) -> None:
 @contextmanager
 def solve_to_accuracy(
     request: AccuracyRequest,
-    solver: Solver,
-    contents: SceneFile,
+    solver: DiscretisedSolver,
     output: Path,
     most_seconds: float | None,
     *,
@@ -124,13 +123,12 @@ def solve_to_accuracy(
     Raises the errors of `contact_errors.adaptive_refinement.refine`.
 
     request       requested relative errors
-    solver        chosen solver
-    contents      scene and settings of the solver
+    solver        solver of the scene
     output        output directory
     most_seconds  limit of the total time [s]; None for no limit
     step          load step at whose end the stress is required, from 1; None for the last
     """
-    from contact_errors.adaptive_refinement import refine
+    from contact_errors.adaptive_refinement import Levels, refine
 
     tried = 0
 
@@ -143,7 +141,7 @@ def solve_to_accuracy(
         nonlocal tried
         tried += 1
         of_level.close()
-        identity = solve_identity(contents.scene, fineness, vars(solver))
+        identity = solve_identity(fineness, solver)
         yield of_level.enter_context(
             provide_checkpoints(output, identity, print_message, f"{OF_LEVEL}{tried}")
         )
@@ -154,10 +152,7 @@ def solve_to_accuracy(
         with solve_progress(fineness.increments) as observe:
             yield observe
 
-    fineness = solver.fineness(contents)
     most = inf if most_seconds is None else most_seconds
-    levels = solver.levels(
-        contents.scene, fineness, request.binds_stress, show_level, store_level, step=step
-    )
+    levels = Levels.of_request(solver, request.binds_stress, show_level, store_level, step=step)
     with ExitStack() as of_level:
         yield refine(levels, request, most, print_level)

@@ -43,7 +43,6 @@ class WordedCommand(TyperCommand):
 
 
 def _shorten_message(message: str) -> str:
-    """Shorten an error message above `LONGEST` characters to its start and its end."""
     left_out = len(message) - LONGEST
     if left_out <= 0:
         return message
@@ -190,7 +189,6 @@ def maintain() -> None:
 
 
 def _print_version(wanted: bool) -> None:
-    """Print the version of the program and exit, if the option `--version` is given."""
     if wanted:
         from contact_results.directory.machine import program_version
 

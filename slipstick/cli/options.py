@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 import typer
 from typer.models import OptionInfo
 
-from slipstick.solvers.names import SolverName
+from contact_results.solvers import SolverName
 
 if TYPE_CHECKING:
     from contact_scene import SceneFile

@@ -12,10 +12,10 @@ import numpy as np
 import typer
 
 from contact_results.directory.stop_signals import cleaned_up_when_stopped
+from contact_scene.discretised import Progress
 from contact_scene.quantities.increment import ReportedIncrement
 from contact_scene.quantities.stated_error import AccuracyReached, StatedErrors
 from slipstick.cli.terminal import print_message
-from slipstick.solvers.solver import Progress
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
@@ -147,7 +147,6 @@ def accuracy_lines(accuracy: AccuracyReached) -> Iterator[tuple[str, str]]:
 
 
 def _request_text(requested: float, reached: float | None) -> str:
-    """Return the text of a requested and a reached relative error, in per cent."""
     found = "not converged" if reached is None else f"reached {100 * reached:.2g} %"
     return f"requested {100 * requested:.3g} %, {found}"
 

@@ -141,7 +141,7 @@ class Table:
 
 
 def _format_value(column: str, value: Any) -> str:
-    """Convert a value to CSV text: uncertainties with 2 digits, other floats with 15 digits."""
+    """Format uncertainties with 2 digits, other floats with 15 digits."""
     if not isinstance(value, float):
         return str(value)
     return f"{value:.1e}" if column.endswith("uncertainty") else f"{value:.15g}"

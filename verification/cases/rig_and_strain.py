@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 
 from contact_results.cycles import fretting_cycles
 from contact_results.stress.loaded_bodies import state_of_result
-from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_cells import OnCells
 from contact_scene import Ellipsoid, IsotropicMaterial, Layer, LoadStep, Rig
 from contact_scene.quantities.summary import OF_CYCLES
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
@@ -507,7 +507,7 @@ def _added_stress(layer: int) -> Observable:
     def measure(result: Any, step: int, _: Problem) -> float:
         deep = (0.1e-3, 0.4e-3)
         states = (state_of_result(result, number) for number in (1, 2))
-        before, after = (stress_on_cells(state, depths=deep).axis for state in states)
+        before, after = (OnCells(state).stress(deep).axis for state in states)
         level = int(np.argmin(np.abs(after.depth - deep[layer])))
         return float(after.stress[0, level] - before.stress[0, level])
 

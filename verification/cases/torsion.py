@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import radial
-from contact_errors.on_cells import CellSolver
-from contact_errors.on_radii import RingSolver
+from contact_errors.coarse_solves import stated_errors
 from contact_scene import (
     Body,
     IsotropicMaterial,
@@ -545,8 +544,8 @@ def _apart_of_stated(ours: Any, _: int, problem: Problem) -> float:
 
     theirs, shares = problem.ends[-1](), []
     both_errors = (
-        RingSolver.stated_errors(ours),
-        CellSolver.stated_errors(theirs),
+        stated_errors(ours),
+        stated_errors(theirs),
     )
     for one, other, *stated in zip(
         ours.steps, theirs.steps, *(errors.steps for errors in both_errors), strict=True

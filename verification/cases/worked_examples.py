@@ -30,7 +30,7 @@ import semi_analytical
 from contact_results.directory.file_names import CYCLES, FIELDS, INCREMENTS
 from contact_results.result_files import write_result
 from contact_results.stress.loaded_bodies import state_of_result
-from contact_results.stress.on_cells import stress_on_cells
+from contact_results.stress.on_cells import OnCells
 from contact_results.stress.stress_maxima import (
     Extreme,
     extremes,
@@ -479,7 +479,7 @@ def _stress_extremes() -> dict[tuple[str, str], Extreme]:
     grid = square_grid(COARSE, MARGIN * HERTZ.contact_radius)
     state = state_of_result(semi_analytical.solve(COATED, grid, SOLVER_TOLERANCE), 1)
     depth = COATED.body.layers[0].thickness
-    field = stress_on_cells(state, depths=(0.5 * depth, 1.5 * depth), see_edge=False)
+    field = OnCells(state, see_edge=False).stress((0.5 * depth, 1.5 * depth))
     return {(e.region, e.measure): e for e in extremes(field)}
 
 

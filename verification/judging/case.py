@@ -5,14 +5,16 @@ There is one class of runs for each of the three solvers.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import IntEnum, StrEnum
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from contact_scene import FiniteElementDiscretisation, Scene, SurfaceDiscretisation
 from contact_scene.discretisation import EdgeCorrection
 from verification.convergence.observed_order import ORDER_WIDTH
+from verification.observed.ring_errors import judged_within
 from verification.problems.problem import EXACT, NUMERICAL, Reference, ReferenceKind
 from verification.solver import Method, Solver
 
@@ -37,30 +39,58 @@ OVER_ANGLES = 5e-3
 ENERGY_OVER_RINGS = 2e-4
 
 
-@dataclass(frozen=True)
-class Run:
-    """Run of the semi-analytical solver: one scene on a grid of cells, solved to a tolerance.
+# Words for measured quantities in the discretisation of a run, by placeholder. The description of
+# an observable contains placeholders, such as {point} for "cell" or "ring".
+CELLS = {
+    "point": "cell",
+    "edge": "√(contact area / π), cells at the edge counted in part",
+    "stick": "√(stick area / π)",
+    "axis": "of the cells around the axis",
+    "domain": "window",
+    "sum": "Σ",
+    "between": "0.1 to 0.95",
+    "but": "two cells around the stick edge apart, ",
+}
+STRIPS = CELLS | {
+    "point": "strip",
+    "edge": "half of the contact width, fitted below the strip width",
+    "stick": "half of the width of the stick zone",
+}
+HATS = {
+    "point": "ring",
+    "edge": "where the pressure ends, from its last two values",
+    "stick": "stick radius",
+    "axis": "on the axis",
+    "domain": "contact",
+    "sum": "∫",
+    "but": "",
+}
+RINGS = HATS | {"edge": "radius of the contact"}
+SPRINGS = HATS | {
+    "point": "Gauss point",
+    "edge": "where the pressure ends, by a fit of its square",
+}
 
-    label      name of the run within its case
-    scene      bodies and loads
-    grid       grid of cells
-    tolerance  bound of every residual [1]
-    effects    function that changes the set of computed physical effects before the solve; None: no
-               change
-    problem    name of the problem, if a case has several problems; else empty
-    edge       setting of the edge correction; the default of users, unless orders of convergence of
-               the uncorrected method are judged
+
+@dataclass(frozen=True)
+class AnyRun(ABC):
+    """Run of one of the three solvers: one scene with one discretisation.
+
+    label    name of the run within its case
+    scene    bodies and loads
+    problem  name of the problem, if a case has several problems; else empty
     """
 
     label: str
     scene: Scene
-    grid: SurfaceGrid
-    tolerance: float = SOLVER_TOLERANCE
-    effects: Callable[[Plan], Plan] | None = None
-    problem: str = ""
-    edge: EdgeCorrection = BY_DEFAULT
+    problem: str = field(default="", kw_only=True)
 
-    solver: ClassVar[Solver] = Solver.CELLS
+    solver: ClassVar[Solver]
+
+    @property
+    @abstractmethod
+    def tolerance(self) -> float:
+        """Bound of every residual [1]."""
 
     @property
     def laws(self) -> float:
@@ -75,11 +105,70 @@ class Run:
         return self.laws
 
     @property
+    def as_users(self) -> bool:
+        """True if the settings are those of users, with which stated errors are judged."""
+        return True
+
+    @property
+    @abstractmethod
+    def spacing(self) -> float:
+        """Discretisation size h in orders of convergence."""
+
+    @property
+    @abstractmethod
+    def words(self) -> Mapping[str, str]:
+        """Words for measured quantities in the discretisation of this run, by placeholder."""
+
+    @abstractmethod
+    def solve(self) -> Any:
+        """Solve the scene of the run; raises the exceptions of its solver."""
+
+    @abstractmethod
+    def record(self, result: Any) -> Mapping[str, Any]:
+        """Return the fields of `RunRecord` that belong to the discretisation, by name."""
+
+
+@dataclass(frozen=True)
+class Run(AnyRun):
+    """Run of the semi-analytical solver: one scene on a grid of cells, solved to a tolerance.
+
+    grid       grid of cells
+    tolerance  bound of every residual [1]
+    effects    function that changes the set of computed physical effects before the solve; None: no
+               change
+    edge       setting of the edge correction; the default of users, unless orders of convergence of
+               the uncorrected method are judged
+    """
+
+    grid: SurfaceGrid
+    tolerance: float = SOLVER_TOLERANCE
+    effects: Callable[[Plan], Plan] | None = None
+    edge: EdgeCorrection = BY_DEFAULT
+
+    solver: ClassVar[Solver] = Solver.CELLS
+
+    @property
+    def as_users(self) -> bool:
+        return self.edge == BY_DEFAULT
+
+    @property
     def spacing(self) -> float:
         """Longer side of a cell of the grid, or width of a strip: the discretisation size h in
         orders of convergence [length].
         """
         return self.grid.cell_side
+
+    @property
+    def words(self) -> Mapping[str, str]:
+        return STRIPS if self.grid.of_strips else CELLS
+
+    def record(self, result: Any) -> Mapping[str, Any]:
+        return {
+            "cells": self.grid.cells,
+            "window": self.grid.window,
+            "convolutions": sum(i.convolutions for i in result.increments),
+            "edge_change": max(i.edge_change or 0.0 for i in result.increments),
+        }
 
     def solve(self) -> semi_analytical.Result:
         """Solve the scene on the grid of cells, with the physical effects that the solver or the
@@ -96,24 +185,18 @@ class Run:
 
 
 @dataclass(frozen=True)
-class SectionRun:
+class SectionRun(AnyRun):
     """Run of the finite element solver: one scene on an axisymmetric mesh.
 
-    label           name of the run within its case
-    scene           bodies and loads
     discretisation  mesh and tolerance
     method          contact algorithm
     beyond          distance of the contact edge beyond the radius that the mesh divides, in
                     elements, if known; for meshes that differ in this distance alone, the mean
-    problem         name of the problem, if a case has several problems; else empty
     """
 
-    label: str
-    scene: Scene
     discretisation: FiniteElementDiscretisation
     method: Method = Method.COMPLEMENTARITY
     beyond: float = 0.0
-    problem: str = ""
 
     solver: ClassVar[Solver] = Solver.ELEMENTS
 
@@ -123,23 +206,24 @@ class SectionRun:
         return self.discretisation.tolerance
 
     @property
-    def laws(self) -> float:
-        """Largest accepted violation of a law of contact or friction in the fields of this
-        run [1].
-        """
-        return OTHER_NORMS * self.tolerance
-
-    @property
-    def energy(self) -> float:
-        """Largest accepted energy imbalance of an increment, over the largest energy so far [1]."""
-        return self.laws
-
-    @property
     def spacing(self) -> float:
         """Side of an element at the contact over the contact radius: size h in orders of
         convergence [1].
         """
         return 1 / (self.discretisation.elements_per_radius + self.beyond)
+
+    @property
+    def words(self) -> Mapping[str, str]:
+        within = f"{judged_within(self.discretisation.elements_per_radius):.2g}"
+        own = SPRINGS if self.method is Method.PENALTY else HATS
+        return own | {"within": within, "between": f"0.1 to {within}"}
+
+    def record(self, result: Any) -> Mapping[str, Any]:
+        return {
+            "elements_per_radius": self.discretisation.elements_per_radius,
+            "method": self.method,
+            "factorizations": sum(i.factorizations for i in result.increments),
+        }
 
     def solve(self) -> fem_reference.Result:
         """Solve the scene by finite elements on the mesh and with the contact method of the run.
@@ -153,30 +237,27 @@ class SectionRun:
 
 
 @dataclass(frozen=True)
-class RadiiRun:
+class RadiiRun(AnyRun):
     """Run of the radial solver: one scene whose tractions are represented over the radius.
 
-    label      name of the run within its case
-    scene      bodies and loads
     fineness   factor on the numbers of polynomials and rings that the solver chooses
     rings      number of rings at which the solver returns its fields
     tolerance  bound of every residual [1]
     laws       largest accepted violation of a law of contact or friction in these fields [1]
     at_points  True if torsion is solved at points on rings although a closed form would suffice
-    problem    name of the problem, if a case has several problems; else empty
     """
 
-    label: str
-    scene: Scene
     fineness: float = 1
     rings: int = 512
     tolerance: float = SOLVER_TOLERANCE
     laws: float = OVER_RINGS
     at_points: bool = False
-    problem: str = ""
 
     solver: ClassVar[Solver] = Solver.RADII
-    energy: ClassVar[float] = ENERGY_OVER_RINGS
+
+    @property
+    def energy(self) -> float:
+        return ENERGY_OVER_RINGS
 
     @property
     def spacing(self) -> float:
@@ -184,6 +265,13 @@ class RadiiRun:
         number used.
         """
         return 1 / self.fineness
+
+    @property
+    def words(self) -> Mapping[str, str]:
+        return RINGS
+
+    def record(self, result: Any) -> Mapping[str, Any]:
+        return {"rings": self.rings}
 
     def solve(self) -> radial.Result:
         """Solve the scene by the radial solver with the fineness of the run.
@@ -199,9 +287,6 @@ class RadiiRun:
         if self.at_points:
             plan = replace(plan, circle=RingAngles.ONE)
         return radial.solve(self.scene, asked, plan=replace(plan, fineness=self.fineness))
-
-
-AnyRun = Run | SectionRun | RadiiRun
 
 
 def per_radius(elements: int, contact_radius: float | None = None) -> FiniteElementDiscretisation:

@@ -39,7 +39,7 @@ from verification.judging.case import (
     SectionRun,
     per_radius,
 )
-from verification.observed.ring_errors import central_pressure, judged_within
+from verification.observed.ring_errors import central_pressure
 from verification.problems.cattaneo_mindlin import (
     OVER_LARGEST_SHIFT,
     OVER_LIMIT,
@@ -71,36 +71,6 @@ def refinement(coarsest: int, finest: int) -> tuple[int, ...]:
     return tuple(reversed(counts))
 
 
-CELLS = {
-    "point": "cell",
-    "edge": "√(contact area / π), cells at the edge counted in part",
-    "stick": "√(stick area / π)",
-    "axis": "of the cells around the axis",
-    "domain": "window",
-    "sum": "Σ",
-    "between": "0.1 to 0.95",
-    "but": "two cells around the stick edge apart, ",
-}
-STRIPS = CELLS | {
-    "point": "strip",
-    "edge": "half of the contact width, fitted below the strip width",
-    "stick": "half of the width of the stick zone",
-}
-HATS = {
-    "point": "ring",
-    "edge": "where the pressure ends, from its last two values",
-    "stick": "stick radius",
-    "axis": "on the axis",
-    "domain": "contact",
-    "sum": "∫",
-    "but": "",
-}
-RINGS = HATS | {"edge": "radius of the contact"}
-SPRINGS = HATS | {
-    "point": "Gauss point",
-    "edge": "where the pressure ends, by a fit of its square",
-}
-
 WINDOW_PER_RADIUS = 3.0
 # Number of rings at which the radial solver returns its fields.
 RINGS_SHOWN = 64
@@ -124,21 +94,6 @@ class SizedRun:
     run: AnyRun
     count: int
     reach: float = 1.0
-
-    @property
-    def words(self) -> dict[str, str]:
-        """Words for measured quantities in the discretisation of this level, by placeholder.
-
-        The description of an observable contains placeholders, such as {point} for "cell" or
-        "ring".
-        """
-        if isinstance(self.run, Run):
-            return STRIPS if self.run.grid.of_strips else CELLS
-        if isinstance(self.run, RadiiRun):
-            return RINGS
-        hats = self.run.method is not Method.PENALTY
-        within = f"{judged_within(self.count):.2g}"
-        return (HATS if hats else SPRINGS) | {"within": within, "between": f"0.1 to {within}"}
 
 
 @dataclass(frozen=True)
@@ -351,7 +306,9 @@ def on_radii(
     def rung(times: float) -> SizedRun:
         label = name if times == 1 else f"{name}, {times:g} times as fine"
         scene = problem.scene
-        return SizedRun(RadiiRun(label, scene, times, rings, EXACT, laws, at_points, name), rings)
+        return SizedRun(
+            RadiiRun(label, scene, times, rings, EXACT, laws, at_points, problem=name), rings
+        )
 
     rungs = {times: rung(times) for times in fineness}
     return RefinementLevels(problem, tuple(rungs.values()), rungs[1], tuple(rungs.values()))
@@ -1007,7 +964,7 @@ def _quantity(
     problem = ladder.problem
     return Quantity(
         name=name or what.verdict,
-        meaning=what.said(rung.words),
+        meaning=what.said(rung.run.words),
         unit=what.unit,
         run=rung.run.label,
         measure=what.read(problem),
@@ -1025,7 +982,7 @@ def _order(row: Falls, ladder: RefinementLevels) -> Order:
     return Order(
         name=f"order_of_{what.name}",
         of=what.of,
-        meaning=row.meaning or what.said(ladder.judged.words),
+        meaning=row.meaning or what.said(ladder.judged.run.words),
         levels=ladder.levels,
         error=what.error(ladder.problem),
         expected=row.expected,
@@ -1038,7 +995,7 @@ def _finding(row: Reported, ladder: RefinementLevels) -> Finding:
     what, rung = row.what, ladder.judged
     return Finding(
         what.verdict,
-        what.said(rung.words),
+        what.said(rung.run.words),
         what.unit,
         rung.run.label,
         what.read(ladder.problem),

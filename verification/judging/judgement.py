@@ -9,13 +9,13 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from pkgutil import resolve_name
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from contact_errors.coarse_solves import DiscretisedSolver
+from contact_errors import coarse_solves
+from contact_results.solvers import solver_of
 from contact_scene import Scene, SurfaceDiscretisation
 from contact_scene.quantities.stated_error import ErrorStatus, StatedErrors
 from contact_scene.quantities.summary import EffectSummary
@@ -29,7 +29,6 @@ from verification.convergence.observed_order import (
     observed_order,
 )
 from verification.judging.case import (
-    BY_DEFAULT,
     OTHER_NORMS,
     OVER_ANGLES,
     OVER_RINGS,
@@ -38,10 +37,8 @@ from verification.judging.case import (
     Derived,
     Order,
     Quantity,
-    RadiiRun,
     Required,
     Run,
-    SectionRun,
 )
 from verification.judging.outcome import (
     IMBALANCE,
@@ -62,7 +59,6 @@ from verification.observed.contact_state import Imbalance
 from verification.observed.observed_laws import Observed, observed
 from verification.problems.problem import NUMERICAL, ROUNDING, ReferenceKind, identity
 from verification.quantities import largest_residual
-from verification.solver import Solver
 
 Results = Mapping[str, Any]
 
@@ -454,23 +450,10 @@ def stated_errors(case: Case, results: Mapping[str, Any]) -> dict[str, StatedErr
     """
     judged = {q.run for q in case.quantities if q.scalar is not None} & results.keys()
     return {
-        run.label: _discretised(run).stated_errors(results[run.label])
+        run.label: coarse_solves.stated_errors(results[run.label])
         for run in case.runs
-        if run.label in judged and (not isinstance(run, Run) or run.edge == BY_DEFAULT)
+        if run.label in judged and run.as_users
     }
-
-
-# Solvers with variable discretisation; one that no run needs is not imported.
-DISCRETISED = {
-    Solver.CELLS: "contact_errors.on_cells:CellSolver",
-    Solver.ELEMENTS: "contact_errors.on_elements:ElementSolver",
-    Solver.RADII: "contact_errors.on_radii:RingSolver",
-}
-
-
-def _discretised(run: AnyRun) -> type[DiscretisedSolver]:
-    found: type[DiscretisedSolver] = resolve_name(DISCRETISED[run.solver])
-    return found
 
 
 def with_uncertainty(quantity: Quantity, case: Case, results: dict[str, Any]) -> Quantity:
@@ -489,7 +472,7 @@ def with_uncertainty(quantity: Quantity, case: Case, results: dict[str, Any]) ->
     label = quantity.labels[-1]
     coarse = quantity.coarse or f"{label}, half as fine"
     if coarse not in results:
-        solver = _discretised(case.run(label)).of(results[label])
+        solver = solver_of(results[label])
         space = solver.coarser(results[label], 1 / 2, 0)
         results[coarse] = solver.solve(replace(solver.fineness_of(results[label]), space=space))
     bound = quantity.measure(results[coarse], results[label])
@@ -541,24 +524,17 @@ def _required_runs(quantity: Quantity) -> set[str]:
 
 
 def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:
-    grid = run.grid if isinstance(run, Run) else None
-    mesh = run.discretisation if isinstance(run, SectionRun) else None
+    # Fields that not every solver has, for those that lack them.
+    own = {"cells": None, "window": None, "convolutions": 0, **run.record(result)}
     return RunRecord(
         label=run.label,
-        cells=grid.cells if grid else None,
-        window=grid.window if grid else None,
-        elements_per_radius=mesh.elements_per_radius if mesh else None,
-        rings=run.rings if isinstance(run, RadiiRun) else None,
-        method=run.method if isinstance(run, SectionRun) else None,
         problem=run.problem,
         planned=_planned_run(run, case),
         tolerance=run.tolerance,
         increments=len(result.increments),
         iterations=sum(increment.iterations for increment in result.increments),
-        convolutions=sum(i.convolutions for i in result.increments) if grid else 0,
-        factorizations=sum(i.factorizations for i in result.increments) if mesh else 0,
         largest_residual=finite(largest_residual(result)),
-        edge_change=max(i.edge_change or 0.0 for i in result.increments) if grid else 0.0,
+        **own,
     )
 
 

@@ -1,6 +1,7 @@
 """Laws of contact, friction and energy in the stored fields of a result of any solver."""
 
 from collections import Counter
+from pkgutil import resolve_name
 from typing import Any, NamedTuple
 
 from verification.observed.contact_state import (
@@ -10,6 +11,13 @@ from verification.observed.contact_state import (
     missed,
     violations,
 )
+
+# Functions that collect the states of a result, by the package of its solver.
+STATES = {
+    "semi_analytical": "verification.observed.cells:states_on_cells",
+    "fem_reference": "verification.observed.elements:states_on_elements",
+    "radial": "verification.observed.radii:states_on_radii",
+}
 
 
 class Observed(NamedTuple):
@@ -44,14 +52,6 @@ def observed(result: Any) -> Observed:
 
 
 def _contact_states(result: Any) -> list[ContactState]:
-    if result.solver == "semi_analytical":
-        from verification.observed.cells import states_on_cells
-
-        return states_on_cells(result)
-    if result.solver == "radial":
-        from verification.observed.radii import states_on_radii
-
-        return states_on_radii(result)
-    from verification.observed.elements import states_on_elements
-
-    return states_on_elements(result)
+    package = result.solver.partition(".")[0]
+    found: list[ContactState] = resolve_name(STATES[package])(result)
+    return found

@@ -28,6 +28,8 @@ PACKAGES = (
 )
 # It exports the challenges, on which the other modules do not depend.
 EXPORTS = "verification/__init__.py"
+# Objects that `pkgutil.resolve_name` imports, such as the solvers in `contact_results.solvers`.
+RESOLVED = re.compile(r'"([\w.]+):\w+"')
 # A catalogue imports the modules of its package by name.
 BY_NAME = re.compile(r'import_module\(f"([\w.]+)\.\{')
 
@@ -95,6 +97,7 @@ def closure(modules: Iterable[str]) -> set[str]:
 def _imported_files(path: str) -> tuple[str, ...]:
     text = (ROOT / path).read_text(encoding="utf-8")
     names = {f for name in BY_NAME.findall(text) for f in _module_files(name, whole=True)}
+    names |= {f for name in RESOLVED.findall(text) for f in _module_files(name)}
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
             names |= {file for name in node.names for file in _module_files(name.name)}

@@ -16,14 +16,11 @@ from zlib import crc32
 import numpy as np
 from scipy.special import bdtr, betaincinv
 
-import fem_reference
-import semi_analytical
 from contact_errors.adaptive_refinement import Levels, refine
-from contact_errors.coarse_solves import Fineness
+from contact_errors.coarse_solves import stated_errors
 from contact_errors.error_formula import values_of
-from contact_errors.on_cells import CellSolver
-from contact_errors.on_elements import ElementSolver
 from contact_scene.accuracy import BOUND, LARGEST_TENSION, AccuracyRequest
+from contact_scene.discretised import Fineness
 from contact_scene.quantities.stated_error import ErrorStatus, StatedError, StatedErrors
 from contact_scene.solver_errors import SolverError
 from verification.exhibits.chart import Chart, Look, Table, log_chart, point_curves, table_of
@@ -145,17 +142,9 @@ def coverage_row(truth: Truth, found: float, stated: StatedError | None) -> Row:
 
 
 def _solve_with_errors(known: KnownScene) -> tuple[Any, StatedErrors]:
-    """Solve a scene with known results, and estimate the errors of the computed results.
-
-    The scene determines the solver (cells or finite elements) and the discretisation. Returns the
-    result and its stated errors.
-    """
-    asked: Any = known.fineness.asked
-    if known.fineness.solver == CELLS:
-        result = semi_analytical.solve_discretised(known.scene, asked)
-        return result, CellSolver.stated_errors(result)
-    on_sections = fem_reference.solve(known.scene, asked, fem_reference.Method.COMPLEMENTARITY)
-    return on_sections, ElementSolver.stated_errors(on_sections)
+    """Solve a scene with known results; return the result and its stated errors."""
+    result = known.solver.run()
+    return result, stated_errors(result)
 
 
 CONFIDENCE = 0.95
@@ -368,13 +357,10 @@ class RequestCase:
             parameters=parameters_of(self) | {"family": family, "quantity": quantity},
             measures={ASKED: share},
         )
-        asked: Any = known.fineness.asked
-        if known.fineness.solver == CELLS:
-            stress_at = truths[0].step if quantity == LARGEST_TENSION else None
-            on_cells = CellSolver(known.scene, asked, stress=stress_at is not None)
-            levels = LimitedLevels(on_cells, stress_at, most=MAX_CELLS)
-        else:
-            levels = LimitedLevels(ElementSolver(known.scene, asked), most=MAX_ELEMENTS)
+        # The largest tension is requested on cells only (`_requestable_quantities`).
+        stress_at = truths[0].step if quantity == LARGEST_TENSION else None
+        most = MAX_CELLS if known.fineness.solver == CELLS else MAX_ELEMENTS
+        levels = LimitedLevels(known.solver, stress_at, most=most)
         try:
             made = refine(levels, AccuracyRequest(**{quantity: share}))
         except SolverError as error:

@@ -16,6 +16,7 @@ from contact_results.directory.json_record import first_mistake
 from contact_results.directory.run_directory import refuse_files_above
 from contact_results.files.stored_run import StoredRun, load
 from contact_results.number_text import Uncertainty, number_text
+from contact_results.solvers import SolverName
 from contact_scene import read_scene_file
 from contact_scene.accuracy import accuracy_texts
 from contact_scene.reading.engineering_units import engineering_unit
@@ -36,7 +37,6 @@ from slipstick.cli.errors import ExitCode
 from slipstick.cli.options import OptionalSolver, SetOption, optional, refuse_with_run
 from slipstick.cli.terminal import print_table
 from slipstick.identification import FittedInput, fit, read_first_values
-from slipstick.solvers.names import SolverName
 from slipstick.solving import save, solve, stated_errors
 from slipstick.uncertain_inputs import changed_overrides, read_inputs
 from slipstick.validation import with_uncertainties
@@ -213,7 +213,6 @@ def against(
 
 
 def _compare(measured: Mapping[str, Numbers], run: StoredRun, step: int | None) -> Comparison:
-    """Compare a measured table with a stored run that has the load step."""
     if step is not None and step > len(run.summary.steps):
         raise NothingToCompare(f"got step {step}, expected 1 to {len(run.summary.steps)}")
     return comparison(measured, run, step)

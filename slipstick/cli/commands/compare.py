@@ -102,10 +102,6 @@ def exit_code_of(report: Report) -> ExitCode:
 
 
 def _read_baselines(place: Path | None) -> dict[str, Baseline]:
-    """Read the accepted numbers from a folder of baselines, or from another report.
-
-    place  folder of baselines, or path of a report; None for the baselines of slipstick
-    """
     if place is None or (place.is_dir() and not record_in(place).is_file()):
         return read_baselines(place)
     return baselines_of(read_report(place), f"the report {place}")

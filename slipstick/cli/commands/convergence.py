@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from contact_results.solvers import SolverName
 from contact_scene import read_scene_file
 from slipstick.cli.commands.study import compute_study, option_words, print_statements
 from slipstick.cli.errors import ExitCode
@@ -19,7 +20,6 @@ from slipstick.cli.options import (
     print_input_warnings,
 )
 from slipstick.cli.terminal import print_table
-from slipstick.solvers.names import SolverName
 from verification.judging.case import Level
 from verification.judging.outcome import Status
 from verification.report.file_names import PAGE

@@ -59,10 +59,6 @@ def datasets() -> Iterator[Dataset]:
 
 
 def _row_command(table: Table) -> Callable[[Mapping[str, Any]], str]:
-    """Return a function that writes the command line of a table row, for its provenance.
-
-    table  table of reference numbers
-    """
     return lambda row: " ".join(
         [f"slipstick table {table.name}", *(f"--over {name}={row[name]!r}" for name in table.axes)]
     )
@@ -71,15 +67,6 @@ def _row_command(table: Table) -> Callable[[Mapping[str, Any]], str]:
 def _add_provenance(
     found: Dataset, method: str, command: Callable[[Mapping[str, Any]], str], digest: str
 ) -> Dataset:
-    """Add the provenance of each row to a table of reference numbers, in three columns.
-
-    The columns are the method, the command that computes the row, and the digest of the sources.
-
-    found    table without these columns
-    method   method of the computation
-    command  function that writes the command line of a row
-    digest   digest of the sources that computed the rows
-    """
     rows = [
         {**row, "method": method, "command": command(row), "digest": digest} for row in found.rows
     ]

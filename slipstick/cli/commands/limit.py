@@ -10,6 +10,7 @@ import typer
 from contact_results.directory.json_record import write_record
 from contact_results.directory.run_directory import refuse_files_above
 from contact_results.number_text import number_text, uncertainty
+from contact_results.solvers import SolverName
 from contact_scene import read_scene_file
 from contact_scene.quantities.per_length import shown_unit
 from contact_scene.reading.engineering_units import quantity
@@ -22,7 +23,6 @@ from slipstick.cli.options import (
 )
 from slipstick.cli.terminal import print_message, print_pairs, print_table
 from slipstick.critical_load import CriticalLoad, critical_loads
-from slipstick.solvers.names import SolverName
 
 FILE = "limit.json"
 COLUMNS = (

@@ -4,10 +4,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated
 
 from contact_results.radial_method import radial_method
-from contact_scene import SceneFile, read_scene_file
+from contact_results.solvers import SolverName
+from contact_scene import read_scene_file
 from contact_scene.accuracy import AccuracyRequest
 from contact_scene.disk_cache import without_cache
 from contact_scene.reading.scene_file import read_accuracy
+from contact_scene.reading.scene_text import increments_text
 from contact_scene.solver_errors import AccuracyOutOfReach
 from slipstick.cli.options import (
     SceneArgument,
@@ -17,12 +19,11 @@ from slipstick.cli.options import (
     print_input_warnings,
 )
 from slipstick.cli.terminal import print_pairs, print_table
-from slipstick.solvers.names import SolverName
-from slipstick.solvers.solver import Solver, increments_text, time_text
+from slipstick.cli.time_estimate import estimated_time, time_text
 
 if TYPE_CHECKING:
     from contact_errors.adaptive_refinement import Levels
-    from contact_errors.coarse_solves import Fineness
+    from contact_scene.discretised import DiscretisedSolver, Fineness, Pairs
 
 HEADINGS = ("accuracy", "cells, elements, rings", "increments", "time", "memory")
 
@@ -51,31 +52,34 @@ def plan(
     requests = {item: read_accuracy(item, "--accuracy") for item in accuracy or ()}
     contents = read_scene_file(scene, overrides or ())
     print_input_warnings(contents)
-    chosen = solver.solver
-    fineness = chosen.fineness(contents)
-    decided = chosen.plan(contents.scene, fineness)
-    rows = ((effect.name, "on" if effect.on else "off", effect.why) for effect in decided.effects)
+    chosen = solver.solver.of_file(contents)
+    effects = chosen.run_plan.effects
+    rows = ((effect.name, "on" if effect.on else "off", effect.why) for effect in effects)
     print_table(("effect", "", "why"), rows)
-    print_pairs(chosen.work(contents.scene, fineness, decided))
-    if reasons := chosen.reasons(decided):
+    print_pairs(_work(chosen))
+    if reasons := chosen.increment_reasons():
         print_table(("step", "increments", "why"), reasons)
     if solver is not SolverName.RADIAL and (how := radial_method(contents.scene)):
         print_pairs([("radial", f"--solver radial can solve this: {how}")])
     if requests:
-        _print_prices(requests, chosen, contents)
+        _print_prices(requests, chosen)
 
 
-def _print_prices(
-    requests: Mapping[str, AccuracyRequest], solver: Solver, contents: SceneFile
-) -> None:
+def _work(solver: "DiscretisedSolver") -> "Pairs":
+    yield from solver.describe_run()
+    yield "time", estimated_time(solver)
+    yield "memory", f"about {solver.run_memory() / 2**20:.0f} MiB"
+
+
+def _print_prices(requests: Mapping[str, AccuracyRequest], solver: "DiscretisedSolver") -> None:
     """Print the estimated cost of each requested accuracy, or the reason why no grid can meet it.
 
     requests  requested accuracy by argument of `--accuracy`
     """
-    from contact_errors.adaptive_refinement import targets_of
+    from contact_errors.adaptive_refinement import Levels, targets_of
 
     stress = any(request.binds_stress for request in requests.values())
-    levels = solver.levels(contents.scene, solver.fineness(contents), stress)
+    levels = Levels.of_request(solver, stress)
     with without_cache():
         first = levels.solve_first_level()
     rows, refused = [], []
@@ -111,5 +115,5 @@ def _price_texts(levels: "Levels", last: "Fineness", seconds: float) -> tuple[st
         + (", above the limit" if levels.beyond_limit(last) else ""),
         increments_text(settings.increments),
         time_text(seconds),
-        f"about {levels.solver.memory(last) / 2**20:.0f} MiB",
+        f"about {levels.memory(last) / 2**20:.0f} MiB",
     )

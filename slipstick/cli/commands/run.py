@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from contact_results.solvers import SolverName
 from slipstick.cli.accuracy_option import (
     AccuracyOption,
     MostSecondsOption,
@@ -25,7 +26,6 @@ from slipstick.cli.options import (
     optional,
     print_input_warnings,
 )
-from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     from contact_results.result_files import WrittenResult
     from contact_results.result_report import ResultReport
     from contact_scene import SceneFile
+    from contact_scene.discretised import DiscretisedSolver
     from contact_scene.quantities.summary import StepSummary
     from slipstick.expected import Source
-    from slipstick.solvers.solver import Solver
     from slipstick.uncertain_inputs import UncertainInput
 
 
@@ -140,28 +140,27 @@ def run(
         )
         printed = print_input_warnings(contents)
     with stopwatch.phase("import"):
-        chosen = solver.solver
+        chosen = solver.solver.of_file(contents)
         from slipstick.cli.progress import show_coarse_solves, solve_progress
-    fineness = chosen.fineness(contents)
-    identity = solve_identity(contents.scene, fineness, solver)
+    identity = solve_identity(contents.scene, chosen.discretisation, solver)
     with (
         cleaned_up_when_stopped(kept=lambda: NOTHING_KEPT),
         provide_checkpoints(output, identity, print_message) as store,
         ExitStack() as until_written,
         run_directory(output, overwrite=overwrite) as staging,
     ):
-        decided = chosen.plan(contents.scene, fineness)
+        decided = chosen.run_plan
         stated = reached = None
         with stopwatch.phase("solve"):
             if request is not None:
                 refined = until_written.enter_context(
-                    solve_to_accuracy(request, chosen, contents, output, most_seconds)
+                    solve_to_accuracy(request, chosen, output, most_seconds)
                 )
                 result, stated = refined.level.result, refined.level.stated
                 reached = refined.accuracy
             else:
                 with solve_progress(decided.increments) as observe:
-                    result = chosen.solve(contents.scene, fineness, decided, observe, store)
+                    result = chosen.run(observe, store)
         omitted = OmittedParts()
         with stopwatch.phase("write"):
             from contact_results.files.field_file import write_fields
@@ -172,14 +171,16 @@ def run(
             write_fields(report, staging, all_fields=all_fields)
         if error and stated is None:
             with stopwatch.phase("error"), show_coarse_solves():
-                stated = omitted.compute("the errors", lambda: chosen.errors(result), None)
+                from contact_errors.coarse_solves import stated_errors
+
+                stated = omitted.compute("the errors", lambda: stated_errors(result), None)
         by_inputs = None
         if uncertain:
             with stopwatch.phase("inputs"):
                 by_inputs = omitted.compute(
                     "the uncertainty by inputs",
                     lambda: _uncertainty_by_inputs(
-                        chosen, uncertain, changed, replace(report, errors=stated), staging
+                        type(chosen), uncertain, changed, replace(report, errors=stated), staging
                     ),
                     None,
                 )
@@ -217,7 +218,7 @@ def run(
 
 
 def _uncertainty_by_inputs(
-    solver: "Solver",
+    solver: "type[DiscretisedSolver]",
     inputs: "Sequence[UncertainInput]",
     changed: "Sequence[Sequence[SceneFile]]",
     report: "ResultReport",
@@ -242,9 +243,7 @@ def _uncertainty_by_inputs(
         return summary_of(report.with_cycles()).steps[-1]
 
     def solved(contents: "SceneFile") -> "StepSummary":
-        fineness = solver.fineness(contents)
-        decided = solver.plan(contents.scene, fineness)
-        return last_step(ResultReport.of(solver.solve(contents.scene, fineness, decided)))
+        return last_step(ResultReport.of(solver.of_file(contents).run()))
 
     ends = [(solved(less), solved(more)) for less, more in changed]
     line = report.scene.indenter.is_line
@@ -254,13 +253,14 @@ def _uncertainty_by_inputs(
 
 
 def _source(contents: "SceneFile", solver: SolverName) -> "Source":
-    """Return the origin of the numbers of a run, for the comparison with expected numbers."""
     from slipstick.expected import Source, scene_keys
 
     return Source("run", scene_keys(contents.scene), solver.value)
 
 
-def _print_outcome(solver: "Solver", written: "WrittenResult", seconds: dict[str, float]) -> None:
+def _print_outcome(
+    solver: "DiscretisedSolver", written: "WrittenResult", seconds: dict[str, float]
+) -> None:
     """Print discretisation, errors and scalars of a finished run.
 
     seconds  elapsed time of each phase of the run [s]
@@ -274,7 +274,7 @@ def _print_outcome(solver: "Solver", written: "WrittenResult", seconds: dict[str
     stated_in = () if stated is None else error_lines(stated, seconds.get("error"))
     accurate = () if reached is None else accuracy_lines(reached)
     solved = solve_lines(result, seconds["solve"])
-    print_pairs([*solver.layout(result), *solved, *stated_in, *accurate])
+    print_pairs([*solver.describe_result(result), *solved, *stated_in, *accurate])
     columns = outcome_columns(report.steps, report.step_errors)
     for table in (columns, *([written.cycles] if written.cycles else ())):
         print_table(table, zip(*table.values(), strict=True), numbers=True)

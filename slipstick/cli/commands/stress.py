@@ -12,10 +12,12 @@ import numpy as np
 import typer
 from pydantic import TypeAdapter, ValidationError
 
+from contact_errors.coarse_solves import stated_errors
 from contact_errors.stress_errors import stress_at, stress_errors
 from contact_results.directory.run_directory import refuse_files_above
 from contact_results.radial_method import radial_advice
-from contact_results.stress.below_contact import stress_below_contact
+from contact_results.solvers import SolverName
+from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import (
     RADIAL,
     LoadedBodies,
@@ -57,7 +59,6 @@ from slipstick.cli.options import (
 )
 from slipstick.cli.progress import accuracy_lines, show_coarse_solves, solve_progress
 from slipstick.cli.terminal import print_message, print_pairs, print_table
-from slipstick.solvers.names import SolverName
 
 if TYPE_CHECKING:
     from contact_results.surface import Result
@@ -233,7 +234,11 @@ def stress(
                 output.parent.mkdir(parents=True, exist_ok=True)
                 refined = until_written.enter_context(
                     solve_to_accuracy(
-                        request, chosen.solver, contents, output, most_seconds, step=step
+                        request,
+                        chosen.solver.of_file(contents),
+                        output,
+                        most_seconds,
+                        step=step,
                     )
                 )
                 result, stated = refined.level.result, refined.level.stated
@@ -367,12 +372,6 @@ def _write_points(
 
 
 def _elastic_body(bodies: Scene | LoadedBodies, indenter: bool) -> tuple[str, Body]:
-    """Return the name and the layers of the body in which the stress is computed.
-
-    Raises BadParameter if the body is rigid.
-
-    indenter  true for the indenter, false for the lower body
-    """
     which, body = ("indenter", bodies.indenter) if indenter else ("body", bodies.body)
     if not body.deforms:
         raise typer.BadParameter(f"the {which} is rigid and has no stress")
@@ -438,12 +437,6 @@ def _read_points(
 def _depth_levels(
     bodies: Scene | LoadedBodies, indenter: bool, depths: Sequence[float], option: str
 ) -> Sequence[Any]:
-    """Return the depths in a body with the materials there; raises BadParameter outside the body.
-
-    indenter  true for the indenter, false for the lower body
-    depths    depths below the surface [length]
-    option    name of the option, for the message
-    """
     try:
         return levels_of(stack_of(_elastic_body(bodies, indenter)[1]), depths)
     except ValueError as error:
@@ -457,9 +450,8 @@ def _solve_scene(
 
     error  false to omit the error estimates; the second return value is then None
     """
-    chosen = name.solver
-    fineness = chosen.fineness(contents)
-    decided: Any = chosen.plan(contents.scene, fineness)
+    chosen = name.solver.of_file(contents)
+    decided = chosen.run_plan
     if name is SolverName.RADIAL:
         from radial.angular_grid import RingAngles
         from radial.largest_contact import expected_radius
@@ -469,11 +461,11 @@ def _solve_scene(
         if decided.circle is RingAngles.WHOLE:
             refuse_turned()
     with solve_progress(decided.increments) as observe:
-        result = chosen.solve(contents.scene, fineness, decided, observe)
+        result = chosen.run(observe)
     if not error:
         return result, None
     with show_coarse_solves():
-        return result, chosen.errors(result)
+        return result, stated_errors(result)
 
 
 def _refuse_beside_section(
@@ -522,7 +514,7 @@ def _stress_field(
     elif state.on_rings:
         _refuse_beside_section(SolverName.FEM, depths, volume)
     _depth_levels(state, indenter, depths or (), "--depths")
-    return stress_below_contact(state, indenter=indenter, depths=depths, volume=volume)
+    return body_response(state, indenter=indenter).stress(depths, volume=volume)
 
 
 def _parse_length(text: str, option: str = "--depths") -> float:

@@ -16,6 +16,7 @@ from contact_results.directory.atomic_file import atomic_file
 from contact_results.directory.run_lock import in_sole_use
 from contact_results.number_text import Uncertainty, number_text
 from contact_results.radial_method import radial_method
+from contact_results.solvers import SolverName
 from contact_scene import read_scene_file
 from contact_scene.solver_errors import SolverError
 from slipstick.cli.errors import ExitCode
@@ -31,8 +32,8 @@ from slipstick.cli.options import (
 )
 from slipstick.cli.progress import outcome_text, run_with_progress
 from slipstick.cli.terminal import print_message, print_pairs, print_table
+from slipstick.cli.time_estimate import estimated_time
 from slipstick.expected import Source, scene_keys, sweep_numbers
-from slipstick.solvers.names import SolverName
 from slipstick.sweep import SweepError, Variation, quantities, sweep_points
 from slipstick.sweep_chart import (
     MAX_KEYS,
@@ -116,8 +117,7 @@ def sweep(
     described = [("points", str(len(made))), ("solver", solver.value)]
     if len(made) >= LONG_SWEEP:
         with suppress(SolverError):  # which the points report
-            chosen = solver.solver
-            _, text = chosen.time(first, chosen.fineness(contents))
+            text = estimated_time(solver.solver.of_file(contents))
             described.append(("time", f"for each point {text}"))
     if solver is not SolverName.RADIAL and (how := radial_method(first)):
         described.append(("radial", f"--solver radial can solve this: {how}"))

@@ -46,7 +46,6 @@ def table(
 
 
 def _print_tables(tables: Mapping[str, Table]) -> None:
-    """Print names, parameters and problems of all tables of reference numbers."""
     for name, one in tables.items():
         typer.echo(f"{name}: {', '.join(one.quantities)} over {', '.join(one.axes)}")
         typer.echo(f"  {one.problem}.")

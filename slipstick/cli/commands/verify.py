@@ -196,11 +196,6 @@ def judge_cases(
 
 
 def _case_line(end: CaseEnd) -> str:
-    """Return the line that is printed when a case of the verification has ended.
-
-    The line states status, name, numbers of verdicts and solves, and the seconds or that the case
-    was already there. For a case without a record it states the reason.
-    """
     if not isinstance(end.record, JudgedCase):
         return outcome_text(end)
     outcome, seconds = end.record.outcome, f"{end.record.seconds:6.1f} s"
@@ -212,10 +207,6 @@ def _case_line(end: CaseEnd) -> str:
 
 
 def _warn_of_omission(problem: str) -> None:
-    """Print a warning about a stored study that the verification report omits.
-
-    problem  text about the record of the study, which is damaged or of another version
-    """
     typer.echo(f"WARN {problem}: left out; use --studies for another folder", err=True)
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from contact_errors.error_formula import Values
+from contact_results.solvers import SolverName
 from contact_scene import (
     RIGID,
     Body,
@@ -31,6 +32,7 @@ from contact_scene import (
     Sphere,
     SurfaceDiscretisation,
 )
+from contact_scene.discretised import DiscretisedSolver
 from contact_scene.friction import FrictionMap
 from contact_scene.geometry import ShapedBody
 from verification.problems.problem import Reference, ReferenceKind
@@ -134,6 +136,11 @@ class KnownScene:
     scene: Scene
     truths: tuple[Truth, ...]
     fineness: Fineness
+
+    @property
+    def solver(self) -> DiscretisedSolver:
+        """Solver of the scene with the judged discretisation."""
+        return SolverName(self.fineness.solver).solver(self.scene, self.fineness.asked)
 
 
 def known(

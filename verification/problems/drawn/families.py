@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 
 import radial
 import semi_analytical
-from contact_errors.error_formula import AT_EDGES, Values, prescribed_scalars, values_of
+from contact_errors.error_formula import Values, prescribed_scalars, values_of
 from contact_errors.stress_errors import stress_errors
-from contact_results.stress.below_contact import stress_below_contact
+from contact_results.stress.below_contact import body_response
 from contact_results.stress.loaded_bodies import state_of_result
 from contact_results.stress.stress_maxima import extremes
 from contact_scene import (
@@ -36,6 +36,7 @@ from contact_scene import (
     SurfaceDiscretisation,
 )
 from contact_scene.body_pair import contact_modulus, coupling
+from contact_scene.contact_features import AT_EDGES
 from contact_scene.geometry import ShapedBody
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.stated_error import (
@@ -102,7 +103,7 @@ def stress_maxima(
     errors  stated errors of the result, if they are known
     """
     state = state_of_result(result, step, errors)
-    field = stress_below_contact(state)
+    field = body_response(state).stress()
     found = extremes(field)
     of_stress = stress_errors(state, field, found)
     return {

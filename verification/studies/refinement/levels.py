@@ -6,53 +6,42 @@ Each discretisation parameter is refined in turn, while the others stay as in a 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import partial
 from math import ceil, log
 from typing import Any
 
 import numpy as np
 
 from contact_errors.adaptive_refinement import Levels, refine
-from contact_errors.coarse_solves import DiscretisedSolver, Fineness
+from contact_errors.coarse_solves import stated_errors
 from contact_errors.error_formula import (
-    PEAK,
-    PER_TOLERANCE,
     Values,
     characteristic_size,
     largest_so_far,
     values_of,
 )
-from contact_errors.on_cells import CellSolver
-from contact_errors.on_elements import (
-    FEWEST_ELEMENTS,
-    FEWEST_HARMONICS,
-    LARGEST_OVERLAP,
-    SMALLEST_BOX,
-    ElementSolver,
-)
-from contact_errors.on_radii import RingSolver
+from contact_results.solvers import SolverName, solver_of
 from contact_scene import SceneFile
+from contact_scene.contact_features import PEAK
+from contact_scene.discretised import PER_TOLERANCE, DiscretisedSolver, Fineness
 from contact_scene.quantities.increment import SCALARS
 from contact_scene.quantities.stated_error import Part
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.reading.scene_file import read_accuracy
 from contact_scene.solver_errors import SolverError
 from contact_scene.stepping.increment_error import has_increment_error
-from fem_reference import Method
+from fem_reference.discretised import (
+    FEWEST_ELEMENTS,
+    FEWEST_HARMONICS,
+    LARGEST_OVERLAP,
+    SMALLEST_BOX,
+)
 from verification.judging.outcome import finite
 from verification.quantities import largest_residual
 from verification.running.cold_cache import cold_cache, timed
 from verification.running.study import RESIDUAL, CaseRecord, Row
 
-# Table of the scene file and class of every solver, by the name on the command line.
-SOLVERS: Mapping[str, tuple[str, Callable[..., DiscretisedSolver]]] = {
-    "semi-analytical": ("semi_analytical", CellSolver),
-    "fem": ("fem_reference", partial(ElementSolver, method=Method.PENALTY)),
-    "fem-complementarity": ("fem_reference", ElementSolver),
-    "radial": ("radial", RingSolver),
-}
 KEYS = {name: mark for name, mark in SCALARS.items() if mark.key} | OF_CYCLES
 ORDER = "order"
 LARGEST = "largest"
@@ -167,8 +156,7 @@ class StudiedScene:
 
     def discretised(self) -> DiscretisedSolver:
         """Return the solver of the scene with variable discretisation."""
-        table, kind = SOLVERS[self.solver]
-        return kind(self.contents.scene, getattr(self.contents, table))
+        return SolverName(self.solver).solver.of_file(self.contents)
 
 
 @dataclass(frozen=True)
@@ -254,13 +242,13 @@ def level_record(level: SceneLevel, result: Any, seconds: float) -> CaseRecord:
     result   result of the solver
     seconds  CPU time of the solve [s]
     """
-    solver, at = level.scene.discretised().of(result), level.scene.step - 1
+    solver, at = solver_of(result), level.scene.step - 1
     steps, features = values_of(result), solver.features(result)[at]
     sizes = {stem: float(np.max(size)) for stem, size in largest_so_far(steps)[-1].items()}
     ends, counts = list(_key_scalars(steps[at])), solver.unknowns(result)
     unrefined = dict(solver.neglected_errors(result))
     if level.is_run and solver.with_half_the_points() is not None:
-        for stem, stated in solver.stated_errors(result).steps[at].items():
+        for stem, stated in stated_errors(result).steps[at].items():
             by_points = np.max(stated.parts.get("map", np.inf)) / sizes[stem]
             unrefined[stem] = unrefined.get(stem, 0.0) + float(by_points)
     return CaseRecord(
@@ -347,7 +335,9 @@ def plan_of(scene: StudiedScene, count: int | None) -> Plan:
     Raises the errors of a solve.
     """
     solver, request = scene.discretised(), scene.contents.accuracy
-    own = solver.of_run() if request is None else refine(Levels(solver), request).level.fineness
+    own = (
+        solver.run_fineness() if request is None else refine(Levels(solver), request).level.fineness
+    )
     run = SceneLevel(scene, own, fineness_text(solver, own), is_run=True)
     ladders = [_space_ladder(solver, run, part, count) for part in solver.parts]
     if any(has_increment_error(solver.scene)):

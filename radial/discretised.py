@@ -1,4 +1,4 @@
-"""Radial solver with variable discretisation, for error estimates and refinement.
+"""Radial solver with variable discretisation, for runs, error estimates and refinement.
 
 The variable parameters are the increments, the tolerance, and the rings; without friction, the
 Legendre orders and quadrature points.
@@ -10,44 +10,43 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-import radial
-from contact_errors.coarse_solves import (
+from contact_scene import RadialDiscretisation
+from contact_scene.contact_features import EDGE, SMOOTH, Features, is_singular
+from contact_scene.discretised import (
     LINEAR,
+    PRECISION,
+    Discretisation,
     DiscretisedSolver,
     Fineness,
+    Pairs,
     Refinement,
     Share,
+    Work,
     slip_zone,
 )
-from contact_errors.cost_estimate import RING_OVERHEAD, Work
-from contact_errors.error_formula import (
-    EDGE,
-    PRECISION,
-    SMOOTH,
-    Features,
-    Values,
-    is_singular,
-)
-from contact_errors.known_pressing import known_pressing
-from contact_scene import RadialDiscretisation
 from contact_scene.quantities.stated_error import (
     Part,
 )
 from contact_scene.quantities.summary import ContactStatus
-from radial import Increment, Plan, Result
+from radial.angular_grid import RingAngles
+from radial.fields import Increment, Result
 from radial.memory import estimated_bytes
+from radial.plan import Plan, plan
 
 FIRST_FINENESS = 0.5
 MAX_FINENESS = 4.0
+# Unknowns whose work equals the overhead of an operation. An increment of `coated_fretting` and of
+# `fretting_loop` takes 7.5 and 8.5 ms at half the default numbers of rings and angles, 25 and 18 ms
+# at the default and 550 and 130 ms at twice these numbers.
+RING_OVERHEAD = 1.0
 
 
 @dataclass(frozen=True)
 class RingSolver(DiscretisedSolver):
     """Radial solver of one scene, with variable numbers of rings, angles and increments.
 
-    Used for error estimates, which coarsen the discretisation, and for a requested accuracy, which
-    refines it. A single factor multiplies the default numbers of rings and angles. Without
-    friction, it multiplies the numbers of Legendre orders and quadrature points instead.
+    A single factor multiplies the default numbers of rings and angles. Without friction, it
+    multiplies the numbers of Legendre orders and quadrature points instead.
 
     discretisation  settings of the scene file or of a result
     chosen_plan     plan of a solved result (modelled effects, increments); None for the plan made
@@ -57,6 +56,8 @@ class RingSolver(DiscretisedSolver):
     discretisation: RadialDiscretisation
     chosen_plan: Plan | None = None
 
+    table: ClassVar[str] = "radial"
+    settings: ClassVar[type[Discretisation]] = RadialDiscretisation
     part: ClassVar[Part] = "quadrature"
     cells: ClassVar[str] = "rings"
     most: ClassVar[float] = MAX_FINENESS
@@ -76,7 +77,7 @@ class RingSolver(DiscretisedSolver):
 
         The plan is that of the solved result, if there is one. Otherwise it is made from the scene.
         """
-        return self.chosen_plan or radial.plan(self.scene)
+        return self.chosen_plan or plan(self.scene)
 
     @property
     def depends_on_rings(self) -> bool:
@@ -88,9 +89,24 @@ class RingSolver(DiscretisedSolver):
         return self.plan.coupled or self.plan.circle is not None
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
-        plan = self._plan_of(fineness)
+        from radial.history import solve
+
         discretisation = self.discretisation.model_copy(update={"tolerance": fineness.tolerance})
-        return radial.solve(self.scene, discretisation, progress, plan, store)
+        return solve(self.scene, discretisation, progress, self._plan_of(fineness), store)
+
+    def run(self, progress: Any = None, store: Any = None) -> Result:
+        from radial.history import solve
+
+        return solve(self.scene, self.discretisation, progress, self.run_plan, store)
+
+    def run_fineness(self) -> Fineness:
+        return Fineness(self.plan.fineness, self.plan.increments, self.discretisation.tolerance)
+
+    def describe_space(self) -> Pairs:
+        yield "rings", _rings_text(self.discretisation, self.plan)
+
+    def describe_result(self, result: Result) -> Pairs:
+        yield "rings", _rings_text(result.fineness, result.plan)
 
     def space_of(self, result: Result) -> float:
         return result.plan.fineness
@@ -108,12 +124,9 @@ class RingSolver(DiscretisedSolver):
         """
         return result.plan.fineness * (share if self.depends_on_rings else 2.0)
 
-    def references(self) -> Sequence[Sequence[Values]]:
-        """Return the known scalars of the pressing, if the result is that of points on rings.
-
-        Otherwise the reference would be the method of the result itself.
-        """
-        return known_pressing(self.scene) if self.plan.circle else ()
+    @property
+    def is_reference(self) -> bool:
+        return not self.plan.circle
 
     def cell_sides(self, result: Result) -> tuple[float, ...]:
         return (1 / result.plan.fineness,)
@@ -159,9 +172,6 @@ class RingSolver(DiscretisedSolver):
             slides=end.status is ContactStatus.GROSS_SLIDING,
         )
 
-    def of_run(self) -> Fineness:
-        return Fineness(self.plan.fineness, self.plan.increments, self.discretisation.tolerance)
-
     def first_space(self) -> float:
         return FIRST_FINENESS if self.depends_on_rings else 1.0
 
@@ -177,3 +187,14 @@ class RingSolver(DiscretisedSolver):
 
     def _plan_of(self, fineness: Fineness) -> Plan:
         return replace(self.plan, fineness=fineness.space, increments=fineness.increments)
+
+
+def _rings_text(fineness: RadialDiscretisation, plan: Plan) -> str:
+    """Return the text of the numbers of rings and angles of the radial solver.
+
+    Without friction, the rings are only points of output.
+    """
+    if plan.circle:
+        angles = "" if plan.circle is RingAngles.ONE else f", times {plan.angles} angles"
+        return f"{plan.rings} over the contact, denser at its edge{angles}"
+    return f"{fineness.rings} over the largest contact, for output only"

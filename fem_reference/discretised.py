@@ -1,43 +1,50 @@
-"""Finite-element solver with variable discretisation, for error estimates and refinement.
+"""Finite-element solver with variable discretisation, for runs, error estimates and refinement.
 
 The variable parameters are the elements over the contact radius, the increments, the tolerance, the
 size of the meshed section, the overlap of the penalty method and the angular harmonics.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import ceil, pi
 from typing import Any, ClassVar, Self
 
-import fem_reference
-from contact_errors.coarse_solves import (
+from contact_scene import FiniteElementDiscretisation
+from contact_scene.body_pair import coupling
+from contact_scene.contact_features import EDGE, SMOOTH, Features, has_cusp, is_singular
+from contact_scene.discretised import (
     LINEAR,
     SHARES,
     TANGENTIAL,
     CoarseSolve,
+    Discretisation,
     DiscretisedSolver,
     Fineness,
+    Pairs,
     Refinement,
+    Work,
     change_settings,
     slip_zone,
 )
-from contact_errors.cost_estimate import ELEMENT_OVERHEAD, SET_UP_INCREMENTS, Work
-from contact_errors.error_formula import EDGE, SMOOTH, Features, has_cusp, is_singular
-from contact_scene import FiniteElementDiscretisation
-from contact_scene.body_pair import coupling
 from contact_scene.quantities.stated_error import (
     Part,
 )
 from contact_scene.quantities.summary import ContactStatus
+from contact_scene.reading.engineering_units import quantity
 from contact_scene.solver_errors import SurfacesOverlap
-from fem_reference import Increment, Method, Path, Plan, Result
-from fem_reference.expected_radius import count_points, sections_of
-from fem_reference.memory import NODES_PER_ELEMENT, largest_bytes, matrix_bytes
-from fem_reference.plan import ANGULAR
+from fem_reference.expected_radius import count_points, meshed_radius, sections_of
+from fem_reference.fields import Increment, Method, Result
+from fem_reference.memory import NODES_PER_ELEMENT, largest_bytes, matrix_bytes, run_bytes
+from fem_reference.mesh.section_mesh import SectionMesh
+from fem_reference.plan import ANGULAR, Path, Plan, plan
+from fem_reference.solve import solve
 
 # Solution paths in which friction changes the pressure, so that the pressure has a cusp on the
 # axis. On the whole circle it does so for coupled bodies.
 CUSPED = (Path.PRESSING_WITH_FRICTION, Path.TWISTING_WITH_FRICTION, Path.HARMONICS)
+# Solution paths with the angular harmonic 0 alone, without torsion.
+PRESSED = (Path.PRESSING, Path.PRESSING_WITH_FRICTION)
 FEWEST_ELEMENTS = 4
 SMALLEST_BOX = 5.0
 FEWEST_HARMONICS = 2
@@ -47,14 +54,16 @@ MAX_ELEMENTS = 512
 MAX_HARMONICS = 64
 LEAST_OVERLAP = 1e-8
 LARGEST_BOX = 1e6
+# Unknowns whose work equals the overhead of an operation. Measured on the scenes of
+# `tests/test_cost_estimate.py`: 600 to 2900.
+ELEMENT_OVERHEAD = 32.0**2
+# The factorisations of a solve take as long as this number of increments.
+SET_UP_INCREMENTS = 50
 
 
 @dataclass(frozen=True)
 class ElementSolver(DiscretisedSolver):
     """Finite-element solver of one scene, with variable mesh, increments and tolerance.
-
-    Used for error estimates, which coarsen these parameters, and for a requested accuracy, which
-    refines them.
 
     discretisation  mesh settings of the scene file or of a result
     chosen_plan     plan of a solved result (modelled effects, increments); None for the plan made
@@ -66,6 +75,8 @@ class ElementSolver(DiscretisedSolver):
     chosen_plan: Plan | None = None
     method: Method = Method.COMPLEMENTARITY
 
+    table: ClassVar[str] = "fem_reference"
+    settings: ClassVar[type[Discretisation]] = FiniteElementDiscretisation
     part: ClassVar[Part] = "elements"
     cells: ClassVar[str] = "elements"
     most: ClassVar[float] = MAX_ELEMENTS
@@ -77,8 +88,42 @@ class ElementSolver(DiscretisedSolver):
 
     @property
     def plan(self) -> Plan:
-        penalty = self.method is fem_reference.Method.PENALTY
-        return self.chosen_plan or fem_reference.plan(self.scene, penalty=penalty)
+        return self.chosen_plan or plan(self.scene, penalty=self.method is Method.PENALTY)
+
+    def run(self, progress: Any = None, store: Any = None) -> Result:
+        return solve(self.scene, self.discretisation, self.method, progress, store)
+
+    def run_fineness(self) -> Fineness:
+        asked = self.discretisation
+        return Fineness(asked, self.plan.increments, asked.tolerance)
+
+    def run_memory(self) -> float:
+        """Estimate the peak memory of a run, including libraries and figures [byte]."""
+        points = count_points(self._sections, self.plan.path, self.discretisation.harmonics)
+        return run_bytes(self._factoring_bytes(self._sections), points)
+
+    def describe_space(self) -> Pairs:
+        asked = self.discretisation
+        radius = meshed_radius(self.scene, asked.contact_radius)
+        chosen = "" if asked.contact_radius else ", estimated without friction"
+        yield "method", _method_text(self.method, asked)
+        yield "contact radius", f"{quantity(radius, 'm')}{chosen}"
+        yield "mesh", _mesh_text(self._sections, asked)
+
+    def describe_work(self) -> Pairs:
+        """Yield the number of factorisations: one per body and angular harmonic, if there are."""
+        motions, path = 2, self.plan.path
+        if path in ANGULAR:
+            motions = self.discretisation.harmonics + 1 + (path is Path.WHOLE_CIRCLE)
+        elif path in PRESSED:
+            motions = 1
+        text = "one per body and angular harmonic" if motions > 1 else "one per body"
+        yield "factorisations", f"{motions * len(self._sections)}, {text}"
+
+    def describe_result(self, result: Result) -> Pairs:
+        yield "method", _method_text(self.method, result.discretisation)
+        sections = {id(each): each for each in result.sections if each is not None}
+        yield "mesh", _mesh_text(sections.values(), result.discretisation)
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve the scene on a mesh of finite elements.
@@ -93,10 +138,10 @@ class ElementSolver(DiscretisedSolver):
         scene = self.scene.with_increments(fineness.increments)
         mesh = change_settings(fineness.space, tolerance=fineness.tolerance)
         try:
-            return fem_reference.solve(scene, mesh, self.method, progress, store)
+            return solve(scene, mesh, self.method, progress, store)
         except SurfacesOverlap:
             looser = change_settings(mesh, overlap=LARGEST_OVERLAP)
-            return fem_reference.solve(scene, looser, self.method, progress)
+            return solve(scene, looser, self.method, progress)
 
     def space_of(self, result: Result) -> FiniteElementDiscretisation:
         return result.discretisation
@@ -203,10 +248,6 @@ class ElementSolver(DiscretisedSolver):
         across = (nu / (4 - 2 * nu)) ** 2 / 2
         return {name: across + by_map.get(name, 0.0) for name in TANGENTIAL}
 
-    def of_run(self) -> Fineness:
-        asked = self.discretisation
-        return Fineness(asked, self.plan.increments, asked.tolerance)
-
     @property
     def parts(self) -> tuple[Part, ...]:
         penalty: tuple[Part, ...] = ("penalty",) if self.method is Method.PENALTY else ()
@@ -236,10 +277,43 @@ class ElementSolver(DiscretisedSolver):
         return Work(fineness.space.elements_per_radius**2, repetitions, ELEMENT_OVERHEAD)
 
     def memory(self, fineness: Fineness) -> int:
-        several = self.plan.path not in (Path.PRESSING, Path.PRESSING_WITH_FRICTION)
         count = min(MAX_ELEMENTS, fineness.space.elements_per_radius)
         mesh = change_settings(fineness.space, elements_per_radius=count)
         sections = sections_of(self.scene, mesh)
-        elements = max(each.quads.shape[1] for each in sections)
         points = count_points(sections, self.plan.path, mesh.harmonics)
-        return max(largest_bytes(elements, several), int(matrix_bytes(points)))
+        return max(self._factoring_bytes(sections), int(matrix_bytes(points)))
+
+    @cached_property
+    def _sections(self) -> Sequence[SectionMesh]:
+        """Meshes of a run, without those of equal bodies."""
+        return sections_of(self.scene, self.discretisation)
+
+    def _factoring_bytes(self, sections: Iterable[SectionMesh]) -> int:
+        elements = max(each.quads.shape[1] for each in sections)
+        return largest_bytes(elements, self.plan.path not in PRESSED)
+
+
+@dataclass(frozen=True)
+class PenaltySolver(ElementSolver):
+    """Finite-element solver by a penalty, which is augmented until the overlap is small."""
+
+    method: Method = Method.PENALTY
+
+
+def _method_text(method: Method, fineness: FiniteElementDiscretisation) -> str:
+    """Return the text of the contact method of finite elements with its penalty parameters."""
+    if method is Method.COMPLEMENTARITY:
+        return "finite elements, complementarity: no penalty"
+    return (
+        f"finite elements, penalty of {fineness.penalty:g} contact moduli per element, "
+        f"augmented until {fineness.overlap:g} of the approach is left as overlap"
+    )
+
+
+def _mesh_text(sections: Iterable[SectionMesh], fineness: FiniteElementDiscretisation) -> str:
+    """Return the text of the number of elements and of the size of the meshed sections."""
+    parts = []
+    for section in sections:
+        outline = section.outline
+        parts.append(f"{section.quads.shape[1]} elements to {outline.box:.4g} contact radii")
+    return f"{fineness.elements_per_radius} elements per contact radius; " + ", ".join(parts)

@@ -1,26 +1,18 @@
-"""Semi-analytical solver with variable discretisation, for error estimates and refinement.
+"""Semi-analytical solver with variable discretisation, for runs, error estimates and refinement.
 
 The variable parameters are the grid of cells, the increments and the tolerance.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import ceil
 from typing import Any, ClassVar, Self
 
 import numpy as np
 
-import semi_analytical
-from contact_errors.coarse_solves import (
-    SHARES_OF_SMALL,
-    DiscretisedSolver,
-    Fineness,
-    Refinement,
-    Share,
-    coarse_tolerance,
-)
-from contact_errors.cost_estimate import CELL_OVERHEAD, Work
-from contact_errors.error_formula import (
+from contact_scene import SurfaceDiscretisation
+from contact_scene.contact_features import (
     EDGE,
     PEAK,
     ROOT,
@@ -29,22 +21,36 @@ from contact_errors.error_formula import (
     has_cusp,
     is_singular,
 )
-from contact_results.result_warnings import unresolved_pressure
-from contact_scene import SurfaceDiscretisation
+from contact_scene.discretised import (
+    SHARES_OF_SMALL,
+    Discretisation,
+    DiscretisedSolver,
+    Fineness,
+    Pairs,
+    Refinement,
+    Share,
+    Work,
+    coarse_tolerance,
+)
 from contact_scene.quantities.stated_error import (
     Part,
 )
 from contact_scene.quantities.summary import ContactStatus
-from semi_analytical import Increment, Plan, Result, SurfaceGrid, memory
-from semi_analytical.default_grid import align_to_edges
+from contact_scene.reading.engineering_units import engineering_unit
+from contact_scene.reading.scene_text import MAX_STEPS_SHOWN
+from semi_analytical import memory
+from semi_analytical.default_grid import align_to_edges, discretise
 from semi_analytical.edge.corrected import EdgeReport
 from semi_analytical.edge.film import film_law
 from semi_analytical.edge.fit import WIDE
+from semi_analytical.fields import Increment, Result
+from semi_analytical.grid import SurfaceGrid
+from semi_analytical.increment_counts import WITHOUT_SLIP
 from semi_analytical.operator.domain import WINDOW
 from semi_analytical.operator.transforms import fast_length
-from semi_analytical.plan import Coupling
-from semi_analytical.resolution import resolution, resolution_at
-from semi_analytical.solve import solve_within
+from semi_analytical.plan import Coupling, Plan, plan
+from semi_analytical.resolution import resolution, resolution_at, unresolved_pressure
+from semi_analytical.solve import solve_discretised, solve_within
 
 # Cells over the contact radius in the solves for the increment error. The effect of increments on
 # 24² and on 64² cells differs by at most 7 %.
@@ -64,26 +70,26 @@ MOTIONS = "approach", "normal_force", "tilt", "moment", "elastic_energy", "input
 # Factor and largest number of enlargements of a fitted window whose edge the contact reaches.
 ROOM = 1.25
 MAX_ENLARGEMENTS = 5
+# Unknowns whose work equals the overhead of an operation. Measured on the scenes of
+# `tests/test_cost_estimate.py`: 9000 to 27 000.
+CELL_OVERHEAD = 128.0**2
 
 
 @dataclass(frozen=True)
 class CellSolver(DiscretisedSolver):
     """Semi-analytical solver of one scene, with variable grid, increments and tolerance.
 
-    Used for error estimates, which coarsen these parameters, and for a requested accuracy, which
-    refines them.
-
     discretisation  settings of the scene file: window if prescribed, ratio of the cells along the
                     sides, tolerance of the first level
     chosen_plan     plan of a solved result (modelled effects and increments); None for the plan
                     made of the scene
-    stress          true if the memory estimate includes the stress in the body
     """
 
     discretisation: SurfaceDiscretisation
     chosen_plan: Plan | None = None
-    stress: bool = False
 
+    table: ClassVar[str] = "semi_analytical"
+    settings: ClassVar[type[Discretisation]] = SurfaceDiscretisation
     part: ClassVar[Part] = "cells"
     cells: ClassVar[str] = "cells"
     most: ClassVar[float] = MAX_CELLS
@@ -99,9 +105,48 @@ class CellSolver(DiscretisedSolver):
         The plan is that of the solved result, if there is one. Otherwise it is made from the scene,
         with the increments of the first refinement level.
         """
-        return self.chosen_plan or semi_analytical.plan(
-            self.scene, FIRST_PATH_ACCURACY, self.discretisation.edge
-        )
+        return self.chosen_plan or plan(self.scene, FIRST_PATH_ACCURACY, self.discretisation.edge)
+
+    @cached_property
+    def run_plan(self) -> Plan:
+        return plan(self.scene, self.discretisation.path_accuracy, self.discretisation.edge)
+
+    def run(self, progress: Any = None, store: Any = None) -> Result:
+        return solve_discretised(self.scene, self.discretisation, progress, self.run_plan, store)
+
+    def run_fineness(self) -> Fineness:
+        grid = discretise(self.scene, self.discretisation)
+        return Fineness(grid, self.run_plan.increments, self.discretisation.tolerance)
+
+    def describe_space(self) -> Pairs:
+        left_open = [
+            name for name in ("cells", "window") if getattr(self.discretisation, name) is None
+        ]
+        chosen = f" ({' and '.join(left_open)} chosen)" if left_open else ""
+        yield "grid", _grid_text(discretise(self.scene, self.discretisation)) + chosen
+
+    def describe_work(self) -> Pairs:
+        if any(step.path_matters for step in self.run_plan.path):
+            accuracy = f"{self.discretisation.path_accuracy:.3g}"
+            yield "path accuracy", f"{accuracy}, for load steps without prescribed increments"
+
+    def increment_reasons(self) -> Sequence[tuple[str, str, str]]:
+        """Return load step, number of increments and reason of this number, as texts for a table.
+
+        The first load steps are listed. The sequence is empty if no load step has an increment
+        error or grows without slip.
+        """
+        path = self.run_plan.path
+        if not any(step.path_matters or step.why == WITHOUT_SLIP for step in path):
+            return ()
+        shown = [
+            (str(number), str(step.count), step.why)
+            for number, step in enumerate(path[:MAX_STEPS_SHOWN], start=1)
+        ]
+        return shown if len(path) <= MAX_STEPS_SHOWN else [*shown, ("…", "", "")]
+
+    def describe_result(self, result: Result) -> Pairs:
+        yield "grid", _grid_text(result.grid)
 
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         """Solve the scene on a grid of surface cells.
@@ -115,15 +160,15 @@ class CellSolver(DiscretisedSolver):
         progress  function that is called after every increment, or None
         store     checkpoint store of the solve, or None
         """
-        grids, plan = [fineness.space], self.plan.cut_into(fineness.increments)
-        plan = plan if fineness.edges else replace(plan, edge="off")
+        grids, decided = [fineness.space], self.plan.cut_into(fineness.increments)
+        decided = decided if fineness.edges else replace(decided, edge="off")
         if not self.scene.indenter.is_even:  # half of an even number of points
-            plan = replace(plan, symmetry=WINDOW)
+            decided = replace(decided, symmetry=WINDOW)
         fitted = self.discretisation.window is None and self.scene.indenter.extent is None
         for _ in range(MAX_ENLARGEMENTS if fitted else 0):
             cells, (hx, hy) = scale_cells(grids[-1].cells, ROOM), grids[-1].spacing
             grids.append(SurfaceGrid(cells, (cells[0] * hx, cells[1] * hy)))  # strips keep hy
-        return solve_within(self.scene, grids, fineness.tolerance, progress, plan, store)
+        return solve_within(self.scene, grids, fineness.tolerance, progress, decided, store)
 
     def space_of(self, result: Result) -> SurfaceGrid:
         return result.grid
@@ -210,14 +255,8 @@ class CellSolver(DiscretisedSolver):
             left={} if report is None else _remaining_edge_errors(report),
         )
 
-    def of_run(self) -> Fineness:
-        asked = self.discretisation
-        plan = semi_analytical.plan(self.scene, asked.path_accuracy, asked.edge)
-        grid = semi_analytical.discretise(self.scene, asked)
-        return Fineness(grid, plan.increments, asked.tolerance)
-
     def first_space(self) -> SurfaceGrid:
-        grid = semi_analytical.discretise(self.scene, self.discretisation)
+        grid = discretise(self.scene, self.discretisation)
         least = grid.cells[0] if grid.of_strips else min(grid.cells)
         cells = scale_cells(grid.cells, FIRST_CELLS / least)
         return align_to_edges(self.scene, SurfaceGrid(cells, grid.window))
@@ -232,13 +271,14 @@ class CellSolver(DiscretisedSolver):
         return Work(nx * ny * tractions, sum(fineness.increments), CELL_OVERHEAD)
 
     def memory(self, fineness: Fineness) -> int:
-        run = memory.estimated_bytes(fineness.space, self.plan.cut_into(fineness.increments))
-        if not self.stress or not self.scene.body.deforms:
-            return run
-        from contact_results.stress import on_cells as stress_on_cells
+        return memory.estimated_bytes(fineness.space, self.plan.cut_into(fineness.increments))
 
-        stress = stress_on_cells.estimated_bytes(fineness.space)
-        return max(run, memory.LIBRARIES + memory.SCIPY + stress)
+    def stress_memory(self, fineness: Fineness) -> int:
+        if not self.scene.body.deforms:
+            return 0
+        from semi_analytical.stress.field import bytes_below_contact
+
+        return memory.LIBRARIES + memory.SCIPY + bytes_below_contact(fineness.space)
 
 
 def _fits_stick(plan: Plan, report: EdgeReport | None) -> bool:
@@ -316,3 +356,12 @@ def scale_cells(cells: tuple[int, int], factor: float) -> tuple[int, int]:
     """
     nx, ny = (2 * fast_length(ceil(round(factor * n, 6) / 2)) for n in cells)
     return nx, 1 if cells[1] == 1 else ny
+
+
+def _grid_text(grid: SurfaceGrid) -> str:
+    """Return the text of cells and window of a grid, such as "64 x 64 cells on 2 x 2 mm"."""
+    (nx, ny), (Lx, Ly) = grid.cells, grid.window
+    if grid.of_strips:
+        return f"{nx} strips on {engineering_unit(Lx, 'm').text(Lx)}"
+    length = engineering_unit(max(Lx, Ly), "m")
+    return f"{nx} x {ny} cells on {Lx / length.size:.4g} x {length.text(Ly)}"

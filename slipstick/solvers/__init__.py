@@ -1,1 +1,0 @@
-"""Solvers by name, with one interface for the commands and for scripts."""
