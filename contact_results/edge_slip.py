@@ -45,6 +45,8 @@ LARGEST_CHANGE = 0.15
 POWER = 2 / 3
 # Points of a line, so that a parabola between them is off by 1e-4 of its largest value.
 POINTS = 101
+# Points of a line between two rings, so that a parabola is off by 1e-3 of its change.
+BETWEEN = 16
 # Cells from which lines to the edge are drawn: those of two rows of four on both sides.
 CANDIDATES = 16
 
@@ -78,7 +80,7 @@ class CycleEdge:
         """
         largest = float(np.max(self.amplitude))
         if (on_rings := self._line_on_rings(self.amplitude)) is not None:
-            return max(largest, float(on_rings[1][-1]))
+            return max(largest, float(on_rings[0][-1]))
         for cell in self._best_inner_cells(self.amplitude, 1):
             line = self._line_to_edge(cell)
             if line is not None:
@@ -102,49 +104,45 @@ class CycleEdge:
         return max(found)
 
     def largest_f1(self) -> float:
-        """Compute the largest F1 = τ δ of the points.
-
-        On rings, the outermost one in contact is left out: its shear exceeds that of the edge,
-        because it carries the load of the element up to the edge. The line from the next ring to
-        the edge replaces it.
-        """
+        """Compute the largest F1 = τ δ: of the cells, or along the radius on rings."""
         of_points = self.shear * self.amplitude
         line = self._line_on_rings(of_points)
-        if line is None:
-            return float(np.max(of_points))
-        inner, amplitude, shear = line
-        return float(max(np.max(of_points[:inner], initial=0.0), np.max(amplitude * shear)))
+        return float(np.max(of_points if line is None else np.prod(line, axis=0)))
 
-    def _line_on_rings(self, values: Field) -> tuple[int, Field, Field] | None:
-        """Continue amplitude and shear along a radius to the edge, at the angle of a largest value.
+    def _line_on_rings(self, values: Field) -> tuple[Field, Field] | None:
+        """Return amplitude and shear along a radius to the edge, at the angle of a largest value.
 
-        With the radius a of the contact, on the line from the second ring inside the edge:
+        Between the rings, δ^(2/3) and τ/√(a² - r²) are linear, with the radius a of the contact.
+        The line through δ^(2/3) on the two outermost rings in contact leads on to the edge. The
+        shear of the outermost one is left out: it exceeds that of the edge, because it carries the
+        load of the element up to the edge.
 
-            δ^(2/3) = d_0 + d r through the two outermost rings in contact,  τ = m √(a² - r²)
-
-        Returns the number of the first of the two rings, and `POINTS` values of both. None is
-        returned on cells, and if fewer rings are in contact.
+        None is returned on cells, with fewer than three rings in contact, and for a rim.
 
         values  field whose largest value is sought
         """
         if not isinstance(self.surface, Rings):
             return None
-        radii = self.surface.radii
-        by_angle = values.reshape(len(radii), -1)
+        by_angle = values.reshape(len(self.surface.radii), -1)
         _, angle = np.unravel_index(np.argmax(by_angle), by_angle.shape)
-        pressure, powers, shear = (
-            each.reshape(len(radii), -1)[:, angle]
-            for each in (self.pressure, self.amplitude**POWER, self.shear)
+        pressure, amplitude, shear = (
+            each.reshape(by_angle.shape)[:, angle]
+            for each in (self.pressure, self.amplitude, self.shear)
         )
-        touching = np.flatnonzero(pressure > 0)
-        if len(touching) < 2 or radii[touching[-1]] >= self.radius:
+        touching = pressure > 0
+        radii, powers = self.surface.radii[touching], amplitude[touching] ** POWER
+        if len(radii) < 3 or radii[-1] >= self.radius:
             return None
-        inner, last = touching[-2:]
-        line = np.linspace(radii[inner], self.radius, POINTS)
-        slope = (powers[last] - powers[inner]) / (radii[last] - radii[inner])
-        amplitude = np.maximum(powers[inner] + slope * (line - radii[inner]), 0.0) ** (1 / POWER)
-        fall = np.maximum(self.radius**2 - line**2, 0.0) / (self.radius**2 - radii[inner] ** 2)
-        return int(inner), amplitude, shear[inner] * np.sqrt(fall)
+        slope = (powers[-1] - powers[-2]) / (radii[-1] - radii[-2])
+        at_edge = max(powers[-1] + slope * (self.radius - radii[-1]), 0.0)
+        ends = np.append(radii, self.radius)
+        along = np.linspace(0, len(radii), BETWEEN * len(radii) + 1)
+        line = np.interp(along, np.arange(len(ends)), ends)
+        inner = radii[:-1]
+        ratio = shear[touching][:-1] / np.sqrt(self.radius**2 - inner**2)
+        root = np.sqrt(np.maximum(self.radius**2 - line**2, 0.0))
+        slip = np.interp(line, ends, np.append(powers, at_edge)) ** (1 / POWER)
+        return slip, np.interp(line, inner, ratio) * root
 
     def _best_inner_cells(self, values: Field, count: int) -> list[tuple[int, int]]:
         """Return slipping cells inside the edge with the largest values, largest first.
