@@ -1,0 +1,48 @@
+"""Tests of the CPU time of commands over that of a calibrated loop."""
+
+import pytest
+
+from contact_results.directory.atomic_file import Refused
+from verification.judging.outcome import ChangeKind
+from verification.regression.baseline import RecordedBy, recorded_by
+from verification.regression.cpu_time import CpuTimes, cpu_seconds, cpu_time_changes
+from verification.running.provenance import provenance
+
+MADE = provenance("slipstick maintain cpu", {})
+HERE = recorded_by(MADE, "so")
+ELSEWHERE = HERE.model_copy(update={"processor": "other"})
+
+
+@pytest.mark.parametrize(
+    ("measured", "by", "kinds"),
+    [
+        ([9.0, 9.0, 9.0, 9.0, 2.5], HERE, []),
+        ([2.7, 9.0, 2.7, 2.7, 2.7], HERE, [ChangeKind.DRIFT]),
+        ([3.3, 9.0, 9.0, 9.0, 9.0], HERE, [ChangeKind.DEARER]),
+        ([3.3, 9.0, 9.0, 9.0, 9.0], ELSEWHERE, [ChangeKind.DRIFT]),
+    ],
+)
+def test_a_command_is_as_dear_as_its_cheapest_repeat(
+    measured: list[float], by: RecordedBy, kinds: list[ChangeKind]
+) -> None:
+    """Stored are 2 loops: above 2.6 is a warning, above 3.2 dearer, on the same processor."""
+    known = CpuTimes(by=by, loop_seconds=0.2, ratios={"run": 2.0})
+    repeats = iter(measured)
+    rows = cpu_time_changes({"run": ()}, MADE, known, lambda _: next(repeats))
+    assert [row.kind for row in rows] == kinds
+
+
+def test_new_commands_are_named_and_lost_ones_fail() -> None:
+    known = CpuTimes(by=HERE, loop_seconds=0.2, ratios={"run": 2.0})
+    rows = cpu_time_changes({"plan": ()}, MADE, known, lambda _: 1.0)
+    assert [(row.name, row.kind) for row in rows] == [
+        ("run", ChangeKind.GONE),
+        ("plan", ChangeKind.NEW),
+    ]
+
+
+def test_a_process_is_measured_with_its_imports_and_a_failing_one_is_refused() -> None:
+    idle, busy = (cpu_seconds(["-c", f"sum(range({n}))"]) for n in (1, 30_000_000))
+    assert 0 < idle < busy / 3
+    with pytest.raises(Refused, match="-c 1/0 ends with exit code 1: Traceback"):
+        cpu_seconds(["-c", "1/0"])
