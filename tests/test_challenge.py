@@ -24,7 +24,6 @@ from verification.challenge.cases import challenges
 from verification.challenge.files import toml_text
 from verification.challenge.python_api import judged
 from verification.challenge.requested_quantities import (
-    AskedPoints,
     Challenge,
     Grade,
     Patch,
@@ -58,7 +57,7 @@ def exact(
         return off(asked) if callable(off) else off
 
     scalars = {(v.quantity, v.step): v.value + part(v) * v.scale for v in challenge.values}
-    points = {(p.quantity, p.step): p.values + part(p) * p.scale for p in challenge.points}
+    points = {(p.quantity, p.step): p.value + part(p) * p.scale for p in challenge.points}
     fields = {}
     for asked in challenge.fields if cells else ():
         field = exact_field(challenge, asked.step, cells)
@@ -70,9 +69,9 @@ def exact(
 def twice_the_bound(asked: Any) -> Any:
     """An error that fails; of numbers at several places, at the middle one alone."""
     off = 2 * (asked.par.bound + asked.uncertainty)
-    if not isinstance(asked, AskedPoints):
+    if getattr(asked, "places", None) is None:
         return off
-    return off * (np.arange(asked.values.size) == asked.values.size // 2)
+    return off * (np.arange(asked.value.size) == asked.value.size // 2)
 
 
 def statuses(
@@ -151,7 +150,7 @@ def test_each_wrong_answer_fails_and_each_missing_one_is_left_open(name: str) ->
             for row in rows
             if row.status is status
         }
-        assert found >= {(a.quantity, a.step) for a in (*challenge.numbers, *challenge.fields)}
+        assert found >= {(a.quantity, a.step) for a in challenge.asked}
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -169,9 +168,7 @@ def test_by_either_door_the_right_answer_passes_and_five_per_cent_off_fails(
         assert found.line.replace(found.solver.name, "stranger <b>") in capsys.readouterr().out
         answered = [row for row in found.rows if row.grade or row.status is Status.FAIL]
         judged_ones = {(row.quantity, row.step) for row in answered}
-        assert judged_ones >= {
-            (v.quantity, v.step) for v in (*challenge.numbers, *challenge.fields)
-        }
+        assert judged_ones >= {(v.quantity, v.step) for v in challenge.asked}
 
 
 @pytest.mark.parametrize(
@@ -308,7 +305,7 @@ def test_reversed_sign_is_named_with_the_class_that_it_meets(name: str) -> None:
     verdicts = {
         (row.quantity, row.step): row for row in judged(challenge, Solver("s"), [wrong]).rows
     }
-    for asked in (*challenge.numbers, *challenge.fields):
+    for asked in challenge.asked:
         key = asked.quantity, asked.step
         hint = f"with the sign reversed it meets class {best[key]}; expected: {asked.meaning}"
         assert hint in verdicts[key].because
@@ -489,8 +486,7 @@ def test_answers_that_never_end_are_not_waited_for(
 def test_a_blind_export_does_not_print_the_answer(name: str, tmp_path: Path) -> None:
     assert slipstick("challenge", "export", name, "-o", tmp_path, "--blind") == 0
     challenge = challenges()[name]
-    numbers = [v.value for v in challenge.values]
-    numbers += [float(value) for p in challenge.points for value in p.values]
+    numbers = np.concatenate([np.ravel(one.value) for one in challenge.numbers])
     values = {f"{number:.9e}"[: 7 + (number < 0)].lstrip("-") for number in numbers if number}
     text = "".join(file.read_text() for file in tmp_path.iterdir())
     digits = {value.replace(".", "") for value in values}

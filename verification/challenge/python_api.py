@@ -24,7 +24,6 @@ from verification.challenge.cases import challenges
 from verification.challenge.requested_quantities import (
     Answer,
     AskedField,
-    AskedPoints,
     AskedValue,
     Challenge,
     Field,
@@ -91,7 +90,7 @@ def _covered_area(field: Field, semi_axes: tuple[float, float]) -> tuple[float, 
     return within, SCATTER * cells**-0.75 * pi**-0.25
 
 
-AskedQuantity = AskedValue | AskedField | AskedPoints
+AskedQuantity = AskedValue | AskedField
 
 # Errors stall if the upper end of the interval of the order is below this value.
 STALLS_BELOW = 0.5
@@ -148,8 +147,7 @@ def rows_of(
     for level in levels:
         for step, reason in level.gave_up.items():
             yield Row("solved", step or None, level.label, Status.FAIL, f"gave up: {reason}")
-    required: tuple[AskedQuantity, ...] = (*challenge.values, *challenge.fields, *challenge.points)
-    for quantity in required:
+    for quantity in challenge.asked:
         yield from _judge_quantity(quantity, solver, levels, demanded or quantity.par)
 
 
@@ -189,7 +187,9 @@ def _judge_quantity(
     finest, given = found[-1]
     yield from _missing_on_finest(key, finest, levels[-1])
     errors = [(one.h, _relative_error(asked, value, solver.sampling)) for one, value in found]
-    value, reference = (given, asked.value) if isinstance(asked, AskedValue) else (None, None)
+    value = reference = None
+    if isinstance(asked, AskedValue) and asked.places is None:
+        value, reference = given, asked.value
     failed = not errors[-1][1] + 2 * asked.uncertainty <= grade.bound
     hint = _slip_hint(asked, given, solver.sampling) if failed else ""
     yield _judge_error(key, finest.label, value, reference, errors, grade, asked.uncertainty, hint)
@@ -197,7 +197,7 @@ def _judge_quantity(
     if isinstance(asked, AskedValue):
         claims = [(one.uncertainty(key), e) for (one, _), (_, e) in zip(found, errors, strict=True)]
         yield from _judge_claimed_uncertainty(asked, finest.label, claims, grade)
-    elif isinstance(asked, AskedField):
+    else:
         yield from _judge_point_areas(asked, given, finest.label, max(grade.bound, Grade.B.bound))
 
 
@@ -207,9 +207,9 @@ def _given_value(asked: AskedQuantity, answer: Answer) -> Any:
     The result is None if the quantity is missing.
     """
     key = asked.quantity, asked.step
-    if isinstance(asked, AskedValue):
-        return answer.value(key)
-    return (answer.fields if isinstance(asked, AskedField) else answer.points).get(key)
+    if isinstance(asked, AskedField):
+        return answer.fields.get(key)
+    return answer.value(key) if asked.places is None else answer.points.get(key)
 
 
 def _relative_error(asked: AskedQuantity, given: Any, sampling: str) -> float:
@@ -224,9 +224,7 @@ def _relative_error(asked: AskedQuantity, given: Any, sampling: str) -> float:
     """
     if isinstance(asked, AskedField):
         return _field_error(asked, given, sampling)
-    if isinstance(asked, AskedValue):
-        return float(abs(given - asked.value) / asked.scale)
-    return float(np.max(np.abs(given - asked.values)) / asked.scale)
+    return float(np.max(np.abs(given - asked.value)) / asked.scale)
 
 
 def _field_error(asked: AskedField, field: Field, sampling: str) -> float:
@@ -517,8 +515,7 @@ class Judgement:
             for status in (Status.PASS, Status.FAIL, Status.INCONCLUSIVE)
         )
         grade = self.grade if self.grade in ("none", "partial") else f"class {self.grade}"
-        asked = len(self.challenge.numbers) + len(self.challenge.fields)
-        left_out = f"{len(self.omitted)} of {asked} omitted"
+        left_out = f"{len(self.omitted)} of {len(self.challenge.asked)} omitted"
         return f"{self.challenge.name} | {self.solver.name} | {grade} | {counts}, {left_out}"
 
     def exit_code(self, *, strict: bool = False, partial: bool = False) -> int:
@@ -660,15 +657,15 @@ def _refuse_other_quantities(answer: Answer, challenge: Challenge) -> None:
             raise Refused(f"level {answer.label}: {key!r} is not asked; asked: {known}")
     for asked in challenge.points:
         values = answer.points.get((asked.quantity, asked.step))
-        if values is not None and values.shape != asked.values.shape:
+        if values is not None and values.shape != asked.value.shape:
             raise Refused(
                 f"level {answer.label}: {asked.quantity} of step {asked.step}: {values.size} "
-                f"numbers, expected one at each of the {len(asked.places)} places"
+                f"numbers, expected one at each of the {asked.value.size} places"
             )
 
 
 def _required_keys(challenge: Challenge) -> list[Key]:
-    return [(one.quantity, one.step) for one in (*challenge.numbers, *challenge.fields)]
+    return [(one.quantity, one.step) for one in challenge.asked]
 
 
 @cache
