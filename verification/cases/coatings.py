@@ -183,7 +183,7 @@ def coated_paraboloid(
               of the level, with additional grids that are shifted relative to the contact
     required  numbers of cells per side for which an accuracy target exists; solved for all coatings
     """
-    most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
+    most = 256 * 2**level
     # Coarser grids have no accuracy target; they show the errors by refinement.
     coarser = () if cells else (32, 46, 64, 90)
     shifted = () if cells else refinement(32, most // 2)

@@ -619,7 +619,7 @@ def same_surface(level: Level = Level.QUICK) -> Case:
     level  amount of computation: quick, standard or full
     """
     # An odd number of cells has a central cell, in which the height of the ball is zero.
-    cells = {Level.QUICK: 33, Level.STANDARD: 65, Level.FULL: 129}[level]
+    cells = 32 * 2**level + 1
     width, longer = 2 * 1.2 * HERTZ.contact_radius, 4 / 3
     square = SurfaceGrid((cells, cells), (width, width))
     hard = FILMED.layers[0].material
@@ -906,11 +906,9 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
         "is curved"
     )
     same = "largest difference of pressure, shear, approach and shift, after half a turn"
-    cells = {Level.QUICK: 32, Level.STANDARD: 64, Level.FULL: 128}[level]
+    cells = 32 * 2**level
     grid = square_grid(cells, 1.3 * HERTZ.contact_radius)
-    elements = per_radius(
-        {Level.QUICK: 12, Level.STANDARD: 24, Level.FULL: 48}[level], 1.3 * HERTZ.contact_radius
-    )
+    elements = per_radius(12 * 2**level, 1.3 * HERTZ.contact_radius)
     pairs = (
         BodyPair("rigid ball on a body", Body(material=SUBSTRATE), Body(material=RIGID)),
         BodyPair(
@@ -1168,7 +1166,7 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
         update={"title": "Flat punch pushed without slip", "loading": (pressing(1), push)}
     )
     # Coarser elements differ between the boxes by more than the boundary.
-    mesh = per_radius({Level.QUICK: 32, Level.STANDARD: 48, Level.FULL: 64}[level], PUNCH_RADIUS)
+    mesh = per_radius((32, 48, 64)[level], PUNCH_RADIUS)
     runs = {
         (way, box): SectionRun(
             f"{way}, box of {box:g} radii", scene, mesh.model_copy(update={"box": box})

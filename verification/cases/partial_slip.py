@@ -222,7 +222,7 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
     level  amount of computation: quick, standard or full
     cells  numbers of cells per side; default: those of the level, with shifted grids
     """
-    most = {Level.QUICK: 128, Level.STANDARD: 256, Level.FULL: 512}[level]
+    most = 128 * 2**level
     grids = on_cells(CATTANEO, cells or refinement(32, most))
     quick = level is Level.QUICK and not cells
     at_once = sheared("Cattaneo-Mindlin at once, ν = 0", (STOPS[LOOPED],))

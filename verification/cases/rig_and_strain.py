@@ -418,7 +418,7 @@ def eccentric_contact(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation: quick, standard or full
     """
-    most = {Level.QUICK: 128, Level.STANDARD: 192, Level.FULL: 256}[level]
+    most = (128, 192, 256)[level]
     edges = f"{SQUARE_ROOTS}: an error of O(√h) on rings one cell wide leaves O(h^3/2) in L1"
     order = Falls(SHEAR, 1.5, edges)
     of_shear = Within(

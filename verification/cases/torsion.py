@@ -598,8 +598,8 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
     level  amount of computation: quick, standard or full, with finer cells and elements at higher
            levels
     """
-    cells = {Level.QUICK: 64, Level.STANDARD: 96, Level.FULL: 192}[level]
-    elements = {Level.QUICK: 16, Level.STANDARD: 24, Level.FULL: 32}[level]
+    cells = (64, 96, 192)[level]
+    elements = (16, 24, 32)[level]
     scenes = {
         "torsion": _coated_ball_scene(
             "Ball twisted on a coating",
