@@ -32,13 +32,10 @@ def test_a_command_is_as_dear_as_its_cheapest_repeat(
     assert [row.kind for row in rows] == kinds
 
 
-def test_new_commands_are_named_and_lost_ones_fail() -> None:
+def test_a_command_without_a_stored_time_is_refused() -> None:
     known = CpuTimes(by=HERE, loop_seconds=0.2, ratios={"run": 2.0})
-    rows = cpu_time_changes({"plan": ()}, MADE, known, lambda _: 1.0)
-    assert [(row.name, row.kind) for row in rows] == [
-        ("run", ChangeKind.GONE),
-        ("plan", ChangeKind.NEW),
-    ]
+    with pytest.raises(Refused, match="store the times by"):
+        cpu_time_changes({"plan": ()}, MADE, known)
 
 
 def test_a_process_is_measured_with_its_imports_and_a_failing_one_is_refused() -> None:

@@ -37,7 +37,7 @@ from verification.challenge.solver_process import (
     Solve,
     answers_of,
 )
-from verification.convergence.observed_order import ILLEGIBLE, observed_order
+from verification.convergence.observed_order import observed_order, order_text
 from verification.judging.outcome import Status
 from verification.norms import cell_means
 
@@ -278,18 +278,6 @@ def _judge_claimed_uncertainty(
     yield Row(f"{asked.quantity}: own uncertainty", asked.step, level, status, because)
 
 
-def fitted_order_text(order: tuple[float, float]) -> str:
-    """Format an observed order of convergence with its interval, such as "1.98 ± 0.05".
-
-    The text is "not known" if the half-width of the interval is 0.5 or more.
-
-    order  observed order and half-width of its 95 % interval
-    """
-    value, half = order
-    # Zero has no sign.
-    return f"{round(value, 2) + 0.0:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
-
-
 def _judge_point_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
     """Judge the areas of the points of an answered field by sums that the exact traction
     determines.
@@ -394,7 +382,7 @@ def _judge_convergence(
     if fit is None:
         return
     order, half = fit
-    told = f"order {fitted_order_text(fit)}"
+    told = f"order {order_text(*fit)}"
     if errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
         yield Row(
             f"{quantity}: stalls",

@@ -12,7 +12,7 @@ import os
 import resource
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -44,6 +44,7 @@ for _ in range(12):
 WARNING = 1.3  # largest ratio over the stored one without a warning
 RED = 1.6  # largest ratio over the stored one that passes
 REPEATS = 5
+REMEDY = "store the times by slipstick maintain cpu --accept"
 
 
 class CpuTimes(Description):
@@ -130,37 +131,28 @@ def cpu_time_changes(
     """Measure commands, and return those whose CPU time over that of the loop has grown.
 
     Above 1.3 times the stored ratio the change is a drift. Above 1.6 times it is dearer, if the
-    processor and its arithmetic are those of the stored times.
+    processor and its arithmetic are those of the stored times. Raises Refused for commands without
+    a stored time.
 
     made     version and machine
     known    stored times
     measure  function that measures a command once
     """
-    same = recorded_by(made, "").processor == known.by.processor
-    return rows_that_matter(_changes(commands, known, measure, same_processor=same))
-
-
-def _changes(
-    commands: Commands, known: CpuTimes, measure: Measure, *, same_processor: bool
-) -> Iterator[ChangeRow]:
-    since = known.by.date[:10]
-    for name, words in commands.items():
-        was = known.ratios.get(name)
-        if was is None:
-            yield ChangeRow("cpu", name, "", ChangeKind.NEW, "–", "–", "–", since, "not stored")
+    if commands.keys() != known.ratios.keys():
+        raise Refused(f"other commands have stored CPU times; {REMEDY}")
+    elsewhere = recorded_by(made, "").processor != known.by.processor
+    rows = []
+    for name, was in known.ratios.items():
+        now = smallest_ratio(commands[name], WARNING * was, measure)
+        if now <= WARNING * was:
             continue
-        now = smallest_ratio(words, WARNING * was, measure)
-        kind, remark = ChangeKind.UNCHANGED, ""
-        if now > WARNING * was:
-            kind = ChangeKind.DEARER if now > RED * was and same_processor else ChangeKind.DRIFT
-            remark = "" if same_processor else f"stored on {known.by.processor}"
+        kind = ChangeKind.DRIFT if elsewhere or now <= RED * was else ChangeKind.DEARER
+        remark = f"stored on {known.by.processor}" if elsewhere else ""
         texts = (f"{was:.3g} loops", f"{now:.3g} loops", f"{now / was:.2f} times")
-        yield ChangeRow("cpu", name, "", kind, *texts, since, remark, now / was)
-    for name in known.ratios.keys() - commands.keys():
-        yield ChangeRow("cpu", name, "", ChangeKind.GONE, "–", "–", "–", since, "not measured")
+        rows.append(ChangeRow("cpu", name, "", kind, *texts, known.by.date[:10], remark, now / was))
+    return rows_that_matter(rows)
 
 
 def read_cpu_times() -> CpuTimes:
     """Read the stored CPU times. Raises Refused for a missing or damaged file."""
-    remedy = "restore it, or store the times again by slipstick maintain cpu --accept"
-    return read_record(CPU_TIMES, CpuTimes, "file of CPU times", remedy)
+    return read_record(CPU_TIMES, CpuTimes, "file of CPU times", f"restore it, or {REMEDY}")
