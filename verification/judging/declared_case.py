@@ -879,6 +879,18 @@ class Reported:
 Row = Within | Refined | Falls | Reported
 
 
+def at_stops(stops: Mapping[int, float], of: str, *rows: Row) -> tuple[Row, ...]:
+    """Return rows for the end of each of several load steps, with the load of the step as label.
+
+    stops  load at the end of each step over `of`, by index of the step
+    of     reference load in words, such as "µW" (friction limit)
+    rows   rows of one load step
+    """
+    return tuple(
+        replace(row, what=row.what.at(*stop, of)) for stop in stops.items() for row in rows
+    )
+
+
 @dataclass(frozen=True)
 class Judged:
     """Runs on the refinement levels of one problem, and all numbers that are judged on them.
