@@ -425,7 +425,7 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
     levels = dict(_read_levels(directory, challenge.window))
     values: dict[str, dict[Key, float | tuple[float, float]]] = {name: {} for name in levels}
     at_places: dict[str, dict[Key, Vector]] = {name: {} for name in levels}
-    points = {(one.quantity, one.step): len(one.value) for one in challenge.points}
+    points = {one.key: len(one.value) for one in challenge.points}
     filled: set[tuple[str, Key, int]] = set()
     for where, level, key, point, value in _read_values(directory, challenge):
         if level not in levels:

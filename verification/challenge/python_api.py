@@ -28,7 +28,6 @@ from verification.challenge.requested_quantities import (
     Challenge,
     Field,
     Grade,
-    Key,
     Solver,
 )
 from verification.challenge.solver_process import (
@@ -162,13 +161,7 @@ def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, 
     answers  one answer per refinement level
     """
     finest = min(answers, key=lambda one: one.h)
-    asked = [(v.quantity, v.step, v.required) for v in challenge.numbers]
-    asked += [(f.quantity, f.step, False) for f in challenge.fields]
-    return [
-        (quantity, step, required)
-        for quantity, step, required in asked
-        if not finest.has((quantity, step))
-    ]
+    return [(*one.key, one.required) for one in challenge.asked if not finest.has(one.key)]
 
 
 def _given_value(asked: AskedQuantity, answer: Answer) -> Any:
@@ -176,10 +169,9 @@ def _given_value(asked: AskedQuantity, answer: Answer) -> Any:
 
     The result is None if the quantity is missing.
     """
-    key = asked.quantity, asked.step
     if isinstance(asked, AskedField):
-        return answer.fields.get(key)
-    return answer.value(key) if asked.places is None else answer.points.get(key)
+        return answer.fields.get(asked.key)
+    return answer.value(asked.key) if asked.places is None else answer.points.get(asked.key)
 
 
 @dataclass(frozen=True)
@@ -257,8 +249,7 @@ class _Judge:
 
         Without this verdict a code could hide its worst numbers by omitting them.
         """
-        key = self.asked.quantity, self.asked.step
-        if not finest.has(key) and not {0, self.asked.step} & finest.gave_up.keys():
+        if not finest.has(self.asked.key) and not {0, self.asked.step} & finest.gave_up.keys():
             because = f"not answered there; judged on level {self._level}"
             yield self._row(": finest level", finest.label, Status.INCONCLUSIVE, because)
 
@@ -323,8 +314,7 @@ class _Judge:
         The verdict is inconclusive if the stated uncertainty exceeds the bound of the accuracy
         class and is far above the error on every level.
         """
-        key, scale = (asked.quantity, asked.step), asked.scale
-        claims = [one.uncertainty(key) for one, _ in self.found]
+        scale, claims = asked.scale, [one.uncertainty(asked.key) for one, _ in self.found]
         claimed, error = claims[-1], self._errors[-1][1] * scale
         if claimed is None:
             return
@@ -524,10 +514,10 @@ def posed(name: str) -> Posed:
         name,
         challenge.document,
         tuple(challenge.loads),
-        {(v.quantity, v.step): v.unit for v in challenge.values},
-        {(v.quantity, v.step): v.since for v in challenge.values if v.since is not None},
-        {(p.quantity, p.step): p.places for p in challenge.points},
-        tuple((f.quantity, f.step) for f in challenge.fields),
+        {one.key: one.unit for one in challenge.values},
+        {one.key: one.since for one in challenge.values if one.since is not None},
+        {one.key: one.places for one in challenge.points},
+        tuple(one.key for one in challenge.fields),
         challenge.window,
     )
 
@@ -601,19 +591,15 @@ def _refuse_other_quantities(answer: Answer, challenge: Challenge) -> None:
     steps = max((ramp.step for ramp in challenge.ramps), default=1)
     for key in (*answer.scalars, *answer.fields, *answer.points):
         if key[0] not in _known_quantities() or key[1] not in range(1, steps + 1):
-            known = ", ".join(map(repr, _required_keys(challenge)))
+            known = ", ".join(repr(one.key) for one in challenge.asked)
             raise Refused(f"level {answer.label}: {key!r} is not asked; asked: {known}")
     for asked in challenge.points:
-        values = answer.points.get((asked.quantity, asked.step))
+        values = answer.points.get(asked.key)
         if values is not None and values.shape != asked.value.shape:
             raise Refused(
                 f"level {answer.label}: {asked.quantity} of step {asked.step}: {values.size} "
                 f"numbers, expected one at each of the {asked.value.size} places"
             )
-
-
-def _required_keys(challenge: Challenge) -> list[Key]:
-    return [(one.quantity, one.step) for one in challenge.asked]
 
 
 @cache
@@ -622,4 +608,4 @@ def _known_quantities() -> frozenset[str]:
 
     Used to refuse misspelt names in the answer of a solver.
     """
-    return frozenset(name for one in challenges().values() for name, _ in _required_keys(one))
+    return frozenset(asked.quantity for one in challenges().values() for asked in one.asked)

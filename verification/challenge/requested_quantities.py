@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import nan
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -315,15 +315,34 @@ QUANTITIES = {
 }
 
 
+Key = tuple[str, int]  # quantity and load step, from 1
+
+
 @dataclass(frozen=True, eq=False)
-class AskedValue:
+class Asked:
+    """Quantity that a challenge requires at the end of a load step.
+
+    quantity  name of the quantity
+    step      number of the load step, from 1
+    """
+
+    quantity: str
+    step: int
+
+    @property
+    def key(self) -> Key:
+        """Quantity and load step, by which an answer names the number or the field."""
+        return self.quantity, self.step
+
+
+@dataclass(frozen=True, eq=False)
+class AskedValue(Asked):
     """Number, or numbers at given points, that a challenge requires at the end of a load step.
 
     Errors are divided by the error scale, and compared with the bound of an accuracy class. Of
     numbers at points, the largest error counts.
 
     quantity     name of the quantity in QUANTITIES
-    step         number of the load step, from 1
     value        reference value, or array of reference values at the points (points,)
     scale        error scale, in the unit of the number
     over         description of the error scale
@@ -334,8 +353,6 @@ class AskedValue:
     since        load step from whose end the number counts; None: it counts from the beginning
     """
 
-    quantity: str
-    step: int
     value: Any
     scale: float
     over: str = "itself"
@@ -364,13 +381,12 @@ class AskedValue:
         return known | {"values": self.value.tolist()} | certain | {"places": self.places.tolist()}
 
 
-@dataclass(frozen=True)
-class AskedField:
-    """Traction field that a challenge requires, at points that the other code chooses, each with an
-    area.
+@dataclass(frozen=True, eq=False)
+class AskedField(Asked):
+    """Traction field that a challenge may be answered by, at points that the other code chooses,
+    each with an area.
 
     quantity     name of the traction component
-    step         number of the load step, from 1
     meaning      definition of the traction for the other code
     traction     exact traction
     norm         error norm: "L2", relative to the L2 norm of the exact field, or "L1", divided by
@@ -381,8 +397,6 @@ class AskedField:
     uncertainty  standard uncertainty of the reference, as a relative error
     """
 
-    quantity: str
-    step: int
     meaning: str
     traction: HalfEllipsoids | RoundTable
     norm: str
@@ -390,6 +404,7 @@ class AskedField:
     total: float
     par: Grade = Grade.C
     uncertainty: float = ROUNDING
+    required: ClassVar[bool] = False
 
     def document(self) -> dict[str, Any]:
         """Return the reference as a JSON record for the file `reference.json`."""
@@ -513,7 +528,7 @@ class Challenge:
 
         Returns None if the challenge does not require the quantity in this step.
         """
-        found = (v for v in self.numbers if (v.quantity, v.step) == (quantity, step))
+        found = (v for v in self.numbers if v.key == (quantity, step))
         return next(found, None)
 
 
@@ -535,7 +550,6 @@ def _rounded(value: Any) -> Any:
     return value
 
 
-Key = tuple[str, int]  # quantity and loading step, from 1
 SAMPLINGS = ("point", "cell")
 
 

@@ -22,7 +22,9 @@ ORDER_WIDTH = 0.25
 ORDER_OFF = 0.1
 # Half-width of an interval that contains two consecutive integer orders: none can be determined.
 ILLEGIBLE = 0.5
-LEAST_SHOWN = 0.005  # smallest half-width that two decimals show
+# Half-widths below have three decimals, of which the last is at least 1: less depends on round-off.
+LEAST_SHOWN = 0.005
+LEAST_TOLD = 0.001
 ORDERS = (0.05, 6.0)
 COARSE_STEPS = 60
 ROUNDING = 1e-20
@@ -77,9 +79,9 @@ def order_text(order: float, half_width: float) -> str:
     """
     if half_width >= ILLEGIBLE:
         return "not known"
-    digits = ".2f" if half_width >= LEAST_SHOWN else ".1g"
+    digits = 2 if half_width >= LEAST_SHOWN else 3
     # Zero has no sign.
-    return f"{round(order, 2) + 0.0:.2f} ± {half_width:{digits}}"
+    return f"{round(order, 2) + 0.0:.2f} ± {max(half_width, LEAST_TOLD):.{digits}f}"
 
 
 @dataclass(frozen=True)

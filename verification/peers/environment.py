@@ -25,6 +25,7 @@ import numpy as np
 from contact_results.blas_threads import VARIABLES
 from contact_results.directory.atomic_file import atomic_file
 from contact_scene.disk_cache import cache_directory
+from verification.adapters.own_solvers import numbers_of_pressure
 from verification.challenge.requested_quantities import Answer, Field, Key
 from verification.challenge.solver_process import CannotDo, Posed
 
@@ -294,15 +295,12 @@ def _answer_from_driver(
     pressure = np.array(found["pressure"]) * stress
     contact = pressure > 0
     area = np.full(int(np.sum(contact)), h**2)
-    weigh, middle = pressure / np.sum(pressure), slice(n // 2 - 1, n // 2 + 1)
     own: dict[str, float | None] = {
         "approach": None if found["approach"] is None else abs(found["approach"]) * length,
         "contact_radius": sqrt(np.sum(contact) * h**2 / pi),
-        "central_pressure": float(np.mean(pressure[middle, middle])),
         "moment_x": float(np.sum(pressure * y)) * h**2,
         "moment_y": float(np.sum(pressure * x)) * h**2,
-        "semi_axis_x": sqrt(5 * float(np.sum(weigh * x**2))),  # of a half-ellipsoid: <x²> = a²/5
-        "semi_axis_y": sqrt(5 * float(np.sum(weigh * y**2))),
+        **numbers_of_pressure(pressure, x, y),
     }
     scalars: dict[Key, float] = {
         (q, s): value for q, s in posed.asked if s == 1 and (value := own.get(q)) is not None
