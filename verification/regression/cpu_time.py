@@ -51,6 +51,7 @@ class CpuTimes(Description):
     """Accepted CPU times of commands, relative to the calibrated loop, with their origin."""
 
     by: RecordedBy
+    processor: str
     loop_seconds: float
     """CPU time of the loop on this machine [s]: the calibration."""
 
@@ -121,7 +122,12 @@ def accept_cpu_times(commands: Commands, made: Provenance, because: str) -> None
         raise Refused("CPU times need a reason: --because 'why these times are right'")
     loop = min(cpu_seconds(["-c", LOOP]) for _ in range(REPEATS))
     ratios = {name: round(smallest_ratio(words), 3) for name, words in commands.items()}
-    found = CpuTimes(by=recorded_by(made, because), loop_seconds=round(loop, 3), ratios=ratios)
+    found = CpuTimes(
+        by=recorded_by(made, because),
+        processor=str(made.machine["processor"]),
+        loop_seconds=round(loop, 3),
+        ratios=ratios,
+    )
     write_record(CPU_TIMES, found)
 
 
@@ -131,8 +137,7 @@ def cpu_time_changes(
     """Measure commands, and return those whose CPU time over that of the loop has grown.
 
     Above 1.3 times the stored ratio the change is a drift. Above 1.6 times it is dearer, if the
-    processor and its arithmetic are those of the stored times. Raises Refused for commands without
-    a stored time.
+    processor is that of the stored times. Raises Refused for commands without a stored time.
 
     made     version and machine
     known    stored times
@@ -140,14 +145,14 @@ def cpu_time_changes(
     """
     if commands.keys() != known.ratios.keys():
         raise Refused(f"other commands have stored CPU times; {REMEDY}")
-    elsewhere = recorded_by(made, "").processor != known.by.processor
+    elsewhere = made.machine["processor"] != known.processor
     rows = []
     for name, was in known.ratios.items():
         now = smallest_ratio(commands[name], WARNING * was, measure)
         if now <= WARNING * was:
             continue
         kind = ChangeKind.DRIFT if elsewhere or now <= RED * was else ChangeKind.DEARER
-        remark = f"stored on {known.by.processor}" if elsewhere else ""
+        remark = f"stored on {known.processor}" if elsewhere else ""
         texts = (f"{was:.3g} loops", f"{now:.3g} loops", f"{now / was:.2f} times")
         rows.append(ChangeRow("cpu", name, "", kind, *texts, known.by.date[:10], remark, now / was))
     return rows_that_matter(rows)
