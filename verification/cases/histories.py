@@ -47,6 +47,7 @@ from verification.judging.case import (
     Run,
     SectionRun,
     compare_runs,
+    computed_error,
     per_radius,
 )
 from verification.judging.declared_case import IDENTITY, case
@@ -90,7 +91,7 @@ Difference = Callable[[Any, Any], float]
 
 ANSWERED = "residuals of two solves, amplified a few times in the tractions"
 ISOTROPIC = "isotropy of bodies and friction"
-TURNS_INTO_ITSELF = "a right angle maps square cells to square cells;"
+TURNS_INTO_ITSELF = "a right angle maps square cells to square cells; "
 ROTATION = r"\mathbf{q}(\mathbf{R}\mathbf{x}) = \mathbf{R}\,\mathbf{q}(\mathbf{x})"
 EXACT = 10 * SOLVER_TOLERANCE
 FILMED = coated(film(2.0, 1.0))
@@ -470,8 +471,7 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
     films = [filmed.run(cells), filmed.run(cells, 90.0)]
     section = bare.section(elements, harmonics)
     repeated = {run.label: MotionControlled() for run in (runs[0], films[0])}
-    carried = "residuals of two solves, amplified in the tractions and carried through the "
-    "history"
+    carried = "residuals of two solves, amplified in the tractions and carried through the history"
     read: dict[str, tuple[str, float, Callable[[Any], float]]] = {
         "shift": ("shift", 5e-3, shift_along_x),
         "energy": ("dissipated energy", 1.5e-2, lambda end: float(end.dissipated_energy)),
@@ -953,17 +953,14 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
                 )
                 for name, one, other, difference in compared
             ),
-            Quantity(
+            computed_error(
                 "exchanged",
                 f"{pairs[0].name}, by the radial solver: {same}",
-                "",
                 f"{pairs[0].name}, rings",
                 by_radial_solver,
                 identity(0.0, source),
                 Required(EXACT, ANSWERED),
-                1.0,
                 "the other's",
-                runs=(),
             ),
         ),
         limits=(

@@ -30,7 +30,14 @@ from contact_scene import (
 from contact_scene.quantities.residuals import worst
 from semi_analytical import solve_discretised
 from verification.closed_forms.torsion import CoatedTorsion, TorsionalSurface, one_layer
-from verification.judging.case import OVER_ANGLES, Case, Followed, Level, Quantity, Required
+from verification.judging.case import (
+    OVER_ANGLES,
+    Case,
+    Followed,
+    Level,
+    Required,
+    computed_error,
+)
 from verification.judging.declared_case import (
     SHEAR_AROUND,
     SQUARE_ROOTS,
@@ -686,17 +693,14 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
             for name, scene in scenes.items()
         ),
         quantities=(
-            Quantity(
+            computed_error(
                 "turned",
                 "difference of the shift after a quarter turn",
-                "",
                 "the radial solver",
                 _rotated_shift_error,
                 identity(0.0, "a rotated scene has rotated results"),
                 Required(1e-10, "points are mapped to points"),
-                1.0,
                 "the shift",
-                runs=(),
             ),
         ),
         limits=(

@@ -432,8 +432,7 @@ STAIRCASE = (
     "the rim is a staircase of cells with infinite pressure, which changes the effective radius "
     "of the punch by a fraction of a cell"
 )
-STICK_BORDER = "order 1: the border is known to a fraction of a cell; the cap is a fifth of a "
-"cell"
+STICK_BORDER = "order 1: the border is known to a fraction of a cell; the cap is a fifth of a cell"
 SQUARE_ROOTS = "square-root edges of stick zone and contact"
 ELEMENT_RADIUS = "accuracy target of the finite elements at 64 per radius"
 PENALTY = "accuracy target of the finite elements with a penalty, at their default penalty"
