@@ -161,7 +161,7 @@ def test_moments_of_a_given_tilt_are_told_by_axis(name: str) -> None:
     the axes, or the sign, misses both moments."""
     challenge = challenges()[name]
     assert failed(judge(name, own.answer_on_cells, 3, "C", own.ON_CELLS)) <= {"approach"}
-    right = {(v.quantity, v.step): v.value for v in challenge.values}
+    right = {v.key: v.value for v in challenge.values}
     x, y = right["moment_x", 1], right["moment_y", 1]
     for moments in ((y, x), (-x, -y)):
         given = right | {("moment_x", 1): moments[0], ("moment_y", 1): moments[1]}

@@ -24,7 +24,6 @@ from verification.challenge.cases import challenges
 from verification.challenge.files import toml_text
 from verification.challenge.python_api import judged
 from verification.challenge.requested_quantities import (
-    AskedPoints,
     Challenge,
     Grade,
     Patch,
@@ -57,22 +56,22 @@ def exact(
     def part(asked: Any) -> Any:
         return off(asked) if callable(off) else off
 
-    scalars = {(v.quantity, v.step): v.value + part(v) * v.scale for v in challenge.values}
-    points = {(p.quantity, p.step): p.values + part(p) * p.scale for p in challenge.points}
+    scalars = {v.key: v.value + part(v) * v.scale for v in challenge.values}
+    points = {p.key: p.value + part(p) * p.scale for p in challenge.points}
     fields = {}
     for asked in challenge.fields if cells else ():
         field = exact_field(challenge, asked.step, cells)
         times = 1 + part(asked) * asked.scale / np.sum(np.abs(field.value) * field.area)
-        fields[asked.quantity, asked.step] = replace(field, value=field.value * times)
+        fields[asked.key] = replace(field, value=field.value * times)
     return Answer(h, scalars, fields, points=points)
 
 
 def twice_the_bound(asked: Any) -> Any:
     """An error that fails; of numbers at several places, at the middle one alone."""
     off = 2 * (asked.par.bound + asked.uncertainty)
-    if not isinstance(asked, AskedPoints):
+    if getattr(asked, "places", None) is None:
         return off
-    return off * (np.arange(asked.values.size) == asked.values.size // 2)
+    return off * (np.arange(asked.value.size) == asked.value.size // 2)
 
 
 def statuses(
@@ -151,7 +150,7 @@ def test_each_wrong_answer_fails_and_each_missing_one_is_left_open(name: str) ->
             for row in rows
             if row.status is status
         }
-        assert found >= {(a.quantity, a.step) for a in (*challenge.numbers, *challenge.fields)}
+        assert found >= {a.key for a in challenge.asked}
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -169,9 +168,7 @@ def test_by_either_door_the_right_answer_passes_and_five_per_cent_off_fails(
         assert found.line.replace(found.solver.name, "stranger <b>") in capsys.readouterr().out
         answered = [row for row in found.rows if row.grade or row.status is Status.FAIL]
         judged_ones = {(row.quantity, row.step) for row in answered}
-        assert judged_ones >= {
-            (v.quantity, v.step) for v in (*challenge.numbers, *challenge.fields)
-        }
+        assert judged_ones >= {v.key for v in challenge.asked}
 
 
 @pytest.mark.parametrize(
@@ -298,7 +295,7 @@ def test_reversed_sign_is_named_with_the_class_that_it_meets(name: str) -> None:
     right = exact(challenge, cells=100)
     wrong = Answer(
         right.h,
-        {(number.quantity, number.step): -number.value for number in challenge.values},
+        {number.key: -number.value for number in challenge.values},
         {key: replace(field, value=-field.value) for key, field in right.fields.items()},
         points={key: -values for key, values in right.points.items()},
     )
@@ -308,10 +305,9 @@ def test_reversed_sign_is_named_with_the_class_that_it_meets(name: str) -> None:
     verdicts = {
         (row.quantity, row.step): row for row in judged(challenge, Solver("s"), [wrong]).rows
     }
-    for asked in (*challenge.numbers, *challenge.fields):
-        key = asked.quantity, asked.step
-        hint = f"with the sign reversed it meets class {best[key]}; expected: {asked.meaning}"
-        assert hint in verdicts[key].because
+    for asked in challenge.asked:
+        hint = f"with the sign reversed it meets class {best[asked.key]}; expected: {asked.meaning}"
+        assert hint in verdicts[asked.key].because
 
 
 def test_a_number_that_is_none_fails() -> None:
@@ -336,7 +332,7 @@ def test_a_class_has_room_for_the_uncertainty_of_the_reference(
     each = ((one, asked) for one in challenges().values() for asked in one.values)
     challenge, asked = next(pair for pair in each if pair[1].uncertainty > 1e-7)
     off = (Grade.A.bound + part * 2 * asked.uncertainty) * asked.scale
-    answer = Answer(1e-5, {(asked.quantity, asked.step): asked.value + off})
+    answer = Answer(1e-5, {asked.key: asked.value + off})
     (row,) = (r for r in judged(challenge, Solver("s"), [answer], Grade.A).rows if r.grade)
     assert (row.quantity, row.grade, row.status) == (asked.quantity, grade, status)
 
@@ -385,13 +381,13 @@ def fill(folder: Path, answer: Answer, challenge: Challenge) -> None:
     """Write an answer as a stranger would."""
     named(folder)
     rows: list[tuple[str, ...]] = [
-        ("1", str(v.step), v.quantity, repr(float(answer.value((v.quantity, v.step)) or 0)), v.unit)
+        ("1", str(v.step), v.quantity, repr(float(answer.value(v.key) or 0)), v.unit)
         for v in challenge.values
     ]
     rows += [
         ("1", str(p.step), p.quantity, repr(float(value)), p.unit, "", str(n))
         for p in challenge.points
-        for n, value in enumerate(answer.points[p.quantity, p.step], start=1)
+        for n, value in enumerate(answer.points[p.key], start=1)
     ]
     write(folder, *rows)
     (folder / "fields").mkdir()
@@ -489,8 +485,7 @@ def test_answers_that_never_end_are_not_waited_for(
 def test_a_blind_export_does_not_print_the_answer(name: str, tmp_path: Path) -> None:
     assert slipstick("challenge", "export", name, "-o", tmp_path, "--blind") == 0
     challenge = challenges()[name]
-    numbers = [v.value for v in challenge.values]
-    numbers += [float(value) for p in challenge.points for value in p.values]
+    numbers = np.concatenate([np.ravel(one.value) for one in challenge.numbers])
     values = {f"{number:.9e}"[: 7 + (number < 0)].lstrip("-") for number in numbers if number}
     text = "".join(file.read_text() for file in tmp_path.iterdir())
     digits = {value.replace(".", "") for value in values}

@@ -19,7 +19,7 @@ from slipstick.cli.errors import ExitCode, exit_code
 from verification.cases.catalogue import CaseToJudge, JudgedCase, choose
 from verification.cases.requirements import unmet
 from verification.judging.case import Level
-from verification.judging.outcome import CaseOutcome, Status, order_text
+from verification.judging.outcome import CaseOutcome, Status, verdict_order_text
 from verification.regression.baseline import accept
 from verification.report.file_names import JUNIT, PAGE, RECORD, SHEETS, SUMMARY
 from verification.report.files import set_aside_report, write_report
@@ -206,15 +206,15 @@ def test_record_that_contradicts_itself_is_not_taken(tmp_path: Path) -> None:
     [
         (0.004, "1.90 ± 0.004"),
         (0.49, "1.90 ± 0.49"),
-        (0.51, "no order can be read"),
-        (63.5, "no order can be read"),
+        (0.51, "not known"),
+        (63.5, "not known"),
     ],
 )
 def test_an_order_that_its_interval_says_nothing_of_is_no_number(
     half_width: float, text: str
 ) -> None:
     order = verdict("order", 1.9, 2.0).model_copy(update={"interval": half_width})
-    assert order_text(order) == text
+    assert verdict_order_text(order) == text
 
 
 # ---- places that do not take what is written -----------------------------------------------------

@@ -129,6 +129,7 @@ MAINTENANCE = _lazy_commands(
         "compare": "List changes since the accepted numbers, or since a report.",
         "baseline": "List the accepted numbers, or accept those of a report.",
         "tolerances": "Propose or accept tolerances that follow the errors.",
+        "cpu": "Compare the CPU time of solvers and commands with the stored times.",
         "records": "List stored records, their age and cost, or regenerate them.",
         "deposit": "Write all reference tables as an RO-Crate.",
         "report": "Render the report again from recorded results.",

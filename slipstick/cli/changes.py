@@ -34,7 +34,7 @@ def compare_with_file(rows: Sequence[ChangeRow], file: Path, save: str) -> ExitC
 
     rows  changes, the worst first
     file  file of the saved numbers
-    save  option that saves numbers, such as "--save"
+    save  words that save numbers, such as "--save FILE"
     """
     if rows:
         print_changes(rows)
@@ -44,7 +44,7 @@ def compare_with_file(rows: Sequence[ChangeRow], file: Path, save: str) -> ExitC
     if worse:
         verdict = f"worse than {file}: {counts}"
     elif rows:
-        verdict = f"nothing is worse than {file}: {counts}; {save} {file} saves the present numbers"
+        verdict = f"nothing is worse than {file}: {counts}; {save} saves the present numbers"
     else:
         verdict = f"nothing has changed since {file}"
     typer.echo(verdict)

@@ -73,7 +73,7 @@ class Expectation:
         if self.expected is None or self.file is None:
             return ExitCode.PASS
         rows = expected_changes(found, self.expected, self.file.name)
-        return compare_with_file(rows, self.file, SAVE_EXPECTED)
+        return compare_with_file(rows, self.file, f"{SAVE_EXPECTED} {self.file}")
 
 
 def read_expectation(

@@ -352,12 +352,23 @@ def cell_scalar(posed: Posed, key: Key, result: Result) -> float | None:
     key     name of the quantity, and number of the load step from 1
     result  result of the semi-analytical solver
     """
-    quantity, end, grid = key[0], result.steps[key[1] - 1], result.grid
-    if quantity.startswith("semi_axis"):
-        x, y = grid.coordinates()
-        axes = [float(np.sum(end.pressure * s**2) / np.sum(end.pressure)) for s in (x, y)]
-        return sqrt(5 * axes["xy".index(quantity[-1])])  # of a half-ellipsoid: <x²> = a²/5
-    if quantity == "central_pressure":
-        i, j = (n // 2 for n in grid.cells)
-        return float(np.mean(end.pressure[i - 1 : i + 1, j - 1 : j + 1]))
-    return scalar_result(posed, key, result.steps)
+    end = result.steps[key[1] - 1]
+    known = numbers_of_pressure(end.pressure, *result.grid.coordinates())
+    return known[key[0]] if key[0] in known else scalar_result(posed, key, result.steps)
+
+
+def numbers_of_pressure(pressure: Vector, x: Vector, y: Vector) -> dict[str, float]:
+    """Compute the numbers that a challenge requires of a pressure on an even number of cells.
+
+    The semi-axes are those of the half-ellipsoid of equal second moments: <x²> = a²/5.
+
+    pressure  pressure at the cells (nx, ny)
+    x, y      coordinates of the cell centres (nx, ny) [length]
+    """
+    i, j = (n // 2 for n in pressure.shape)
+    square_x, square_y = (float(np.sum(pressure * s**2) / np.sum(pressure)) for s in (x, y))
+    return {
+        "semi_axis_x": sqrt(5 * square_x),
+        "semi_axis_y": sqrt(5 * square_y),
+        "central_pressure": float(np.mean(pressure[i - 1 : i + 1, j - 1 : j + 1])),
+    }

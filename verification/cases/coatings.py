@@ -41,7 +41,15 @@ from verification.closed_forms.coated_indentation import (
     paraboloid,
     paraboloid_under,
 )
-from verification.judging.case import Case, Level, Quantity, Required, Run, compare_runs
+from verification.judging.case import (
+    Case,
+    Level,
+    Quantity,
+    Required,
+    Run,
+    compare_runs,
+    computed_error,
+)
 from verification.judging.declared_case import (
     APPROACH,
     ASKED,
@@ -183,7 +191,7 @@ def coated_paraboloid(
               of the level, with additional grids that are shifted relative to the contact
     required  numbers of cells per side for which an accuracy target exists; solved for all coatings
     """
-    most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
+    most = 256 * 2**level
     # Coarser grids have no accuracy target; they show the errors by refinement.
     coarser = () if cells else (32, 46, 64, 90)
     shifted = () if cells else refinement(32, most // 2)
@@ -726,10 +734,9 @@ def film_stiffness(level: Level = Level.QUICK) -> Case:
         "The computed derivatives are central differences of the stiffness with the layered "
         "response of this program and the semi-closed integral equation.",
         quantities=tuple(
-            Quantity(
+            computed_error(
                 name,
                 meaning,
-                "",
                 f"h/a = {depth:g}",
                 partial(measure, depth),
                 closed_form(
@@ -737,9 +744,6 @@ def film_stiffness(level: Level = Level.QUICK) -> Case:
                     "Gao, Chiu and Lee 1992, first order in the difference of film and substrate",
                 ),
                 leaves,
-                1.0,
-                "1",
-                runs=(),
             )
             for depth in (0.1, 0.5, 1.0, 3.0)
             for name, (meaning, measure, exact) in derivatives.items()
@@ -971,44 +975,32 @@ def layered_reference(level: Level = Level.QUICK) -> Case:
         "unit traction on a square cell of a coated body, against inverse transforms. Every row "
         "is shown.",
         quantities=(
-            Quantity(
+            computed_error(
                 "scalars",
                 "largest error of C₁₁, C₂₂, C_sh, each relative to itself, and of C₁₂ "
                 "relative to √(C₁₁C₂₂)",
-                "",
                 f"{len(FRF_ROWS)} rows",
                 partial(_worst_frf_error, 0),
                 exact(frf, 1e-24),
                 required,
-                1.0,
-                "1",
-                runs=(),
             ),
-            Quantity(
+            computed_error(
                 "matrix",
                 "largest error of an entry relative to the largest entry",
-                "",
                 f"{len(FRF_ROWS)} rows",
                 partial(_worst_frf_error, 1),
                 exact(frf, 1e-24),
                 required,
-                1.0,
-                "1",
-                runs=(),
             ),
-            Quantity(
+            computed_error(
                 "influence_coefficients",
                 "largest error relative to the loaded cell's own displacement",
-                "",
                 f"{len(COEFFICIENT_ROWS)} rows",
                 lambda: max(map(_coefficient_error, COEFFICIENT_ROWS)),
                 # Both programs, which share nothing, agree to rounding: the record is better than
                 # the 1e-12 that its integrals were asked for.
                 exact(COEFFICIENT_SOURCE, 1e-15),
                 Required(1e-14, "twenty times the rounding error"),
-                1.0,
-                "1",
-                runs=(),
             ),
         ),
         equations=(FREQUENCY_RESPONSE,),
@@ -1036,10 +1028,9 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
         "otherwise. The bodies are the same in every run; the tests search for larger "
         "violations.",
         quantities=tuple(
-            Quantity(
+            computed_error(
                 law.name,
                 f"{law.number}: {law.statement}",
-                "",
                 f"{law.draws} bodies",
                 partial(worst_violation, law),
                 identity(0.0, f"property {law.number} of elastic layered half-spaces"),
@@ -1049,9 +1040,6 @@ def frf_laws(level: Level = Level.QUICK) -> Case:
                     if law.allowed == 1
                     else "rounding, or the law's own next order",
                 ),
-                1.0,
-                "1",
-                runs=(),
             )
             for law in laws
         ),

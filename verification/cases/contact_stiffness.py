@@ -10,7 +10,9 @@ from verification.judging.case import Case, Level
 from verification.judging.declared_case import (
     IDENTITY,
     Allowed,
+    Row,
     Within,
+    at_stops,
     case,
     judged,
     number,
@@ -139,11 +141,10 @@ def contact_stiffness(level: Level = Level.QUICK) -> Case:
     )
 
 
-def _of_push(parts: Mapping[int, float], allowed: Allowed, because: str) -> Sequence[Within]:
-    along = (TANGENTIAL.at(*stop, "µW") for stop in parts.items())
-    return [Within(what, allowed, because) for what in (NORMAL, *along)]
+def _of_push(parts: Mapping[int, float], allowed: Allowed, because: str) -> Sequence[Row]:
+    along = at_stops(parts, "µW", Within(TANGENTIAL, allowed, because))
+    return Within(NORMAL, allowed, because), *along
 
 
-def _of_twist(allowed: Allowed, because: str) -> Sequence[Within]:
-    about = (TORSIONAL.at(*stop, "of the sliding torque") for stop in TORQUES.items())
-    return [Within(what, allowed, because) for what in about]
+def _of_twist(allowed: Allowed, because: str) -> Sequence[Row]:
+    return at_stops(TORQUES, "of the sliding torque", Within(TORSIONAL, allowed, because))

@@ -650,7 +650,7 @@ def external_codes(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation: quick, standard or full, with finer grids and meshes
     """
-    sizes = {Level.QUICK: (128, 32), Level.STANDARD: (256, 64), Level.FULL: (512, 64)}[level]
+    sizes = ((128, 32), (256, 64), (512, 64))[level]
     return case(
         "external_codes",
         "Comparison with CalculiX",

@@ -43,6 +43,7 @@ from verification.judging.declared_case import (
     Row,
     SizedRun,
     Within,
+    at_stops,
     case,
     cells_label,
     error_norm,
@@ -645,14 +646,15 @@ def fem_partial_slip(
     listed = "0.3, 0.45, 0.6, 0.75 and 0.9 µW"
     also_by_cells = {step: part for step, part in STOPPED.items() if part in (0.3, 0.6, 0.9)}
     rows: tuple[Row, ...] = (
-        *(Within(SHIFT.at(*stop, "µW"), OF_SHIFT, WHY) for stop in also_by_cells.items()),
-        *(
+        *at_stops(also_by_cells, "µW", Within(SHIFT, OF_SHIFT, WHY)),
+        *at_stops(
+            also_by_cells,
+            "µW",
             Within(
-                STICK_RADIUS.at(*stop, "µW"),
+                STICK_RADIUS,
                 part_of_side(0.1),
                 "a tenth of an element: the edge is extrapolated from the last values",
-            )
-            for stop in also_by_cells.items()
+            ),
         ),
         Within(ENERGY.at(5, STOPPED[5], "µW"), OF_ENERGY, WHY),
     )
@@ -741,17 +743,15 @@ def fem_penalty_slip(level: Level = Level.QUICK) -> Case:
         on_springs(on_elements(problem, n, 0.97, of), f"{of}, {n[0]} elements per radius, penalty")
         for of, problem in {"loop": LOOP, "torsion": TWISTED}.items()
     )
-    of_ball = tuple(
-        row
-        for stop in TORQUE_PARTS.items()
-        for row in (
-            Within(
-                TWIST.at(*stop, SLIDING),
-                lambda rung: 2 * OF_SHIFT(rung),
-                "twice the tolerance of the shift of the loop, for the same reason",
-            ),
-            Within(SHEAR_AROUND.at(*stop, SLIDING), OF_SHEAR, WHY),
-        )
+    of_ball = at_stops(
+        TORQUE_PARTS,
+        SLIDING,
+        Within(
+            TWIST,
+            lambda rung: 2 * OF_SHIFT(rung),
+            "twice the tolerance of the shift of the loop, for the same reason",
+        ),
+        Within(SHEAR_AROUND, OF_SHEAR, WHY),
     )
     return case(
         "fem_penalty_slip",
@@ -872,15 +872,13 @@ def _rows_without_slip(
     if by_force:
         what, allowed = SHIFT, side**2 / 4
         why = f"a quarter of the square of a side of {side:.2g} a; the approach has order 2"
-    return tuple(
-        row
-        for stop in HALVES.items()
-        for row in (
-            Within(shear.at(*stop, "kN"), edge, "as for the pressure, whose error is at the edge"),
-            Within(what.at(*stop, "kN"), allowed, why),
-            Within(STICK_RADIUS.at(*stop, "kN"), 0.1 * side, "a tenth of a side"),
-            Within(WORK.at(*stop, "kN"), 1e-9, "no cell slips: round-off"),
-        )
+    return at_stops(
+        HALVES,
+        "kN",
+        Within(shear, edge, "as for the pressure, whose error is at the edge"),
+        Within(what, allowed, why),
+        Within(STICK_RADIUS, 0.1 * side, "a tenth of a side"),
+        Within(WORK, 1e-9, "no cell slips: round-off"),
     )
 
 
@@ -898,13 +896,10 @@ def radial_tangential(level: Level = Level.QUICK) -> Case:
     # rings show.
     of_steel = "errors of 7e-4 of the closed form, where slip turns, and 5e-4 of the rings"
 
-    def of_stops(shift: float, because: str) -> tuple[Within, ...]:
+    def of_stops(shift: float, because: str) -> tuple[Row, ...]:
         return (
-            *(Within(SHIFT.at(*stop, "µW"), shift, because) for stop in stops.items()),
-            *(
-                Within(STICK_RADIUS.at(*stop, "µW"), 0.25 / RINGS, "a quarter of a ring")
-                for stop in stops.items()
-            ),
+            *at_stops(stops, "µW", Within(SHIFT, shift, because)),
+            *at_stops(stops, "µW", Within(STICK_RADIUS, 0.25 / RINGS, "a quarter of a ring")),
         )
 
     shear = error_norm(

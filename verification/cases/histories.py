@@ -47,6 +47,7 @@ from verification.judging.case import (
     Run,
     SectionRun,
     compare_runs,
+    computed_error,
     per_radius,
 )
 from verification.judging.declared_case import IDENTITY, case
@@ -90,7 +91,7 @@ Difference = Callable[[Any, Any], float]
 
 ANSWERED = "residuals of two solves, amplified a few times in the tractions"
 ISOTROPIC = "isotropy of bodies and friction"
-TURNS_INTO_ITSELF = "a right angle maps square cells to square cells;"
+TURNS_INTO_ITSELF = "a right angle maps square cells to square cells; "
 ROTATION = r"\mathbf{q}(\mathbf{R}\mathbf{x}) = \mathbf{R}\,\mathbf{q}(\mathbf{x})"
 EXACT = 10 * SOLVER_TOLERANCE
 FILMED = coated(film(2.0, 1.0))
@@ -470,8 +471,7 @@ def coupled_history(level: Level = Level.QUICK, sizes: tuple[int, int, int] | No
     films = [filmed.run(cells), filmed.run(cells, 90.0)]
     section = bare.section(elements, harmonics)
     repeated = {run.label: MotionControlled() for run in (runs[0], films[0])}
-    carried = "residuals of two solves, amplified in the tractions and carried through the "
-    "history"
+    carried = "residuals of two solves, amplified in the tractions and carried through the history"
     read: dict[str, tuple[str, float, Callable[[Any], float]]] = {
         "shift": ("shift", 5e-3, shift_along_x),
         "energy": ("dissipated energy", 1.5e-2, lambda end: float(end.dissipated_energy)),
@@ -619,7 +619,7 @@ def same_surface(level: Level = Level.QUICK) -> Case:
     level  amount of computation: quick, standard or full
     """
     # An odd number of cells has a central cell, in which the height of the ball is zero.
-    cells = {Level.QUICK: 33, Level.STANDARD: 65, Level.FULL: 129}[level]
+    cells = 32 * 2**level + 1
     width, longer = 2 * 1.2 * HERTZ.contact_radius, 4 / 3
     square = SurfaceGrid((cells, cells), (width, width))
     hard = FILMED.layers[0].material
@@ -906,11 +906,9 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
         "is curved"
     )
     same = "largest difference of pressure, shear, approach and shift, after half a turn"
-    cells = {Level.QUICK: 32, Level.STANDARD: 64, Level.FULL: 128}[level]
+    cells = 32 * 2**level
     grid = square_grid(cells, 1.3 * HERTZ.contact_radius)
-    elements = per_radius(
-        {Level.QUICK: 12, Level.STANDARD: 24, Level.FULL: 48}[level], 1.3 * HERTZ.contact_radius
-    )
+    elements = per_radius(12 * 2**level, 1.3 * HERTZ.contact_radius)
     pairs = (
         BodyPair("rigid ball on a body", Body(material=SUBSTRATE), Body(material=RIGID)),
         BodyPair(
@@ -955,17 +953,14 @@ def exchanged_bodies(level: Level = Level.QUICK) -> Case:
                 )
                 for name, one, other, difference in compared
             ),
-            Quantity(
+            computed_error(
                 "exchanged",
                 f"{pairs[0].name}, by the radial solver: {same}",
-                "",
                 f"{pairs[0].name}, rings",
                 by_radial_solver,
                 identity(0.0, source),
                 Required(EXACT, ANSWERED),
-                1.0,
                 "the other's",
-                runs=(),
             ),
         ),
         limits=(
@@ -1168,7 +1163,7 @@ def fem_far_field(level: Level = Level.QUICK) -> Case:
         update={"title": "Flat punch pushed without slip", "loading": (pressing(1), push)}
     )
     # Coarser elements differ between the boxes by more than the boundary.
-    mesh = per_radius({Level.QUICK: 32, Level.STANDARD: 48, Level.FULL: 64}[level], PUNCH_RADIUS)
+    mesh = per_radius((32, 48, 64)[level], PUNCH_RADIUS)
     runs = {
         (way, box): SectionRun(
             f"{way}, box of {box:g} radii", scene, mesh.model_copy(update={"box": box})

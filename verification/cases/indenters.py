@@ -162,7 +162,7 @@ def hertz_point(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> Case:
     cells  numbers of cells per side; default: those of the level, with additional grids that are
            shifted relative to the contact
     """
-    most = {Level.QUICK: 256, Level.STANDARD: 512, Level.FULL: 1024}[level]
+    most = 256 * 2**level
     grids = on_cells(BALL, cells or refinement(32, most))
     shifted = () if cells else refinement(32, most // 2)
     return case(

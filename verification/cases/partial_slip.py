@@ -52,6 +52,7 @@ from verification.judging.declared_case import (
     Row,
     SizedRun,
     Within,
+    at_stops,
     because,
     case,
     error_norm,
@@ -222,7 +223,7 @@ def cattaneo_mindlin(level: Level = Level.QUICK, cells: Sequence[int] = ()) -> C
     level  amount of computation: quick, standard or full
     cells  numbers of cells per side; default: those of the level, with shifted grids
     """
-    most = {Level.QUICK: 128, Level.STANDARD: 256, Level.FULL: 512}[level]
+    most = 128 * 2**level
     grids = on_cells(CATTANEO, cells or refinement(32, most))
     quick = level is Level.QUICK and not cells
     at_once = sheared("Cattaneo-Mindlin at once, ν = 0", (STOPS[LOOPED],))
@@ -354,25 +355,23 @@ def sheared_cone(level: Level = Level.QUICK) -> Case:
     if level is Level.QUICK:
         followed = on_cells(_under_cone(stops[1]), cells, offsets=UNLIKE, of="sheared less")
     stick = replace(STICK_RADIUS, value=lambda exact: exact.stick.contact_radius)
-    rows = tuple(
-        row
-        for step, part in stops.items()
-        for row in (
-            Within(
-                SHEAR.at(step, part, "µW"),
-                4e-3,
-                "twice the accuracy target of the ball at 128 x 128: cells average the infinite "
-                "peak at the apex",
-            ),
-            Refined(stick.at(step, part, "µW"), 1.0, part_of_side(0.2), STICK_BORDER),
-            Refined(
-                SHIFT.at(step, part, "µW"),
-                2.0,
-                1e-4,
-                "order 2 and cap as for the approach of the frictionless cone, to which the "
-                "shift is proportional",
-            ),
-        )
+    rows = at_stops(
+        stops,
+        "µW",
+        Within(
+            SHEAR,
+            4e-3,
+            "twice the accuracy target of the ball at 128 x 128: cells average the infinite peak "
+            "at the apex",
+        ),
+        Refined(stick, 1.0, part_of_side(0.2), STICK_BORDER),
+        Refined(
+            SHIFT,
+            2.0,
+            1e-4,
+            "order 2 and cap as for the approach of the frictionless cone, to which the shift is "
+            "proportional",
+        ),
     )
     return case(
         "sheared_cone",
@@ -570,19 +569,17 @@ def fem_harmonics(level: Level = Level.QUICK) -> Case:
             shift_along_x(result.steps[step]) / problem.ends[step].shift - 1
         ),
     )
-    rows = tuple(
-        row
-        for stop in STOPS.items()
-        for row in (
-            Within(SHIFT.at(*stop, "µW"), scaled_tolerance(3e-4, cusp), because(cusp)),
-            Within(shear.at(*stop, "µW"), scaled_tolerance(6e-3, cusp), because(cusp)),
-            Within(across.at(*stop, "µW"), scaled_tolerance(3e-3, 1.0), because(1.0)),
-            Within(
-                STICK_RADIUS.at(*stop, "µW"),
-                part_of_side(1.0),
-                "an element: stick and slip are determined ring by ring",
-            ),
-        )
+    rows = at_stops(
+        STOPS,
+        "µW",
+        Within(SHIFT, scaled_tolerance(3e-4, cusp), because(cusp)),
+        Within(shear, scaled_tolerance(6e-3, cusp), because(cusp)),
+        Within(across, scaled_tolerance(3e-3, 1.0), because(1.0)),
+        Within(
+            STICK_RADIUS,
+            part_of_side(1.0),
+            "an element: stick and slip are determined ring by ring",
+        ),
     )
     beside_mindlin = tuple(
         row

@@ -320,8 +320,7 @@ def series_spring(level: Level = Level.QUICK) -> Case:
     level  amount of computation: quick, standard or full
     """
     problem = _spring_loop_problem()
-    why = "set by hand: the error of 64 x 64 cells, 16 elements or 24 rings for a loop of 0.87 "
-    "µW"
+    why = "set by hand: error of 64 x 64 cells, 16 elements or 24 rings for a loop of 0.87 µW"
     rows: tuple[Row, ...] = (
         *(
             Within(what.at(step, AT_ENDS[step], "of the largest actuator shift"), most, why)
@@ -418,7 +417,7 @@ def eccentric_contact(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation: quick, standard or full
     """
-    most = {Level.QUICK: 128, Level.STANDARD: 192, Level.FULL: 256}[level]
+    most = (128, 192, 256)[level]
     edges = f"{SQUARE_ROOTS}: an error of O(√h) on rings one cell wide leaves O(h^3/2) in L1"
     order = Falls(SHEAR, 1.5, edges)
     of_shear = Within(

@@ -5,7 +5,6 @@ The stress at contact edges and at interfaces of layers is included.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, partial
 from typing import Any
@@ -38,7 +37,7 @@ from verification.closed_forms.huber_stress import (
     stress_by_hertz_shear,
     trailing_edge_tension,
 )
-from verification.judging.case import Case, Level, Quantity, Required
+from verification.judging.case import Case, Level, Quantity, Required, computed_error
 from verification.judging.declared_case import (
     RINGS_SHOWN,
     Observable,
@@ -217,57 +216,9 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
     The stress from exact tractions on cells is compared with the closed forms of Huber and
     Hamilton, and with continuity at the interface. All levels are equal.
     """
-    closed: tuple[tuple[str, str, str, Callable[[], float]], ...] = (
-        (
-            "hertz_axis",
-            "largest error of σ_zz and σ_xx on the axis, over p₀",
-            "Huber 1904; Johnson 1985, ch. 3.4",
-            lambda: _largest_over_peak(_axis_errors(256)[:, :2]),
-        ),
-        (
-            "sliding_axis",
-            "largest error of τ_xz on the axis, over p₀",
-            "Hamilton 1983, on the axis",
-            lambda: _largest_over_peak(_axis_errors(256)[:, 2]),
-        ),
-        (
-            "hertz_off_axis",
-            "largest error of σ_zz and σ_yy in the plane y = 0 at depths from 0.2 a, over p₀",
-            "Huber 1904",
-            _off_axis_error,
-        ),
-        (
-            "sliding_below",
-            "largest error of the six stress components below pressure and shear, "
-            "at depths of 0.5 a and a over the whole window, over p₀",
-            "Hamilton 1983",
-            _sliding_stress_error,
-        ),
-    )
-    laws: tuple[tuple[str, str, str, Callable[[], float], str], ...] = (
-        (
-            "interface_continuity",
-            "largest jump of σ_zz, σ_xz, σ_yz over p₀ and of u over its largest value",
-            "displacement and traction are continuous",
-            _interface_jump,
-            "1",
-        ),
-        (
-            "in_plane_jump",
-            "σ_xx above minus the value that the strains below require, over p₀",
-            "in-plane strains are continuous",
-            _in_plane_jump,
-            "p₀",
-        ),
-        (
-            "surface_tractions",
-            "σ_zz, σ_xz at z = 0 against the tractions, over p₀",
-            "the boundary condition",
-            _surface_traction_error,
-            "p₀",
-        ),
-    )
     required = "required of subsurface stress by the project's accuracy targets"
+    closed, law = Required(1e-4, required), Required(1e-10, required)
+    cells, coating = "256x256", "coated, 64x64"
     return case(
         "subsurface_stress",
         "Stress below a sliding ball",
@@ -277,35 +228,68 @@ def subsurface_stress(level: Level = Level.QUICK) -> Case:
         "body test the components that are continuous at the interface, the jump of the others, "
         "and the tractions at the surface.",
         quantities=(
-            *(
-                Quantity(
-                    name,
-                    meaning,
-                    "",
-                    "256x256",
-                    measure,
-                    closed_form(0.0, source, 1.0),
-                    Required(1e-4, required),
-                    1.0,
-                    "p₀",
-                    runs=(),
-                )
-                for name, meaning, source, measure in closed
+            computed_error(
+                "hertz_axis",
+                "largest error of σ_zz and σ_xx on the axis, over p₀",
+                cells,
+                lambda: _largest_over_peak(_axis_errors(256)[:, :2]),
+                closed_form(0.0, "Huber 1904; Johnson 1985, ch. 3.4", 1.0),
+                closed,
+                "p₀",
             ),
-            *(
-                Quantity(
-                    name,
-                    meaning,
-                    "",
-                    "coated, 64x64",
-                    measure,
-                    identity(0.0, source),
-                    Required(1e-10, required),
-                    1.0,
-                    scale,
-                    runs=(),
-                )
-                for name, meaning, source, measure, scale in laws
+            computed_error(
+                "sliding_axis",
+                "largest error of τ_xz on the axis, over p₀",
+                cells,
+                lambda: _largest_over_peak(_axis_errors(256)[:, 2]),
+                closed_form(0.0, "Hamilton 1983, on the axis", 1.0),
+                closed,
+                "p₀",
+            ),
+            computed_error(
+                "hertz_off_axis",
+                "largest error of σ_zz and σ_yy in the plane y = 0 at depths from 0.2 a, over p₀",
+                cells,
+                _off_axis_error,
+                closed_form(0.0, "Huber 1904", 1.0),
+                closed,
+                "p₀",
+            ),
+            computed_error(
+                "sliding_below",
+                "largest error of the six stress components below pressure and shear, at depths "
+                "of 0.5 a and a over the whole window, over p₀",
+                cells,
+                _sliding_stress_error,
+                closed_form(0.0, "Hamilton 1983", 1.0),
+                closed,
+                "p₀",
+            ),
+            computed_error(
+                "interface_continuity",
+                "largest jump of σ_zz, σ_xz, σ_yz over p₀ and of u over its largest value",
+                coating,
+                _interface_jump,
+                identity(0.0, "displacement and traction are continuous"),
+                law,
+            ),
+            computed_error(
+                "in_plane_jump",
+                "σ_xx above minus the value that the strains below require, over p₀",
+                coating,
+                _in_plane_jump,
+                identity(0.0, "in-plane strains are continuous"),
+                law,
+                "p₀",
+            ),
+            computed_error(
+                "surface_tractions",
+                "σ_zz, σ_xz at z = 0 against the tractions, over p₀",
+                coating,
+                _surface_traction_error,
+                identity(0.0, "the boundary condition"),
+                law,
+                "p₀",
             ),
         ),
         equations=(HAMILTON_EQUATION,),
@@ -456,30 +440,43 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
            the surface
     """
     required = "required of stress at the edge by the project's accuracy targets"
-    own = "a tenth of the tolerance of the tensile stress at the edge: the fitted tractions are "
-    "exact here"
+    own = Required(
+        5e-4,
+        "a tenth of the tolerance of the tensile stress at the edge: the fitted tractions are "
+        "exact here",
+    )
+    cells = "128x128"
     exact = trailing_edge_tension(1.0, FRICTION, NU)
     hamilton, quick = "Hamilton and Goodman 1966; Johnson 1985, section 7.1", level is Level.QUICK
     # The uncertainty of the expected zero is that of the closed form: rounding, or one integral.
-    fitted: tuple[tuple[str, str, Reference, Callable[[], float]], ...] = (
-        (
+    fitted = (
+        computed_error(
             "line",
             "largest error of σ_xx(x, 0) within 4 cells of either edge, over p₀",
-            closed_form(0.0, "Hamilton and Goodman 1966; Cerruti", 1.0),
+            cells,
             _edge_line_error,
+            closed_form(0.0, "Hamilton and Goodman 1966; Cerruti", 1.0),
+            own,
+            "p₀",
         ),
-        (
+        computed_error(
             "below",
             "largest error of all components a cell below, within 3 cells of the edge, over p₀",
-            Reference(0.0, ReferenceKind.SEMI_CLOSED, "Hamilton 1983, as one integral", 1e-10),
+            cells,
             _error_a_cell_below,
+            Reference(0.0, ReferenceKind.SEMI_CLOSED, "Hamilton 1983, as one integral", 1e-10),
+            own,
+            "p₀",
         ),
-        (
+        computed_error(
             "surface",
             "largest error of all components at the surface within 3 cells of the edge, "
             "without shear, over p₀",
-            closed_form(0.0, "Huber 1904", 1.0),
+            cells,
             _surface_error,
+            closed_form(0.0, "Huber 1904", 1.0),
+            own,
+            "p₀",
         ),
     )
     return case(
@@ -510,21 +507,7 @@ def edge_stress(level: Level = Level.QUICK) -> Case:
                 )
                 for cells, allowed in ((128, 5e-3), (256, 2e-3))
             ),
-            *(
-                Quantity(
-                    name,
-                    meaning,
-                    "",
-                    "128x128",
-                    measure,
-                    reference,
-                    Required(5e-4, own),
-                    1.0,
-                    "p₀",
-                    runs=(),
-                )
-                for name, meaning, reference, measure in (fitted[:2] if quick else fitted)
-            ),
+            *(fitted[:2] if quick else fitted),
             *(
                 Quantity(
                     f"coated_{ratio:g}_{thickness:g}",

@@ -29,7 +29,14 @@ from contact_scene import (
 from contact_scene.quantities.residuals import worst
 from semi_analytical import solve_discretised
 from verification.closed_forms.torsion import CoatedTorsion, TorsionalSurface, one_layer
-from verification.judging.case import OVER_ANGLES, Case, Followed, Level, Quantity, Required
+from verification.judging.case import (
+    OVER_ANGLES,
+    Case,
+    Followed,
+    Level,
+    Required,
+    computed_error,
+)
 from verification.judging.declared_case import (
     SHEAR_AROUND,
     SQUARE_ROOTS,
@@ -39,6 +46,7 @@ from verification.judging.declared_case import (
     Observable,
     Refined,
     Within,
+    at_stops,
     case,
     error_norm,
     judged,
@@ -172,23 +180,12 @@ def torsion(level: Level = Level.QUICK) -> Case:
     )
     shears = {step: shear.at(step, part, SLIDING) for step, part in TORQUE_PARTS.items()}
     of_ball = (
-        *(
-            row
-            for stop in TORQUE_PARTS.items()
-            for row in (
-                Refined(
-                    TWIST.at(*stop, SLIDING),
-                    1.5,
-                    5e-3,
-                    f"order 1.5 as the shear; the cap: {HALF_A_PER_CENT}",
-                ),
-                Refined(STICK_RADIUS.at(*stop, SLIDING), 1.0, part_of_side(0.25), QUARTER),
-                Within(
-                    shears[stop[0]],
-                    2e-3,
-                    "as required of the Cattaneo-Mindlin shear on these grids",
-                ),
-            )
+        *at_stops(
+            TORQUE_PARTS,
+            SLIDING,
+            Refined(TWIST, 1.5, 5e-3, f"order 1.5 as the shear; the cap: {HALF_A_PER_CENT}"),
+            Refined(STICK_RADIUS, 1.0, part_of_side(0.25), QUARTER),
+            Within(shear, 2e-3, "as required of the Cattaneo-Mindlin shear on these grids"),
         ),
         Falls(shears[2], 1.5, f"{SQUARE_ROOTS}, as in the Cattaneo-Mindlin case"),
     )
@@ -313,18 +310,11 @@ def torsion_coated(level: Level = Level.QUICK) -> Case:
 
     level  amount of computation: quick, standard or full
     """
-    rows = tuple(
-        row
-        for stop in COATED_PARTS.items()
-        for row in (
-            Refined(
-                TWIST.at(*stop, SLIDING),
-                1.5,
-                5e-3,
-                f"order 1.5 as without layers; the cap: {HALF_A_PER_CENT}",
-            ),
-            Refined(STICK_RADIUS.at(*stop, SLIDING), 1.0, part_of_side(0.25), QUARTER),
-        )
+    rows = at_stops(
+        COATED_PARTS,
+        SLIDING,
+        Refined(TWIST, 1.5, 5e-3, f"order 1.5 as without layers; the cap: {HALF_A_PER_CENT}"),
+        Refined(STICK_RADIUS, 1.0, part_of_side(0.25), QUARTER),
     )
     cells = refinement(32, 128 if level is Level.QUICK else 256)
     return case(
@@ -368,18 +358,16 @@ def fem_torsion(level: Level = Level.QUICK) -> Case:
     )
     rim = "the error of hat functions at the infinite shear of the rim has an energy of O(h)"
     balls = with_edge_at(TWISTED, levels(level)[-1:], order_levels(level), "ball")
-    of_ball = tuple(
-        row
-        for stop in TORQUE_PARTS.items()
-        for row in (
-            Within(TWIST.at(*stop, SLIDING), scaled_tolerance(2e-3, 1.5), cusp),
-            Within(
-                STICK_RADIUS.at(*stop, SLIDING),
-                part_of_side(0.1),
-                "a tenth of an element: the edge is extrapolated from the last values",
-            ),
-            Within(SHEAR_AROUND.at(*stop, SLIDING), scaled_tolerance(5e-3, 1.5), cusp),
-        )
+    of_ball = at_stops(
+        TORQUE_PARTS,
+        SLIDING,
+        Within(TWIST, scaled_tolerance(2e-3, 1.5), cusp),
+        Within(
+            STICK_RADIUS,
+            part_of_side(0.1),
+            "a tenth of an element: the edge is extrapolated from the last values",
+        ),
+        Within(SHEAR_AROUND, scaled_tolerance(5e-3, 1.5), cusp),
     )
     of_punch = (
         Within(
@@ -597,8 +585,8 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
     level  amount of computation: quick, standard or full, with finer cells and elements at higher
            levels
     """
-    cells = {Level.QUICK: 64, Level.STANDARD: 96, Level.FULL: 192}[level]
-    elements = {Level.QUICK: 16, Level.STANDARD: 24, Level.FULL: 32}[level]
+    cells = (64, 96, 192)[level]
+    elements = (16, 24, 32)[level]
     scenes = {
         "torsion": _coated_ball_scene(
             "Ball twisted on a coating",
@@ -622,17 +610,11 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
     mean_shear = error_norm(
         "mean_shear", "mean error of q_θ over the contact{when}", _mean_shear_error, OVER_LIMIT
     )
-    of_ball = tuple(
-        row
-        for stop in TORQUE_PARTS.items()
-        for row in (
-            Within(replace(TWIST, over=OVER_TWIST).at(*stop, SLIDING), 5e-4, of_twist),
-            Within(
-                mean_shear.at(*stop, SLIDING),
-                5e-3,
-                "accuracy target of the radial solver, for the mean",
-            ),
-        )
+    of_ball = at_stops(
+        TORQUE_PARTS,
+        SLIDING,
+        Within(replace(TWIST, over=OVER_TWIST), 5e-4, of_twist),
+        Within(mean_shear, 5e-3, "accuracy target of the radial solver, for the mean"),
     )
     of_loop = (
         *(Within(twist, 5e-4, of_twist) for twist in LOOP_TWISTS),
@@ -710,17 +692,14 @@ def radial_turning(level: Level = Level.QUICK) -> Case:
             for name, scene in scenes.items()
         ),
         quantities=(
-            Quantity(
+            computed_error(
                 "turned",
                 "difference of the shift after a quarter turn",
-                "",
                 "the radial solver",
                 _rotated_shift_error,
                 identity(0.0, "a rotated scene has rotated results"),
                 Required(1e-10, "points are mapped to points"),
-                1.0,
                 "the shift",
-                runs=(),
             ),
         ),
         limits=(

@@ -42,7 +42,15 @@ from contact_scene.quantities.increment import (
 )
 from contact_scene.quantities.residuals import worst
 from verification.convergence.observed_order import error_line, observed_order, richardson
-from verification.judging.case import SOLVER_TOLERANCE, Case, Derived, Level, Quantity, Required
+from verification.judging.case import (
+    SOLVER_TOLERANCE,
+    Case,
+    Derived,
+    Level,
+    Quantity,
+    Required,
+    computed_error,
+)
 from verification.judging.judgement import judge_quantity
 from verification.judging.outcome import Verdict, failure_text, uncertainty_text
 from verification.problems.problem import (
@@ -275,6 +283,7 @@ SCENE = Scene(
         _push_step(PUSH),
     ),
 )
+CONSISTENT = identity(0.0, "consistency of the files")
 # A stiff layer bends, so that the stress at its lower side differs much from that in the base.
 COATED = pressed("Ball on a stiff coating", paraboloid(STEEL), coated(film(4.0, 0.25)))
 
@@ -320,37 +329,41 @@ def written_files(level: Level = Level.QUICK) -> Case:
         "the base.",
         runs=(),
         quantities=(
-            _file_check(
+            computed_error(
                 "loads",
-                "largest difference of normal force, tangential force, torque and "
-                "moments in the table from the sums of the tractions, over the largest of each",
+                "largest difference of normal force, tangential force, torque and moments in the "
+                "table from the sums of the tractions, over the largest of each",
+                "files",
                 loads,
-                10 * SOLVER_TOLERANCE,
-                "equilibrium, met to the tolerance of the solver",
+                CONSISTENT,
+                Required(10 * SOLVER_TOLERANCE, "equilibrium, met to the tolerance of the solver"),
             ),
-            _file_check(
+            computed_error(
                 "columns",
-                "largest difference of a column of the table from the data set of "
-                "this name, over its largest value",
+                "largest difference of a column of the table from the data set of this name, over "
+                "its largest value",
+                "files",
                 columns,
-                1e-15,
-                "the same numbers, written twice",
+                CONSISTENT,
+                Required(1e-15, "the same numbers, written twice"),
             ),
-            _file_check(
+            computed_error(
                 "place_of_f1",
-                "relative difference of Ruiz's first parameter at the tabulated "
-                "position from its largest value",
+                "relative difference of Ruiz's first parameter at the tabulated position from its "
+                "largest value",
+                "files",
                 place_of_f1,
-                1e-12,
-                "the same cell",
+                CONSISTENT,
+                Required(1e-12, "the same cell"),
             ),
-            _file_check(
+            computed_error(
                 "sides_of_an_interface",
-                "largest excess of the stress on a side of the "
-                "interface over that of the adjacent layer or base",
+                "largest excess of the stress on a side of the interface over that of the adjacent "
+                "layer or base",
+                "files",
                 sides_of_an_interface,
-                1e-12,
-                "a maximum over a part is at most that over the whole",
+                CONSISTENT,
+                Required(1e-12, "a maximum over a part is at most that over the whole"),
             ),
         ),
         equations=(
@@ -359,23 +372,6 @@ def written_files(level: Level = Level.QUICK) -> Case:
         ),
         no_order="numbers of one run, written twice",
         shows=("files",),
-    )
-
-
-def _file_check(
-    name: str, meaning: str, measure: Callable[[], float], allowed: float, because: str
-) -> Quantity:
-    return Quantity(
-        name,
-        meaning,
-        "",
-        "files",
-        measure,
-        identity(0.0, "consistency of the files"),
-        Required(allowed, because),
-        1.0,
-        "1",
-        runs=(),
     )
 
 

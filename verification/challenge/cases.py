@@ -34,22 +34,18 @@ from verification.cases.frictional_pressing import (
     NO_SLIP_SOURCE,
 )
 from verification.challenge.requested_quantities import (
-    CLOSED,
+    COMPONENTS,
     LARGE,
     SMALL,
     AskedField,
-    AskedPoints,
     AskedValue,
     Challenge,
     Grade,
     Half,
     HalfEllipsoids,
     Patch,
-    approach,
-    contact_radius,
     fitted,
     round_halves,
-    stick_radius,
     tabulated,
 )
 from verification.closed_forms.cattaneo_mindlin import PartialSlip, TangentialHistory
@@ -116,6 +112,30 @@ STICK_ERROR = 1e-6
 PROFILE_ERROR = 3e-4
 
 
+def of_itself(quantity: str, step: int, value: float, **more: Any) -> AskedValue:
+    """Create a required number whose error scale is the number itself.
+
+    quantity  name of the quantity
+    step      number of the load step, from 1
+    value     reference value
+    more      further fields of `AskedValue`
+    """
+    return AskedValue(quantity, step, value, value, **more)
+
+
+def stick_radius(step: int, value: float, **more: Any) -> AskedValue:
+    """Create an optional number for the radius of the stick zone at the end of a load step.
+
+    The error scale is the Hertz contact radius.
+
+    step   number of the load step, from 1
+    value  reference stick radius [length]
+    more   further fields of `AskedValue`
+    """
+    over = HERTZ.contact_radius, "the contact radius", Grade.C
+    return AskedValue("stick_radius", step, value, *over, required=False, **more)
+
+
 def torsion() -> Challenge:
     """Create the benchmark problem (challenge) of a pressed ball that is twisted to increasing
     torques (Lubkin).
@@ -125,8 +145,8 @@ def torsion() -> Challenge:
     values, fields = [], []
     for step, end in enumerate(TWISTED.ends[1:], start=2):
         values += [
-            _required_twist(step, end.twist, end.twist, "itself"),
-            stick_radius(end.stick_radius, step),
+            of_itself("twist", step, end.twist, par=Grade.C),
+            stick_radius(step, end.stick_radius),
         ]
         shear = tabulated(end.shear, end.stick_radius, end.contact_radius)
         fields.append(
@@ -150,7 +170,6 @@ def torsion() -> Challenge:
         TWISTED.source,
         tuple(values),
         tuple(fields),
-        SMALL,
     )
 
 
@@ -160,33 +179,18 @@ def torsion_loop() -> Challenge:
 
     The twist at the end of each load step and the energy lost in one cycle are required.
     """
-    values = [
-        _required_twist(step, end.twist, LARGEST.twist, OVER_TWIST)
+    twists = (
+        AskedValue("twist", step, end.twist, LARGEST.twist, OVER_TWIST, Grade.C)
         for step, end in enumerate(TORSION_LOOP.ends[1:], start=2)
-    ]
-    last, energy = len(TORSION_LOOP.ends), TORSION_LOOP.ends[-1].energy_per_cycle
-    values.append(
-        AskedValue(
-            "energy_per_cycle",
-            last,
-            "J",
-            f"energy lost to friction between the ends of load steps 2 and {last}",
-            energy,
-            energy,
-            "itself",
-            uncertainty=1e-9,
-            since=2,
-        )
     )
+    last, energy = len(TORSION_LOOP.ends), TORSION_LOOP.ends[-1].energy_per_cycle
     return Challenge(
         "torsion_loop",
         "A ball twisted to and fro",
         f"{TORSION_LOOP.scene.title}.",
         TORSION_LOOP.scene,
         "Lubkin 1951, with Masing's rule for the reversal",
-        tuple(values),
-        (),
-        SMALL,
+        (*twists, of_itself("energy_per_cycle", last, energy, uncertainty=1e-9, since=2)),
     )
 
 
@@ -204,38 +208,27 @@ def pressed_with_friction(one: Indentation) -> Challenge:
     r = ROUND_RADII[AMONG * a > ROUND_RADII]
     r = r[np.abs(r - one.stick_part * a) > AWAY * a]
     places = np.stack([r, 0 * r, 0 * r], axis=1)
-    limit = one.friction * HERTZ.peak_pressure
-    pressure = interpolate_profile(one, "p_over_pH", r) * HERTZ.peak_pressure
-    shear = interpolate_profile(one, "q_over_mu_pH", r) * limit
-    points = (
-        AskedPoints(
-            "pressure",
-            1,
-            "Pa",
-            "pressure, positive in compression",
-            places,
-            pressure,
-            HERTZ.peak_pressure,
-            "p_H",
-            uncertainty=PROFILE_ERROR,
-        ),
-        AskedPoints(
-            "shear_radial",
-            1,
-            "Pa",
-            "shear traction on the lower body, positive outward",
-            places,
-            shear,
-            limit,
-            OVER_LIMIT,
-            uncertainty=PROFILE_ERROR,
-        ),
-    )
-    radius = one.stick_part * a
+    tractions = {
+        "pressure": ("p_over_pH", HERTZ.peak_pressure, "p_H"),
+        "shear_radial": ("q_over_mu_pH", one.friction * HERTZ.peak_pressure, OVER_LIMIT),
+    }
     numbers = (
-        approach(one.approach, REFERENCE_ERROR),
-        contact_radius(a, REFERENCE_ERROR),
-        stick_radius(radius, 1, STICK_ERROR),
+        of_itself("approach", 1, one.approach, uncertainty=REFERENCE_ERROR),
+        of_itself("contact_radius", 1, a, uncertainty=REFERENCE_ERROR),
+        stick_radius(1, one.stick_part * a, uncertainty=STICK_ERROR),
+        *(
+            AskedValue(
+                quantity,
+                1,
+                interpolate_profile(one, profile, r) * scale,
+                scale,
+                over,
+                Grade.C,
+                places,
+                uncertainty=PROFILE_ERROR,
+            )
+            for quantity, (profile, scale, over) in tractions.items()
+        ),
     )
     return Challenge(
         f"frictional_indentation/{one.file_name}",
@@ -244,9 +237,6 @@ def pressed_with_friction(one: Indentation) -> Challenge:
         scene,
         one.source,
         numbers,
-        (),
-        SMALL,
-        points=points,
     )
 
 
@@ -295,9 +285,7 @@ def stuck_punch(nu: float) -> Challenge:
         f"{scene.title}: so much friction that no place slips, ν = {nu:g}.",
         scene,
         NO_SLIP_SOURCE,
-        (approach(smooth.approach / factor),),
-        (),
-        SMALL,
+        (of_itself("approach", 1, smooth.approach / factor),),
     )
 
 
@@ -323,22 +311,10 @@ def stuck_ball(nu: float) -> Challenge:
         f"{scene.title}: so much friction that no place slips once it is touched, ν = {nu:g}.",
         scene,
         NO_SLIP_BALL_SOURCE,
-        (approach(approached, 1e-7), contact_radius(a, 1e-7)),
-        (),
-        SMALL,
-    )
-
-
-def _required_twist(step: int, value: float, scale: float, over: str) -> AskedValue:
-    return AskedValue(
-        "twist",
-        step,
-        "rad",
-        "rotation of the indenter about z relative to far points of the body, right-handed",
-        value,
-        scale,
-        over,
-        Grade.C,
+        (
+            of_itself("approach", 1, approached, uncertainty=1e-7),
+            of_itself("contact_radius", 1, a, uncertainty=1e-7),
+        ),
     )
 
 
@@ -361,19 +337,18 @@ PLACES = 1e-3 * np.array(
         (0.1, 0.1, 0.6),
     ]
 )
-COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 PATCH_SOURCE = "references/influence_coefficients.json: inverse transform, 1e-12"
 # Thickness of the layer, traction on the patch, and shear modulus of the substrate [SI].
 THICKNESS = 1e-3
 TRACTION = 1e6
 SUBSTRATE = 80e9
-# Displacement component and direction of the traction, by component of the reference rows.
+# Required displacement, by component of the reference rows.
 MOVED = {
-    "zz": ("u_z_by_pressure", "displacement along z under pressure on the patch"),
-    "xx": ("u_x_by_shear_x", "displacement along x under shear along x on the patch"),
-    "yy": ("u_y_by_shear_y", "displacement along y under shear along y on the patch"),
-    "xy": ("u_x_by_shear_y", "displacement along x under shear along y on the patch"),
-    "zx": ("u_z_by_shear_x", "displacement along z under shear along x on the patch"),
+    "zz": "u_z_by_pressure",
+    "xx": "u_x_by_shear_x",
+    "yy": "u_y_by_shear_y",
+    "xy": "u_x_by_shear_y",
+    "zx": "u_z_by_shear_x",
 }
 
 
@@ -401,22 +376,8 @@ def sliding_stress() -> Challenge:
         "before the ball moved: small strains leave it there.",
         scene,
         "Hamilton 1983, as one integral of the potentials",
-        (),
-        (),
-        SMALL,
-        points=tuple(
-            AskedPoints(
-                f"stress_{name}",
-                2,
-                "Pa",
-                f"σ_{name}, tension positive",
-                PLACES,
-                stress[n],
-                p0,
-                "p_H",
-                Grade.B,
-                uncertainty=1e-5,
-            )
+        tuple(
+            AskedValue(f"stress_{name}", 2, stress[n], p0, "p_H", places=PLACES, uncertainty=1e-5)
             for n, name in enumerate(COMPONENTS)
         ),
     )
@@ -445,22 +406,11 @@ def layered_patches() -> Iterator[Challenge]:
             "pressure along +z or shear along +x or +y, one at a time.",
             Patch(_layered_body(own[0]), side, TRACTION),
             PATCH_SOURCE,
-            (),
-            (),
-            SMALL,
-            points=tuple(
-                AskedPoints(
-                    name,
-                    1,
-                    "m",
-                    meaning,
-                    places,
-                    values[key],
-                    scale,
-                    "the largest u_z_by_pressure",
-                    Grade.B,
+            tuple(
+                AskedValue(
+                    name, 1, values[key], scale, "the largest u_z_by_pressure", places=places
                 )
-                for key, (name, meaning) in MOVED.items()
+                for key, name in MOVED.items()
             ),
         )
 
@@ -504,7 +454,7 @@ def tilted_punch() -> Challenge:
         PUNCH_TILT,
         "Galin's theorem; Sneddon 1951, § 52",
         force_at,
-        (approach(exact.approach),),
+        (of_itself("approach", 1, exact.approach),),
     )
 
 
@@ -522,7 +472,10 @@ def tilted_ball() -> Challenge:
         BALL_TILT,
         "Hertz 1882, below the place where the slope is zero",
         (RADIUS * BALL_TILT[1], RADIUS * BALL_TILT[0]),
-        (approach(HERTZ.approach - drop), contact_radius(HERTZ.contact_radius)),
+        (
+            of_itself("approach", 1, HERTZ.approach - drop),
+            of_itself("contact_radius", 1, HERTZ.contact_radius),
+        ),
     )
 
 
@@ -537,24 +490,12 @@ def _tilted_challenge(
 ) -> Challenge:
     step = LoadStep(normal_force=NORMAL_FORCE, tilt=tilt)
     scene = frictionless(title, indenter, STEEL, step)
-    arm = max(force_at)
+    largest = NORMAL_FORCE * max(force_at), "the larger moment"
     moments = (
-        AskedValue(
-            f"moment_{axis}",
-            1,
-            "N m",
-            f"Σ p {other} Δ, over all places",
-            NORMAL_FORCE * at,
-            NORMAL_FORCE * arm,
-            "the larger moment",
-            Grade.C,
-            uncertainty=CLOSED,
-        )
-        for axis, other, at in (("x", "y", force_at[1]), ("y", "x", force_at[0]))
+        AskedValue(f"moment_{axis}", 1, NORMAL_FORCE * at, *largest, Grade.C)
+        for axis, at in (("x", force_at[1]), ("y", force_at[0]))
     )
-    return Challenge(
-        name, title, f"{title}. {WORDS}", scene, source, (*values, *moments), (), SMALL
-    )
+    return Challenge(name, title, f"{title}. {WORDS}", scene, source, (*values, *moments))
 
 
 # Poisson's ratios of the bodies under changing loads.
@@ -566,13 +507,6 @@ STEPS = (
     LoadStep(normal_force=0.9 * NORMAL_FORCE, tangential_force=(20.0, 60.0)),
     LoadStep(torque=6e-3),
 )
-UNITS = {"shift_x": "m", "shift_y": "m", "twist": "rad", "dissipated_energy": "J"}
-MEANINGS = {
-    "shift_x": "tangential shift of the indenter along +x, relative to far points of the body",
-    "shift_y": "tangential shift of the indenter along +y, relative to far points of the body",
-    "twist": "rotation of the indenter about z relative to far points of the body, right-handed",
-    "dissipated_energy": "energy lost to friction since the first touch",
-}
 
 
 def scene_of(poisson_ratio: float) -> Scene:
@@ -610,8 +544,6 @@ def changing_loads() -> Iterator[Challenge]:
                 for step, values in ends.items()
                 for name, value in values.items()
             ),
-            (),
-            SMALL,
             shares="the scene: two solvers of this program agree within the uncertainty",
         )
 
@@ -639,8 +571,6 @@ def _changing_load_value(
     return AskedValue(
         name,
         int(step),
-        UNITS[name],
-        MEANINGS[name],
         value,
         scale,
         f"the largest {kind}",
@@ -663,6 +593,10 @@ def paper_figure() -> Challenge:
     approach and the tangential shifts are required.
     """
     pushes = (LoadStep(tangential_force=(part * FRICTION_LIMIT, 0.0)) for part in SHIFTS)
+    shifts = (
+        of_itself("shift_x", step, shift, par=Grade.C, uncertainty=UNCERTAINTY)
+        for step, shift in enumerate(SHIFTS.values(), start=2)
+    )
     title = "Coated body under a rigid ball, pressed with friction, then sheared"
     scene = pressed(title, rigid_ball(), COATED.body, pressing(), *pushes, friction=FRICTION)
     return Challenge(
@@ -672,26 +606,9 @@ def paper_figure() -> Challenge:
         "in proportion to time.",
         scene,
         f"{COATED.source}; the shifts by slipstick's finite elements and cells, which agree",
-        (approach(COATED.approach, REFERENCE_ERROR), *_figure_shifts()),
-        (),
-        SMALL,
-        "for the approach nothing; the shifts are what two of them agree on",
+        (of_itself("approach", 1, COATED.approach, uncertainty=REFERENCE_ERROR), *shifts),
+        shares="for the approach nothing; the shifts are what two of them agree on",
     )
-
-
-def _figure_shifts() -> Iterator[AskedValue]:
-    for step, shift in enumerate(SHIFTS.values(), start=2):
-        yield AskedValue(
-            "shift_x",
-            step,
-            "m",
-            "tangential shift of the indenter along +x, relative to far points of the body",
-            shift,
-            shift,
-            "itself",
-            Grade.C,
-            uncertainty=UNCERTAINTY,
-        )
 
 
 # Tangential force over µW at the ends of the load steps.
@@ -720,9 +637,7 @@ def challenges() -> dict[str, Challenge]:
             _problem_text(PUNCH),
             PUNCH.scene,
             PUNCH.source,
-            (approach(PUNCH.ends[0].approach),),
-            (),
-            SMALL,
+            (of_itself("approach", 1, PUNCH.ends[0].approach),),
         ),
         *(cattaneo_mindlin(), loop(), tilted_punch(), tilted_ball(), *coated_balls()),
         *(torsion(), torsion_loop()),
@@ -741,10 +656,7 @@ def hertz_elliptical() -> Challenge:
     """
     exact = BARREL.ends[0]
     a, b = exact.semi_axes
-    axes = (
-        AskedValue("semi_axis_x", 1, "m", "semi-axis of the contact along x", a, a, "itself"),
-        AskedValue("semi_axis_y", 1, "m", "semi-axis of the contact along y", b, b, "itself"),
-    )
+    axes = of_itself("semi_axis_x", 1, a), of_itself("semi_axis_y", 1, b)
     pressure = HalfEllipsoids((Half((a, b), exact.peak_pressure),))
     return _pressed_challenge(
         "hertz_elliptical", "Hertz: a barrel on a half-space", BARREL, pressure, axes
@@ -776,7 +688,7 @@ def cattaneo_mindlin() -> Challenge:
     requested.
     """
     problem = sheared("Ball pressed and sheared, ν = 0", FORCES)
-    values, fields = [approach(HERTZ.approach)], []
+    values, fields = [of_itself("approach", 1, HERTZ.approach)], []
     for step, end in enumerate(problem.ends[1:], start=2):
         values += _shift_and_stick_radius(step, end, end.sliding_shift)
         fields.append(_required_shear(step, _partial_slip_shear(end), end.tangential_force))
@@ -788,7 +700,6 @@ def cattaneo_mindlin() -> Challenge:
         problem.source,
         tuple(values),
         tuple(fields),
-        SMALL,
     )
 
 
@@ -813,19 +724,7 @@ def loop() -> Challenge:
         values += _shift_and_stick_radius(step, state, state.virgin.sliding_shift)
         fields.append(_required_shear(step, _loop_shear(state), state.tangential_force))
     energy = state.dissipated_energy - lost
-    first = 1 + len(QUARTERS)
-    values.append(
-        AskedValue(
-            "energy_per_cycle",
-            1 + len(turns),
-            "J",
-            f"energy lost to friction between the ends of load steps {first} and {1 + len(turns)}",
-            energy,
-            energy,
-            "itself",
-            since=first,
-        )
-    )
+    values.append(of_itself("energy_per_cycle", 1 + len(turns), energy, since=1 + len(QUARTERS)))
     return Challenge(
         "fretting_loop",
         "A fretting loop: sheared to and fro under a constant load",
@@ -834,7 +733,6 @@ def loop() -> Challenge:
         "Mindlin and Deresiewicz 1953",
         tuple(values),
         tuple(fields),
-        SMALL,
     )
 
 
@@ -856,26 +754,13 @@ def _pressed_challenge(
     shares    parts that the reference has in common with our own solvers
     """
     exact, u = problem.ends[0], problem.uncertainty
-    values = [approach(exact.approach, u), *more]
+    values = [of_itself("approach", 1, exact.approach, uncertainty=u), *more]
     if not more:
-        values.append(contact_radius(exact.contact_radius, u))
+        values.append(of_itself("contact_radius", 1, exact.contact_radius, uncertainty=u))
     fields = []
     if pressure is not None:
         peak = float(pressure.terms[0].coefficient)
-        meaning = "pressure at the centre, positive, extrapolated as you like"
-        values.append(
-            AskedValue(
-                "central_pressure",
-                1,
-                "Pa",
-                meaning,
-                peak,
-                peak,
-                "itself",
-                required=False,
-                uncertainty=u,
-            )
-        )
+        values.append(of_itself("central_pressure", 1, peak, required=False, uncertainty=u))
         fields.append(
             AskedField(
                 "pressure",
@@ -906,16 +791,8 @@ def _problem_text(problem: Problem) -> str:
 
 
 def _shift_and_stick_radius(step: int, end: Any, sliding: float) -> Iterator[AskedValue]:
-    yield AskedValue(
-        "shift_x",
-        step,
-        "m",
-        "tangential shift of the indenter along +x, relative to far points of the body",
-        end.shift,
-        sliding,
-        "the shift at gross sliding",
-    )
-    yield stick_radius(end.stick_radius, step)
+    yield AskedValue("shift_x", step, end.shift, sliding, "the shift at gross sliding")
+    yield stick_radius(step, end.stick_radius)
 
 
 def _required_shear(step: int, halves: HalfEllipsoids, force: float) -> AskedField:

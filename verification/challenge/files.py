@@ -38,7 +38,7 @@ from verification.challenge.cases import challenges
 from verification.challenge.requested_quantities import (
     SAMPLINGS,
     Answer,
-    AskedPoints,
+    AskedValue,
     Challenge,
     Field,
     Grade,
@@ -174,17 +174,12 @@ def _required_quantities_csv(challenge: Challenge, *, blind: bool) -> str:
             "meaning",
         )
     ]
-    for v in challenge.values:
+    for v in (*challenge.values, *challenge.points):
         scale = "" if blind else f"{v.scale:.10g}"
+        norm, at = ("abs", "") if v.places is None else ("largest", f", at the places of {POINTS}")
         required = "yes" if v.required else "no"
-        rows.append((v.quantity, v.step, v.unit, "abs", scale, v.over, v.par, required, v.meaning))
-    for p in challenge.points:
-        scale = "" if blind else f"{p.scale:.10g}"
-        required = "yes" if p.required else "no"
-        meaning = f"{p.meaning}, at the places of {POINTS}"
-        rows.append(
-            (p.quantity, p.step, p.unit, "largest", scale, p.over, p.par, required, meaning)
-        )
+        meaning = f"{v.meaning}{at}"
+        rows.append((v.quantity, v.step, v.unit, norm, scale, v.over, v.par, required, meaning))
     for f in challenge.fields:
         over = "its own norm" if f.norm == "L2" else "µW"
         rows.append((f.quantity, f.step, "Pa", f.norm, "", over, f.par, "no", f.meaning))
@@ -196,7 +191,7 @@ def _empty_answers(challenge: Challenge) -> list[Sequence[Any]]:
     return rows + [
         ("1", p.step, p.quantity, "", p.unit, "", n)
         for p in challenge.points
-        for n in range(1, 1 + len(p.places))
+        for n in range(1, 1 + len(p.value))
     ]
 
 
@@ -430,6 +425,7 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
     levels = dict(_read_levels(directory, challenge.window))
     values: dict[str, dict[Key, float | tuple[float, float]]] = {name: {} for name in levels}
     at_places: dict[str, dict[Key, Vector]] = {name: {} for name in levels}
+    points = {one.key: len(one.value) for one in challenge.points}
     filled: set[tuple[str, Key, int]] = set()
     for where, level, key, point, value in _read_values(directory, challenge):
         if level not in levels:
@@ -438,9 +434,8 @@ def read_answers(directory: Path) -> tuple[Challenge, Solver, tuple[Answer, ...]
         if (level, key, point) in filled:
             raise Refused(f"{where}: {key[0]} of step {key[1]} twice on level {level}")
         filled.add((level, key, point))
-        asked = challenge.one(*key)
-        if isinstance(asked, AskedPoints):
-            each = at_places[level].setdefault(key, np.zeros(len(asked.places)))
+        if point:
+            each = at_places[level].setdefault(key, np.zeros(points[key]))
             each[point - 1] = value
         else:
             values[level][key] = value
@@ -580,7 +575,7 @@ def _read_values(
         value = factor * _parsed_number(where, "value", row["value"])
         u = _positive_number(where, "u", row["u"])
         key = asked.quantity, step
-        if isinstance(asked, AskedPoints):
+        if asked.places is not None:
             yield where, row["level"], key, _point_number(where, row.get(POINT, ""), asked), value
         elif row.get(POINT):
             raise Refused(f"{where}: {asked.quantity} is one number and has no points")
@@ -588,9 +583,9 @@ def _read_values(
             yield where, row["level"], key, 0, value if u is None else (value, factor * u)
 
 
-def _point_number(where: str, text: str, asked: AskedPoints) -> int:
-    if not text.isdigit() or len(text) > 6 or not 1 <= int(text) <= len(asked.places):
-        raise Refused(f"{where}: point {text!r}, expected 1 to {len(asked.places)} of {POINTS}")
+def _point_number(where: str, text: str, asked: AskedValue) -> int:
+    if not text.isdigit() or len(text) > 6 or not 1 <= int(text) <= len(asked.value):
+        raise Refused(f"{where}: point {text!r}, expected 1 to {len(asked.value)} of {POINTS}")
     return int(text)
 
 

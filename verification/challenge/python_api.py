@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from itertools import pairwise
 from math import pi
 from typing import Any
@@ -24,12 +24,10 @@ from verification.challenge.cases import challenges
 from verification.challenge.requested_quantities import (
     Answer,
     AskedField,
-    AskedPoints,
     AskedValue,
     Challenge,
     Field,
     Grade,
-    Key,
     Solver,
 )
 from verification.challenge.solver_process import (
@@ -38,7 +36,7 @@ from verification.challenge.solver_process import (
     Solve,
     answers_of,
 )
-from verification.convergence.observed_order import ILLEGIBLE, observed_order
+from verification.convergence.observed_order import observed_order, order_text
 from verification.judging.outcome import Status
 from verification.norms import cell_means
 
@@ -91,7 +89,7 @@ def _covered_area(field: Field, semi_axes: tuple[float, float]) -> tuple[float, 
     return within, SCATTER * cells**-0.75 * pi**-0.25
 
 
-AskedQuantity = AskedValue | AskedField | AskedPoints
+AskedQuantity = AskedValue | AskedField
 
 # Errors stall if the upper end of the interval of the order is below this value.
 STALLS_BELOW = 0.5
@@ -148,9 +146,11 @@ def rows_of(
     for level in levels:
         for step, reason in level.gave_up.items():
             yield Row("solved", step or None, level.label, Status.FAIL, f"gave up: {reason}")
-    required: tuple[AskedQuantity, ...] = (*challenge.values, *challenge.fields, *challenge.points)
-    for quantity in required:
-        yield from _judge_quantity(quantity, solver, levels, demanded or quantity.par)
+    for quantity in challenge.asked:
+        given = [(one, _given_value(quantity, one)) for one in levels]
+        found = tuple((one, value) for one, value in given if value is not None)
+        if found:
+            yield from _Judge(quantity, solver, demanded or quantity.par, found).rows(levels[-1])
 
 
 def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, int, bool]]:
@@ -161,44 +161,7 @@ def omitted(challenge: Challenge, answers: Sequence[Answer]) -> list[tuple[str, 
     answers  one answer per refinement level
     """
     finest = min(answers, key=lambda one: one.h)
-    asked = [(v.quantity, v.step, v.required) for v in challenge.numbers]
-    asked += [(f.quantity, f.step, False) for f in challenge.fields]
-    return [
-        (quantity, step, required)
-        for quantity, step, required in asked
-        if not finest.has((quantity, step))
-    ]
-
-
-def _judge_quantity(
-    asked: AskedQuantity, solver: Solver, levels: Sequence[Answer], grade: Grade
-) -> Iterator[Row]:
-    """Yield the verdicts on one quantity of an answer: its error, convergence, and other
-    properties.
-
-    Other properties are the stated uncertainty of a number and the areas of the points of a field.
-
-    asked   required quantity
-    levels  answers of the code, from coarse to fine
-    grade   accuracy class that the error must meet
-    """
-    key = asked.quantity, asked.step
-    found = [(one, given) for one in levels if (given := _given_value(asked, one)) is not None]
-    if not found:
-        return
-    finest, given = found[-1]
-    yield from _missing_on_finest(key, finest, levels[-1])
-    errors = [(one.h, _relative_error(asked, value, solver.sampling)) for one, value in found]
-    value, reference = (given, asked.value) if isinstance(asked, AskedValue) else (None, None)
-    failed = not errors[-1][1] + 2 * asked.uncertainty <= grade.bound
-    hint = _slip_hint(asked, given, solver.sampling) if failed else ""
-    yield _judge_error(key, finest.label, value, reference, errors, grade, asked.uncertainty, hint)
-    yield from _judge_convergence(key, solver, errors, asked.uncertainty)
-    if isinstance(asked, AskedValue):
-        claims = [(one.uncertainty(key), e) for (one, _), (_, e) in zip(found, errors, strict=True)]
-        yield from _judge_claimed_uncertainty(asked, finest.label, claims, grade)
-    elif isinstance(asked, AskedField):
-        yield from _judge_point_areas(asked, given, finest.label, max(grade.bound, Grade.B.bound))
+    return [(*one.key, one.required) for one in challenge.asked if not finest.has(one.key)]
 
 
 def _given_value(asked: AskedQuantity, answer: Answer) -> Any:
@@ -206,27 +169,210 @@ def _given_value(asked: AskedQuantity, answer: Answer) -> Any:
 
     The result is None if the quantity is missing.
     """
-    key = asked.quantity, asked.step
-    if isinstance(asked, AskedValue):
-        return answer.value(key)
-    return (answer.fields if isinstance(asked, AskedField) else answer.points).get(key)
-
-
-def _relative_error(asked: AskedQuantity, given: Any, sampling: str) -> float:
-    """Compute the relative error of an answered quantity.
-
-    The error of a number is divided by the error scale of the challenge; of numbers at points, the
-    largest error counts. The error of a field is that of `_field_error`.
-
-    asked     required quantity with its reference
-    given     answered number, field or numbers at points
-    sampling  meaning of the values of a field: "point", or "cell" for means over squares
-    """
     if isinstance(asked, AskedField):
-        return _field_error(asked, given, sampling)
-    if isinstance(asked, AskedValue):
-        return float(abs(given - asked.value) / asked.scale)
-    return float(np.max(np.abs(given - asked.values)) / asked.scale)
+        return answer.fields.get(asked.key)
+    return answer.value(asked.key) if asked.places is None else answer.points.get(asked.key)
+
+
+@dataclass(frozen=True)
+class _Judge:
+    """Judge of one quantity of an answer: its error, convergence, and other properties.
+
+    Other properties are the stated uncertainty of a number and the areas of the points of a field.
+
+    asked   required quantity
+    solver  description of the code, with its claims
+    grade   accuracy class that the error must meet
+    found   levels with the quantity, and what they give for it, from coarse to fine
+    """
+
+    asked: AskedQuantity
+    solver: Solver
+    grade: Grade
+    found: tuple[tuple[Answer, Any], ...]
+
+    def rows(self, finest: Answer) -> Iterator[Row]:
+        """Yield the verdicts; `finest` is the finest level, with or without the quantity."""
+        yield from self._missing_on(finest)
+        yield self._error()
+        yield from self._convergence()
+        if isinstance(self.asked, AskedValue):
+            yield from self._claimed_uncertainty(self.asked)
+        else:
+            yield from self._point_areas(self.asked)
+
+    @property
+    def _level(self) -> str:
+        return self.found[-1][0].label
+
+    @property
+    def _wide(self) -> float:
+        """Twice the standard uncertainty of the reference, divided by the error scale."""
+        return 2 * self.asked.uncertainty
+
+    @cached_property
+    def _errors(self) -> tuple[tuple[float, float], ...]:
+        """Pairs of size h and relative error, from coarse to fine."""
+        return tuple((one.h, self._relative_error(given)) for one, given in self.found)
+
+    @cached_property
+    def _order(self) -> tuple[float, float] | None:
+        """Order of those errors that are well above the uncertainty of the reference, and the
+        half-width of its 95 % interval.
+
+        None if fewer than 3 sizes remain.
+        """
+        told = [(h, e) for h, e in self._errors if e > 1.5 * self._wide and 0 < e < math.inf]
+        if len({h for h, _ in told}) < FEWEST_LEVELS:
+            return None
+        fit = observed_order(*zip(*told, strict=True))
+        return fit.order, fit.half_width
+
+    def _row(self, about: str, level: str, status: Status, because: str, **more: Any) -> Row:
+        return Row(f"{self.asked.quantity}{about}", self.asked.step, level, status, because, **more)
+
+    def _relative_error(self, given: Any) -> float:
+        """Compute the relative error of an answered quantity.
+
+        The error of a number is divided by the error scale of the challenge; of numbers at points,
+        the largest error counts. The error of a field is that of `_field_error`.
+
+        given  answered number, field or numbers at points
+        """
+        if isinstance(self.asked, AskedField):
+            return _field_error(self.asked, given, self.solver.sampling)
+        return float(np.max(np.abs(given - self.asked.value)) / self.asked.scale)
+
+    def _missing_on(self, finest: Answer) -> Iterator[Row]:
+        """Yield an inconclusive verdict if the finest level of an answer lacks a quantity that
+        coarser levels have.
+
+        Without this verdict a code could hide its worst numbers by omitting them.
+        """
+        if not finest.has(self.asked.key) and not {0, self.asked.step} & finest.gave_up.keys():
+            because = f"not answered there; judged on level {self._level}"
+            yield self._row(": finest level", finest.label, Status.INCONCLUSIVE, because)
+
+    def _error(self) -> Row:
+        """Judge the error of a quantity on the finest level against the bound of an accuracy class.
+
+        The verdict is inconclusive where twice the uncertainty of the reference decides.
+        """
+        error, bound = self._errors[-1][1], self.grade.bound
+        if error + self._wide <= bound:
+            status, because = Status.PASS, f"within class {self.grade}"
+        elif not math.isfinite(error):
+            status, because = Status.FAIL, "no finite number"
+        elif error - self._wide <= bound:
+            status, because = Status.INCONCLUSIVE, "the reference is not certain enough to tell"
+        else:
+            status, because = Status.FAIL, f"beyond class {self.grade}{self._slip_hint()}"
+        value = reference = None
+        if isinstance(self.asked, AskedValue) and self.asked.places is None:
+            value, reference = self.found[-1][1], self.asked.value
+        return self._row(
+            "",
+            self._level,
+            status,
+            because,
+            value=value,
+            reference=reference,
+            error=error,
+            bound=bound,
+            grade=_class_of(error + self._wide),
+            order=self._order,
+            errors=self._errors,
+        )
+
+    def _convergence(self) -> Iterator[Row]:
+        """Yield verdicts on the convergence of a quantity: errors must decrease, and a claimed
+        order must hold."""
+        if self._order is None:
+            return
+        order, half = self._order
+        if self._errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
+            because = f"order below {order + half:.2f}: finer is hardly better"
+            yield self._row(": stalls", WHOLE, Status.FAIL, because, order=self._order)
+        claimed = self.solver.claimed_orders.get(self.asked.quantity)
+        if claimed is None:
+            return
+        least = claimed - ORDER_OFF
+        status = Status.INCONCLUSIVE if order + half >= least else Status.FAIL
+        because = f"order {order_text(order, half)}, claimed {claimed:g}"
+        yield self._row(
+            ": order",
+            WHOLE,
+            Status.PASS if order - half >= least else status,
+            because,
+            order=self._order,
+        )
+
+    def _claimed_uncertainty(self, asked: AskedValue) -> Iterator[Row]:
+        """Judge the standard uncertainty that a code states for a number: twice its value must
+        cover the error.
+
+        The verdict is inconclusive if the stated uncertainty exceeds the bound of the accuracy
+        class and is far above the error on every level.
+        """
+        scale, claims = asked.scale, [one.uncertainty(asked.key) for one, _ in self.found]
+        claimed, error = claims[-1], self._errors[-1][1] * scale
+        if claimed is None:
+            return
+        honest = error <= 2 * math.hypot(claimed, asked.uncertainty * scale)
+        idle = 2 * claimed > self.grade.bound * scale and all(
+            u is not None and u > IDLE * max(e, self._wide) * scale
+            for u, (_, e) in zip(claims, self._errors, strict=True)
+        )
+        status = Status.INCONCLUSIVE if idle else Status.PASS if honest else Status.FAIL
+        because = f"error {error:.3g}, claimed 2u = {2 * claimed:.3g} {asked.unit}"
+        because += ": so wide that it says nothing" if idle else ""
+        yield self._row(": own uncertainty", self._level, status, because)
+
+    def _point_areas(self, asked: AskedField) -> Iterator[Row]:
+        """Judge the areas of the points of an answered field by sums that the exact traction
+        determines.
+
+        The force, its second moment and the covered contact area must be correct. Without this
+        check an answer could omit the points with the largest errors.
+        """
+        bound = max(self.grade.bound, Grade.B.bound)
+        for name, sums, has, should, scale, least in field_sums(asked, self.found[-1][1]):
+            missed, allowed = abs(has - should) / scale, max(bound, least)
+            status, because = Status.PASS, sums
+            if not missed <= allowed:
+                of = f"{has / should:.4g} of what it should be" if should else f"{has:.3g}, not 0"
+                status, because = Status.FAIL, f"{sums}: {of}"
+            yield self._row(
+                f": {name}",
+                self._level,
+                status,
+                because,
+                value=has,
+                reference=should,
+                error=missed,
+                bound=allowed,
+            )
+
+    def _slip_hint(self) -> str:
+        """Return a hint that another sign, a factor of 2 or another unit would explain a wrong
+        answer.
+
+        The hint names the accuracy class that the corrected answer meets. It is empty if no such
+        mistake explains the answer.
+        """
+        given = self.found[-1][1]
+        slips = {"with the sign reversed": -1.0, "halved": 0.5, "doubled": 2.0}
+        slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
+        for words, factor in slips.items():
+            corrected = (
+                replace(given, value=factor * given.value)
+                if isinstance(given, Field)
+                else factor * given
+            )
+            if met := _class_of(self._relative_error(corrected) + self._wide):
+                expected = f"; expected: {self.asked.meaning}" if factor < 0 else ""
+                return f"; {words} it meets class {met}{expected}"
+        return ""
 
 
 def _field_error(asked: AskedField, field: Field, sampling: str) -> float:
@@ -246,216 +392,6 @@ def _field_error(asked: AskedField, field: Field, sampling: str) -> float:
         return float(np.sum(field.area * off) / asked.scale)
     own = np.linalg.norm(side * exact)
     return float(np.linalg.norm(side * off) / own) if own > 0 else math.inf
-
-
-def _judge_claimed_uncertainty(
-    asked: AskedValue,
-    level: str,
-    claims: Sequence[tuple[float | None, float]],
-    grade: Grade,
-) -> Iterator[Row]:
-    """Judge the standard uncertainty that a code states for a number: twice its value must cover
-    the error.
-
-    The verdict is inconclusive if the stated uncertainty exceeds the bound of the accuracy class
-    and is far above the error on every level.
-
-    level   name of the finest level
-    claims  stated standard uncertainty in the required unit (None: none), and error divided by its
-            scale, for each level from coarse to fine
-    """
-    claimed, error = claims[-1]
-    if claimed is None:
-        return
-    scale = asked.scale
-    honest = error * scale <= 2 * math.hypot(claimed, asked.uncertainty * scale)
-    least = IDLE * 2 * asked.uncertainty
-    idle = 2 * claimed > grade.bound * scale and all(
-        u is not None and u > max(IDLE * e, least) * scale for u, e in claims
-    )
-    status = Status.INCONCLUSIVE if idle else Status.PASS if honest else Status.FAIL
-    because = f"error {error * scale:.3g}, claimed 2u = {2 * claimed:.3g} {asked.unit}"
-    if idle:
-        because += ": so wide that it says nothing"
-    yield Row(f"{asked.quantity}: own uncertainty", asked.step, level, status, because)
-
-
-def fitted_order_text(order: tuple[float, float]) -> str:
-    """Format an observed order of convergence with its interval, such as "1.98 ± 0.05".
-
-    The text is "not known" if the half-width of the interval is 0.5 or more.
-
-    order  observed order and half-width of its 95 % interval
-    """
-    value, half = order
-    # Zero has no sign.
-    return f"{round(value, 2) + 0.0:.2f} ± {half:.2f}" if half < ILLEGIBLE else "not known"
-
-
-def _judge_point_areas(asked: AskedField, field: Field, level: str, bound: float) -> Iterator[Row]:
-    """Judge the areas of the points of an answered field by sums that the exact traction
-    determines.
-
-    The force, its second moment and the covered contact area must be correct. Without this check an
-    answer could omit the points with the largest errors.
-
-    level  name of the refinement level
-    bound  largest accepted relative difference of a sum
-    """
-    for name, sums, has, should, scale, least in field_sums(asked, field):
-        missed, allowed = abs(has - should) / scale, max(bound, least)
-        if missed <= allowed:
-            status, because = Status.PASS, sums
-        else:
-            of = f"{has / should:.4g} of what it should be" if should else f"{has:.3g}, not 0"
-            status, because = Status.FAIL, f"{sums}: {of}"
-        yield Row(
-            f"{asked.quantity}: {name}",
-            asked.step,
-            level,
-            status,
-            because,
-            has,
-            should,
-            missed,
-            allowed,
-        )
-
-
-def _missing_on_finest(key: Key, judged: Answer, finest: Answer) -> Iterator[Row]:
-    """Yield an inconclusive verdict if the finest level of an answer lacks a quantity that coarser
-    levels have.
-
-    Without this verdict a code could hide its worst numbers by omitting them.
-
-    key     quantity and load step
-    judged  finest level that contains the quantity
-    finest  finest level of the answer
-    """
-    quantity, step = key
-    if not finest.has(key) and not {0, step} & finest.gave_up.keys():
-        yield Row(
-            f"{quantity}: finest level",
-            step,
-            finest.label,
-            Status.INCONCLUSIVE,
-            f"not answered there; judged on level {judged.label}",
-        )
-
-
-def _judge_error(
-    key: Key,
-    level: str,
-    value: float | None,
-    reference: float | None,
-    errors: Sequence[tuple[float, float]],
-    grade: Grade,
-    uncertainty: float,
-    hint: str,
-) -> Row:
-    """Judge the error of a quantity on the finest level against the bound of an accuracy class.
-
-    The verdict is inconclusive where twice the uncertainty of the reference decides.
-
-    key          quantity and load step
-    level        name of the finest level
-    value        answered number; None for fields and points
-    reference    reference value; None for fields and points
-    errors       pairs of size h and relative error, from coarse to fine
-    grade        accuracy class that the error must meet
-    uncertainty  standard uncertainty of the reference, divided by the error scale
-    hint         explanation that is added to a failure
-    """
-    error, wide = errors[-1][1], 2 * uncertainty
-    if error + wide <= grade.bound:
-        status, because = Status.PASS, f"within class {grade}"
-    elif math.isfinite(error) and error - wide <= grade.bound:
-        status, because = Status.INCONCLUSIVE, "the reference is not certain enough to tell"
-    else:
-        status, because = Status.FAIL, f"beyond class {grade}{hint}"
-        because = because if math.isfinite(error) else "no finite number"
-    met = _class_of(error + wide)
-    fit = _fitted_order(errors, wide)
-    return Row(
-        *key, level, status, because, value, reference, error, grade.bound, met, fit, tuple(errors)
-    )
-
-
-def _judge_convergence(
-    key: Key, solver: Solver, errors: Sequence[tuple[float, float]], uncertainty: float
-) -> Iterator[Row]:
-    """Yield verdicts on the convergence of a quantity: errors must decrease, and a claimed order
-    must hold.
-
-    key          quantity and load step
-    errors       pairs of size h and relative error, from coarse to fine
-    uncertainty  standard uncertainty of the reference, divided by the error scale
-    """
-    quantity, step = key
-    fit = _fitted_order(errors, 2 * uncertainty)
-    if fit is None:
-        return
-    order, half = fit
-    told = f"order {fitted_order_text(fit)}"
-    if errors[-1][1] > Grade.A.bound and order + half < STALLS_BELOW:
-        yield Row(
-            f"{quantity}: stalls",
-            step,
-            WHOLE,
-            Status.FAIL,
-            f"order below {order + half:.2f}: finer is hardly better",
-            order=fit,
-        )
-    claimed = solver.claimed_orders.get(quantity)
-    if claimed is None:
-        return
-    least = claimed - ORDER_OFF
-    if order - half >= least:
-        status = Status.PASS
-    else:
-        status = Status.FAIL if order + half < least else Status.INCONCLUSIVE
-    yield Row(f"{quantity}: order", step, WHOLE, status, f"{told}, claimed {claimed:g}", order=fit)
-
-
-def _fitted_order(errors: Sequence[tuple[float, float]], wide: float) -> tuple[float, float] | None:
-    """Fit the order of convergence to those errors that are well above the uncertainty of the
-    reference.
-
-    Returns the order and the half-width of its 95 % interval; None if fewer than 3 sizes remain.
-
-    errors  pairs of size h and relative error
-    wide    twice the standard uncertainty of the reference, divided by the error scale
-    """
-    told = [(h, e) for h, e in errors if e > 1.5 * wide and e > 0 and math.isfinite(e)]
-    if len({h for h, _ in told}) < FEWEST_LEVELS:
-        return None
-    fit = observed_order(*zip(*told, strict=True))
-    return fit.order, fit.half_width
-
-
-def _slip_hint(asked: AskedQuantity, given: Any, sampling: str) -> str:
-    """Return a hint that another sign, a factor of 2 or another unit would explain a wrong answer.
-
-    The hint names the accuracy class that the corrected answer meets. It is added to the message of
-    a failed verdict, and is empty if no such mistake explains the answer.
-
-    asked     required quantity with its reference
-    given     answered number, field or numbers at points
-    sampling  meaning of the values of a field: "point", or "cell" for means over squares
-    """
-    slips = {"with the sign reversed": -1.0, "halved": 0.5, "doubled": 2.0}
-    slips |= {f"times 1e{n}": 10.0**n for n in (-9, -6, -3, 3, 6, 9)}
-    for words, factor in slips.items():
-        corrected = (
-            replace(given, value=factor * given.value)
-            if isinstance(given, Field)
-            else factor * given
-        )
-        error = _relative_error(asked, corrected, sampling) + 2 * asked.uncertainty
-        if met := _class_of(error):
-            expected = f"; expected: {asked.meaning}" if factor < 0 else ""
-            return f"; {words} it meets class {met}{expected}"
-    return ""
 
 
 def _class_of(error: float) -> Grade | None:
@@ -517,8 +453,7 @@ class Judgement:
             for status in (Status.PASS, Status.FAIL, Status.INCONCLUSIVE)
         )
         grade = self.grade if self.grade in ("none", "partial") else f"class {self.grade}"
-        asked = len(self.challenge.numbers) + len(self.challenge.fields)
-        left_out = f"{len(self.omitted)} of {asked} omitted"
+        left_out = f"{len(self.omitted)} of {len(self.challenge.asked)} omitted"
         return f"{self.challenge.name} | {self.solver.name} | {grade} | {counts}, {left_out}"
 
     def exit_code(self, *, strict: bool = False, partial: bool = False) -> int:
@@ -579,10 +514,10 @@ def posed(name: str) -> Posed:
         name,
         challenge.document,
         tuple(challenge.loads),
-        {(v.quantity, v.step): v.unit for v in challenge.values},
-        {(v.quantity, v.step): v.since for v in challenge.values if v.since is not None},
-        {(p.quantity, p.step): p.places for p in challenge.points},
-        tuple((f.quantity, f.step) for f in challenge.fields),
+        {one.key: one.unit for one in challenge.values},
+        {one.key: one.since for one in challenge.values if one.since is not None},
+        {one.key: one.places for one in challenge.points},
+        tuple(one.key for one in challenge.fields),
         challenge.window,
     )
 
@@ -656,19 +591,15 @@ def _refuse_other_quantities(answer: Answer, challenge: Challenge) -> None:
     steps = max((ramp.step for ramp in challenge.ramps), default=1)
     for key in (*answer.scalars, *answer.fields, *answer.points):
         if key[0] not in _known_quantities() or key[1] not in range(1, steps + 1):
-            known = ", ".join(map(repr, _required_keys(challenge)))
+            known = ", ".join(repr(one.key) for one in challenge.asked)
             raise Refused(f"level {answer.label}: {key!r} is not asked; asked: {known}")
     for asked in challenge.points:
-        values = answer.points.get((asked.quantity, asked.step))
-        if values is not None and values.shape != asked.values.shape:
+        values = answer.points.get(asked.key)
+        if values is not None and values.shape != asked.value.shape:
             raise Refused(
                 f"level {answer.label}: {asked.quantity} of step {asked.step}: {values.size} "
-                f"numbers, expected one at each of the {len(asked.places)} places"
+                f"numbers, expected one at each of the {asked.value.size} places"
             )
-
-
-def _required_keys(challenge: Challenge) -> list[Key]:
-    return [(one.quantity, one.step) for one in (*challenge.numbers, *challenge.fields)]
 
 
 @cache
@@ -677,4 +608,4 @@ def _known_quantities() -> frozenset[str]:
 
     Used to refuse misspelt names in the answer of a solver.
     """
-    return frozenset(name for one in challenges().values() for name, _ in _required_keys(one))
+    return frozenset(asked.quantity for one in challenges().values() for asked in one.asked)

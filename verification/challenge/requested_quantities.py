@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import nan
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -24,7 +24,7 @@ from contact_scene.stepping.load_path import (
     ControlKind,
     LoadRamp,
 )
-from verification.problems.problem import HERTZ, ROUNDING
+from verification.problems.problem import ROUNDING
 
 Vector = NDArray[np.float64]
 
@@ -251,6 +251,10 @@ def tabulated(traction: Callable[[Vector], Vector], *kinks: float) -> RoundTable
 Value = TypeVar("Value", float, tuple[float, float])
 # Digits of the references in the digest that identifies a version of a challenge.
 DIGITS = 10
+# Sides of windows that contain the contact. They are round numbers, because a multiple of the
+# contact radius would reveal the answer [length].
+SMALL = 1.2e-3
+LARGE = 2.4e-3
 
 
 class Grade(StrEnum):
@@ -269,45 +273,120 @@ class Grade(StrEnum):
         return {Grade.A: 1e-4, Grade.B: 1e-3, Grade.C: 1e-2}[self]
 
 
-@dataclass(frozen=True)
-class AskedValue:
-    """Number that a challenge requires at the end of a load step, with its reference.
+COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
+# Unit and definition of each number, as told to the other code.
+QUANTITIES = {
+    "approach": (
+        "m",
+        "approach of points far from the contact in both bodies; positive when pressed",
+    ),
+    "contact_radius": ("m", "radius of the contact, or √(contact area / π)"),
+    "semi_axis_x": ("m", "semi-axis of the contact along x"),
+    "semi_axis_y": ("m", "semi-axis of the contact along y"),
+    "stick_radius": ("m", "radius of the zone that has not slipped since the last turn"),
+    "central_pressure": ("Pa", "pressure at the centre, positive, extrapolated as you like"),
+    "shift_x": (
+        "m",
+        "tangential shift of the indenter along +x, relative to far points of the body",
+    ),
+    "shift_y": (
+        "m",
+        "tangential shift of the indenter along +y, relative to far points of the body",
+    ),
+    "twist": (
+        "rad",
+        "rotation of the indenter about z relative to far points of the body, right-handed",
+    ),
+    "moment_x": ("N m", "Σ p y Δ, over all places"),
+    "moment_y": ("N m", "Σ p x Δ, over all places"),
+    "dissipated_energy": ("J", "energy lost to friction since the first touch"),
+    "energy_per_cycle": (
+        "J",
+        "energy lost to friction between the ends of load steps {since} and {step}",
+    ),
+    "pressure": ("Pa", "pressure, positive in compression"),
+    "shear_radial": ("Pa", "shear traction on the lower body, positive outward"),
+    "u_z_by_pressure": ("m", "displacement along z under pressure on the patch"),
+    "u_x_by_shear_x": ("m", "displacement along x under shear along x on the patch"),
+    "u_y_by_shear_y": ("m", "displacement along y under shear along y on the patch"),
+    "u_x_by_shear_y": ("m", "displacement along x under shear along y on the patch"),
+    "u_z_by_shear_x": ("m", "displacement along z under shear along x on the patch"),
+    **{f"stress_{name}": ("Pa", f"σ_{name}, tension positive") for name in COMPONENTS},
+}
 
-    Errors are divided by the error scale, and compared with the bound of an accuracy class.
 
-    quantity     name of the quantity
-    step         number of the load step, from 1
-    unit         SI unit in which the number is required
-    meaning      definition of the quantity for the other code
-    value        reference value
+Key = tuple[str, int]  # quantity and load step, from 1
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """Quantity that a challenge requires at the end of a load step.
+
+    quantity  name of the quantity
+    step      number of the load step, from 1
+    """
+
+    quantity: str
+    step: int
+
+    @property
+    def key(self) -> Key:
+        """Quantity and load step, by which an answer names the number or the field."""
+        return self.quantity, self.step
+
+
+@dataclass(frozen=True, eq=False)
+class AskedValue(Asked):
+    """Number, or numbers at given points, that a challenge requires at the end of a load step.
+
+    Errors are divided by the error scale, and compared with the bound of an accuracy class. Of
+    numbers at points, the largest error counts.
+
+    quantity     name of the quantity in QUANTITIES
+    value        reference value, or array of reference values at the points (points,)
     scale        error scale, in the unit of the number
     over         description of the error scale
     par          accuracy class that the error must meet if the user selects no class
+    places       array of points (points, 3): x, y and depth z [length]; None for one number
     required     False if the number is optional
     uncertainty  standard uncertainty of the reference, divided by the error scale
     since        load step from whose end the number counts; None: it counts from the beginning
     """
 
-    quantity: str
-    step: int
-    unit: str
-    meaning: str
-    value: float
+    value: Any
     scale: float
-    over: str
+    over: str = "itself"
     par: Grade = Grade.B
+    places: Any = None
     required: bool = True
-    uncertainty: float = ROUNDING  # standard, over the scale
+    uncertainty: float = ROUNDING
     since: int | None = None
 
+    @property
+    def unit(self) -> str:
+        """SI unit in which the number is required."""
+        return QUANTITIES[self.quantity][0]
 
-@dataclass(frozen=True)
-class AskedField:
-    """Traction field that a challenge requires, at points that the other code chooses, each with an
-    area.
+    @property
+    def meaning(self) -> str:
+        """Definition of the number for the other code."""
+        return QUANTITIES[self.quantity][1].format(since=self.since, step=self.step)
+
+    def document(self) -> dict[str, Any]:
+        """Return the reference as a JSON record for the file `reference.json`."""
+        known = {"quantity": self.quantity, "load_step": self.step, "unit": self.unit}
+        certain = {"u": self.uncertainty * self.scale, "scale": self.scale}
+        if self.places is None:
+            return known | {"value": self.value} | certain
+        return known | {"values": self.value.tolist()} | certain | {"places": self.places.tolist()}
+
+
+@dataclass(frozen=True, eq=False)
+class AskedField(Asked):
+    """Traction field that a challenge may be answered by, at points that the other code chooses,
+    each with an area.
 
     quantity     name of the traction component
-    step         number of the load step, from 1
     meaning      definition of the traction for the other code
     traction     exact traction
     norm         error norm: "L2", relative to the L2 norm of the exact field, or "L1", divided by
@@ -318,8 +397,6 @@ class AskedField:
     uncertainty  standard uncertainty of the reference, as a relative error
     """
 
-    quantity: str
-    step: int
     meaning: str
     traction: HalfEllipsoids | RoundTable
     norm: str
@@ -327,39 +404,12 @@ class AskedField:
     total: float
     par: Grade = Grade.C
     uncertainty: float = ROUNDING
+    required: ClassVar[bool] = False
 
-
-@dataclass(frozen=True, eq=False)
-class AskedPoints:
-    """Numbers that a challenge requires at given points at the end of a load step, with their
-    references.
-
-    The largest error of all points is judged.
-
-    quantity     name of the quantity
-    step         number of the load step, from 1
-    unit         SI unit in which the numbers are required
-    meaning      definition of the quantity for the other code
-    places       points (points, 3): x, y and depth z [length]
-    values       reference values at the points (points,)
-    scale        error scale, in the unit of the numbers
-    over         description of the error scale
-    par          accuracy class that the error must meet if the user selects no class
-    required     False if the numbers are optional
-    uncertainty  standard uncertainty of the references, divided by the error scale
-    """
-
-    quantity: str
-    step: int
-    unit: str
-    meaning: str
-    places: NDArray[np.float64]
-    values: NDArray[np.float64]
-    scale: float
-    over: str
-    par: Grade = Grade.C
-    required: bool = True
-    uncertainty: float = ROUNDING
+    def document(self) -> dict[str, Any]:
+        """Return the reference as a JSON record for the file `reference.json`."""
+        known = {"quantity": self.quantity, "load_step": self.step, "unit": "Pa"}
+        return known | {"norm": self.norm, "scale": self.scale} | self.traction.document()
 
 
 @dataclass(frozen=True)
@@ -393,11 +443,10 @@ class Challenge:
     problem  description in words for the other code
     scene    contact scene, or body under a given traction
     source   origin of the references
-    values   required numbers
+    numbers  required numbers, and numbers at given points
     fields   required traction fields
     window   side of a square that contains the contact with a margin [length]
     shares   parts that the references have in common with our own solvers; empty: none
-    points   required numbers at given points
     """
 
     name: str
@@ -405,11 +454,25 @@ class Challenge:
     problem: str
     scene: Scene | Patch
     source: str
-    values: tuple[AskedValue, ...]
-    fields: tuple[AskedField, ...]
-    window: float
+    numbers: tuple[AskedValue, ...]
+    fields: tuple[AskedField, ...] = ()
+    window: float = SMALL
     shares: str = ""
-    points: tuple[AskedPoints, ...] = ()
+
+    @property
+    def values(self) -> tuple[AskedValue, ...]:
+        """Required single numbers."""
+        return tuple(one for one in self.numbers if one.places is None)
+
+    @property
+    def asked(self) -> tuple[AskedValue | AskedField, ...]:
+        """All required quantities: single numbers, traction fields, numbers at given points."""
+        return (*self.values, *self.fields, *self.points)
+
+    @property
+    def points(self) -> tuple[AskedValue, ...]:
+        """Required numbers at given points."""
+        return tuple(one for one in self.numbers if one.places is not None)
 
     @property
     def version(self) -> str:
@@ -428,45 +491,11 @@ class Challenge:
             "case": self.name,
             "source": self.source,
             "shares": self.shares,
-            "values": [
-                {
-                    "quantity": v.quantity,
-                    "load_step": v.step,
-                    "unit": v.unit,
-                    "value": _rounded(v.value),
-                    "u": _rounded(v.uncertainty * v.scale),
-                    "scale": _rounded(v.scale),
-                }
-                for v in self.values
-            ],
-            "fields": [
-                {
-                    "quantity": f.quantity,
-                    "load_step": f.step,
-                    "unit": "Pa",
-                    "norm": f.norm,
-                    "scale": _rounded(f.scale),
-                    **_rounded(f.traction.document()),
-                }
-                for f in self.fields
-            ],
+            "values": [_rounded(value.document()) for value in self.values],
+            "fields": [_rounded(field.document()) for field in self.fields],
         }
-        if not self.points:
-            return answers
-        return answers | {
-            "points": [
-                {
-                    "quantity": p.quantity,
-                    "load_step": p.step,
-                    "unit": p.unit,
-                    "values": _rounded(p.values.tolist()),
-                    "u": _rounded(p.uncertainty * p.scale),
-                    "scale": _rounded(p.scale),
-                    "places": _rounded(p.places.tolist()),
-                }
-                for p in self.points
-            ]
-        }
+        at_points = [_rounded(value.document()) for value in self.points]
+        return answers | ({"points": at_points} if at_points else {})
 
     @property
     def document(self) -> dict[str, Any]:
@@ -493,20 +522,14 @@ class Challenge:
             (_end_force(r.normal, nan), _end_force(r.tangential, (nan, nan))) for r in self.ramps
         ]
 
-    def one(self, quantity: str, step: int) -> AskedValue | AskedPoints | None:
+    def one(self, quantity: str, step: int) -> AskedValue | None:
         """Find the number, or numbers at points, that the challenge requires of a quantity in a
         load step.
 
         Returns None if the challenge does not require the quantity in this step.
         """
-        found = (v for v in self.numbers if (v.quantity, v.step) == (quantity, step))
+        found = (v for v in self.numbers if v.key == (quantity, step))
         return next(found, None)
-
-    @property
-    def numbers(self) -> tuple[AskedValue | AskedPoints, ...]:
-        """Numbers and sets of numbers at points that the benchmark problem requires, without
-        traction fields."""
-        return (*self.values, *self.points)
 
 
 def _end_force(control: Control[Value], unknown: Value) -> Value:
@@ -527,64 +550,6 @@ def _rounded(value: Any) -> Any:
     return value
 
 
-# Sides of windows that contain the contact. They are round numbers, because a multiple of the
-# contact radius would reveal the answer [length].
-SMALL = 1.2e-3
-LARGE = 2.4e-3
-CLOSED = 1e-12  # relative uncertainty of closed and semi-closed forms
-
-
-def approach(value: float, uncertainty: float = CLOSED, step: int = 1) -> AskedValue:
-    """Create a required number for the rigid approach, with the approach itself as error scale.
-
-    value        reference approach [length]
-    uncertainty  standard uncertainty of the reference, relative to the value
-    step         number of the load step, from 1
-    """
-    meaning = "approach of points far from the contact in both bodies; positive when pressed"
-    return AskedValue(
-        "approach", step, "m", meaning, value, value, "itself", uncertainty=uncertainty
-    )
-
-
-def contact_radius(value: float, uncertainty: float = CLOSED) -> AskedValue:
-    """Create a required number for the contact radius after the first load step.
-
-    The error scale is the contact radius itself.
-
-    value        reference contact radius [length]
-    uncertainty  standard uncertainty of the reference, relative to the value
-    """
-    meaning = "radius of the contact, or √(contact area / π)"
-    return AskedValue(
-        "contact_radius", 1, "m", meaning, value, value, "itself", uncertainty=uncertainty
-    )
-
-
-def stick_radius(value: float, step: int, uncertainty: float = CLOSED) -> AskedValue:
-    """Create an optional number for the radius of the stick zone at the end of a load step.
-
-    The error scale is the Hertz contact radius.
-
-    value        reference stick radius [length]
-    step         number of the load step, from 1
-    uncertainty  standard uncertainty of the reference, divided by the error scale
-    """
-    return AskedValue(
-        "stick_radius",
-        step,
-        "m",
-        "radius of the zone that has not slipped since the last turn",
-        value,
-        HERTZ.contact_radius,
-        "the contact radius",
-        Grade.C,
-        required=False,
-        uncertainty=uncertainty,
-    )
-
-
-Key = tuple[str, int]  # quantity and loading step, from 1
 SAMPLINGS = ("point", "cell")
 
 

@@ -13,7 +13,8 @@ from typing import Literal
 from contact_results.directory.atomic_file import Refused
 from contact_results.directory.json_record import read_record, write_record
 from contact_scene.reading.description import Description
-from verification.challenge.python_api import WHOLE, Judgement, Row, fitted_order_text
+from verification.challenge.python_api import WHOLE, Judgement, Row
+from verification.convergence.observed_order import order_text
 from verification.exhibits.chart import plain
 from verification.judging.outcome import (
     WORDS,
@@ -161,7 +162,7 @@ def _quantity_changes(
         if was and was.order and now.order:
             apart = abs(now.order[0] - was.order[0]) > now.order[1] + was.order[1]
             kind = ChangeKind.DRIFT if apart else ChangeKind.UNCHANGED
-            texts = (fitted_order_text(was.order), fitted_order_text(now.order))
+            texts = order_text(*was.order), order_text(*now.order)
             yield ChangeRow(case, f"order of {now.name}", now.run, kind, *texts, "–", since, "")
     for key, was in known.items():
         if key not in found:

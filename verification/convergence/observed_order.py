@@ -22,6 +22,9 @@ ORDER_WIDTH = 0.25
 ORDER_OFF = 0.1
 # Half-width of an interval that contains two consecutive integer orders: none can be determined.
 ILLEGIBLE = 0.5
+# Half-widths below have three decimals, of which the last is at least 1: less depends on round-off.
+LEAST_SHOWN = 0.005
+LEAST_TOLD = 0.001
 ORDERS = (0.05, 6.0)
 COARSE_STEPS = 60
 ROUNDING = 1e-20
@@ -65,6 +68,20 @@ class ObservedOrder:
         """
         allowed = self.may_be_off_by(promised, allowance)
         return order_is_kept(self.order - promised, allowed, self.half_width, self.margin)
+
+
+def order_text(order: float, half_width: float) -> str:
+    """Format an observed order of convergence with its interval, such as "1.98 ± 0.05".
+
+    The text is "not known" if the half-width is 0.5 or more.
+
+    half_width  half-width of the 95 % interval of the order
+    """
+    if half_width >= ILLEGIBLE:
+        return "not known"
+    digits = 2 if half_width >= LEAST_SHOWN else 3
+    # Zero has no sign.
+    return f"{round(order, 2) + 0.0:.2f} ± {max(half_width, LEAST_TOLD):.{digits}f}"
 
 
 @dataclass(frozen=True)

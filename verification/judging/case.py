@@ -512,6 +512,25 @@ def compare_runs(
     )
 
 
+def computed_error(
+    name: str,
+    meaning: str,
+    where: str,
+    measure: Callable[[], float],
+    reference: Reference,
+    tolerance: Required,
+    over: str = "1",
+) -> Quantity:
+    """Create the judged error of numbers that are computed without a run.
+
+    where      object of the measurement in words
+    measure    function that returns the error, which is dimensionless
+    reference  exact value of the error, which is mostly 0
+    over       description of the number by which the error is divided
+    """
+    return Quantity(name, meaning, "", where, measure, reference, tolerance, 1.0, over, runs=())
+
+
 @dataclass(frozen=True)
 class Finding:
     """Number that the report of a case shows for information, with a remark and without a verdict.

@@ -389,8 +389,7 @@ STAIRCASE = (
     "the rim is a staircase of cells with infinite pressure, which changes the effective radius "
     "of the punch by a fraction of a cell"
 )
-STICK_BORDER = "order 1: the border is known to a fraction of a cell; the cap is a fifth of a "
-"cell"
+STICK_BORDER = "order 1: the border is known to a fraction of a cell; the cap is a fifth of a cell"
 SQUARE_ROOTS = "square-root edges of stick zone and contact"
 ELEMENT_RADIUS = "accuracy target of the finite elements at 64 per radius"
 PENALTY = "accuracy target of the finite elements with a penalty, at their default penalty"
@@ -834,6 +833,18 @@ class Reported:
 
 
 Row = Within | Refined | Falls | Reported
+
+
+def at_stops(stops: Mapping[int, float], of: str, *rows: Row) -> tuple[Row, ...]:
+    """Return rows for the end of each of several load steps, with the load of the step as label.
+
+    stops  load at the end of each step over `of`, by index of the step
+    of     reference load in words, such as "µW" (friction limit)
+    rows   rows of one load step
+    """
+    return tuple(
+        replace(row, what=row.what.at(*stop, of)) for stop in stops.items() for row in rows
+    )
 
 
 @dataclass(frozen=True)

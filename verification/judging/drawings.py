@@ -16,11 +16,10 @@ from numpy.typing import NDArray
 
 from semi_analytical.grid import SurfaceGrid
 from verification.convergence.observed_order import (
-    ILLEGIBLE,
     ErrorLine,
-    ObservedOrder,
     by_size,
     error_line,
+    order_text,
 )
 from verification.exhibits.chart import Chart, Curve, Look, Panel, curve
 from verification.judging.case import Run
@@ -37,7 +36,6 @@ BELOW = 0.4  # lines of expected slopes run under the data, by this factor
 LEAST = 4
 LEAST_JUDGED = 3
 ALONG = 9  # points along a band, which is curved
-LEAST_SHOWN = 0.005  # smallest half-width that two decimals show
 
 
 def convergence_chart(
@@ -103,24 +101,18 @@ def _error_curves(
         start = errors[int(np.argmax(sizes))]
     else:
         line = error_line(sizes[fitted], errors[fitted])
+        told = order_text(line.observed.order, line.observed.half_width)
         ends = np.array([max(sizes[fitted]), min(sizes[fitted])])
         curves = [
             _confidence_band(line, ends, series),
             curve("", ends, line.at(ends), Look.FITTED, series),
-            curve(f"{label}: {_order_text(line.observed)}", sizes, errors, Look.LEVELS, series),
+            curve(f"{label}: {told}", sizes, errors, Look.LEVELS, series),
         ]
         start = float(line.at(ends[:1])[0])
     if expected is not None:
         shown = BELOW * start * (ends / ends[0]) ** expected
         curves.append(curve(f"slope {expected:g}", ends, shown, Look.SLOPE, series))
     return curves
-
-
-def _order_text(observed: ObservedOrder) -> str:
-    if observed.half_width >= ILLEGIBLE:
-        return "no order can be read"
-    digits = ".2f" if observed.half_width >= LEAST_SHOWN else ".1g"
-    return f"{observed.order:.2f} ± {observed.half_width:{digits}}"
 
 
 def _confidence_band(line: ErrorLine, ends: NDArray[np.float64], series: int) -> Curve:
@@ -184,21 +176,6 @@ class Section:
 
 
 @dataclass(frozen=True)
-class Profile:
-    """Computed and exact values of one dimensionless quantity at the cells of a section, for a
-    chart.
-
-    label     text of the legend
-    computed  computed values (cells of the row,)
-    exact     values of the closed form at the same cells
-    """
-
-    label: str
-    computed: Field
-    exact: Field
-
-
-@dataclass(frozen=True)
 class ProfileLabels:
     """Texts of a profile chart: identifier, title, caption and axis labels."""
 
@@ -208,34 +185,13 @@ class ProfileLabels:
     y_label: str
     x_label: str = "x / a"
 
-    @property
-    def difference_label(self) -> str:
-        """Label of the y axis of the panel of differences: the label of the profile with Δ in
-        front."""
-        return f"Δ{self.y_label}"
 
-
-def profile_chart(
-    labels: ProfileLabels, section: Section, profiles: Sequence[Profile], scale: float | None = None
+def _with_difference(
+    labels: ProfileLabels, profiles: Sequence[Curve], differences: Sequence[Curve]
 ) -> Chart:
-    """Create a chart of computed and exact profiles, with computed minus exact values in a panel
-    below.
-
-    section   row of cells at which the profiles are known
-    profiles  computed and exact values of each quantity
-    scale     length by which x is divided; None for the contact radius of the section
-    """
-    x = section.x / (section.radius if scale is None else scale)
-    exact = [
-        curve("closed form" if n == 0 else "", x, p.exact, Look.REFERENCE, 0)
-        for n, p in enumerate(profiles)
-    ]
-    computed = [curve(p.label, x, p.computed, Look.COMPUTED, n) for n, p in enumerate(profiles)]
-    difference = [
-        curve("", x, p.computed - p.exact, Look.COMPUTED, n) for n, p in enumerate(profiles)
-    ]
-    above = Panel(x_label="", y_label=labels.y_label, curves=(*exact, *computed), height=2.6)
-    below = Panel(x_label=labels.x_label, y_label=labels.difference_label, curves=tuple(difference))
+    """Draw profiles, and computed minus exact values in a panel below."""
+    above = Panel(x_label="", y_label=labels.y_label, curves=tuple(profiles), height=2.6)
+    below = Panel(x_label=labels.x_label, y_label=f"Δ{labels.y_label}", curves=tuple(differences))
     return Chart(
         name=labels.name, title=labels.title, caption=labels.caption, rows=((above,), (below,))
     )
@@ -265,23 +221,11 @@ def radial_chart(
     r, found = increment.radii[shown] / radius, traction[shown] / scale
     known_r, known = exact[0] / radius, exact[1] / scale
     difference = at_radii(increment, traction, exact[0]) / scale - known
-    above = Panel(
-        x_label="",
-        y_label=labels.y_label,
-        curves=(
-            curve("reference", known_r, known, Look.REFERENCE),
-            curve("finite elements", r, found, Look.COMPUTED),
-        ),
-        height=2.6,
+    profiles = (
+        curve("reference", known_r, known, Look.REFERENCE),
+        curve("finite elements", r, found, Look.COMPUTED),
     )
-    below = Panel(
-        x_label=labels.x_label,
-        y_label=labels.difference_label,
-        curves=(curve("", known_r, difference, Look.COMPUTED),),
-    )
-    return Chart(
-        name=labels.name, title=labels.title, caption=labels.caption, rows=((above,), (below,))
-    )
+    return _with_difference(labels, profiles, (curve("", known_r, difference, Look.COMPUTED),))
 
 
 # Number of points of an exact profile in a chart.
@@ -336,16 +280,22 @@ def profile(
         result = results[run.label]
         if isinstance(run, Run):
             section = Section(result.grid, problem.radius)
-            profiles = [
-                Profile(
-                    one.label,
-                    section.of(one.found(result.steps[one.step])) / unit,
-                    problem.on_surface(one.exact(problem.ends[one.step]), section.x, section.y)
-                    / unit,
-                )
+            x = section.x / problem.radius
+            found = [section.of(one.found(result.steps[one.step])) / unit for one in fields]
+            known = [
+                problem.on_surface(one.exact(problem.ends[one.step]), section.x, section.y) / unit
                 for one in fields
             ]
-            return profile_chart(ProfileLabels(name, title, caption, y_label), section, profiles)
+            profiles = [
+                curve("closed form" if n == 0 else "", x, exact, Look.REFERENCE)
+                for n, exact in enumerate(known)
+            ]
+            differences = []
+            for n, (one, computed) in enumerate(zip(fields, found, strict=True)):
+                profiles.append(curve(one.label, x, computed, Look.COMPUTED, n))
+                differences.append(curve("", x, computed - known[n], Look.COMPUTED, n))
+            labels = ProfileLabels(name, title, caption, y_label)
+            return _with_difference(labels, profiles, differences)
         (one,) = fields
         end, answer = result.steps[one.step], problem.ends[one.step]
         r = getattr(answer, "radii", np.linspace(0.0, problem.radius, POINTS))

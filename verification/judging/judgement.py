@@ -39,6 +39,7 @@ from verification.judging.case import (
     Quantity,
     Required,
     Run,
+    computed_error,
 )
 from verification.judging.outcome import (
     IMBALANCE,
@@ -308,17 +309,14 @@ def _judge_zero(
     allowed  largest accepted value
     because  reason for the accepted value
     """
-    zero = Quantity(
+    zero = computed_error(
         name,
         meaning,
-        "",
         run,
         lambda: value,
         identity(0.0, source),
         Required(allowed, because),
-        1.0,
         "dimensionless",
-        runs=(),
     )
     return _make_verdict(zero, value, "required", allowed)
 

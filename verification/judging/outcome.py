@@ -13,7 +13,7 @@ from pydantic import Field, model_validator
 from contact_scene.quantities.summary import EffectSummary
 from contact_scene.reading.description import Description
 from contact_scene.reading.engineering_units import engineering_unit
-from verification.convergence.observed_order import ILLEGIBLE, ORDER_WIDTH, order_is_kept
+from verification.convergence.observed_order import ORDER_WIDTH, order_is_kept, order_text
 from verification.exhibits.chart import NOT_FINITE, Chart, plain, value_text
 from verification.judging.case import Followed, Refinement
 from verification.solver import Method, Solver
@@ -543,17 +543,11 @@ def error_text(verdict: Verdict) -> str:
     return f"< {plain(ROUNDING)}" if below else plain(verdict.error)
 
 
-def order_text(verdict: Verdict) -> str:
-    """Return an observed order of convergence with its 95 % interval as text.
-
-    If the interval is too wide, the text states that no order can be read.
-    """
+def verdict_order_text(verdict: Verdict) -> str:
+    """Return the observed order of a verdict with its 95 % interval as text."""
     if verdict.value is None or verdict.interval is None:
         return NOT_FINITE
-    half = verdict.interval
-    if half >= ILLEGIBLE:
-        return "no order can be read"
-    return f"{verdict.value:.2f} ± {f'{half:.2f}' if half >= 0.005 else plain(half, 1)}"
+    return order_text(verdict.value, verdict.interval)
 
 
 def moved_text(change: Change) -> str:

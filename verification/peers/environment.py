@@ -1,4 +1,5 @@
-"""Other half-space codes on the challenges: aspher, tamaas and ContactMechanics.
+"""Other half-space codes on the challenges: aspher in double and in single precision, tamaas and
+ContactMechanics.
 
 The codes have pinned versions in a virtual environment of their own, which is created once. A code
 whose installation fails is left out with the reason. Each code is run there by the drivers in
@@ -13,7 +14,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from math import pi, sqrt, tan
 from pathlib import Path
@@ -24,6 +25,7 @@ import numpy as np
 from contact_results.blas_threads import VARIABLES
 from contact_results.directory.atomic_file import atomic_file
 from contact_scene.disk_cache import cache_directory
+from verification.adapters.own_solvers import numbers_of_pressure
 from verification.challenge.requested_quantities import Answer, Field, Key
 from verification.challenge.solver_process import CannotDo, Posed
 
@@ -46,21 +48,30 @@ class Peer:
     module        module that is imported, and name of its driver
     friction      True if problems with friction are requested from the code
     settings      environment variables for the build
+    single        True if the code computes in single precision
     """
 
     distribution: str
     module: str
     friction: bool = False
     settings: tuple[tuple[str, str], ...] = ()
+    single: bool = False
+
+    @property
+    def name(self) -> str:
+        """Name of the code in tables."""
+        return f"{self.module}, single precision" if self.single else self.module
 
 
+ASPHER = Peer(
+    "aspher==0.1.3.post1",
+    "aspher",
+    friction=True,
+    settings=(("CMAKE_ARGS", f"-DFETCHCONTENT_SOURCE_DIR_EIGEN3_SRC={EIGEN}"),),
+)
 PEERS = (
-    Peer(
-        "aspher==0.1.3.post1",
-        "aspher",
-        friction=True,
-        settings=(("CMAKE_ARGS", f"-DFETCHCONTENT_SOURCE_DIR_EIGEN3_SRC={EIGEN}"),),
-    ),
+    ASPHER,
+    replace(ASPHER, friction=False, single=True),  # with friction in double precision only
     Peer("tamaas==2.9.0", "tamaas"),
     Peer("ContactMechanics==1.8.3", "ContactMechanics"),
 )
@@ -269,6 +280,7 @@ def _driver_request(posed: Posed, cells: int, peer: Peer) -> tuple[dict[str, Any
         "force": posed.loads[0][0] / force,
         "friction": friction,
         "tolerance": TOLERANCE,
+        "single": peer.single,
     }
     return request, length, modulus
 
@@ -283,15 +295,12 @@ def _answer_from_driver(
     pressure = np.array(found["pressure"]) * stress
     contact = pressure > 0
     area = np.full(int(np.sum(contact)), h**2)
-    weigh, middle = pressure / np.sum(pressure), slice(n // 2 - 1, n // 2 + 1)
     own: dict[str, float | None] = {
         "approach": None if found["approach"] is None else abs(found["approach"]) * length,
         "contact_radius": sqrt(np.sum(contact) * h**2 / pi),
-        "central_pressure": float(np.mean(pressure[middle, middle])),
         "moment_x": float(np.sum(pressure * y)) * h**2,
         "moment_y": float(np.sum(pressure * x)) * h**2,
-        "semi_axis_x": sqrt(5 * float(np.sum(weigh * x**2))),  # of a half-ellipsoid: <x²> = a²/5
-        "semi_axis_y": sqrt(5 * float(np.sum(weigh * y**2))),
+        **numbers_of_pressure(pressure, x, y),
     }
     scalars: dict[Key, float] = {
         (q, s): value for q, s in posed.asked if s == 1 and (value := own.get(q)) is not None

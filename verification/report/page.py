@@ -13,8 +13,8 @@ from functools import cache
 import jinja2
 from markupsafe import Markup
 
-from verification.challenge.python_api import WHOLE, Judgement, Row, fitted_order_text
-from verification.convergence.observed_order import ILLEGIBLE
+from verification.challenge.python_api import WHOLE, Judgement, Row
+from verification.convergence.observed_order import ILLEGIBLE, order_text
 from verification.exhibits.chart import (
     NONE,
     Chart,
@@ -35,8 +35,8 @@ from verification.judging.outcome import (
     clearance_text,
     error_text,
     failure_text,
-    order_text,
     uncertainty_text,
+    verdict_order_text,
 )
 from verification.report.drawing import inline_svg
 from verification.report.file_names import PAGE, SHEETS
@@ -101,7 +101,7 @@ def environment() -> jinja2.Environment:
         plain=plain,
         clearance=clearance_text,
         error=error_text,
-        order=order_text,
+        order=verdict_order_text,
         uncertainty=uncertainty_text,
         failure=failure_text,
         svg=lambda chart, prefix="": Markup(inline_svg(chart, prefix)),  # nosec B704: escaped there
@@ -239,7 +239,7 @@ def row_texts(row: Row) -> tuple[str, ...]:
         WHOLE if row.error is None else f"{row.error:.2e}",
         WHOLE if row.bound is None else f"{row.bound:.3g}",
         row.grade or WHOLE,
-        WHOLE if row.order is None else fitted_order_text(row.order),
+        WHOLE if row.order is None else order_text(*row.order),
         row.because,
     )
 

@@ -53,7 +53,7 @@ class ScoredRun:
     """Judgement of one code on one challenge (a problem with a known solution), as a case of the
     study.
 
-    code       name of this program's solver or module of another code
+    code       name of this program's solver or of another code
     challenge  name of the challenge
     levels     number of refinement levels
     """
@@ -89,19 +89,19 @@ class ScoredRun:
             solver, answer = OURS[self.code]
             solver = replace(solver, version=program_version())
             return judge(self.challenge, answer, self.levels, solver=solver, seconds=None)
-        (peer,) = (peer for peer in PEERS if peer.module == self.code)
+        (peer,) = (peer for peer in PEERS if peer.name == self.code)
         installed = peers_environment()
         if reason := installed.missing.get(peer.distribution):
             raise CannotDo(f"could not be installed: {reason}")
         solve = make_answer_function(installed.python, peer)
         version = peer.distribution.partition("==")[2]
-        described = Solver(peer.module, version)
+        described = Solver(peer.name, version)
         return judge(self.challenge, solve, self.levels, solver=described, seconds=None)
 
 
 def cases(settings: Settings) -> tuple[ScoredRun, ...]:
     """Return the cases of the study: each code on each benchmark problem (challenge)."""
-    codes = (*OURS, *(peer.module for peer in PEERS))
+    codes = (*OURS, *(peer.name for peer in PEERS))
     levels = settings.levels or LEVELS[settings.level]
     return tuple(ScoredRun(code, name, levels) for code in codes for name in challenges())
 

@@ -12,13 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-import fem_reference
 import radial
 from contact_results.surface import surface_of
-from contact_scene import FiniteElementDiscretisation, RadialDiscretisation
+from contact_scene.discretisation import EdgeCorrection
 from contact_scene.quantities.residuals import worst
-from semi_analytical import SurfaceGrid, plan, solve
-from verification import norms
+from semi_analytical import SurfaceGrid
+from verification import norms, solver
 from verification.cases import coatings as coated
 from verification.exhibits.chart import (
     NONE,
@@ -31,15 +30,24 @@ from verification.exhibits.chart import (
     point_curves,
 )
 from verification.judging import field_errors
-from verification.judging.case import SOLVER_TOLERANCE, Level
+from verification.judging.case import (
+    SOLVER_TOLERANCE,
+    Level,
+    RadiiRun,
+    Run,
+    SectionRun,
+    per_radius,
+)
 from verification.judging.declared_case import (
     APPROACH,
     ENERGY_PER_CYCLE,
+    EXACT,
     LARGEST_SHIFT_ERROR,
     PEAK_PRESSURE,
     SHIFT,
     Observable,
     error_norm,
+    meshed,
 )
 from verification.judging.field_errors import pressure_at, shear_at
 from verification.norms import round_means
@@ -371,22 +379,16 @@ class PrecisionCase:
         contact, n = self.solved, self.fineness
         scene = contact.posed(self.increments or contact.increments or 1).scene
         if self.method is Method.RADIAL:
-            finer = replace(radial.plan(scene), fineness=n / OWN)
-            return radial.solve(scene, RadialDiscretisation(rings=TOLD), plan=finer)
+            return RadiiRun(self.name, scene, n / OWN, TOLD, EXACT).solve()
         if self.method in (Method.SURFACE, Method.EDGES):
-            decided = plan(scene, edge="last" if self.method is Method.EDGES else "off")
-            return solve(scene, contact.grid(n), self.tolerance, plan=decided)
+            edge: EdgeCorrection = "last" if self.method is Method.EDGES else "off"
+            return Run(self.name, scene, contact.grid(n), self.tolerance, edge=edge).solve()
         # The edge of the contact lies in the middle of an element on every mesh.
-        mesh = FiniteElementDiscretisation(
-            elements_per_radius=n,
-            contact_radius=contact.problem.radius * n / (n + 0.5),
-            tolerance=self.tolerance,
-        )
-        of = fem_reference.Method
+        mesh = per_radius(n, meshed(contact.problem.radius, n))
         if self.method is Method.ELEMENTS:
-            return fem_reference.solve(scene, mesh, of.COMPLEMENTARITY)
+            return SectionRun(self.name, scene, mesh).solve()
         stiff = mesh.model_copy(update={"penalty": self.penalty})
-        return fem_reference.solve(scene, stiff, of.PENALTY)
+        return SectionRun(self.name, scene, stiff, solver.Method.PENALTY).solve()
 
 
 def _cases_of_contact(contact: str, level: Level) -> Iterator[PrecisionCase]:

@@ -151,7 +151,7 @@ def judge(
     worse = ExitCode.PASS
     if against is not None:
         rows = judgement_changes(found.challenge.name, found, against)
-        worse = compare_with_file(rows, against, "--save")
+        worse = compare_with_file(rows, against, f"--save {against}")
     # A lost verdict is inconclusive, too: what is worse precedes.
     codes = (
         found.exit_code(partial=partial),
@@ -198,7 +198,7 @@ def _judge_function(
         typer.echo(f"{case} | {name} | cannot: {reason}")
         code = ExitCode.INCONCLUSIVE if strict else ExitCode.PASS
         if against is not None and (lost := judgement_changes(case, None, against)):
-            code = compare_with_file(lost, against, "--save")
+            code = compare_with_file(lost, against, f"--save {against}")
         raise typer.Exit(code) from None
     except SolverFailed as reason:
         typer.echo(f"{case}: {name} {reason}", err=True)

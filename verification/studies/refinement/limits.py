@@ -13,6 +13,7 @@ from math import inf, isfinite
 from contact_errors.error_formula import BELIEVED, ORDERS
 from verification.convergence.observed_order import (
     ObservedOrder,
+    order_text,
     refined_value,
 )
 from verification.running.study import CaseRecord, Row
@@ -68,7 +69,7 @@ class Effect:
             return "none"
         if self.observed.keeps(self.order) is None:
             return "unknown"
-        return f"{self.observed.order:.2f} ± {self.observed.half_width:.2f}"
+        return order_text(self.observed.order, self.observed.half_width)
 
 
 @dataclass(frozen=True)
