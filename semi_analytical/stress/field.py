@@ -26,7 +26,6 @@ from semi_analytical.stress.depths import (
     line_weights,
 )
 from semi_analytical.stress.rectangle import half_space_response
-from semi_analytical.stress.strips import strip_stresses
 
 DOUBLE = 8
 # Arrays of the size of the window at the peak, in addition to the fields: coefficients, potentials
@@ -164,6 +163,8 @@ def fields_by_level(
     stack = _deformable_stack(body)
     levels = levels_of(stack, depths)
     if grid.of_strips:
+        from semi_analytical.stress.strips import strip_stresses
+
         for level, stress in zip(
             levels, strip_stresses(stack, grid, tractions, levels), strict=True
         ):
