@@ -64,7 +64,7 @@ def natural_shear(
     motion   initial guess of the rigid motions (k,)
     """
     y, springs = q + gamma * apart, motions.springs
-    if np.any(springs):
+    if springs.any():
         extension = springs * motions.forces(q)
         y = y + gamma * motions.displacement(extension)
         motion = np.where(springs > 0, motions.values, motion) - extension
@@ -72,7 +72,7 @@ def natural_shear(
     z = y + gamma * motions.displacement(reached)
     motion = np.where(springs > 0, motions.values, reached)
     slipped = apart + motions.displacement(motion)
-    error = float(np.sum(magnitude(projected - q)) / np.sum(bound))
+    error = float(magnitude(projected - q).sum() / bound.sum())
     return NaturalShear(z, projected, slipped, motion, error)
 
 
@@ -94,7 +94,7 @@ def project_trial(
     motion   initial guess of the rigid motions (k,)
     """
     is_free, found = motions.is_free, motions.values.copy()
-    if not np.all(is_free):
+    if not is_free.all():
         found[is_free] = 0.0
         y = y + gamma * motions.displacement(found)
     forces, stiffness = _forces_in_equilibrium(motions.free, gamma)
@@ -126,7 +126,7 @@ def admissible_shear(motions: RigidMotions, q: VectorField, bound: Vector) -> Ve
     free = motions.free
     present = free.forces(q)
     forces = np.where(free.is_held, [one.force or 0.0 for one in free.each], present)
-    if np.any(free.springs) and reaches_limit(float(np.linalg.norm(forces)), float(np.sum(bound))):
+    if free.springs.any() and reaches_limit(float(np.linalg.norm(forces)), float(bound.sum())):
         return project_on_discs(q, bound)
     return _project(free, q, bound, forces, np.zeros(len(free)))[0]
 
@@ -221,10 +221,10 @@ class _ProjectedShear:
 
         multiplier  multiplier for which the projection was computed
         """
-        response = np.sum(self._scale) + np.max(self._stiffness, initial=0.0)
-        blur = MULTIPLIER_ROUND_OFF * response * np.sum(np.abs(multiplier))
-        strength = np.sum(self._length * self._scale)
-        return bool(np.sum(np.abs(self.defect)) <= ROUND_OFF * strength + blur)
+        response = self._scale.sum() + self._stiffness.max(initial=0.0)
+        blur = MULTIPLIER_ROUND_OFF * response * np.abs(multiplier).sum()
+        strength = (self._length * self._scale).sum()
+        return bool(np.abs(self.defect).sum() <= ROUND_OFF * strength + blur)
 
     def newton_step(self) -> Vector:
         """Compute the damped Newton step of the multipliers λ (k,) of the prescribed forces.
@@ -238,6 +238,6 @@ class _ProjectedShear:
         outside = self._length > self._bound
         radial = outside * self._scale / np.maximum(self._length, self._bound) ** 2
         matrix = products - (along * radial) @ along.T
-        damping = np.trace(products) * (np.sum(np.abs(self.defect)) / np.sum(self._bound)) ** 2
+        damping = products.trace() * (np.abs(self.defect).sum() / self._bound.sum()) ** 2
         matrix += np.diag(1e-3 * damping + self._stiffness)
         return -np.linalg.solve(matrix, self.defect)

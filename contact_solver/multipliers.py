@@ -10,8 +10,6 @@ numbers.
 from collections.abc import Callable
 from typing import Protocol, TypeVar
 
-import numpy as np
-
 from contact_scene.array_types import Vector
 
 MAX_SWEEPS = 100
@@ -67,13 +65,13 @@ def find_multiplier(
         if shifted.has_prescribed_forces(multiplier):
             break
         step = shifted.newton_step()
-        steepest = -float(np.sum(shifted.defect * step))
+        steepest = -float((shifted.defect * step).sum())
         part = 1.0
         while True:
             trial = shifted_by(multiplier + part * step)
             # Curvature condition on the gradient of the dual: the step passes the minimum at most
             # to half the initial slope.
-            if np.sum(trial.defect * step) <= 0.5 * steepest:
+            if (trial.defect * step).sum() <= 0.5 * steepest:
                 break
             part *= 0.5
             if part < SMALLEST_PART:

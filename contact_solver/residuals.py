@@ -65,13 +65,13 @@ def slip_direction(q: Field, bound: Field, slip: Field, displacement: Field) -> 
     displacement  tangential displacement (2, n), which sets the least scale of slip
     """
     work = bound * np.sqrt(slip[0] ** 2 + slip[1] ** 2)
-    missing = np.sum(work - q[0] * slip[0] - q[1] * slip[1])
+    missing = (work - q[0] * slip[0] - q[1] * slip[1]).sum()
     contact = bound != 0
-    if not np.any(contact):
+    if not contact.any():
         return 0.0
-    largest = np.maximum(np.max(np.abs(displacement[:, contact])), np.max(np.abs(slip[:, contact])))
-    least = LEAST_SLIP * largest * np.sum(bound)
-    return 0.0 if largest == 0 else float(missing / np.maximum(np.sum(work), least))
+    largest = np.maximum(np.abs(displacement[:, contact]).max(), np.abs(slip[:, contact]).max())
+    least = LEAST_SLIP * largest * bound.sum()
+    return 0.0 if largest == 0 else float(missing / np.maximum(work.sum(), least))
 
 
 def equilibrium(

@@ -160,29 +160,29 @@ class MotionShapes:
     def forces(self, tractions: Field) -> Vector:
         """Compute the forces (k,) of tractions (c, n), conjugate to the motions."""
         if not len(self.varying):
-            return np.asarray(self.uniform @ np.sum(tractions, axis=1))
-        varying = np.sum(self.varying * tractions, axis=(1, 2))
+            return np.asarray(self.uniform @ tractions.sum(axis=1))
+        varying = (self.varying * tractions).sum(axis=(1, 2))
         if not len(self.uniform):
             return np.asarray(varying)
-        return np.concatenate([self.uniform @ np.sum(tractions, axis=1), varying])
+        return np.concatenate([self.uniform @ tractions.sum(axis=1), varying])
 
     def along(self, vectors: Field) -> Field:
         """Compute the scalar products (k, n) of the unit motions with a vector (c, n) per point."""
         if not len(self.varying):
             return np.asarray(self.uniform @ vectors)
-        return np.concatenate([self.uniform @ vectors, np.sum(self.varying * vectors, axis=1)])
+        return np.concatenate([self.uniform @ vectors, (self.varying * vectors).sum(axis=1)])
 
     def products(self, weight: Vector) -> Matrix:
         """Compute the scalar products (k, k) of the unit motions, with a weight of each point.
 
         weight  weights (n,)
         """
-        uniform = np.sum(weight) * (self.uniform @ self.uniform.T)
+        uniform = weight.sum() * (self.uniform @ self.uniform.T)
         if not len(self.varying):
             return np.asarray(uniform)
         weighted = self.varying * weight
         varying = np.einsum("kcn,lcn->kl", weighted, self.varying)
         if not len(self.uniform):
             return np.asarray(varying)
-        mixed = self.uniform @ np.sum(weighted, axis=2).T
+        mixed = self.uniform @ weighted.sum(axis=2).T
         return np.block([[uniform, mixed], [mixed.T, varying]])

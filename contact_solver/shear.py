@@ -136,7 +136,7 @@ def solve_shear(
         accepted = point, natural.error
         in_slip = (bound > 0) & (magnitude(natural.z) > bound)
         moved = point.displacements
-        if not np.any(in_slip):  # the displacement of a single point may be zero at its centre
+        if not in_slip.any():  # the displacement of a single point may be zero at its centre
             largest = max(float(np.max(np.abs(u))) for u in (moved, target))
             moved = np.full_like(moved, largest)
         direction = slip_direction(point.tractions, bound, natural.slipped, moved)
@@ -177,9 +177,9 @@ def _line_search(
     (q, u), error = accepted
     gradient = u - problem.target - problem.motions.displacement(natural.motion)
     d, d_u = newton.tractions - q, newton.displacements - u
-    slope, curvature = np.sum(d * gradient), np.sum(d * d_u)
+    slope, curvature = (d * gradient).sum(), (d * d_u).sum()
     change = slope + 0.5 * curvature
-    work = np.sum(np.abs(q * u))
+    work = np.abs(q * u).sum()
     same = curvature <= ROUND_OFF**2 * work
     level = change <= LEVEL * work
     if same or change <= 0.1 * slope or (level and natural.error < error):
@@ -188,6 +188,6 @@ def _line_search(
     if step < 1e-3:
         d = problem.natural(Point(q, u), natural.motion).projected - q
         d_u = problem.displace(d)
-        step = min(1.0, -np.sum(d * gradient) / np.sum(d * d_u))
+        step = min(1.0, -(d * gradient).sum() / (d * d_u).sum())
     point = Point(q + step * d, u + step * d_u)
     return point, problem.natural(point, natural.motion)

@@ -27,7 +27,6 @@ from contact_scene.stepping.load_stepping import (
 )
 from fem_reference.contact.method import ContactMethod
 from fem_reference.contact.point_state import PointState
-from fem_reference.energy import dissipation_uncertainty
 from fem_reference.fields import Increment
 from fem_reference.loads import (
     ACROSS,
@@ -140,8 +139,12 @@ class _IncrementSolver(Solver[PointState, Increment]):
         increment = add_contact_displacements(increment, self.scene.rig)
         resisted = self.method.work_on_strain(reached.before, reached.state)
         increment = add_work(last, increment, resisted)
-        uncertainty = dissipation_uncertainty(self.method.plan, last, increment)
-        return replace(increment, dissipation_uncertainty=uncertainty)
+        if increment.dissipated_energy is None:
+            return increment
+        uncertain = (last.dissipation_uncertainty if last else None) or 0.0
+        if self.method.plan.path_matters[increment.step - 1]:
+            uncertain += reached.state.friction_changed
+        return replace(increment, dissipation_uncertainty=uncertain)
 
     def _tangential_target(
         self, ramp: LoadRamp, start: PointState | None, fraction: float

@@ -3,26 +3,19 @@
 from dataclasses import dataclass
 from enum import Enum
 
-from contact_scene import ControlKind, LoadRamp, Scene, effect
-from contact_scene.body_pair import (
-    coupling,
-    refuse_contrast,
-)
-from contact_scene.bulk_strain import requires_bulk_strain
+from contact_scene import LoadRamp, Scene, effect
 from contact_scene.checks.axisymmetric import (
     ELSEWHERE,
+    AxisymmetricLoads,
     refuse_coefficient_map,
-    refuse_shape,
-    refuse_tilt,
 )
-from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
 from contact_scene.friction_limit import increments_by_force
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.growing_contact import grows_without_slip
-from contact_scene.stepping.load_path import along_one_line, first_direction
+from contact_scene.stepping.load_path import first_direction
 
 # Largest ratio of shear moduli within a body. Above this ratio the stiffness of the softest
 # material is lost in round-off.
@@ -109,38 +102,20 @@ def plan(scene: Scene, *, penalty: bool = False) -> Plan:
     penalty  True for the penalty law of contact and friction
     """
     scene = normal_form(scene)
-    refuse_equator(scene)
-    refuse_shape(scene)
+    loads = AxisymmetricLoads.of(scene, MAX_CONTRAST)
     _refuse_compliant_bonds(scene)
-    refuse_contrast(
-        scene, MAX_CONTRAST, f", and finite elements carry a ratio up to {MAX_CONTRAST:.0e}"
-    )
-    friction = scene.friction is not None
-    ramps = scene.load_path()
-    loaded = any(any(ramp.tangential.end) for ramp in ramps)
-    twisted = any(ramp.twisting.end != 0 for ramp in ramps)
-    couples, why = coupling(scene)
-    rough = scene.friction is not None and scene.friction.largest > 0
-    couples = couples and rough
-    refuse_tilt(scene, pushed=loaded, coupled=couples)
-    strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
-    strained = requires_bulk_strain(strains, friction and (loaded or twisted))
-    curved = friction and loaded and not along_one_line(ramps)
-    # The indenter also twists if its twist is free and the tangential load turns.
-    free = any(ramp.twisting.kind is ControlKind.FORCE for ramp in ramps)
-    twists = friction and (twisted or (curved and free))
-    path = _choose_path(friction, loaded, twisted, couples or (rough and strained), curved=curved)
+    path = _choose_path(loads)
     if path is not Path.PRESSING:
         refuse_coefficient_map(scene)
-    matters = _path_matters(scene, path, couples)
+    matters = _path_matters(scene, path, loads.couples)
     return Plan(
         path,
-        first_direction(ramps),
+        first_direction(loads.ramps),
         _increment_counts(scene, path, matters),
         matters,
-        _list_effects(scene, path, (friction, loaded, twists, couples), why)
+        _list_effects(scene, path, loads)
         + effect.contact_stiffness(scene, SPRINGS if penalty else ""),
-        twists,
+        loads.twists,
         bool(scene.contact_stiffness) and not penalty,
     )
 
@@ -156,26 +131,19 @@ def _refuse_compliant_bonds(scene: Scene) -> None:
                 )
 
 
-def _choose_path(
-    friction: bool, loaded: bool, twisted: bool, couples: bool, *, curved: bool
-) -> Path:
+def _choose_path(loads: AxisymmetricLoads) -> Path:
     """Determine the tractions that the solve computes, from the loads and friction of the scene.
 
     Examples are pressure alone, and pressure with shear along a tangential load.
-
-    friction  True if the scene has friction
-    loaded    True if a load step has a tangential force or shift
-    twisted   True if a load step has a torque or twist
-    couples   True if normal loading or an imposed strain causes shear
-    curved    True if the tangential loads are not on one line
     """
-    if not friction:
+    couples = loads.frictional
+    if not loads.friction:
         return Path.PRESSING
-    if loaded and (twisted or curved):
+    if loads.loaded and (loads.twisted or loads.curved):
         return Path.WHOLE_CIRCLE
-    if twisted:
+    if loads.twisted:
         return Path.TWISTING_WITH_FRICTION if couples else Path.TWISTING
-    if loaded:
+    if loads.loaded:
         return Path.HARMONICS if couples else Path.SHEARING
     return Path.PRESSING_WITH_FRICTION if couples else Path.PRESSING
 
@@ -247,20 +215,16 @@ def _twists(path: Path, ramp: LoadRamp) -> bool:
     return path in TWISTED and ramp.twisting.start != ramp.twisting.end
 
 
-def _list_effects(
-    scene: Scene, path: Path, acting: tuple[bool, bool, bool, bool], why_coupled: str
-) -> tuple[Effect, ...]:
+def _list_effects(scene: Scene, path: Path, loads: AxisymmetricLoads) -> tuple[Effect, ...]:
     """Return the list of physical effects of a scene, each with the reason for or against it.
 
     An effect is a part of the problem, such as friction or torsion. Each item states whether the
     solve computes the effect, and the reason. The list is printed for the user.
 
-    scene        contact problem
-    path         tractions that the solve computes
-    acting       True for friction, a tangential load, torsion, and coupling, in this order
-    why_coupled  reason why pressure causes relative tangential displacement, or does not
+    scene  contact problem
+    path   tractions that the solve computes
+    loads  loads of the scene and the causes of shear
     """
-    has_friction, loaded, twisted, couples = acting
     return (
         effect.PRESSURE,
         effect.second_body(scene),
@@ -268,16 +232,18 @@ def _list_effects(
         effect.friction(scene),
         Effect(
             "tangential load",
-            has_friction and loaded,
-            "a step names a tangential force or shift" if loaded else "no step pushes sideways",
+            loads.friction and loads.loaded,
+            "a step names a tangential force or shift"
+            if loads.loaded
+            else "no step pushes sideways",
         ),
         Effect(
             "torsion",
-            has_friction and twisted,
-            "a step names a torque or twist" if twisted else "no step twists the indenter",
+            loads.twists,
+            "a step names a torque or twist" if loads.twists else "no step twists the indenter",
         ),
         effect.strained(scene),
-        effect.coupled(scene, couples, why_coupled),
+        effect.coupled(scene, loads.couples, loads.why),
         Effect("slip across the load", path in ANGULAR, CROSS_SLIP[path]),
         effect.load_history(path is not Path.PRESSING and len(scene.loading) > 1),
     )

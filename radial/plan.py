@@ -8,26 +8,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import dropwhile
 
-from contact_scene import ControlKind, LoadRamp, Scene, effect
-from contact_scene.body_pair import (
-    coupling,
-    refuse_contrast,
-)
-from contact_scene.bulk_strain import requires_bulk_strain
+from contact_scene import LoadRamp, Scene, effect
 from contact_scene.checks.axisymmetric import (
     ELSEWHERE,
+    AxisymmetricLoads,
     refuse_coefficient_map,
-    refuse_shape,
-    refuse_tilt,
 )
-from contact_scene.checks.expected_contact import refuse_equator
 from contact_scene.effect import Effect
 from contact_scene.friction_limit import increments_by_force
 from contact_scene.normal_form import normal_form
 from contact_scene.quantities.cycles import loop_increments
 from contact_scene.solver_errors import UnsupportedScene
 from contact_scene.stepping.growing_contact import grows_without_slip
-from contact_scene.stepping.load_path import along_one_line, first_direction
+from contact_scene.stepping.load_path import first_direction
 from radial.angular_grid import RingAngles
 
 # Largest ratio of shear moduli within a body. Larger ratios cause round-off in the results.
@@ -120,25 +113,10 @@ def plan(scene: Scene) -> Plan:
     scene  contact problem with its load history
     """
     scene = normal_form(scene)
-    refuse_equator(scene)
-    refuse_shape(scene)
-    refuse_contrast(
-        scene, MAX_CONTRAST, f", and this solver carries a ratio up to {MAX_CONTRAST:.0e}"
-    )
-    couples, why = coupling(scene)
-    friction, ramps = scene.friction is not None, scene.load_path()
-    pushed = friction and any(any(ramp.tangential.end) for ramp in ramps)
-    rough = scene.friction is not None and scene.friction.largest > 0
-    refuse_tilt(scene, pushed=pushed, coupled=rough and couples)
-    strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
-    strained = requires_bulk_strain(strains, pushed or any(ramp.twisting.end for ramp in ramps))
-    frictional = rough and (couples or strained)
-    curved = pushed and not along_one_line(ramps)
-    # The indenter also twists if its twist is free and the tangential load turns.
-    twists = friction and any(
-        ramp.twisting.end or (curved and ramp.twisting.kind is ControlKind.FORCE) for ramp in ramps
-    )
-    circle = _choose_circle(scene, frictional, twists, pushed, curved)
+    loads = AxisymmetricLoads.of(scene, MAX_CONTRAST)
+    frictional, twists, ramps = loads.frictional, loads.twists, loads.ramps
+    pushed = loads.friction and loads.loaded
+    circle = _choose_circle(scene, frictional, twists, pushed, loads.curved)
     if frictional or twists or pushed:
         _refuse_friction(scene, frictional, circle)
     is_resolved = "a step pushes sideways" if pushed else "no step pushes sideways"
@@ -150,7 +128,7 @@ def plan(scene: Scene) -> Plan:
         Effect("tangential load", pushed, is_resolved),
         Effect("torsion", twists, "a step twists" if twists else "no step twists"),
         effect.strained(scene),
-        effect.coupled(scene, rough and couples, why),
+        effect.coupled(scene, loads.couples, loads.why),
         effect.load_history(frictional or twists or pushed),
     )
     loops = loop_increments(ramps) if circle else (1,) * len(ramps)

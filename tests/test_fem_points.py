@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from functools import cache
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -35,7 +34,6 @@ from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.increment import advance
 from fem_reference.contact.point_contact import PointContact
 from fem_reference.contact.point_state import PointState
-from fem_reference.energy import COMPONENTS, dissipation_uncertainty
 from fem_reference.loads import Loads, NormalTarget, TangentialTarget
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
@@ -255,16 +253,13 @@ def test_at_the_friction_limit_all_shear_is_along_the_load(coupled):
 
 
 def test_an_error_of_increments_is_the_same_with_angles_and_without():
-    radii, points = np.linspace(0.0, 1.0, 11), np.linspace(0.0, np.pi, 5)
-    names = [f"{field}_{part}" for field in ("shear", "slip") for part in COMPONENTS]
-    found = []
-    for angles, whole in ((None, False), (points, False), (whole_grid(3).angles, True)):
-        around = 1.0 if angles is None else np.ones(len(angles))
-        field = np.multiply.outer(1 - radii**2, around)
-        of = {name: field if name.endswith("radial") else None for name in names}
-        end = SimpleNamespace(
-            step=1, dissipated_energy=1.0, radii=radii, angles=angles, covers_circle=whole, **of
-        )
-        found.append(dissipation_uncertainty(SimpleNamespace(path_matters=(True,)), None, end))
-    assert found[1:] == pytest.approx([found[0], found[0]])
-    assert found[0] == pytest.approx(np.pi / 3, rel=0.02)
+    of = contact(COATED)
+    state = pressed(of, hertz_force(0.3), 5)
+    loads = Loads(NormalTarget(force=2.0 * state.normal_force))
+    ring = replace(of, compliance=replace(of.compliance, grid=axisymmetric_grid()))
+    before = pressed(ring, hertz_force(0.3), 5)
+    at_rings, at_points = advance(ring, before, loads, 1e-10), advance(of, state, loads, 1e-10)
+    assert at_points.friction_changed == pytest.approx(at_rings.friction_changed, rel=1e-7)
+    changed, slipped = at_rings.shear - before.shear, at_rings.slip - before.slip
+    by_hand = np.sum(ring.compliance.areas * np.hypot(*changed) * np.hypot(*slipped))
+    assert 0 < by_hand == pytest.approx(at_rings.friction_changed)

@@ -17,7 +17,8 @@ from semi_analytical import SurfaceGrid, plan, solve
 from semi_analytical.increments.increment_history import (
     PreviousIncrement,
     further,
-    further_shear,
+    further_fields,
+    further_motion,
 )
 from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.increments.tangential_solve import TangentialTarget
@@ -109,11 +110,9 @@ def test_impossible_grid_is_refused(cells, window):
 NOTHING = np.zeros((2, 1, 1))
 FIRST = PreviousIncrement(
     target=NormalTarget(force=1.0),
-    pressure=NOTHING[0],
+    pressure=NOTHING[0] + 6,
     shear=NOTHING + 1,
     displacement=NOTHING + 10,
-    normal_force=1.0,
-    approach=1.0,
     force=np.array([0.1, 0.2]),
     shift=np.array([1.0, 2.0]),
     torque=1e-3,
@@ -121,6 +120,7 @@ FIRST = PreviousIncrement(
 )
 SECOND = replace(
     FIRST,
+    pressure=NOTHING[0] + 7,
     shear=NOTHING + 3,
     displacement=NOTHING + 50,
     force=np.array([0.3, 0.5]),
@@ -140,11 +140,13 @@ def test_where_the_load_goes_straight_on_the_shear_goes_as_much_further(part):
         TangentialTarget(shift=SECOND.shift + 10 * part * WAY, twist=3e-6 + part * 2e-6),
     ):
         assert further(SECOND, FIRST, target) == pytest.approx(part, rel=1e-12)
-        (shear, displacement), motion = further_shear(SECOND, FIRST, target)
+        ahead = further_fields(SECOND, FIRST, target)
+        motion = further_motion(SECOND, FIRST, target)
         twist = [3e-6 + part * 2e-6] if target.torque else []
         np.testing.assert_allclose(motion, [3 + part * 2, 5 + part * 3, *twist])
-        np.testing.assert_allclose(shear, 3 + 2 * part)
-        np.testing.assert_allclose(displacement, 50 + 40 * part)
+        np.testing.assert_allclose(ahead.pressure, 7 + part)
+        np.testing.assert_allclose(ahead.shear, 3 + 2 * part)
+        np.testing.assert_allclose(ahead.displacement, 50 + 40 * part)
 
 
 @pytest.mark.parametrize("way", [-WAY, 2.1 * WAY, 0 * WAY, WAY @ [[1, 0.01], [0, 1]]])
@@ -153,8 +155,7 @@ def test_where_the_load_turns_rests_or_leaps_the_shear_stays(way):
     assert further(SECOND, FIRST, target) == 0
     straight = TangentialTarget(force=SECOND.force + WAY, torque=2e-3 + 2e-3 * way[0] / WAY[0])
     assert further(SECOND, FIRST, straight) == 0
-    shear, displacement = further_shear(SECOND, FIRST, target)[0]
-    assert (shear, displacement) == (SECOND.shear, SECOND.displacement)
+    assert further_fields(SECOND, FIRST, target) is SECOND
 
 
 def products(described, cells):

@@ -8,7 +8,7 @@ from numpy.polynomial.legendre import leggauss
 from stack_strategies import HALF_SPACES, stacks
 
 from semi_analytical.frf.stack import Stack
-from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
+from semi_analytical.influence.closed_form import HalfSpaceCoefficients
 from semi_analytical.influence.layered import LayeredCoefficients
 from semi_analytical.influence.layered_response import half_space_response, remainder_table
 
@@ -146,7 +146,7 @@ def test_layer_of_the_same_material_is_no_layer(material, decade, log_aspect):
     """For layers from 1e-8 to 1e4 cells, and cells up to 20 times longer than wide."""
     spacing = (1.0, 10**log_aspect)
     layered = LayeredCoefficients(Stack([(*material, 10**decade)], material), spacing, (24, 20))
-    expected = HalfSpaceCoefficients(RectangleIntegrals(*spacing, (24, 20)), *material)
+    expected = HalfSpaceCoefficients(spacing, (24, 20), *material)
     error = np.abs(all_components(layered) - all_components(expected)).max()
     # What the corner differences of the closed form lose at this distance.
     assert error < 2e-13 * own_cell(layered)
@@ -226,7 +226,7 @@ def point(component, x, y):
 
 
 def coefficients(cell, shape=(6, 5), poisson_ratio=NU):
-    return HalfSpaceCoefficients(RectangleIntegrals(*cell, shape), G, poisson_ratio)
+    return HalfSpaceCoefficients(cell, shape, G, poisson_ratio)
 
 
 def by_gauss(component, cell, i, j):

@@ -5,7 +5,7 @@ import pytest
 
 from semi_analytical.frf.depth import Descent, Level, in_plane_stresses, material_at
 from semi_analytical.frf.stack import HalfSpace, Stack
-from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
+from semi_analytical.influence.closed_form import HalfSpaceCoefficients
 from semi_analytical.stress.components import FIELDS, TRACTIONS
 from semi_analytical.stress.field import depth_coefficients
 from semi_analytical.stress.rectangle import half_space_response
@@ -120,7 +120,7 @@ def test_closed_form_carries_the_traction_at_the_surface():
 
 
 def test_closed_form_moves_the_surface_like_the_surface_coefficients():
-    surface = HalfSpaceCoefficients(RectangleIntegrals(DX, DY, (3, 2)), 1.7, 0.3)
+    surface = HalfSpaceCoefficients((DX, DY), (3, 2), 1.7, 0.3)
     moved = under_cell(2 * DX, DY, 0.0, 0.3)[:3]
     xx, yy, zz, xy, zx, zy = (surface[name][2, 1] for name in ("xx", "yy", "zz", "xy", "zx", "zy"))
     expected = [[xx, xy, -zx], [xy, yy, -zy], [zx, zy, zz]]

@@ -7,7 +7,13 @@ from contact_scene import RIGID, Body, IsotropicMaterial, Layer
 from semi_analytical.frf.depth import Level
 from semi_analytical.frf.stack import Stack
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.stress import default_depths, interfaces, subsurface, subsurface_section
+from semi_analytical.stress import (
+    SubsurfaceField,
+    default_depths,
+    fields_by_level,
+    interfaces,
+    subsurface,
+)
 from semi_analytical.stress.convolution import mirror_planes
 
 NU = 0.3
@@ -29,18 +35,18 @@ def test_every_plane_carries_the_load(stack):
     np.testing.assert_allclose(carried[:, [XZ, YZ, XY]], 0, atol=1e-12)
 
 
-def test_section_is_the_plane_at_y(rng):
+def test_some_rows_have_the_fields_of_the_plane(rng):
     for cells in ((24, 20), (24, 21)):
         grid = SurfaceGrid(cells, (2.4, 2.0))
         pressure, shear = rng.random(cells), rng.normal(size=(2, *cells))
         levels = default_depths(COATED, 0.5)[::5]
         whole = subsurface(COATED, grid, pressure, shear, levels)
-        for y in (0.0, 0.43, grid.y[0]):
-            section = subsurface_section(COATED, grid, pressure, shear, levels, y=y)
-            np.testing.assert_allclose(section.stress, whole.along_x(y).stress, atol=1e-12)
-            np.testing.assert_allclose(
-                section.displacement, whole.along_x(y).displacement, atol=1e-12
+        for rows in (np.arange(9, 11), np.array([0]), np.arange(12, 20)):
+            some = SubsurfaceField.joined(
+                fields_by_level(COATED, grid, pressure, shear, levels, rows)
             )
+            np.testing.assert_allclose(some.stress, whole.stress[..., rows], atol=1e-12)
+            np.testing.assert_allclose(some.displacement, whole.displacement[..., rows], atol=1e-12)
 
 
 @pytest.mark.parametrize("cells", [(12, 10), (11, 10)])

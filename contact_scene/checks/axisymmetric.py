@@ -1,19 +1,88 @@
-"""Refusal of scenes that no solver of bodies of revolution supports: shapes, friction and tilts."""
+"""Loads of bodies of revolution, and refusal of scenes that no solver of such bodies supports."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
 from contact_scene.array_types import Field
-from contact_scene.checks.expected_contact import refuse_ring
+from contact_scene.body_pair import coupling, refuse_contrast
+from contact_scene.bulk_strain import requires_bulk_strain
+from contact_scene.checks.expected_contact import refuse_equator, refuse_ring
 from contact_scene.friction import CoulombFriction
 from contact_scene.reading.scene_text import shape_text
 from contact_scene.scene import Scene
 from contact_scene.solver_errors import UnsupportedScene
-from contact_scene.stepping.load_path import ControlKind
+from contact_scene.stepping.load_path import ControlKind, LoadRamp, along_one_line
 
 ELSEWHERE = "solve it with the semi-analytical solver"
 # Largest asymmetry of a friction map of which a solver of bodies of revolution takes the means over
 # circles. Measured coefficients are not known better than 1 %. Stated errors contain the asymmetry.
 SYMMETRIC = 0.01
+
+
+@dataclass(frozen=True)
+class AxisymmetricLoads:
+    """Loads that act on two bodies of revolution, and the causes of shear.
+
+    ramps       load ramps of the load steps
+    friction    True if the scene has friction
+    loaded      True if a load step has a tangential force or shift
+    curved      True if the tangential loads are not on one line, with friction
+    twisted     True if a load step has a torque or twist
+    twists      True if the indenter twists, with friction
+    couples     True if pressure causes shear: the bodies are coupled and rough
+    why         reason why the bodies are coupled or not
+    frictional  True if normal loading or an imposed strain causes shear
+    """
+
+    ramps: tuple[LoadRamp, ...]
+    friction: bool
+    loaded: bool
+    curved: bool
+    twisted: bool
+    twists: bool
+    couples: bool
+    why: str
+    frictional: bool
+
+    @classmethod
+    def of(cls, scene: Scene, contrast: float) -> AxisymmetricLoads:
+        """Collect the loads of a scene.
+
+        Raise UnsupportedScene if no solver of bodies of revolution supports its shape, moduli,
+        tilt or strain.
+
+        scene     contact problem with its load history
+        contrast  largest ratio of shear moduli within a body that the solver carries
+        """
+        refuse_equator(scene)
+        refuse_shape(scene)
+        refuse_contrast(scene, contrast, f", and this solver carries a ratio up to {contrast:.0e}")
+        friction, ramps = scene.friction is not None, tuple(scene.load_path())
+        loaded = any(any(ramp.tangential.end) for ramp in ramps)
+        twisted = any(ramp.twisting.end != 0 for ramp in ramps)
+        couples, why = coupling(scene)
+        rough = scene.friction is not None and scene.friction.largest > 0
+        couples = couples and rough
+        refuse_tilt(scene, pushed=loaded, coupled=couples)
+        strains = [ramp.stretch[1] for ramp in ramps if ramp.stretch]
+        strained = requires_bulk_strain(strains, friction and (loaded or twisted))
+        curved = friction and loaded and not along_one_line(ramps)
+        # The indenter also twists if its twist is free and the tangential load turns.
+        free = any(ramp.twisting.kind is ControlKind.FORCE for ramp in ramps)
+        return cls(
+            ramps,
+            friction,
+            loaded,
+            curved,
+            twisted,
+            friction and (twisted or (curved and free)),
+            couples,
+            why,
+            rough and (couples or strained),
+        )
 
 
 def refuse_shape(scene: Scene) -> None:

@@ -320,6 +320,7 @@ class _Increment:
             bounds = problem.bound(before.pressure), problem.bound(p)
             friction = sliding_friction(before.shear, q, last.passed, *bounds)
             energy = before.dissipated_energy + float(np.sum(w * friction * slipped))
+        changed = np.hypot(*q - before.shear) * np.hypot(*slipped)
         target, force = problem.tangential, problem.normal.force
         carried = compliance.tangential_loads(q)
         stuck = in_stick & compliance.carries_shear
@@ -346,6 +347,7 @@ class _Increment:
             twist=target.motions[TWIST],
             dissipated_energy=energy,
             residuals=last.residuals,
+            friction_changed=float(np.sum(w * changed)),
             overlap=last.overlap,
             moved=self.largest_displacement(last),
             outer_iterations=last.outer_iterations,

@@ -36,6 +36,9 @@ class PointState:
     twist           prescribed twist [radian]; None if the torque is prescribed
     dissipated_energy
                     energy lost to friction since the start; None if the motions are None
+    friction_changed
+                    magnitude of the change of the shear times that of the slip in the last
+                    increment, integrated over the contact [force length]
     overlap         largest overlap that the penalty springs permit [length]
     moved           largest mean tangential displacement in the history, weighted with the shear
                     [length]
@@ -63,6 +66,7 @@ class PointState:
     twist: float | None
     dissipated_energy: float | None
     residuals: Residuals
+    friction_changed: float = 0.0
     overlap: float = 0.0
     moved: float = 0.0
     outer_iterations: int = 0

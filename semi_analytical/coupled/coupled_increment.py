@@ -11,7 +11,6 @@ from contact_solver.coupled_problem import CoupledProblem, CoupledSolution
 from contact_solver.globalisation import solve_together
 from contact_solver.residuals import complementarity, penetration
 from contact_solver.shear import ShearSolution
-from semi_analytical.coupled.predictor import predict_tractions
 from semi_analytical.increments.full_slip import (
     force_reaches_limit,
     gross_slip_state,
@@ -21,7 +20,7 @@ from semi_analytical.increments.increment import (
     State,
     reached_moment,
 )
-from semi_analytical.increments.increment_history import further_motion
+from semi_analytical.increments.increment_history import further_fields, further_motion
 from semi_analytical.increments.normal_solve import (
     MARGIN,
     NormalState,
@@ -154,16 +153,16 @@ def _initial_guess(
 ) -> tuple[Field, VectorField, int]:
     """Return the initial guess of pressure and shear of an increment, and the iterations spent.
 
-    The guess is extrapolated from previous increments. Without such a prediction, the guess is an
+    At constant normal load the guess is extrapolated from previous increments. Otherwise it is an
     approximate frictionless pressure and the shear of the previous increment.
 
     model               contact model
     before, last        state at the start of the increment, and its tangential part
     normal, tangential  prescribed loads at the end of the increment
     """
-    guess = None if before is None else predict_tractions(model, before, normal, tangential)
-    if guess is not None:
-        return *guess, 0
+    if before is not None and (seen := before.seen()) and seen.target == normal:
+        further = further_fields(seen, before.behind, tangential)
+        return further.pressure, further.shear, 0
     start, iterations = rough_initial_guess(model, normal)
     return start, last.shear, iterations
 

@@ -8,6 +8,7 @@ from contact_scene import LoadRamp
 from contact_scene.array_types import Field
 from contact_scene.quantities.residuals import Residuals
 from contact_solver.admissible_shear import magnitude
+from contact_solver.conjugate_gradients import Point
 from semi_analytical.edge.corrected import Corrected, EdgeReport
 from semi_analytical.increments.energy import (
     NOTHING_YET,
@@ -16,7 +17,8 @@ from semi_analytical.increments.energy import (
 from semi_analytical.increments.free_motion import growth_without_slip
 from semi_analytical.increments.increment_history import (
     PreviousIncrement,
-    further_shear,
+    further_fields,
+    further_motion,
 )
 from semi_analytical.increments.normal_solve import NormalState, press
 from semi_analytical.increments.normal_target import NormalTarget, Pair
@@ -72,8 +74,6 @@ class State:
             pressure=pressing.pressure,
             shear=sheared.shear,
             displacement=sheared.displacement,
-            normal_force=self.normal_force,
-            approach=pressing.approach,
             force=sheared.force,
             shift=sheared.shift,
             torque=sheared.torque,
@@ -173,7 +173,9 @@ def solve_increment(
     seen = before.seen() if before is not None else None
     ahead = behind = None
     if before is not None and seen is not None and seen.target == normal:
-        ahead, behind = further_shear(seen, before.behind, tangential), seen
+        further = further_fields(seen, before.behind, tangential)
+        motion = further_motion(seen, before.behind, tangential)
+        ahead, behind = (Point(further.shear, further.displacement), motion), seen
     last = last or untouched_state(model.grid.cells)
     free = None
     if last.shift is not None and not (before is not None and before.target == normal):

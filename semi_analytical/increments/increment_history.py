@@ -1,19 +1,17 @@
 """Linear extrapolation of the load history, as an initial guess for the next increment."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from contact_scene.array_types import Field, Vector, VectorField
-from contact_solver.conjugate_gradients import Point
 from semi_analytical.increments.normal_target import NormalTarget
 from semi_analytical.increments.tangential_solve import TangentialTarget
 
 # Largest relative deviation of an increment of the tangential load from a multiple of the last
 # increment, for extrapolation.
 STRAIGHT = 1e-6
-# Largest ratio of the new increment to the last one, of the tangential load or of the logarithm of
-# the normal load, for extrapolation.
+# Largest ratio of the new increment of the tangential load to the last one, for extrapolation.
 FURTHEST = 2.0
 
 
@@ -21,21 +19,18 @@ FURTHEST = 2.0
 class PreviousIncrement:
     """Data of an earlier converged state, from which the predictor extrapolates the next increment.
 
-    target               prescribed normal load
-    pressure             p (nx, ny) [force/length^2]
-    shear                q (2, nx, ny) [force/length^2]
-    displacement         tangential surface displacement (2, nx, ny) [length]
-    normal_force, force  normal force and tangential force (2,) [force]
-    approach, shift      approach and tangential shift (2,) [length]
-    torque, twist        torque [force length] and twist of the indenter; None without torsion
+    target         prescribed normal load
+    pressure       p (nx, ny) [force/length^2]
+    shear          q (2, nx, ny) [force/length^2]
+    displacement   tangential surface displacement (2, nx, ny) [length]
+    force, shift   tangential force (2,) [force] and shift (2,) [length]
+    torque, twist  torque [force length] and twist of the indenter; None without torsion
     """
 
     target: NormalTarget
     pressure: Field
     shear: VectorField
     displacement: VectorField
-    normal_force: float
-    approach: float
     force: Vector
     shift: Vector
     torque: float | None = None
@@ -75,12 +70,12 @@ def further(
     return ratio if straight and 0 < ratio <= FURTHEST * (1 + STRAIGHT) else 0.0
 
 
-def further_shear(
+def further_fields(
     now: PreviousIncrement, behind: PreviousIncrement | None, tangential: TangentialTarget
-) -> tuple[Point, Vector]:
-    """Predict shear, tangential displacement and rigid motion of the next increment.
+) -> PreviousIncrement:
+    """Predict pressure, shear and tangential displacement of the next increment.
 
-    The prediction is the initial guess of the tangential problem, by linear extrapolation. Without
+    The prediction is the initial guess, by linear extrapolation at constant normal load. Without
     valid extrapolation it is the last state.
 
     now         data of the last converged state
@@ -88,14 +83,17 @@ def further_shear(
     tangential  tangential load of the next increment
     """
     ratio = further(now, behind, tangential)
-    motion = further_motion(now, behind, tangential)
     if behind is None or ratio == 0:
-        return Point(now.shear, now.displacement), motion
-    ahead = Point(
-        now.shear + ratio * (now.shear - behind.shear),
-        now.displacement + ratio * (now.displacement - behind.displacement),
+        return now
+    p, q, u = (
+        one + ratio * (one - other)
+        for one, other in (
+            (now.pressure, behind.pressure),
+            (now.shear, behind.shear),
+            (now.displacement, behind.displacement),
+        )
     )
-    return ahead, motion
+    return replace(now, pressure=np.maximum(p, 0.0), shear=q, displacement=u)
 
 
 def further_motion(

@@ -4,7 +4,7 @@ from contact_scene import Body, IsotropicMaterial
 from contact_scene.disk_cache import cached_array
 from contact_scene.rig import Rig, compliances
 from semi_analytical.frf.stack import stack_of
-from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
+from semi_analytical.influence.closed_form import HalfSpaceCoefficients
 from semi_analytical.influence.coefficients import Composite, InfluenceCoefficients
 
 
@@ -30,11 +30,10 @@ def influence_coefficients(
                   line contact [length]; None for cells
     """
     down, along = (spacing[0] * spacing[1] * c for c in compliances(rig))
-    integrals = RectangleIntegrals(*spacing, offsets)
 
     def of_body(body: Body) -> tuple[InfluenceCoefficients, ...]:
         if reference_length is None or not body.deforms:
-            return _body_coefficients(body, spacing, integrals, offsets)
+            return _body_coefficients(body, spacing, offsets)
         from semi_analytical.influence.line import StripCoefficients
 
         return (StripCoefficients(stack_of(body), spacing[0], offsets, reference_length),)
@@ -45,15 +44,13 @@ def influence_coefficients(
 def _body_coefficients(
     body: Body,
     spacing: tuple[float, float],
-    integrals: RectangleIntegrals,
     offsets: tuple[int, int],
 ) -> tuple[InfluenceCoefficients, ...]:
     """Return the influence coefficients of one body as a tuple; an empty tuple for a rigid body.
 
-    body       body with or without layers
-    spacing    cell sides [length]
-    integrals  integrals over the loaded cell, for a homogeneous half-space
-    offsets    number of offsets along x and y, including zero
+    body     body with or without layers
+    spacing  cell sides [length]
+    offsets  number of offsets along x and y, including zero
     """
     if not body.deforms:
         return ()
@@ -61,5 +58,5 @@ def _body_coefficients(
         from semi_analytical.influence.layered import LayeredCoefficients
 
         return (LayeredCoefficients(stack_of(body), spacing, offsets, cached_array),)
-    material = body.material
-    return (HalfSpaceCoefficients(integrals, material.shear_modulus, material.poisson_ratio),)
+    outer = stack_of(body).outer
+    return (HalfSpaceCoefficients(spacing, offsets, *outer),)

@@ -19,7 +19,7 @@ import scipy
 from contact_scene.array_types import Field
 from contact_scene.disk_cache import sources_digest
 from semi_analytical.frf.stack import Stack
-from semi_analytical.influence.closed_form import HalfSpaceCoefficients, RectangleIntegrals
+from semi_analytical.influence.closed_form import HalfSpaceCoefficients
 from semi_analytical.influence.coefficients import PARITY
 from semi_analytical.influence.layered_cells import MARGIN, cell_integrals, integrals_near
 from semi_analytical.influence.layered_response import (
@@ -102,6 +102,6 @@ class LayeredCoefficients:
             smooth = partial(point_response, component, by_layers, np.zeros(4))
             clearance, own = 2 * self.stack.layers[0].thickness, np.zeros((1, 2), dtype=int)
             result[0, 0] = np.sum(integrals_near(smooth, own, self.spacing, clearance))
-            integrals = RectangleIntegrals(*self.spacing, (1, 1))
-            result[0, 0] += HalfSpaceCoefficients(integrals, *outer)[component][0, 0]
+            half_space = HalfSpaceCoefficients(self.spacing, (1, 1), *outer)
+            result[0, 0] += half_space[component][0, 0]
         return result

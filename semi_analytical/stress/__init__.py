@@ -10,7 +10,6 @@ from semi_analytical.stress.field import (
     fields_by_level,
     refuse_beyond_memory,
     subsurface,
-    subsurface_section,
 )
 from semi_analytical.stress.near_edge import EdgeNotSeen, NearEdge, near_edge, near_surface
 
@@ -26,5 +25,4 @@ __all__ = [
     "near_surface",
     "refuse_beyond_memory",
     "subsurface",
-    "subsurface_section",
 ]

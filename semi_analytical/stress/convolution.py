@@ -1,6 +1,6 @@
 """Linear convolution of surface tractions with displacement and stress coefficients at one depth.
 
-The fields are computed on planes or on rows of cells. Zero padding to at least twice the largest
+Zero padding to at least twice the largest
 offset avoids periodic images. About a mirror plane of the tractions, sine and cosine transforms on
 half of the window replace the Fourier transform.
 """
@@ -187,41 +187,6 @@ def plane_convolution(tractions: Field, offsets: tuple[int, int]) -> Convolution
             odd_x, odd_y = (axes.count(axis) % 2 == 1 for axis in "xy")
             values = y.extend(y.back(x.back(total, odd_x).T, odd_y), odd_y)
             field[:] = x.extend(values.T, odd_x).T
-        return fields
-
-    return convolve
-
-
-def row_convolution(tractions: Field, rows: Indices) -> Convolution:
-    """Return a function that computes displacement and stress on some rows of cells at one depth.
-
-    The function convolves the tractions with response coefficients. It maps coefficients (9,
-    tractions, offsets along x, along y) to 3 displacements and 6 stresses (9, nx, len(rows)).
-
-    tractions  tractions of the surface cells, q_x, q_y, p or p alone (tractions, nx, ny)
-    rows       indices of the rows along y
-    """
-    nx = tractions.shape[1]
-    columns = np.flatnonzero(tractions.any(axis=(0, 1)))
-    period = 2 * fast_length(offsets_between(tractions, rows)[0])
-    spectra = np.fft.rfft(tractions[..., columns], period, axis=1)
-    offsets = rows[:, None] - columns
-
-    def convolve(coefficients: Field) -> Field:
-        fields = np.empty((len(FIELDS), nx, len(rows)))
-        responses = each_response(coefficients)
-        for field in fields:
-            total = np.zeros((spectra.shape[1], len(rows)), dtype=np.complex128)
-            for spectrum in spectra:
-                response, (along_x, along_y) = next(responses)
-                mirrored = along_x * response[:0:-1]
-                gap = np.zeros((period - len(response) - len(mirrored), response.shape[1]))
-                transformed = np.fft.rfft(np.concatenate([response, gap, mirrored]), axis=0)
-                sign = np.where(offsets < 0, along_y, 1)
-                for row in range(len(rows)):
-                    facing = transformed[:, np.abs(offsets[row])] * sign[row]
-                    total[:, row] += np.sum(facing * spectrum, axis=1)
-            field[:] = np.fft.irfft(total, period, axis=0)[:nx]
         return fields
 
     return convolve

@@ -20,15 +20,12 @@ from semi_analytical.stress.components import DISPLACEMENT, FIELDS, STRESS, TRAC
 from semi_analytical.stress.convolution import (
     offsets_between,
     plane_convolution,
-    row_convolution,
 )
 from semi_analytical.stress.depths import (
-    NEIGHBOURS,
     levels_of,
     line_weights,
 )
 from semi_analytical.stress.rectangle import half_space_response
-from semi_analytical.stress.strips import strip_stresses
 
 DOUBLE = 8
 # Arrays of the size of the window at the peak, in addition to the fields: coefficients, potentials
@@ -146,28 +143,6 @@ def subsurface(
     return SubsurfaceField.joined(fields_by_level(body, grid, pressure, shear, levels))
 
 
-def subsurface_section(
-    body: Body | Scene | Stack,
-    grid: SurfaceGrid,
-    pressure: Field,
-    shear: Field | None,
-    depths: Sequence[float | Level],
-    y: float = 0.0,
-) -> SubsurfaceField:
-    """Compute displacement and stress of the lower body on the vertical section at a coordinate y.
-
-    The arguments are those of `subsurface`: body, grid of the loaded cells, tractions and depths.
-    The section costs a fraction of the time and memory of whole planes. Cubic interpolation between
-    rows of cells has an error of 0.02 dy^4 times the fourth derivative. Raises the errors of
-    `subsurface`.
-
-    y  coordinate of the section [length]
-    """
-    rows = np.flatnonzero(line_weights(grid.y, y))
-    near = fields_by_level(body, grid, pressure, shear, depths, rows)
-    return SubsurfaceField.joined(near).along_x(y)
-
-
 def fields_by_level(
     body: Body | Scene | Stack,
     grid: SurfaceGrid,
@@ -191,6 +166,8 @@ def fields_by_level(
     stack = _deformable_stack(body)
     levels = levels_of(stack, depths)
     if grid.of_strips:
+        from semi_analytical.stress.strips import strip_stresses
+
         for level, stress in zip(
             levels, strip_stresses(stack, grid, tractions, levels), strict=True
         ):
@@ -199,13 +176,11 @@ def fields_by_level(
         return
     rows = np.arange(grid.cells[1]) if rows is None else rows
     offsets = offsets_between(tractions, rows)
-    few = len(rows) <= NEIGHBOURS
-    convolve = row_convolution(tractions, rows) if few else plane_convolution(tractions, offsets)
-    refuse_beyond_memory(grid.cells, 0 if few else 1)
+    refuse_beyond_memory(grid.cells, 1)
+    convolve = plane_convolution(tractions, offsets)
     each = depth_coefficients(stack, levels, grid.spacing, offsets, sheared=len(tractions) > 1)
     for level, coefficients in zip(levels, each, strict=True):
-        fields = convolve(coefficients)[None]
-        fields = fields if few else np.take(fields, rows, axis=-1)
+        fields = np.take(convolve(coefficients)[None], rows, axis=-1)
         yield SubsurfaceField(
             grid.x, grid.y[rows], (level,), fields[:, DISPLACEMENT], fields[:, STRESS]
         )

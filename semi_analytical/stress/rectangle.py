@@ -143,13 +143,10 @@ def half_space_response(
     x, y = x[..., :, None], y[..., None, :]
     along = AxisPotentials(x, y, depth), AxisPotentials(y, x, depth)
     rho = np.sqrt(x**2 + y**2 + depth**2)
-    log_deep, solid = np.log(rho + depth), along[0].angle + along[1].angle
-    a = _corner_differences(x * along[0].log + y * along[1].log - depth * solid)
-    a_z, a_xy, b_xy = (
-        -_corner_differences(solid),
-        _corner_differences(1 / rho),
-        -_corner_differences(log_deep),
-    )
+    log_deep = np.log(rho + depth)
+    # The potentials are harmonic: A = -B_z, B = -C_z.
+    a, a_z = -along[0].c_ss - along[1].c_ss, along[0].b_ss + along[1].b_ss
+    a_xy, b_xy = _corner_differences(1 / rho), -_corner_differences(log_deep)
     G, nu = material
     z, g, half = depth, 1 - 2 * nu, 1 / (2 * G)
     result = empty_response(a.shape, sheared=sheared)

@@ -26,7 +26,7 @@ from radial.stress.subsurface_circle import SubsurfaceCircle
 from semi_analytical.frf.depth import Level as Depth
 from semi_analytical.frf.stack import stack_of
 from semi_analytical.grid import SurfaceGrid
-from semi_analytical.stress import SubsurfaceField, interfaces, subsurface, subsurface_section
+from semi_analytical.stress import SubsurfaceField, interfaces, subsurface
 from semi_analytical.stress.near_edge import NearEdge, near_edge
 from verification.closed_forms.huber_stress import (
     axis_stress,
@@ -117,7 +117,7 @@ def _stress_section(cells: int, sliding: bool) -> SubsurfaceField:
     p, q = _hertz_tractions(cells)
     depths = [float(d) for d in np.concatenate([AXIS, OFF_AXIS]) * A]
     body = Body(material=STEEL)
-    return subsurface_section(body, hertz_grid(cells), p, q if sliding else None, depths)
+    return subsurface(body, hertz_grid(cells), p, q if sliding else None, depths).along_x()
 
 
 @cache

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from importlib import import_module
 from typing import Any
 
 import numpy as np
 
 from contact_results import cycles, loop
 from contact_scene import CoulombFriction, HeightMap, Scene, bulk_strain, rig
+from contact_scene.checks import axisymmetric
 from contact_scene.quantities import ring_increment
 from contact_scene.stepping.load_path import (
     Control,
@@ -449,10 +449,9 @@ def _indenter_couples_in_elements(whole: Any, lower: Any, upper: Any, motion: An
     return whole(lower, upper, motion) if lower else whole(upper, None, motion)
 
 
-# The package exports a function of the name of this module.
-@replaces(import_module("fem_reference.plan"), "coupling", local=True)
+@replaces(axisymmetric, "coupling", local=True)
 def _elements_look_at_bases(whole: Any, scene: Scene) -> Any:
-    """Plant a wrong test of elastic coupling in the finite elements, which ignores the coating.
+    """Plant a wrong test of elastic coupling of bodies of revolution, which ignores the coating.
 
     A coated indenter on a body of its base material is then treated as equal to the body. Equal
     bodies have no coupling of pressure and shear.
@@ -513,7 +512,8 @@ CONTROLS_AND_BODIES = (
     ),
     Defect(
         "fe-coated-indenter-uncoupled",
-        "Finite elements treat a coated indenter on a body of its base material as equal bodies.",
+        "Finite elements and radial treat a coated indenter on a body of its base material as "
+        "equal bodies.",
         ("exchanged_bodies",),
         _elements_look_at_bases,
     ),
