@@ -173,6 +173,26 @@ def test_alike_coatings_leave_no_shear() -> None:
 
 
 @pytest.mark.parametrize(
+    ("loading", "counts"),
+    [
+        pytest.param((PRESS, push(0.9), push(-0.9)), (1, 1, 1), id="reversal"),
+        pytest.param((PRESS, push(0.3), {"normal_force": 500}), (1, 1, 20), id="less pressure"),
+        pytest.param(
+            (PRESS, {"normal_force": 1100, **push(0.3)}), (1, 20), id="growing by more than µW"
+        ),
+        pytest.param((PRESS, {"bulk_strain": (1e-5, 1e-5, 0.0)}), (20, 20), id="strain"),
+    ],
+)
+def test_steps_are_cut_where_the_path_matters(loading, counts) -> None:
+    assert plan(scene(*loading)).increments == counts
+
+
+def test_a_coupled_push_takes_a_twentieth_of_the_limit_at_once() -> None:
+    pushed = scene(PRESS, push(0.9), push(0.7), indenter=RIGID_BALL)
+    assert plan(pushed).increments == (20, 18, 4)
+
+
+@pytest.mark.parametrize(
     ("asked", "named"),
     [
         pytest.param(scene(PRESS, {"moment": (0.0, 1e-3)}), "moment", id="moment"),

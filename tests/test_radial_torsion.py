@@ -118,6 +118,16 @@ def test_twist_and_torque_lead_the_same_way(amounts: list[float]) -> None:
         assert by_twist.work >= by_twist.dissipated - nearly
 
 
+def test_a_closed_loop_of_twist_loses_the_work_that_is_done_on_it() -> None:
+    torsion = twisted(BARE)[1]
+    far = 2 * torsion.partial_slip(0.5).twist
+    first = TwistPath(torsion).continue_to_twist(far)
+    again = first.continue_to_twist(-far).continue_to_twist(far)
+    lost = again.dissipated - first.dissipated
+    assert_allclose(again.work - first.work, lost, rtol=1e-9)
+    assert lost > 3 * first.dissipated > 0
+
+
 def test_beyond_its_limit_the_contact_turns_and_carries_no_more() -> None:
     slippery = CoulombFriction(coefficient=0.01)
     steps = LoadStep(twist=0.9), LoadStep(twist=0.0)
