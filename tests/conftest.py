@@ -35,6 +35,7 @@ settings.load_profile(
 LONGEST = (
     "test_code_quality",
     "test_transcripts",
+    "test_laws_of_contact",
     "test_seeded_defects",
     "test_stated_errors",
     "test_accuracy",

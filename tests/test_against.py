@@ -161,18 +161,6 @@ def test_a_drift_of_a_loop_is_no_energy(place: Path, cycles: int, start: int) ->
     assert open_ended.of_table > whole.of_table
 
 
-def test_the_gap_of_a_loop_is_printed(place: Path) -> None:
-    _, shift, force = loop(place)
-    drift = np.linspace(0, 0.03, 49)
-    measured = table(
-        place / "drift.csv", **{"shift [um]": 1e6 * shift + drift, "T [N]": force - 50 * drift}
-    )
-    found = against(place, measured)
-    assert value(found["gap of shift"][0]) == pytest.approx(30, abs=0.01)  # nm
-    assert value(found["gap of force"][0]) == pytest.approx(-1.5, abs=0.001)
-    assert "±" in found["energy per cycle"][0]
-
-
 def test_a_loop_of_the_actuator_has_the_energy_of_the_contact(place: Path) -> None:
     actuator, shift, force = loop(place)
     energies, slopes = [], []
@@ -327,16 +315,6 @@ def test_a_difference_beyond_the_requirement_ends_with_code_1(place: Path) -> No
     assert inside.returncode == 0, inside.stderr
     title = json.loads((place / "in/against.json").read_text(encoding="utf-8"))["title"]
     assert title == f"{lab.name} and run"
-
-
-def test_the_picture_has_both_loops_about_their_centres(place: Path) -> None:
-    moved, _, force = loop(place)
-    run = load(place / "run")
-    measured = {"actuator_shift": moved + 3e-6, "tangential_force": force}
-    (curve,) = comparison(measured, run).curves
-    for points in (curve.measured, curve.computed):
-        np.testing.assert_allclose(points[0].max(), -points[0].min(), rtol=1e-9)
-    np.testing.assert_allclose(np.ptp(curve.measured, axis=1), np.ptp(curve.computed, axis=1))
 
 
 def test_an_output_that_is_a_file_is_refused_before_the_scene_is_solved(place: Path) -> None:

@@ -5,13 +5,11 @@ from pathlib import Path
 
 import pytest
 
-import fem_reference
 from contact_scene import read_scene_file
-from semi_analytical import plan
 from verification.cases.catalogue import CASES, choose
 from verification.cases.fretting import paper_fretting_loop
 from verification.cases.requirements import REQUIREMENTS
-from verification.judging.case import Derived, Level, SectionRun
+from verification.judging.case import Derived, Level
 from verification.problems.problem import ReferenceKind
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
@@ -59,14 +57,6 @@ def test_every_case_states_its_equations_its_orders_and_the_errors_of_its_refere
         keys = [(q.name, q.run, type(q.tolerance)) for q in case.quantities]
         keys += [(finding.name, finding.run, None) for finding in case.findings]
         assert len(set(keys)) == len(keys), case.name
-
-
-def test_every_scene_of_a_case_is_supported() -> None:
-    runs = [run for case in cases(Level.QUICK) for run in case.runs]
-    assert runs
-    for run in runs:
-        decide = fem_reference.plan if isinstance(run, SectionRun) else plan
-        assert decide(run.scene).effects
 
 
 def test_paper_case_is_the_scene_of_the_repository() -> None:

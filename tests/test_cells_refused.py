@@ -1,5 +1,4 @@
-"""Tests of symmetries and scaling laws of the semi-analytical solver, without reference
-solutions."""
+"""Tests of contacts that the cells refuse: too wide, too small, too large, or not converged."""
 
 import numpy as np
 import pytest

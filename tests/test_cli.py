@@ -144,17 +144,6 @@ def test_contact_without_friction_is_solved_without_scipy(tmp_path: Path) -> Non
     assert "scipy" not in imported_after(run)[0]
 
 
-def test_package_runs_as_the_command() -> None:
-    outcome = subprocess.run(
-        [sys.executable, "-m", "slipstick", "--version"],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert outcome.stdout.startswith("slipstick ")
-
-
 # ---- failures of a run ------------------------------------------------------------------------
 
 FAILURES = {

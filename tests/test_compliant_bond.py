@@ -12,19 +12,16 @@ from stack_strategies import stacks
 import slipstick
 from contact_scene import (
     Body,
-    CoulombFriction,
     InterfaceStiffness,
     IsotropicMaterial,
     Layer,
     LoadStep,
     Paraboloid,
     Scene,
-    SurfaceDiscretisation,
 )
 from contact_scene.normal_form import normal_form
 from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.frf.depth import Descent, Level
-from semi_analytical.frf.stack import Stack
 from semi_analytical.frf.surface import half_space_scalars, scalars
 from verification.closed_forms.bonded_film import BondedFilm
 from verification.laws.limit_laws import apart
@@ -34,13 +31,11 @@ HARD = IsotropicMaterial(young_modulus=400e9, poisson_ratio=0.25)
 BOND = InterfaceStiffness(normal=4e15, shear=1e15)
 
 
-def scene(*layers: Layer, friction: float | None = None) -> Scene:
-    pushed = [] if friction is None else [LoadStep(tangential_force=(10.0, 0.0), increments=4)]
+def scene(*layers: Layer) -> Scene:
     return Scene(
         indenter=Paraboloid(radius=10e-3, material="rigid"),
         body=Body(material=STEEL, layers=layers),
-        friction=None if friction is None else CoulombFriction(coefficient=friction),
-        loading=[LoadStep(normal_force=100.0), *pushed],
+        loading=[LoadStep(normal_force=100.0)],
     )
 
 
@@ -92,34 +87,9 @@ def test_stiffnesses_have_units_and_stiff_bonds_are_no_contrast() -> None:
     assert ends[0].approach == pytest.approx(ends[1].approach, rel=1e-9)
 
 
-def test_cells_and_rings_agree_on_coupled_bodies_under_friction() -> None:
-    posed = scene(bonded(), friction=0.3)
-    results: list[Any] = [
-        slipstick.solve(posed, "semi-analytical", SurfaceDiscretisation(cells=(48, 48))),
-        slipstick.solve(posed, "radial"),
-    ]
-    one, other = (result.steps[-1] for result in results)
-    errors = [slipstick.stated_errors(result).steps[-1] for result in results]
-    for name in ("approach", "contact_radius", "tangential_shift", "elastic_energy"):
-        values = (np.max(np.abs(getattr(end, name))) for end in (one, other))
-        allowed = sum(np.max(each[name].error) for each in errors)
-        assert abs(np.subtract(*values)) <= allowed, name
-
-
-def test_a_thin_soft_layer_in_elements_stands_for_the_bond() -> None:
-    """Its stiffnesses over its thickness are those of the bond; elements refuse the bond itself."""
-    thin = 1e-6
-    shear, uniaxial = 1e15 * thin, 4e15 * thin
-    nu = (uniaxial / shear - 2) / (2 * uniaxial / shear - 2)
-    glue = IsotropicMaterial(young_modulus=2 * shear * (1 + nu), poisson_ratio=nu)
-    layers = Layer(thickness=100e-6 - thin / 2, material=HARD), Layer(thickness=thin, material=glue)
-    soft: Any = slipstick.solve(scene(*layers), "fem-complementarity")
-    bond: Any = slipstick.solve(scene(bonded()), "radial")
-    for name in ("approach", "elastic_energy"):
-        one, other = (getattr(result.steps[0], name) for result in (soft, bond))
-        assert one == pytest.approx(other, rel=1e-3)
+def test_elements_refuse_a_compliant_bond() -> None:
     with pytest.raises(UnsupportedScene, match=r"layers\[1\].interface_stiffness"):
-        slipstick.solve(scene(bonded()), "fem")
+        slipstick.plan(scene(bonded()), "fem")
 
 
 def depth_system(G, nu, alpha):
@@ -154,33 +124,6 @@ def test_equilibrium_over_the_depth_gives_the_surface_response(stack, x):
         response = np.linalg.solve(state[2:].T, state[:2].T).T / (G * alpha)
     c11, c12, c22, _ = scalars(stack, alpha)
     assert apart(np.array([[c11, c12], [c12, c22]]), response) <= 1e-8
-
-
-@given(stacks(min_layers=1, max_layers=2, bonds=True), st.floats(0.01, 30))
-def test_a_compliant_bond_is_a_thin_soft_layer(stack, x):
-    """Its modulus goes to zero with its thickness: G and E(1-ν)/((1+ν)(1-2ν)) over the thickness
-    are the stiffnesses of the bond."""
-    thinnest = min(film.thickness for film in stack.layers)
-    alpha, thin = np.array([x / thinnest]), 1e-5 * thinnest
-    layers = []
-    for film in stack.layers:
-        both = film.normal_opening, film.tangential_jump
-        layers.append(film[:3])
-        if all(both):
-            # The ratio of both moduli, 2(1-ν)/(1-2ν), exceeds 4/3 if ν is above -1.
-            jump = max(film.tangential_jump, 2 * film.normal_opening)
-            ratio = jump / film.normal_opening
-            layers.append((thin / jump, (ratio - 2) / (2 * ratio - 2), thin))
-    bonded = Stack(
-        [
-            (*film[:4], max(film[4], 2 * film[3])) if all(film[3:]) else film[:3]
-            for film in stack.layers
-        ],
-        stack.base,
-    )
-    found, expected = (scalars(one, alpha) for one in (bonded, Stack(layers, stack.base)))
-    # Squeezed out between stiffer sides, the thin layer errs by the square of its slenderness.
-    assert apart(np.array(found), np.array(expected)) <= 1e-2
 
 
 @given(stacks(min_layers=1, max_layers=3, bonds=True), st.floats(0.01, 10))

@@ -132,25 +132,6 @@ def test_a_value_that_does_not_change_has_no_order() -> None:
     assert fit.limit == pytest.approx(EXACT, abs=1e-14)
 
 
-def test_halves_that_contradict_each_other_are_part_of_the_uncertainty() -> None:
-    """Three fine levels go to 1 and three coarse ones to 1.1, each exactly: the fit through all is
-    left with the farther of the two."""
-    values = np.where(np.arange(6) < 3, 1.1, 1.0) + 0.02 * SIZES
-    coefficient, limit = np.polyfit(SIZES / SIZES[-1], values, 1, w=1 / SIZES)
-    moved = max(abs(limit - 1.0), abs(limit - 1.1))
-    left = np.sqrt(
-        np.sum(
-            (values - np.polyval([coefficient, limit], SIZES / SIZES[-1])) ** 2
-            * (SIZES[-1] / SIZES) ** 2
-        )
-        / 4
-    )
-    assert moved > 2 * left
-    assert numerical_uncertainty(SIZES, values, 1.0) == pytest.approx(
-        np.hypot(coefficient, moved), rel=1e-9
-    )
-
-
 # ---- error bands and uncertainties
 
 

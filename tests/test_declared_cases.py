@@ -23,7 +23,6 @@ from verification.judging.declared_case import (
     APPROACH,
     CENTRAL_PRESSURE,
     CONTACT_RADIUS,
-    MIDDLE,
     PEAK_PRESSURE,
     PRESSURE_L2,
     Refined,
@@ -31,10 +30,7 @@ from verification.judging.declared_case import (
     Within,
     judged,
     on_cells,
-    on_elements,
     part_of_side,
-    scaled_tolerance,
-    with_edge_at,
 )
 from verification.judging.judgement import judge_laws, judge_order, judge_quantity, with_uncertainty
 from verification.judging.outcome import Status, Verdict
@@ -93,25 +89,6 @@ def test_a_row_is_judged_on_the_finest_rung_or_on_those_it_names() -> None:
     assert [run.label for run in asked] == ["32x32", "64x64", "128x128"]
     assert [run.label for run in made.runs[3:]] == list(grids.levels)
     assert [finding.run for finding in made.findings] == ["128x128"]
-
-
-def test_values_are_judged_with_the_edge_nearest_to_the_middle_of_an_element() -> None:
-    studied = tuple((n, place) for n in (8, 16) for place in (0.1, 0.4, 0.9))
-    meshes = with_edge_at(BALL, (), studied)
-    assert meshes.judged.run.label == "16 elements per radius, edge at 0.4"
-    assert [rung.count for rung in meshes.followed] == [8] * 3 + [16] * 3
-    both = with_edge_at(BALL, (8, 32), ((8, MIDDLE), (16, 0.1)))
-    assert both.judged.run.label == "32 elements per radius"
-    assert len(both.runs) == 3
-    assert both.levels == ("8 elements per radius", "16 elements per radius, edge at 0.1")
-
-
-def test_a_figure_follows_the_mesh_by_its_order_and_a_part_of_a_side_the_side() -> None:
-    coarse, fine = on_elements(BALL, (32, 64)).rungs
-    assert scaled_tolerance(1e-4, 2)(fine) == 1e-4
-    assert scaled_tolerance(1e-4, 2)(coarse) == 4e-4
-    assert part_of_side(0.1)(coarse) == 0.1 / 32
-    assert part_of_side(0.1)(on_cells(BALL, (60,), window=2.0).judged) == pytest.approx(0.1 / 30)
 
 
 # ---- Every verdict of the catalogue can fail.

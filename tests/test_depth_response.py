@@ -140,18 +140,6 @@ def test_surface_carries_the_applied_tractions_and_moves_as_the_surface_frf_says
     assert_same(fields, (expected, fields.traction, surface.csh, fields.transverse_traction))
 
 
-@given(stacks(min_layers=1), WAVENUMBERS)
-def test_displacement_and_traction_are_continuous_across_interfaces(stack, alpha):
-    descent = Descent(stack, np.array([alpha]))
-    assert stack.layers
-    depth = 0.0
-    for k, film in enumerate(stack.layers[: len(stack.layers) - (stack.base is None)]):
-        depth = depth + film.thickness
-        # The exponents add up in another order on either side.
-        tolerance = 1e-12 + ROUNDING * (1 + alpha * depth) ** 2
-        assert_same(descent.at(Level(depth, k)), descent.at(Level(depth, k + 1)), tolerance)
-
-
 @given(placed(), WAVENUMBERS)
 def test_in_plane_stresses_follow_hooke(where, alpha):
     """sigma_ss - nu (sigma_tt + sigma_zz) = E eps_ss, eps_ss = -alpha U; eps_tt = 0."""

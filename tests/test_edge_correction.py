@@ -316,17 +316,6 @@ def test_the_correction_of_a_state_does_not_depend_on_that_of_earlier_ones():
             np.testing.assert_array_equal(getattr(every, name), getattr(last, name))
 
 
-def test_pushed_the_shear_carries_the_force_and_is_its_mirror_image():
-    end, grid = pushed_film("all").steps[-1], pushed_film("all").grid
-    assert end.edge_change is not None
-    carried = np.sum(end.shear, axis=(1, 2)) * grid.cell_area
-    np.testing.assert_allclose(carried, end.tangential_force, rtol=0, atol=1e-6 * FRICTION_LIMIT)
-    assert np.all(np.hypot(*end.shear) <= MU * end.pressure * (1 + 1e-12))
-    for field, sign in ((end.pressure, 1), (end.shear[0], 1), (end.shear[1], -1)):
-        image = sign * field[:, ::-1]
-        np.testing.assert_allclose(field, image, rtol=0, atol=1e-5 * np.max(end.pressure))
-
-
 @pytest.mark.parametrize("far", [(9.0, 0.0), (6.0, -6.0)])
 def test_gross_slip_under_a_shift_has_the_friction_limit_of_the_corrected_force(far):
     """On 16 cells the normal forces before and after the correction differ by 0.2 %.

@@ -18,14 +18,10 @@ from coupled_scenes import bulk, coated
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import fem_reference
-import radial
 from contact_scene import (
     RIGID,
     Body,
-    FiniteElementDiscretisation,
 )
-from contact_scene.quantities.summary import ContactStatus
 from semi_analytical import NotConverged, history, plan, solve
 from semi_analytical.increments.increment import solve_increment
 
@@ -141,29 +137,6 @@ def test_an_increment_in_two_halves_adds_up_both(monkeypatch):
         assert getattr(end, name) == pytest.approx(getattr(expected, name), rel=1e-9)
     np.testing.assert_allclose(end.dissipation, expected.dissipation, atol=1e-9)
     np.testing.assert_array_equal(end.dissipation_increment, end.dissipation)
-
-
-@pytest.mark.parametrize("law", fem_reference.Method)
-@pytest.mark.parametrize("body", [coated(), bulk()], ids=["coated", "coupled half-space"])
-def test_elements_and_rings_store_and_dissipate_alike(body, law):
-    growing = {"normal_force": LOAD, **push(0.4), "increments": 3}
-    first = {"normal_force": 0.5 * LOAD, "increments": 2}
-    scene = coupled_scenes.scene(first, growing, {**push(0.6), "increments": 2}, body=body)
-    one = fem_reference.solve(scene, FiniteElementDiscretisation(elements_per_radius=12), law).steps
-    other = radial.solve(scene).steps
-    for name in ("elastic_energy", "input_work", "dissipated_energy", "unresolved_work"):
-        found, expected = ([getattr(end, name) for end in ends] for ends in (one, other))
-        np.testing.assert_allclose(found, expected, atol=6e-3 * other[-1].elastic_energy)
-
-
-def test_at_the_limit_under_force_control_work_and_slip_are_undefined():
-    end = solve(contact_scenes.scene(PRESS, push(1.0)), GRID, TOLERANCE).increments[-1]
-    assert end.status is ContactStatus.GROSS_SLIDING
-    assert end.elastic_energy > 0
-    undefined = "input_work unresolved_work energy_imbalance dissipated_energy dissipation "
-    undefined += "dissipation_uncertainty"
-    for name in (*undefined.split(), "slip_distance", "slip_increment", "dissipation_increment"):
-        assert getattr(end, name) is None, name
 
 
 def test_increments_add_up_to_what_they_have_led_to():

@@ -1,4 +1,4 @@
-"""Tests of the finite-element contact solver on points (r, θ): harmonics, laws and limits."""
+"""Tests of the finite-element contact solver on points (r, θ): harmonics, matrices and refusals."""
 
 from dataclasses import replace
 from functools import cache
@@ -17,8 +17,7 @@ from contact_scene import (
     Paraboloid,
     Scene,
 )
-from contact_scene.quantities.summary import ContactStatus
-from contact_scene.solver_errors import ContactNotResolved, GrossSliding, NotConverged
+from contact_scene.solver_errors import ContactNotResolved, NotConverged
 from contact_solver import dense_inverse
 from fem_reference.compliance.angular_grid import (
     AngularGrid,
@@ -33,7 +32,6 @@ from fem_reference.compliance.ring_compliance import RingCompliance, ring_compli
 from fem_reference.contact.augmented_lagrangian import Penalty
 from fem_reference.contact.increment import advance
 from fem_reference.contact.point_contact import PointContact
-from fem_reference.contact.point_state import PointState
 from fem_reference.loads import Loads, NormalTarget, TangentialTarget
 from fem_reference.model import ContactModel
 from fem_reference.plan import Path
@@ -41,64 +39,32 @@ from fem_reference.plan import Path
 RINGS = 12  # on the contact radius
 HIGHEST = 7
 TOLERANCE = 1e-8
-MU = 0.1
 SPRINGS_ALONE = Penalty(augmentations=0, overlap=np.inf)
-STEEL, NU_ZERO, FILM, HARD = (
-    IsotropicMaterial(young_modulus=2 * G * (1 + nu), poisson_ratio=nu)
-    for G, nu in ((1.0, 0.3), (1.0, 0.0), (2.0, 0.3), (3.0, 0.1))
+STEEL, FILM = (
+    IsotropicMaterial(young_modulus=2.6 * shear_modulus, poisson_ratio=0.3)
+    for shear_modulus in (1.0, 2.0)
 )
 COATED = Body(material=STEEL, layers=(Layer(thickness=1.0, material=FILM),))
-# Body, and material of the indenter of radius 1.
-BODIES = {
-    "coated": (COATED, RIGID),
-    "dissimilar": (Body(material=STEEL), HARD),
-}
 
 
 @cache
-def known(body: Body, indenter, path: Path) -> RingCompliance:
-    ball = Paraboloid(radius=1.0, material=indenter)
-    scene = Scene(indenter=ball, body=body, loading=(LoadStep(normal_force=1.0),))
+def known(path: Path) -> RingCompliance:
+    ball = Paraboloid(radius=1.0, material=RIGID)
+    scene = Scene(indenter=ball, body=COATED, loading=(LoadStep(normal_force=1.0),))
     return ring_compliance(ContactModel.of(scene, elements(RINGS), 1.0), path, HIGHEST)
 
 
-def contact(
-    body: Body, indenter=RIGID, mu: float = MU, grid: AngularGrid | None = None, springs=0.0
-) -> PointContact:
+def contact(grid: AngularGrid | None = None, springs=0.0) -> PointContact:
     grid = grid or end_grid(HIGHEST)
-    rings = known(body, indenter, Path.WHOLE_CIRCLE if grid.whole else Path.HARMONICS)
+    rings = known(Path.WHOLE_CIRCLE if grid.whole else Path.HARMONICS)
     law = SPRINGS_ALONE if springs else None
     compliance = PointCompliance(rings, grid, springs)
-    return PointContact(compliance, CoulombFriction(coefficient=mu), law)
-
-
-def hertz_force(nu: float) -> float:
-    """Force that makes a contact of radius 1 of a rigid ball."""
-    return 4 / 3 * 2 / (1 - nu)
-
-
-def pressed(of: PointContact, force: float, increments: int) -> PointState:
-    """Pressed by the force in increments of equal contact radius, and set on the points of `of`."""
-    ring = replace(of, compliance=replace(of.compliance, grid=axisymmetric_grid()))
-    state = None
-    for k in range(1, increments + 1):
-        target = NormalTarget(force=force * (k / increments) ** 3)
-        state = advance(ring, state, Loads(target), TOLERANCE)
-    assert state is not None
-    return of.extend_to_points(state)
+    return PointContact(compliance, CoulombFriction(coefficient=0.3), law)
 
 
 def along(load: float | None = None, motion: float | None = None) -> TangentialTarget:
     """Force or shift along the load; no shift across, and no twist."""
     return TangentialTarget((load, None, None), (motion, 0.0, 0.0))
-
-
-def sheared(of: PointContact, state: PointState, *forces: float) -> PointState:
-    """Sheared by forces, one increment each, under the normal force of the state."""
-    normal = NormalTarget(force=state.normal_force)
-    for force in forces:
-        state = advance(of, state, Loads(normal, along(load=force)), TOLERANCE)
-    return state
 
 
 def cartesian(grid, vector):
@@ -140,7 +106,7 @@ def tractions(compliance):
 @pytest.mark.parametrize("springs", [0.0, 0.3])
 @pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
 def test_displacement_by_harmonics_is_that_of_the_matrix(grid, springs):
-    compliance = contact(COATED, grid=grid, springs=springs).compliance
+    compliance = contact(grid, springs).compliance
     t = tractions(compliance)
     u_t, u_z = compliance.displacement(t[2], t[:2])
     found, given = (
@@ -159,7 +125,7 @@ def test_displacement_by_harmonics_is_that_of_the_matrix(grid, springs):
 
 @pytest.mark.parametrize("grid", GRIDS, ids=grid_name)
 def test_shear_along_has_the_resultant_of_its_profile(grid):
-    compliance = contact(COATED, grid=grid).compliance
+    compliance = contact(grid).compliance
     f = np.random.default_rng(3).normal(size=compliance.shape[0])
     q = f[compliance.ring_of_point] * compliance.motions[0]
     resultant = compliance.tangential_loads(q)[0]
@@ -169,96 +135,31 @@ def test_shear_along_has_the_resultant_of_its_profile(grid):
     np.testing.assert_allclose(q_y, 0 * q_y, atol=1e-14)
 
 
-@pytest.fixture(scope="module", params=BODIES)
-def coupled(request):
-    of = contact(*BODIES[request.param])
-    return of, pressed(of, hertz_force(0.3), 5)
-
-
-def test_force_and_displacement_lead_to_the_same_state(coupled):
-    of, start = coupled
-    by_force = advance(
-        of,
-        start,
-        Loads(
-            NormalTarget(force=1.1 * start.normal_force), along(load=0.6 * MU * start.normal_force)
-        ),
-        1e-10,
-    )
-    by_motion = advance(
-        of,
-        start,
-        Loads(NormalTarget(approach=by_force.approach), along(motion=by_force.motions[0])),
-        1e-10,
-    )
-    np.testing.assert_allclose(by_motion.pressure, by_force.pressure, atol=1e-9)
-    np.testing.assert_allclose(by_motion.shear, by_force.shear, atol=1e-9)
-
-
-def test_coupling_has_the_sign_of_the_closed_form(coupled):
-    """Friction resists the surface that pressure pulls inwards: it points outwards on the softer
-    body, and less load is needed without it."""
-    of, state = coupled
-    q_r = of.compliance.vector_on_grid(state.shear)[0, :, 0]
-    assert np.min(q_r) > -1e-9
-    assert np.max(q_r) > 0.5 * MU
-
-
-@pytest.mark.parametrize("mu", [1.0, 2.0, 3.0])
-def test_strong_coupling_converges(mu):
-    """µ|β| = 1 and beyond, where plain turns between pressure and shear do not."""
-    of = contact(Body(material=NU_ZERO), mu=mu)
-    state = pressed(of, hertz_force(0.0), 3)
-    state = sheared(of, state, *(part * mu * state.normal_force for part in (0.2, 0.5, 0.9)))
-    assert state.residuals.worst <= TOLERANCE
-
-
 def test_singular_equations_are_an_increment_that_does_not_converge(monkeypatch):
     def singular(*_, **__):
         raise np.linalg.LinAlgError("singular")
 
     monkeypatch.setattr(dense_inverse, "cho_factor", singular)
     monkeypatch.setattr(dense_inverse, "lu_factor", lambda matrix, **_: (0 * matrix, None))
-    force, of = hertz_force(0.3), contact(COATED, mu=0.3)
-    loads = Loads(NormalTarget(force=force), along(load=0.18 * force))
+    loads = Loads(NormalTarget(force=4.0), along(load=0.7))
     with pytest.raises(NotConverged):
-        advance(of, None, loads, TOLERANCE)
+        advance(contact(), None, loads, TOLERANCE)
 
 
 def test_approach_that_touches_no_point_is_refused():
-    of = contact(COATED)
+    of = contact()
     short = NormalTarget(approach=0.5 * np.min(of.gap))
     with pytest.raises(ContactNotResolved):
         advance(of, None, Loads(short, along(motion=0.1)), TOLERANCE)
 
 
-def test_force_beyond_the_friction_limit_is_refused(coupled):
-    of, state = coupled
-    with pytest.raises(GrossSliding, match="exceeds the friction limit"):
-        sheared(of, state, 1.001 * MU * state.normal_force)
-
-
-def test_at_the_friction_limit_all_shear_is_along_the_load(coupled):
-    of, state = coupled
-    state = sheared(of, state, MU * state.normal_force)
-    grid = of.compliance.grid
-    q_x, q_y = cartesian(grid, of.compliance.vector_on_grid(state.shear))
-    p = of.compliance.scalar_on_grid(state.pressure)
-    np.testing.assert_allclose(q_x, MU * p, atol=1e-12)
-    assert np.max(np.abs(q_y)) < 1e-12
-    assert state.status is ContactStatus.GROSS_SLIDING
-    assert state.motions is None
-    with pytest.raises(GrossSliding, match="prescribe the shift or twist"):
-        sheared(of, state, 0.5 * MU * state.normal_force)
-
-
 def test_an_error_of_increments_is_the_same_with_angles_and_without():
-    of = contact(COATED)
-    state = pressed(of, hertz_force(0.3), 5)
-    loads = Loads(NormalTarget(force=2.0 * state.normal_force))
+    of, forces = contact(), 4 / 3 * 2 / 0.7 * np.array([1.0, 2.0])
     ring = replace(of, compliance=replace(of.compliance, grid=axisymmetric_grid()))
-    before = pressed(ring, hertz_force(0.3), 5)
-    at_rings, at_points = advance(ring, before, loads, 1e-10), advance(of, state, loads, 1e-10)
+    first, more = (Loads(NormalTarget(force=force)) for force in forces)
+    before = advance(ring, None, first, TOLERANCE)
+    at_rings = advance(ring, before, more, 1e-10)
+    at_points = advance(of, of.extend_to_points(before), more, 1e-10)
     assert at_points.friction_changed == pytest.approx(at_rings.friction_changed, rel=1e-7)
     changed, slipped = at_rings.shear - before.shear, at_rings.slip - before.slip
     by_hand = np.sum(ring.compliance.areas * np.hypot(*changed) * np.hypot(*slipped))

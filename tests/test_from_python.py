@@ -3,7 +3,7 @@
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,7 +17,6 @@ from contact_results.surface import surface_of
 from contact_scene import HeightMap, SceneError
 from contact_scene.quantities.field_metadata import reported
 from contact_scene.quantities.increment import SCALARS
-from contact_scene.quantities.stated_error import Part
 
 ROOT = Path(__file__).resolve().parents[1]
 STEEL = slipstick.IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
@@ -167,21 +166,6 @@ def test_a_stored_profile_is_that_of_the_scene(tmp_path: Path) -> None:
     assert run.scene == scene
     ball = slipstick.solve(scene.model_copy(update={"indenter": SCENE.indenter}), "radial").steps[0]
     assert run.summary.steps[0].approach == pytest.approx(ball.approach, rel=1e-9)
-
-
-@pytest.mark.parametrize("solver", SolverName)
-def test_errors_are_stated_by_the_solver_of_the_result_and_saved(
-    solver: SolverName, tmp_path: Path
-) -> None:
-    pressed = SCENE.model_copy(update={"loading": SCENE.loading[:1]})
-    result = slipstick.solve(pressed, solver.value, COARSE[solver])
-    errors = slipstick.stated_errors(result)
-    slipstick.save(result, tmp_path / "out", figures="none", errors=errors)
-    (end,) = slipstick.load(tmp_path / "out").summary.steps
-    assert end.errors is not None
-    assert end.errors == errors.steps[0]
-    assert end.errors["normal_force"].status == "exact"
-    assert end.errors["approach"].parts.keys() <= {*get_args(Part)}
 
 
 @pytest.mark.parametrize(

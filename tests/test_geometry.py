@@ -60,10 +60,6 @@ def test_the_sphere_is_the_exact_arc_without_cancellation(r: float) -> None:
     assert SHAPES[0].initial_gap(r, 0.0) == pytest.approx(float(exact), rel=2e-15)
 
 
-def test_the_cone_rises_with_its_slope_angle() -> None:
-    assert SHAPES[3].initial_gap(0.3, 0.4) == pytest.approx(0.5 * np.tan(0.3), rel=1e-15)
-
-
 def heights(nx: int = 12, ny: int = 9, seed: int = 1) -> NDArray[np.float64]:
     return np.random.default_rng(seed).normal(size=(nx, ny))
 

@@ -41,49 +41,6 @@ SOLVERS: dict[str, tuple[Any, float]] = {
 }
 # Shift over the part T/W of the approach of equal bodies (Mindlin 1949).
 SOFTER = (2 - NU) / (2 * (1 - NU))
-# Loads that grow together from nothing to T = 2/3 µW, then at another rate, without slip.
-RATE = 2 / 3 * MU
-TWICE = hertz(2 * LOAD).approach
-BACK = -0.5 * MU
-TOGETHER = {
-    "by force": (
-        {**PRESS, **push(2 / 3)},
-        {"normal_force": 2 * LOAD, "tangential_force": ((RATE + BACK) * LOAD, 0.0)},
-    ),
-    "by motion": (
-        {"approach": APPROACH, "tangential_shift": (RATE * SOFTER * APPROACH, 0.0)},
-        {
-            "approach": TWICE,
-            "tangential_shift": (SOFTER * (RATE * APPROACH + BACK * (TWICE - APPROACH)), 0.0),
-        },
-    ),
-}
-
-
-@pytest.mark.parametrize("led", TOGETHER)
-@pytest.mark.parametrize("solver", SOLVERS)
-def test_loads_that_grow_together_take_one_increment(solver, led):
-    """Nothing slips below µ: q = (T/W) p from nothing, and k Δp is added later (Jaeger 1998)."""
-    mesh, error = SOLVERS[solver]
-    described = scene(*TOGETHER[led])
-    assert not any(has_increment_error(described))
-    first, second = slipstick.solve(described, solver, mesh).increments
-    shifts = RATE * APPROACH, RATE * APPROACH + BACK * (TWICE - APPROACH)
-    for end, shift, carried, load in (
-        (first, shifts[0], RATE, LOAD),
-        (second, shifts[1], (RATE + BACK) / 2, 2 * LOAD),
-    ):
-        assert end.status == "full stick"
-        scale = SOFTER * MU * end.approach
-        assert end.tangential_shift[0] == pytest.approx(SOFTER * shift, abs=error * scale)
-        limit = MU * end.normal_force
-        assert end.tangential_force[0] == pytest.approx(
-            carried * end.normal_force, abs=2 * error * limit
-        )
-        assert end.stick_radius == pytest.approx(hertz(load).contact_radius, rel=2e-3)
-        assert end.stick_radius == pytest.approx(end.contact_radius, rel=1e-4)
-        assert end.dissipated_energy == pytest.approx(0.0, abs=1e-12 * LOAD * APPROACH)
-        assert end.dissipation_uncertainty == pytest.approx(0.0, abs=1e-12 * LOAD * APPROACH)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)

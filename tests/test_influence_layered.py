@@ -196,15 +196,6 @@ def test_other_cells_by_quadrature(stack, cell):
         assert error < 1e-12 * own_cell(coefficients)
 
 
-def test_exchanging_x_and_y_exchanges_the_components():
-    stack = Stack([(2.0, 0.3, 0.5), (0.3, 0.5, 2.0)])
-    wide = LayeredCoefficients(stack, (0.3, 0.1), (50, 40))
-    tall = LayeredCoefficients(stack, (0.1, 0.3), (40, 50))
-    for one, other in (("zz", "zz"), ("xx", "yy"), ("xy", "xy"), ("zx", "zy")):
-        difference = np.abs(wide[one].T - tall[other]).max()
-        assert difference < 1e-15 * own_cell(wide)
-
-
 G = 3.0
 NU = 0.3
 CELLS = {"square": (0.7, 0.7), "flat": (0.5, 1.6), "upright": (3.0, 0.4)}

@@ -80,12 +80,3 @@ def test_the_kept_map_has_the_cells_of_today_place_by_place() -> None:
         assert (one.name, one.title) == (other.name, other.title)
         assert (before.x_places, before.y_places) == (after.x_places, after.y_places)
         assert [note[:2] for note in before.notes] == [note[:2] for note in after.notes]
-
-
-@pytest.mark.parametrize("column", range(2, 6))
-def test_how_cells_ended_is_what_the_map_shows_of_its_solvers(column: int) -> None:
-    rows = kept("stability").conclusion.tables[0].rows
-    said = kept("stability").conclusion.answer
-    counted = sum(int(row[column]) for row in rows)
-    words = ("converged", "were refused", "gave up", "are wrong in silence")
-    assert f"{counted} {words[column - 2]}" in said

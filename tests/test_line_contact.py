@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import slipstick
-from contact_results.surface import surface_of, surface_on
 from contact_scene import Scene, SceneError, SurfaceDiscretisation
 from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.frf.depth import Level, material_at
@@ -128,9 +127,6 @@ def test_tractions_do_not_depend_on_the_reference_length() -> None:
     assert far.steps[1].approach > near.steps[1].approach
 
 
-EDGE = 1e-3
-
-
 def test_a_profile_of_the_cylinder_has_its_half_width() -> None:
     x = np.linspace(-2e-3, 2.4e-3, 221)
     profile = np.stack([x, x**2 / (2 * RADIUS)])
@@ -139,23 +135,6 @@ def test_a_profile_of_the_cylinder_has_its_half_width() -> None:
     assert end.contact_radius == pytest.approx(HALF_WIDTH, rel=2e-4)
     (led,) = solved({"approach": end.approach}, cells=512, indenter=shape).steps
     assert led.normal_force == pytest.approx(FORCE, rel=2e-4)
-
-
-@pytest.mark.parametrize("cells", [48, 96, 384])
-def test_a_sharp_edge_at_its_best_place_leaves_an_error_of_second_order(cells: int) -> None:
-    shape = {"shape": "strip", "radius": None, "half_width": EDGE}
-    press = {"normal_force": FORCE, "moment": [0, 0.2 * FORCE * EDGE]}
-    result = solved(press, cells=cells, indenter=shape)
-    (end,), x = result.steps, result.grid.x
-    axes = {"x": x, "y": result.grid.y}
-    for surface in (surface_of(result), surface_on(axes, (1.0, 0.0))):
-        assert np.sum(surface.weights) == pytest.approx(result.grid.window[0])
-    assert end.contact_radius == pytest.approx(EDGE, rel=1e-12)
-    tilt = 0.2 * FORCE * EDGE * 4 / (np.pi * MODULUS * EDGE**2)
-    assert end.tilt[1] == pytest.approx(tilt, rel=3e-4 * 48 / cells)
-    middle = np.argsort(np.abs(x))[:2]
-    exact = FORCE / np.pi / np.sqrt(EDGE**2 - x[middle[0]] ** 2)
-    assert np.mean(end.pressure[middle]) == pytest.approx(exact, rel=6e-4 * (48 / cells) ** 2)
 
 
 # ---- What a line contact refuses

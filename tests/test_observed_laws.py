@@ -7,12 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from contact_scene import Body, CoulombFriction, LoadStep
+from contact_scene import Body, LoadStep
 from contact_scene.quantities.residuals import Residuals
 from radial.tangential import ring_layout, ring_problem
 from verification.judging.case import (
     OTHER_NORMS,
-    OVER_ANGLES,
     SOLVER_TOLERANCE,
     RadiiRun,
     Run,
@@ -63,55 +62,20 @@ def coupled(*more):
     return smooth.model_copy(update={"friction": friction})
 
 
-def slippery(scene):
-    return scene.model_copy(update={"friction": CoulombFriction(coefficient=0.0)})
-
-
-SLIDE = LoadStep(tangential_shift=(1e-7, 0.0), increments=1)
-TURN = LoadStep(twist=1e-4, increments=1)
-SMOOTH = {
-    "coupled": slippery(coupled()),
-    "slid": slippery(scene(SLIDE)),
-    "turned": slippery(paper.frictional("Turned", paper.paraboloid(STEEL), STEEL, TURN)),
-}
-WAYS = {
-    "cells": lambda scene: Run("cells", scene, GRID),
-    "rings": lambda scene: SectionRun("rings", scene, MESH),
-    "springs": lambda scene: SectionRun("springs", scene, MESH, Method.PENALTY),
-}
 LOOP = push(0.6), push(-0.3)
 RUNS = {
     "cells": Run("cells", scene(*LOOP, push(-0.3, 0.4)), GRID, edge="off"),
-    "cells, corrected": Run("cells, corrected", scene(*LOOP), GRID),
-    "cells, coupled": Run("cells, coupled", coupled(), GRID, edge="off"),
-    "cells, coupled and corrected": Run("cells, coupled and corrected", coupled(), GRID),
     "cells, twisted": Run("cells, twisted", twisted(), GRID),
     "rings": SectionRun("rings", scene(*LOOP), MESH),
-    "rings, coupled": SectionRun("rings, coupled", coupled(), MESH),
-    "rings, twisted": SectionRun("rings, twisted", twisted(), MESH),
     "springs": SectionRun("springs", scene(*LOOP), MESH, Method.PENALTY),
-    "springs, twisted": SectionRun("springs, twisted", twisted(), MESH, Method.PENALTY),
     "radii": RadiiRun("radii", scene(*LOOP)),
-    "radii, coupled": RadiiRun("radii, coupled", coupled()),
     "radii, twisted": RadiiRun("radii, twisted", twisted()),
-    "radii, on points": RadiiRun("radii, on points", twisted(), at_points=True),
-    "radii, coupled on points": RadiiRun("radii, coupled on points", coupled(), at_points=True),
-    "radii, turned": RadiiRun("radii, turned", scene(*LOOP, push(-0.3, 0.4))),
-    "radii, coupled and pushed": RadiiRun(
-        "radii, coupled and pushed", coupled(push(0.4)), laws=OVER_ANGLES
-    ),
 }
-
-
-@pytest.fixture(scope="module", params=RUNS)
-def solved_run(request: pytest.FixtureRequest):
-    return RUNS[request.param], RUNS[request.param].solve()
 
 
 @pytest.fixture(scope="module")
 def solved():
-    names = ("cells", "cells, twisted", "rings", "springs", "radii", "radii, twisted")
-    return {name: RUNS[name].solve() for name in names}
+    return {name: run.solve() for name, run in RUNS.items()}
 
 
 def changed(result, **factors):
@@ -119,13 +83,6 @@ def changed(result, **factors):
     *before, last = result.increments
     named = {name: factor * getattr(last, name) for name, factor in factors.items()}
     return replace(result, increments=(*before, replace(last, **named)))
-
-
-def test_laws_are_found_in_what_is_returned(solved_run):
-    run, result = solved_run
-    violation, imbalance, *_ = observed(result)
-    assert violation <= run.laws
-    assert imbalance <= run.energy
 
 
 ENERGIES = ("approach", "elastic_energy", "dissipated_energy")
@@ -221,21 +178,6 @@ def test_number_that_is_not_finite_is_a_violation(solved):
     assert observed(changed(solved["rings"], pressure=float("nan")))[0] == float("inf")
 
 
-@pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("history", SMOOTH)
-def test_no_shear_without_friction(history, way):
-    result = WAYS[way](SMOOTH[history]).solve()
-    assert max(observed(result)[:2]) <= ALLOWED
-    *before, last = result.increments
-    names = "shear", "shear_radial", "shear_along_load", "shear_circumferential"
-    name = next((name for name in names if getattr(last, name, None) is not None), None)
-    if name is None:  # no friction, no shear
-        return
-    planted = np.full_like(getattr(last, name), 1e-3 * last.peak_pressure)
-    wrong = replace(last, **{name: planted})
-    assert observed(replace(result, increments=(*before, wrong)))[0] > SEEN
-
-
 @pytest.mark.parametrize("name", ["cells", "rings", "springs"])
 def test_prescribed_force_that_is_not_told_is_missed(solved, name):
     *before, last = solved[name].increments
@@ -264,12 +206,6 @@ def of_old_pressure(monkeypatch):
     monkeypatch.setattr(ring_problem.RingProblem, "of", classmethod(late))
 
 
-def along_the_shear(monkeypatch):
-    """The slip is told with the wrong sign."""
-    usual = ring_problem.RingProblem.slip_increment
-    monkeypatch.setattr(ring_problem.RingProblem, "slip_increment", lambda *given: -usual(*given))
-
-
 def stiffer(block, factor):
     """Compliances of some harmonics and components are wrong by a factor."""
 
@@ -289,7 +225,6 @@ def stiffer(block, factor):
 LESS = LoadStep(normal_force=0.8 * NORMAL_FORCE, increments=2)
 PLANTED = {
     "friction limit of the old pressure": (of_old_pressure, scene(push(0.7), LESS)),
-    "wrong sign of slip": (along_the_shear, scene(*LOOP)),
     "stiffer in shear": (stiffer(np.s_[1:2, :2, :2], 0.9), scene(*LOOP)),
     "stiffer in pressure": (stiffer(np.s_[0, 2, 2], 0.98), scene(*LOOP)),
     "less coupling": (stiffer(np.s_[:, :2, 2], 0.9), coupled(push(0.4))),

@@ -19,7 +19,7 @@ from contact_scenes import (
     slide,
     steel,
 )
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
 from contact_scene import (
@@ -37,7 +37,7 @@ from semi_analytical.influence.bodies import influence_coefficients
 from semi_analytical.model import ContactModel
 from semi_analytical.operator.box import box_around
 from semi_analytical.operator.domain import QUARTER, WINDOW, ReducedDomain
-from semi_analytical.operator.operator import BINS, DisplacementOperator, inverse_2x2
+from semi_analytical.operator.operator import BINS, DisplacementOperator
 from semi_analytical.operator.transforms import MAX_BY_MATRIX, Convolutions, offsets_for
 from semi_analytical.plan import MIRROR_PLANES
 from verification.problems.problem import ShiftedGrid
@@ -142,16 +142,6 @@ def test_preconditioner_makes_the_spectrum_independent_of_the_mesh(which):
         return eigenvalues.max() / eigenvalues.min()
 
     assert spread((12, 12)) < 1.6 * spread((6, 6))
-
-
-@given(st.floats(-1, 1), st.floats(-1, 1), st.floats(-1, 1))
-def test_inverse_has_the_magnitudes_of_the_eigenvalues(xx, yy, xy):
-    values, vectors = np.linalg.eigh([[xx, xy], [xy, yy]])
-    assume(np.min(np.abs(values)) > 1e-3)
-    expected = vectors @ np.diag(1 / np.abs(values)) @ vectors.T
-    got = inverse_2x2(*(np.array([[value]]) for value in (xx, yy, xy)))
-    got = np.array([[got[0], got[2]], [got[2], got[1]]]).reshape(2, 2)
-    np.testing.assert_allclose(got, expected, atol=1e-10 * np.max(np.abs(expected)))
 
 
 REDUCED_ROUND_OFF = 1e-14

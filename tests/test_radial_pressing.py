@@ -39,19 +39,12 @@ from radial.normal.surface import (
     pressure,
 )
 from radial.response.bodies import Bodies
-from semi_analytical.frf.surface import remainder_scalars
-from verification.closed_forms.coated_indentation import LayeredSurface
-from verification.closed_forms.coated_indentation import flat_punch as coated_punch
-from verification.closed_forms.coated_indentation import paraboloid as coated_paraboloid
 
 STEEL = IsotropicMaterial(young_modulus=210e9, poisson_ratio=0.3)
 MODULUS = STEEL.plane_strain_modulus
 FORCE = 1e3
 RADIUS = 18e-3
 BALL = Paraboloid(radius=RADIUS, material=RIGID)
-ratios = st.floats(-0.5, 0.5)
-moduli = st.floats(0.1, 10.0)
-thicknesses = st.floats(0.2, 5.0)
 
 
 def pressed(indenter: ShapedBody, body: Body | None = None, **step: Any) -> radial.Increment:
@@ -102,24 +95,6 @@ def test_a_profile_with_a_flat_on_the_axis_is_pressed_as_sneddon_says(ratio: flo
     table: Any = np.stack([r, np.maximum(r - flat, 0.0) ** 2 / (2 * RADIUS)])
     end = pressed(RevolvedProfile(file=table, material=RIGID), normal_force=force)
     assert_allclose((end.contact_radius, end.approach), (a, depth), rtol=1e-5)
-
-
-@given(modulus=moduli, thickness=thicknesses, ratio=ratios)
-def test_layers_press_as_the_nystrom_method_says(
-    modulus: float, thickness: float, ratio: float
-) -> None:
-    """The closed form's own nodes, wavenumbers and derivative for the pressure; the response of
-    the layers is what both have in common."""
-    bodies = Bodies.of(_scene(BALL, coated(modulus, thickness, ratio)))
-    surface = LayeredSurface(_compliance(bodies), bodies.modulus, thickness)
-    ball = coated_paraboloid(surface, RADIUS, 1.0)
-    ours = disc(bodies, BALL, 1.0)
-    assert_allclose([ours.approach, ours.load], [ball.approach, ball.load], rtol=1e-10)
-    x = np.linspace(0, 0.99, 12)
-    assert_allclose(pressure(ours, x), ball.pressure(x), rtol=0, atol=1e-9 * ball.load)
-    punch = FlatPunch(radius=1.0, material=RIGID)
-    stiffness = coated_punch(surface, 1.0).load
-    assert_allclose(disc(bodies, punch, 1.0, 1.0).load, stiffness, rtol=1e-10)
 
 
 @given(modulus=st.floats(0.05, 20.0), thickness=st.floats(0.05, 5.0))
@@ -185,14 +160,6 @@ def test_pressing_with_friction_takes_two_fifths_of_force_times_approach() -> No
 
 def _scene(indenter: ShapedBody, body: Body, **step: Any) -> Scene:
     return Scene(indenter=indenter, body=body, loading=(LoadStep(**(step or {"normal_force": 1})),))
-
-
-def _compliance(bodies: Bodies) -> Any:
-    def compliance(k: Any) -> Any:
-        added = sum(remainder_scalars(stack, k).c22 for stack in bodies.layered)
-        return 2 / (k * bodies.modulus) + added
-
-    return compliance
 
 
 RUB = CoulombFriction(coefficient=0.1)

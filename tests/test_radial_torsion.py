@@ -1,8 +1,7 @@
-"""Tests of torsion by the radial solver: closed forms, reversals, energies and layers."""
+"""Tests of torsion by the radial solver: energies of the fields, control, limit and refusal."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,6 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import radial
-import slipstick
 from contact_scene import (
     RIGID,
     Body,
@@ -41,19 +39,12 @@ from radial.torsion.torsion import (
     Torsion,
 )
 from radial.torsion.twist_path import TwistPath
-from verification.closed_forms.torsion import (
-    CoatedTorsion,
-    TorsionalPartialSlip,
-    TorsionalSurface,
-    one_layer,
-)
 
 # a = 1, E* = π/2 and p_H = 1 on the bare body. Incompressible: it does not couple with a rigid one.
 SOFT = IsotropicMaterial(young_modulus=0.75 * np.pi / 2, poisson_ratio=0.5)
 FRICTION = 0.3
 UNIT_BALL = Paraboloid(radius=1.0, material=RIGID)
 BARE = Body(material=SOFT)
-X = np.array([0.0, 1e-3, 0.1, 0.4, 0.7, 0.9, 0.999])
 
 
 def incompressible(modulus: float, thickness: float) -> Body:
@@ -75,34 +66,6 @@ def twisted(body: Body, indenter: ShapedBody = UNIT_BALL) -> tuple[Disc, Torsion
     approach = None if indenter.rim is None else 1.0
     contact = disc(Bodies.of(scene), indenter, 1.0, approach)
     return contact, Torsion.of(scene, contact, FRICTION)
-
-
-@given(stick=st.floats(0.01, 0.999))
-def test_a_ball_is_twisted_as_lubkin_says(stick: float) -> None:
-    contact, torsion = twisted(BARE)
-    ours = torsion.partial_slip(stick)
-    exact = TorsionalPartialSlip(1.0, 1.0, FRICTION, SOFT.shear_modulus, stick)
-    assert_allclose([ours.twist, ours.torque], [exact.twist, exact.moment], rtol=1e-12)
-    shear = ours.shear(X, FRICTION * pressure(contact, X))
-    assert_allclose(shear, exact.shear(X), rtol=0, atol=1e-12)
-
-
-@given(modulus=st.floats(0.2, 5.0), thickness=st.floats(0.2, 3.0), stick=st.floats(0.11, 0.99))
-def test_layers_twist_as_the_nystrom_method_says(
-    modulus: float, thickness: float, stick: float
-) -> None:
-    contact, torsion = twisted(incompressible(modulus, thickness))
-    G = SOFT.shear_modulus
-
-    def limit(r: np.ndarray) -> np.ndarray:
-        return FRICTION * pressure(contact, r.ravel()).reshape(r.shape)
-
-    surface = TorsionalSurface(
-        lambda k: one_layer(k, thickness, modulus * G, G), modulus * G, thickness
-    )
-    exact = CoatedTorsion(surface, 1.0, limit, stick)
-    ours = torsion.partial_slip(stick)
-    assert_allclose([ours.twist, ours.torque], [exact.twist, exact.torque], rtol=1e-10)
 
 
 def _over_disc(state: PartialSlip, contact: Disc) -> tuple[np.ndarray, ...]:
@@ -165,7 +128,7 @@ def test_a_closed_loop_of_twist_loses_the_work_that_is_done_on_it() -> None:
     assert lost > 3 * first.dissipated > 0
 
 
-def test_beyond_its_limit_the_contact_turns_and_carries_no_more(tmp_path: Path) -> None:
+def test_beyond_its_limit_the_contact_turns_and_carries_no_more() -> None:
     slippery = CoulombFriction(coefficient=0.01)
     steps = LoadStep(twist=0.9), LoadStep(twist=0.0)
     torsion = radial.solve(scene_of(BARE, *steps, friction=slippery))
@@ -175,9 +138,6 @@ def test_beyond_its_limit_the_contact_turns_and_carries_no_more(tmp_path: Path) 
     assert_allclose(sliding.torque, carried, rtol=1e-9)
     assert back.torque is not None
     assert_allclose(back.torque, -sliding.torque, rtol=1e-9)  # type: ignore[operator]
-    errors = slipstick.stated_errors(torsion)
-    slipstick.save(torsion, tmp_path / "out", figures="all", errors=errors)
-    assert (tmp_path / "out" / "profiles.png").is_file()
 
 
 def test_slip_that_does_not_begin_at_the_edge_is_refused() -> None:

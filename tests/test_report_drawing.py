@@ -35,17 +35,6 @@ def test_a_legend_leaves_the_plot_half_of_the_width(letters: int) -> None:
     assert all(f"{n} {'m' * letters}" in inline_svg(chart) for n in range(8))
 
 
-def test_both_axes_of_a_logarithmic_chart_are_labelled() -> None:
-    line = curve("error", [0.011, 0.03, 0.09], [0.0021, 0.004, 0.009], Look.POINTS)
-    panel = Panel(x_label="x", y_label="y", curves=(line,), logarithmic=True)
-    chart = Chart(name="one", title="t", caption="c", rows=((panel,),))
-    with style.figure_style():
-        figure = draw(chart)
-        figure.draw_without_rendering()
-    for axis in (figure.axes[0].xaxis, figure.axes[0].yaxis):
-        assert len([label for label in axis.get_ticklabels() if label.get_text()]) >= 3
-
-
 def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
     names = range(36)
     curves = tuple(curve(str(n), [0, 1], [0, n], Look.COMPUTED, n) for n in names)
@@ -59,31 +48,6 @@ def test_no_two_series_of_one_chart_are_drawn_alike() -> None:
         (axes,) = draw(chart).axes
     looks = {(line.get_color(), str(vars(line)["_dash_pattern"])) for line in axes.get_lines()}
     assert len(looks) == len(names)
-
-
-def test_an_empty_panel_says_why_and_measures_nothing() -> None:
-    full = Panel(x_label="x", y_label="y", curves=(curve("", [0.0, 1.0], [0.0, 1.0]),))
-    empty = Panel(x_label="x", y_label="y", curves=(), notes=((0.5, 0.0, "the same body"),))
-    chart = Chart(name="one", title="t", caption="c", rows=((full,), (empty,)))
-    with style.figure_style():
-        figure = draw(chart)
-        figure.draw_without_rendering()
-    (axes,) = (axes for axes in figure.axes if axes.texts)
-    assert list(axes.get_yticks()) == []
-    (note,) = axes.texts
-    centre = axes.transAxes.inverted().transform(note.get_window_extent().get_points()).mean(0)
-    assert np.all((centre > 0) & (centre < 1))
-    assert axes.viewLim.contains(*note.xy)  # a note elsewhere is not drawn
-
-
-def test_marks_of_equal_errors_lie_in_each_other_and_are_all_seen() -> None:
-    curves = tuple(curve(str(n), [0.1, 0.2], [0.1, 0.2], Look.LEVELS, n) for n in range(4))
-    panel = Panel(x_label="x", y_label="y", curves=curves, logarithmic=True)
-    with style.figure_style():
-        (axes,) = draw(Chart(name="one", title="t", caption="c", rows=((panel,),))).axes
-    marks = axes.get_lines()
-    assert len({mark.get_markersize() for mark in marks}) == len(curves)
-    assert {mark.get_fillstyle() for mark in marks} == {"none"}
 
 
 def _luminance(colour: str) -> float:

@@ -105,18 +105,6 @@ def test_earlier_report_waits_aside_until_the_new_one_is_whole(places: tuple[Pat
     assert not (report / EARLIER).exists()
 
 
-def test_remains_of_no_whole_report_are_removed_and_spare_the_one_aside(
-    places: tuple[Path, Path],
-) -> None:
-    report, _ = places
-    before = files_in(report)
-    set_aside_report(report)
-    (report / PAGE).write_bytes(before[PAGE])
-    set_aside_report(report)
-    assert files_in(report) == {}
-    assert files_in(report / EARLIER) == before
-
-
 @pytest.mark.parametrize("moved", range(len(FILES)))
 def test_end_in_the_middle_of_setting_aside_costs_no_numbers(
     places: tuple[Path, Path], monkeypatch: pytest.MonkeyPatch, moved: int

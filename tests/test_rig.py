@@ -69,22 +69,6 @@ def loop(stiffness, press):
 
 
 @SOLVERS
-def test_a_contact_behind_a_spring_is_the_contact_at_its_own_shift(solve):
-    press = {"normal_force": "1 kN"}
-    through = solve(loop(50e6, press)).steps
-    alone = solve(scene(press, *steps(end.tangential_shift[0] for end in through[1:]))).steps
-    assert len(through) == len(alone) == 4
-    for end, same in zip(through[1:], alone[1:], strict=True):
-        force, shift = end.tangential_force[0], end.tangential_shift[0]
-        assert end.actuator_shift[0] == pytest.approx(shift + force / 50e6, rel=1e-12)
-        assert end.actuator_approach is None
-        for name in ("tangential_force_x", "elastic_energy", "input_work", "dissipated_energy"):
-            found, known = numbers(end)[name], numbers(same)[name]
-            assert found == pytest.approx(known, rel=1e-9), name
-        assert end.energy_imbalance is None or end.energy_imbalance < 1e-9
-
-
-@SOLVERS
 @pytest.mark.parametrize("body", [SAME, STEEL])
 def test_a_contact_below_a_normal_spring_is_the_contact_at_its_own_approach(solve, body):
     rig = {"normal_stiffness": "40 N/um"}

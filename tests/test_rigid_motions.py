@@ -7,10 +7,8 @@ from contact_scenes import (
     INDENTERS,
     LIMIT,
     LOAD,
-    MU,
     PRESS,
     RADIUS,
-    RIGID_BALL,
     A,
     grid,
     paraboloid,
@@ -19,11 +17,9 @@ from contact_scenes import (
 )
 
 from contact_scene import Ellipsoid
-from contact_scene.quantities.summary import ContactStatus
 from contact_scene.solver_errors import NotConverged
 from semi_analytical import (
     ContactNotResolved,
-    GrossSliding,
     plan,
     solve,
 )
@@ -55,18 +51,6 @@ def twist(part, **more):
     return {"torque": part * SLIDING, **more}
 
 
-def test_reported_moments_are_those_of_the_tractions():
-    state = end({**PRESS, **lean(0.3, 0.2)}, {**push(0.3), **twist(0.2), "increments": 2})
-    x, y = GRID.coordinates()
-    cell = GRID.cell_area
-    q_x, q_y = state.shear
-    moments = np.array([np.sum(state.pressure * y), np.sum(state.pressure * x)]) * cell
-    np.testing.assert_allclose(state.moment, moments, rtol=1e-9)
-    assert state.torque == pytest.approx(np.sum(q_y * x - q_x * y) * cell, rel=1e-6)
-    assert state.residuals.moment_equilibrium < TOLERANCE
-    assert state.residuals.torque_equilibrium < TOLERANCE
-
-
 ELLIPSOID = Ellipsoid(radii=(RADIUS, 2 * RADIUS), material=paraboloid().material)
 
 
@@ -93,14 +77,6 @@ def test_forces_are_the_derivatives_of_the_energy(indenter):
     np.testing.assert_allclose(
         [forces.normal_force, *forces.moment], found, rtol=1e-4, atol=1e-6 * LOAD * A
     )
-
-
-@pytest.mark.parametrize("bodies", [{}, {"indenter": RIGID_BALL}], ids=["alike", "unlike"])
-def test_a_moment_and_its_tilt_lead_to_the_same_state(bodies):
-    by_moment = end({**PRESS, **lean(0.3, 0.1), "increments": 1}, **bodies)
-    by_tilt = end({**PRESS, "tilt": by_moment.tilt, "increments": 1}, **bodies)
-    size = 1e-5 * by_moment.peak_pressure
-    np.testing.assert_allclose(by_tilt.pressure, by_moment.pressure, atol=size)
 
 
 @pytest.mark.parametrize(
@@ -136,31 +112,6 @@ def test_a_torque_that_is_missed_on_either_side_is_not_accepted(part, monkeypatc
     monkeypatch.setattr(stick_slip, "torque_of", lambda *given: part * reported(*given))
     with pytest.raises(NotConverged):
         end(PRESS, twist(0.3))
-
-
-def test_torque_beyond_friction_is_refused_with_its_limit():
-    with pytest.raises(GrossSliding, match="prescribe twist") as caught:
-        end(PRESS, twist(1.3))
-    limit = float(str(caught.value).split("friction limit ")[1].split(" N m")[0])
-    assert limit == pytest.approx(SLIDING, rel=2e-2)
-    assert caught.value.where == "step 2, increment 1 of 1"
-
-
-def test_force_and_torque_that_friction_carries_alone_may_be_too_much_together():
-    end(PRESS, push(0.8))
-    end(PRESS, twist(0.8))
-    with pytest.raises(GrossSliding, match=r"together exceed the friction limit, which is 0\.\d+"):
-        end(PRESS, {**push(0.8), **twist(0.8), "increments": 1})
-
-
-@pytest.mark.parametrize("bodies", [{}, {"indenter": RIGID_BALL}], ids=["alike", "unlike"])
-def test_a_twist_without_end_slides_at_the_limit(bodies):
-    state = end({**PRESS, "increments": 1}, {"twist": 0.5, "increments": 1}, **bodies)
-    x, y = GRID.coordinates()
-    limit = MU * np.sum(state.pressure * np.hypot(x, y)) * GRID.cell_area
-    assert state.torque == pytest.approx(limit, rel=1e-3)
-    assert state.status in (ContactStatus.GROSS_SLIDING, ContactStatus.NO_STICK_AREA_LEFT)
-    assert state.stick_area == 0
 
 
 def test_reciprocity_of_force_and_moment():

@@ -10,17 +10,14 @@ from strategies import Document, as_toml, documents
 
 from contact_scene import (
     RIGID,
-    Body,
     CoulombFriction,
     FiniteElementDiscretisation,
     FrictionMap,
     HeightMap,
     IsotropicMaterial,
     Layer,
-    LoadStep,
     Scene,
     SceneError,
-    Sphere,
     SurfaceDiscretisation,
     load_scene,
     read_scene_file,
@@ -95,26 +92,6 @@ def test_refusal_names_the_option_in_one_line(assignment: str) -> None:
 
 
 STEEL = IsotropicMaterial(young_modulus=420e9, poisson_ratio=0.3)
-
-
-def test_the_example_scene_is_read_as_it_says() -> None:
-    file = read_scene_file(SCENES / "fretting_loop.toml")
-    assert file.scene == Scene(
-        title="Steel ball on steel, fretting loop (paper, figures 1 and 2)",
-        indenter=Sphere(radius=0.018, material=STEEL),
-        body=Body(material=STEEL),
-        friction=CoulombFriction(coefficient=0.1),
-        loading=(
-            LoadStep(normal_force=1000.0),
-            LoadStep(tangential_force=(90.0, 0.0), increments=18),
-            LoadStep(tangential_force=(-90.0, 0.0), increments=36),
-            LoadStep(tangential_force=(90.0, 0.0), increments=36),
-        ),
-    )
-    assert file.semi_analytical == SurfaceDiscretisation(
-        cells=(256, 256), window=(0.0012, 0.0012), tolerance=1e-8
-    )
-    assert hash(file) == hash(read_scene_file(SCENES / "fretting_loop.toml"))
 
 
 @given(documents())

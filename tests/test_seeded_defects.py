@@ -123,12 +123,6 @@ def test_defect_is_caught(run: DefectRun) -> None:
     assert failed_verdicts(run.compute())
 
 
-def test_truncated_file_is_named() -> None:
-    (one,) = failed_verdicts(DefectRun("record-truncated", "dissimilar_bodies").compute())
-    assert one.how == "named error"
-    assert "DamagedRecord" in one.reason
-
-
 A_FAILURE = FailedVerdict(quantity="approach", run="128x128", how="reference", clearance=3.0)
 
 

@@ -9,10 +9,8 @@ import meshio
 import numpy as np
 import pytest
 from stored_mesh import read_mesh
-from test_surface import COATED, FRICTION, pressed_and_pushed
+from test_surface import FRICTION, pressed_and_pushed
 
-from contact_results.figures.stress_plot import line_plot
-from contact_results.figures.style import figure_style
 from contact_results.files.mesh_file import Mesh, write_mesh
 from contact_results.stress import on_cells
 from contact_results.stress.loaded_bodies import LoadedBodies
@@ -127,21 +125,3 @@ def test_stress_is_refused_before_it_takes_more_memory_than_there_is(
     assert volume is not None
     assert again is not None
     assert again.stress.shape == volume.stress.shape
-
-
-@pytest.mark.parametrize("solver", ["cells", "rings"])
-def test_a_coated_body_has_a_panel_of_its_interface(fields, solver: str) -> None:
-    """It has the stress that bends the coating, and those that act from both sides."""
-    field, depth = fields[solver], COATED.layers[0].thickness
-    with figure_style():
-        panel = line_plot(field, "").axes[3]
-    shown = {line.get_label(): line for line in panel.lines}
-    drawn = {"σxx above": ("xx", 0), "σxx below": ("xx", 1), "σzz": ("zz", 0), "σxz": ("xz", 0)}
-    for label, (component, material) in drawn.items():
-        side = field.section.select(np.flatnonzero(field.section.is_on_side(depth, material)))
-        x, values = shown[label].get_data()
-        unit = np.max(np.abs(side.components[component])) / np.max(np.abs(values))
-        assert np.log10(unit) == pytest.approx(round(np.log10(unit)), abs=1e-9)
-        assert np.all(np.diff(x) >= 0)
-    bends = [np.max(np.abs(shown[f"σxx {side}"].get_ydata())) for side in ("above", "below")]
-    assert bends[0] != pytest.approx(bends[1], rel=0.01)

@@ -120,20 +120,6 @@ def test_what_is_written_comes_back_whatever_brackets_its_texts_have(values: dic
     assert json.loads(json_text(values)) == values
 
 
-def test_points_and_measures_take_a_line_each() -> None:
-    text = json_text({"curve": {"x": [1.0, 2.0], "y": [3.0]}, "rows": [{"a": 1, "b": 2}, {}]})
-    assert text.splitlines()[1:-1] == [
-        ' "curve": {',
-        '  "x": [ 1.0, 2.0 ],',
-        '  "y": [ 3.0 ]',
-        " },",
-        ' "rows": [',
-        '  { "a": 1, "b": 2 },',
-        "  {}",
-        " ]",
-    ]
-
-
 class Ended(TypedRow):
     """With a field that rows of before do not have."""
 

@@ -1,7 +1,6 @@
 """Tests of the study of stability: names of its contacts, their verdicts, and its statements."""
 
 from dataclasses import replace
-from itertools import combinations
 
 import pytest
 
@@ -9,11 +8,9 @@ from contact_scene import SceneError
 from contact_scene.reading.scene_error import Problem
 from contact_scene.solver_errors import GrossSliding, ResourceRefused, UnsupportedScene
 from semi_analytical import NotConverged
-from verification.exhibits.chart import Look, curve
+from verification.exhibits.chart import Look
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.report.drawing import look_of
-from verification.running.case_pool import CaseStore
 from verification.running.study import CaseRecord, Settings
 from verification.studies.stability import contacts, study
 from verification.studies.stability.contacts import (
@@ -54,33 +51,6 @@ def test_a_level_has_enough_cells_with_names_of_their_own(level: Level, least: i
     assert len({cell.name for cell in cells}) == len(set(cells)) == len(cells)
     assert {cell.path for cell in cells} == set(LoadingPath)
     assert {cell.surface for cell in cells} == set(Surface)
-
-
-def test_different_cells_have_different_names_and_files(tmp_path: object) -> None:
-    cells = [
-        ORDINARY,
-        *(
-            replace(ORDINARY, **{key: value})
-            for key, value in {
-                "friction": 0.3,
-                "push": 0.3,
-                "modulus_ratio": 0.3,
-                "thickness": 0.3,
-                "load": 0.3,
-                "poisson_ratio": 0.2,
-                "base_ratio": 0.2,
-                "length": 0.3,
-                "modulus": 0.3,
-                "cells": 24,
-                "path": LoadingPath.LOOP,
-                "surface": Surface.ROUGH,
-                "solver": Solver.PENALTY,
-            }.items()
-        ),
-    ]
-    assert len({cell.name for cell in cells}) == len(cells)
-    store = CaseStore(tmp_path)
-    assert all(store.path(a) != store.path(b) for a, b in combinations(cells, 2))
 
 
 @pytest.mark.parametrize(
@@ -237,12 +207,3 @@ def test_a_place_shows_the_decade_of_the_residual_over_what_is_allowed(
 ) -> None:
     record = GOOD.model_copy(update={"residual": stated, "observed": seen})
     assert CLASSES[class_of(record)][0] == name
-
-
-def test_every_way_to_end_is_worse_than_any_residual_and_looks_of_its_own() -> None:
-    ends = (Verdict.CONVERGED, Verdict.REFUSED, Verdict.NOT_CONVERGED, Verdict.SILENT)
-    bad = [GOOD.model_copy(update={"verdict": verdict, "residual": 1e-8}) for verdict in ends]
-    assert [class_of(record) for record in bad] == [2, 3, 4, 5]
-    looks = [look_of(curve("", [0], [0], Look.TILES, series)) for _, series in CLASSES]
-    assert len({look["color"] for look in looks}) == len(CLASSES)
-    assert len({look["marker"] for look in looks}) == len(CLASSES)

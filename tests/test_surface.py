@@ -13,9 +13,7 @@ from stored_mesh import read_mesh
 from contact_results.files.surface_file import write_surface
 from contact_results.stress.invariants import principal_stresses, von_mises
 from contact_results.stress.loaded_bodies import LoadedBodies
-from contact_results.stress.on_cells import OnCells
-from contact_results.stress.on_section import OnSection
-from contact_results.stress.points import StressField, StressPoints
+from contact_results.stress.points import StressPoints
 from contact_results.surface import SURFACE_FIELDS, Cells, Rings, Surface
 from contact_scene import Body, FiniteElementDiscretisation, IsotropicMaterial, Layer
 from contact_scene.array_types import Field
@@ -141,7 +139,6 @@ SOFT = IsotropicMaterial(young_modulus=2.6, poisson_ratio=0.3)
 FILM = Layer(thickness=0.5, material=IsotropicMaterial(young_modulus=5.2, poisson_ratio=0.3))
 COATED = Body(material=SOFT, layers=(FILM,))
 FRICTION = 0.5
-DEPTHS = [0.15, 0.25, 0.35, 0.45, 0.6, 0.8, 1.1, 1.5]
 
 
 def pressed_and_pushed(axes: dict[str, np.ndarray], pressure: np.ndarray) -> LoadedBodies:
@@ -153,37 +150,6 @@ def pressed_and_pushed(axes: dict[str, np.ndarray], pressure: np.ndarray) -> Loa
         tractions["shear_along_load"] = FRICTION * pressure
     asked = FiniteElementDiscretisation(elements_per_radius=8)
     return LoadedBodies("", COATED, COATED, 1, axes, tractions, asked)
-
-
-@pytest.fixture(scope="module")
-def on_section() -> StressField:
-    radii = np.linspace(0, 1.2, 61)
-    pressure = np.sqrt(np.maximum(1 - radii**2, 0))
-    return OnSection(pressed_and_pushed({"radii": radii}, pressure)).stress()
-
-
-@pytest.fixture(scope="module")
-def stress_by_cells() -> StressField:
-    x = (np.arange(33) - 16) * 2.4 / 33
-    pressure = np.sqrt(np.maximum(1 - x[:, None] ** 2 - x**2, 0))
-    return OnCells(pressed_and_pushed({"x": x, "y": x}, pressure)).stress(DEPTHS)
-
-
-def test_cells_and_rings_draw_the_same_picture(
-    stress_by_cells: StressField, on_section: StressField
-) -> None:
-    """Down the axis, one material after the other."""
-    scale = np.abs(on_section.section.stress).max()
-    for material in (0, 1):
-        one, other = (
-            axis.select(axis.material == material)
-            for axis in (stress_by_cells.axis, on_section.axis)
-        )
-        inside = one.select(one.depth > 0.1)
-        assert len(inside.depth) > 3
-        for name, values in inside.components.items():
-            expected = np.interp(inside.depth, other.depth, other.components[name])
-            np.testing.assert_allclose(values, expected, atol=0.02 * scale)
 
 
 def test_measures_of_a_pure_shear() -> None:

@@ -6,31 +6,17 @@ import json
 import re
 from dataclasses import replace
 from datetime import date
-from math import pi
 from pathlib import Path
 from typing import Any
 
 import pytest
 from command import outcome
 
-from semi_analytical.frf.stack import Stack
-from semi_analytical.frf.surface import scalars
 from slipstick.cli.commands import deposit
 from slipstick.tables import frictional
 from slipstick.tables.catalogue import TABLES
 from slipstick.tables.table import Axis, RowValues, Table
 from verification.challenge.cases import challenges
-from verification.closed_forms.coated_indentation import (
-    LayeredSurface,
-    flat_punch,
-    paraboloid_under,
-)
-from verification.closed_forms.torsion import (
-    CoatedTorsion,
-    TorsionalPartialSlip,
-    TorsionalSurface,
-    one_layer,
-)
 from verification.references import load_reference
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -99,56 +85,6 @@ def test_the_punch_has_the_numbers_that_the_documentation_sets_against_others() 
 
 
 # ---- second methods
-
-
-def fredholm(*bodies: Stack) -> LayeredSurface:
-    """The normal response of two bodies, or of one below a rigid indenter."""
-    outer = sum((1 - one.outer.poisson_ratio) / one.outer.shear_modulus for one in bodies)
-
-    def compliance(k):
-        return sum(scalars(one, k).c22 for one in bodies)
-
-    return LayeredSurface(compliance, 2 / outer, bodies[0].layers[0].thickness)
-
-
-@pytest.mark.parametrize(("over", "nu"), [(0.5, 0.3), (1.0, 0.5), (4.0, 0.0)])
-def test_stiffness_of_a_layer_is_that_of_the_fredholm_equation(over: float, nu: float) -> None:
-    surface = fredholm(Stack([((1 - nu) / 2, nu, 1 / over)]))  # E* = 2G/(1-ν) = 1
-    (row,) = TABLES["punch"].rows({"a_over_h": [over], "nu": [nu]})
-    assert row["kappa"] == pytest.approx(flat_punch(surface, 1.0).load / 2, rel=1e-9)
-
-
-@pytest.mark.parametrize(("moduli", "thickness"), [(0.25, 1.0), (1.0, 1.0), (4.0, 0.5)])
-@pytest.mark.parametrize("part", [0.5, 0.9])
-def test_torsion_of_coated_bodies_is_that_of_the_fredholm_equation(
-    moduli: float, thickness: float, part: float
-) -> None:
-    """Without a layer, that of Lubkin's closed form."""
-    nu, base = 0.3, (pi / 2) * 0.7  # E* of both = G/(1-ν) = π/2
-    stack = Stack([(moduli * base, nu, thickness)], (base, nu))
-    force = 2 * pi / 3
-    normal = paraboloid_under(force, fredholm(stack, stack), 1.0)
-    a = normal.contact_radius
-    sliding = 3 * pi / 16 * force
-
-    def twofold(k):
-        return 2 * one_layer(k, thickness, moduli * base, base)
-
-    if moduli == 1:
-        state = TorsionalPartialSlip.under_moment(part * sliding, 1.0, 1.0, 1.0, base / 2)
-    else:
-        surface = TorsionalSurface(twofold, moduli * base / 2, thickness)
-        sliding = CoatedTorsion(surface, a, normal.pressure, 0.5 * a).sliding_torque
-        state = CoatedTorsion.under_torque(part * sliding, surface, a, normal.pressure)
-    (row,) = TABLES["torsion"].rows(
-        {"E1_over_E2": [moduli], "h_over_aH": [thickness], "nu": [nu], "M_over_Ms": [part]}
-    )
-    known = {
-        "Ms_over_muWaH": sliding / force,
-        "c_over_a": state.stick_radius / a,
-        "twist": state.twist * base / 2 / force,
-    }
-    assert {name: row[name] for name in known} == pytest.approx(known, rel=1e-9)
 
 
 @pytest.mark.parametrize("value", ["1e-300", "inf", "nan", "9" * 10_000])

@@ -1,9 +1,7 @@
 """Tests of the study of work and precision: Pareto front, cheapest setting, and timing."""
 
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +14,6 @@ from radial.response.wavenumbers import (
 )
 from verification.judging.case import Level
 from verification.judging.outcome import Status
-from verification.peers.environment import FAILED, PEERS, made_environment
 from verification.running.cold_cache import cold_cache
 from verification.running.study import CaseRecord, Conclusion, Settings, parameters_of
 from verification.studies.work_precision import (
@@ -125,32 +122,3 @@ def test_a_measurement_finds_nothing_in_memory() -> None:
         assert asked.even_transforms(2) is first
     with cold_cache():
         assert asked.even_transforms(2) is not first
-
-
-@pytest.mark.parametrize(
-    ("stderr", "reason", "tries"),
-    [("no compiler\n", "no compiler", 1), (None, "not installed within 600 s", 2)],
-)
-def test_failed_installation_is_remembered_but_not_a_time_out(
-    tmp_path: Path, stderr: str | None, reason: str, tries: int
-) -> None:
-    asked: list[str] = []
-
-    def run(command: list[str], **options: Any) -> subprocess.CompletedProcess[str]:
-        if "install" in command:
-            asked.append(command[-1])
-            if stderr is None:
-                raise subprocess.TimeoutExpired(command, options["timeout"])
-            return subprocess.CompletedProcess(command, 1, "", stderr)
-        return subprocess.CompletedProcess(command, int("tamaas" in command[-1]), "", "")
-
-    assert all("==" in peer.distribution for peer in PEERS)
-    found = [made_environment(tmp_path, run=run).missing for _ in range(2)]
-    assert found == [{"tamaas==2.9.0": reason}] * 2
-    assert asked == ["tamaas==2.9.0"] * tries
-    (tmp_path / FAILED).unlink(missing_ok=True)
-    made_environment(tmp_path, run=run)
-    assert len(asked) == tries + 1
-    (tmp_path / FAILED).write_text('{"tamaas==2.9.0": "not installed within 180 s"}')
-    made_environment(tmp_path, run=run)
-    assert len(asked) == tries + 2
