@@ -35,7 +35,8 @@ from contact_scene.array_types import Field, Mask
 # pressure, whose curvature is fitted, too.
 NEAR = 2.3
 FAR = 3.2
-# Smallest contact in cells, 7 per radius: in smaller ones the fits reach across the slip zone.
+# Smallest contact in cells, 7 per radius (FITTED_SLIP of semi_analytical.discretised): in smaller
+# ones the fits reach across the slip zone.
 LEAST_CONTACT = 150
 # Smallest numbers of cells of the fits: two above the numbers of coefficients.
 LEAST_NEAR = 6

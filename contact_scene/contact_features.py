@@ -74,6 +74,7 @@ class Features:
                   edge within a cell: the peak is nearer to the edge than to the middle, or is the
                   value at one ring of nodes (at a node the edge causes 7 times the error that it
                   causes in the middle of an element)
+    slip_fitted   true if the slip amplitude is fitted at the edge of the contact within the cells
     slip_by_line  true if the largest slip amplitude and F1 lie on a line through rings of nodes to
                   the edge, which leaves an error of the order 2
     slides        true in gross slip, if no stick zone can be hidden within a cell
@@ -94,6 +95,7 @@ class Features:
     infinite: bool = False
     cusp: bool = False
     peak_by_edge: bool = False
+    slip_fitted: bool = False
     slip_by_line: bool = False
     slides: bool = False
     left: Mapping[str, float] = field(default_factory=dict)

@@ -58,6 +58,8 @@ PER_RADIUS = 11
 # Cells along the shorter side of the largest small grid: a third of them are 10, with 4 to 5 per
 # contact radius on a fitted window. A contact needs 4.
 SMALL = 32
+# Smallest contact, in cells for its radius, in which the slip amplitude is fitted at the edge.
+FITTED_SLIP = 7.0
 # Largest height of a random surface over its root mean square, exceeded at 0.1 % of the positions.
 HIGHEST = 3.0
 # Cells along the shorter side of the first level: 11 per radius on a fitted window.
@@ -247,6 +249,7 @@ class CellSolver(DiscretisedSolver):
             annulus=0.0 if hides else cells.annulus,
             fitted=fitted,
             stick_fitted=_fits_stick(result.plan, report),
+            slip_fitted=report is not None and cells.contact >= FITTED_SLIP,
             largest_order=largest_order,
             infinite=is_singular(indenter),
             cusp=coupled or has_cusp(indenter),
