@@ -54,6 +54,7 @@ from verification.report.summary_text import (
     without_baseline,
     worse_rows,
 )
+from verification.report.validity import validity_table
 from verification.running.report_record import Report
 from verification.running.study import StudyRecord, measured_text
 
@@ -125,6 +126,7 @@ def environment() -> jinja2.Environment:
         moved_rows,
         origins,
         uncovered_errors,
+        validity_table,
         without_baseline,
         worse_rows,
     )
