@@ -27,6 +27,7 @@ from contact_scene.quantities.increment import (
     numbers,
 )
 from contact_scene.quantities.per_length import shown_name, shown_unit
+from contact_scene.quantities.round_off import ROUND_OFF, natural_size
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.quantities.summary import OF_CYCLES
 from contact_scene.reading.engineering_units import EngineeringUnit, engineering_unit
@@ -34,30 +35,9 @@ from contact_scene.reading.engineering_units import EngineeringUnit, engineering
 # steps shown of a long history
 FIRST = 10
 LAST = 10
-# Round-off, shown as 0: relative to the largest component of a vector, or to `natural_size`.
-ROUND_OFF = 1e-9
 
 Errors = Mapping[str, StatedError]
 Shown = TypeVar("Shown")
-
-
-def natural_size(ends: Sequence[State], unit: str) -> float:
-    """Estimate the magnitude of a contact quantity from its unit and the loads of a history.
-
-    The estimate is the largest normal force W for "N", W times contact radius a for "N m", the
-    approach ω_z for "m", W ω_z for "J", and ω_z/a for "rad". Other units, and unloaded contacts,
-    give 0. Values that are much smaller than the estimate are round-off.
-
-    ends  states at the ends of the load steps
-    unit  SI unit of the quantity
-    """
-    force, radius, approach = (
-        max((abs(getattr(end, name) or 0.0) for end in ends), default=0.0)
-        for name in ("normal_force", "contact_radius", "approach")
-    )
-    sizes = {"N": force, "N m": force * radius, "m": approach, "J": force * approach}
-    slope = approach / radius if radius else 0.0
-    return (sizes | {"rad": slope}).get(unit, 0.0)
 
 
 class _Column(NamedTuple):

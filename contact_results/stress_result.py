@@ -71,20 +71,25 @@ def write_stress(
 
 
 def write_history(
-    history: Sequence[StressIncrement], body: Body, directory: Path, convention: str, title: str
+    history: Sequence[StressIncrement],
+    body: Body,
+    directory: Path,
+    convention: str,
+    title: str,
+    *,
+    with_figures: bool,
 ) -> None:
     """Write the table and the figure of the stress at chosen points over all increments.
 
-    The files replace earlier ones atomically.
+    The files replace earlier ones atomically; without a figure, an earlier one is removed.
 
-    history     stress at the points at the end of each increment
-    body        lower body or indenter, which contains the points
-    directory   output directory
-    convention  text about axes and signs, for the table of columns
-    title       title of the figure
+    history       stress at the points at the end of each increment
+    body          lower body or indenter, which contains the points
+    directory     output directory
+    convention    text about axes and signs, for the table of columns
+    title         title of the figure
+    with_figures  false to write no figure
     """
-    from contact_results.figures.stress_plot import write_history_figure
-
     layers, count = len(body.layers), len(history[0].errors)
     rows = (
         (
@@ -101,7 +106,10 @@ def write_history(
         for each in history
         for p in [each.points]
     )
-    with files_at_once(directory, TABLE, ()) as staging:
+    with files_at_once(directory, TABLE, (FIGURE,)) as staging:
         write_table(staging / TABLE, COLUMNS, rows)
         write_meanings(staging / MEANINGS, {TABLE: COLUMNS}, convention)
-        write_history_figure(history, layers, staging / FIGURE, title)
+        if with_figures:
+            from contact_results.figures.stress_plot import write_history_figure
+
+            write_history_figure(history, layers, staging / FIGURE, title)

@@ -19,13 +19,14 @@ SCENE = HERE.parent / "scenes" / "coated_fretting.toml"
 CHANGES = (
     'loading[2].tangential_force=["60 N", 0]',
     "loading[2].increments=10",
-    "semi_analytical.cells=[96, 96]",
+    "semi_analytical.cells=[128, 128]",
 )
 MM = 1e-3
 GPA = 1e9
 # of the section [mm]
 REACH = 0.5
 DEPTH = 0.62
+DEPTHS = 120  # with as many points along x the isolines have no visible corners
 LEVELS = np.arange(-2.0, 2.01, 0.125)  # [GPa]
 ISOLINES = (-3.0, -2.0, -1.0, -0.5, 0.0, 0.5)
 
@@ -34,7 +35,8 @@ def main() -> None:
     """Solve the scene, draw tractions and stress, and write the picture."""
     result = solve(read_scene_file(SCENE, CHANGES))
     end, scene = result.steps[-1], result.scene
-    section = OnCells(state_of_result(result, None)).stress().section
+    depths = np.linspace(0.0, DEPTH * MM, DEPTHS).tolist()
+    section = OnCells(state_of_result(result, None)).stress(depths).section
     with style.figure_style():
         figure = style.new_figure(7.2, 5.8)
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1, 1.5))

@@ -16,10 +16,11 @@ from pydantic import Field
 from contact_results.directory.atomic_file import Refused
 from contact_results.directory.json_record import read_record, write_record
 from contact_results.directory.machine import program_version
-from contact_results.key_numbers import PRODUCTS, ROUND_OFF, natural_size
+from contact_results.key_numbers import PRODUCTS
 from contact_results.number_text import Uncertainty, number_text, uncertainty
 from contact_results.stress.stress_maxima import Extreme
 from contact_scene import Scene
+from contact_scene.quantities.round_off import ROUND_OFF, natural_size
 from contact_scene.quantities.stated_error import StatedError
 from contact_scene.quantities.summary import StepSummary
 from contact_scene.reading.description import Description

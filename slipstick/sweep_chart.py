@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import ceil, floor, log10
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.ticker import NullLocator
+from matplotlib.ticker import MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
 from contact_results.directory.atomic_file import atomic_file
@@ -22,6 +23,8 @@ from slipstick.sweep import Variation
 PERCENTILES = (5.0, 50.0, 95.0)
 MAX_KEYS = 2
 MAX_TICKS = 8
+LEAST_TICKS = 2
+FEW_DECADES = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +41,12 @@ class SweptQuantity:
     unit: str
     values: NDArray[np.float64]
     errors: NDArray[np.float64]
+
+    @property
+    def label(self) -> str:
+        """Name in words with the suited unit, as the label of an axis."""
+        words = self.name.replace("_", " ")
+        return self.suited.labelled(words) if self.unit else words
 
     @property
     def suited(self) -> EngineeringUnit:
@@ -109,7 +118,7 @@ def _draw_curve(ax: Any, quantity: SweptQuantity, key: Variation) -> None:
         label = f"{PERCENTILES[0]:g} to {PERCENTILES[-1]:g} % of the sample"
         ax.fill_between(key.values, lower, upper, color=style.STICK_COLOUR, alpha=0.2, label=label)
         ax.legend(loc="best")
-    ax.set_ylabel(quantity.suited.labelled(quantity.name))
+    ax.set_ylabel(quantity.label)
 
 
 def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Variation) -> None:
@@ -121,21 +130,38 @@ def _draw_map(ax: Any, quantity: SweptQuantity, across: Variation, upward: Varia
     image = ax.pcolormesh(
         across.values, upward.values, middle.T, shading="nearest", cmap=style.MAGNITUDE_MAP
     )
-    ax.figure.colorbar(image, ax=ax, label=quantity.suited.labelled(quantity.name))
+    ax.figure.colorbar(image, ax=ax, label=quantity.label)
     largest = np.max(np.nan_to_num(high - low)) / 2
-    ax.set_title(f"largest numerical error: {largest:.2g} {quantity.suited.name}")
+    ax.set_title(f"largest numerical error: {largest:.2g} {quantity.suited.name}".rstrip())
 
 
 def _label(ax: Any, key: Variation, axis: str) -> None:
-    """Label one axis of a panel with its key.
-
-    The ticks of a logarithmic axis are values of the key.
+    """Label one axis of a panel with its key, with round ticks on a logarithmic axis.
 
     axis  "x" or "y"
     """
-    ax.set(**{f"{axis}label": key.label})
+    ax.set(**{f"{axis}label": f"{key.key} ({key.unit})" if key.unit else key.key})
     if key.is_log:
         ax.set(**{f"{axis}scale": "log"})
-        shown = key.values[:: -(-len(key.values) // MAX_TICKS)]
-        ax.set(**{f"{axis}ticks": shown, f"{axis}ticklabels": [f"{v:.3g}" for v in shown]})
+        shown = round_ticks(min(key.values), max(key.values))
+        ax.set(**{f"{axis}ticks": shown, f"{axis}ticklabels": [f"{tick:g}" for tick in shown]})
         getattr(ax, f"{axis}axis").set_minor_locator(NullLocator())
+
+
+def round_ticks(low: float, high: float) -> list[float]:
+    """Return round numbers in a range, for the ticks of a logarithmic axis.
+
+    They are powers of ten; below `FEW_DECADES` also 2 and 5 times these; where fewer than two of
+    them are in the range, multiples of a round step. A range of one number has this tick.
+
+    low, high  ends of the range, both positive
+    """
+    decades = range(floor(log10(low)), ceil(log10(high)) + 1)
+    parts = (1, 2, 5) if high < low * 10**FEW_DECADES else (1,)
+    # As text a number has no round-off: 2e-05 and not 2.0000000000000002e-05.
+    ticks = [float(f"{part}e{decade}") for decade in decades for part in parts]
+    within = [tick for tick in ticks if low <= tick <= high]
+    if len(within) < LEAST_TICKS:
+        steps = MaxNLocator(MAX_TICKS, steps=(1, 2, 5, 10)).tick_values(low, high)
+        within = [float(tick) for tick in steps if low < tick < high] or [low]
+    return within[:: ceil(len(within) / MAX_TICKS)]

@@ -47,12 +47,12 @@ class UncertainInput:
     unit: str
 
     def override(self, deviations: int = 0) -> str:
-        """Return the argument of `--set` for the value plus a number of deviations."""
+        """Return the assignment of the value plus a number of deviations to the key."""
         return override_text(self.key, self.value + deviations * self.deviation, self.unit)
 
 
 def override_text(key: str, value: float, unit: str) -> str:
-    """Return the argument of `--set` for a value in a unit; the unit is empty for pure numbers."""
+    """Return the assignment of a value to a key; the unit is empty for pure numbers."""
     number = f"{value:.{DIGITS}g}"
     return f'{key}="{number} {unit}"' if unit else f"{key}={number}"
 
@@ -81,7 +81,7 @@ def read_inputs(text: str) -> tuple[UncertainInput, ...]:
 
 
 def changed_overrides(inputs: Sequence[UncertainInput]) -> list[tuple[list[str], list[str]]]:
-    """Return the arguments of `--set` for one deviation less and more of each input.
+    """Return the assignments for one deviation less and more of each input.
 
     The other inputs keep their values.
     """

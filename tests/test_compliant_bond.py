@@ -20,6 +20,7 @@ from contact_scene import (
     Scene,
 )
 from contact_scene.normal_form import normal_form
+from contact_scene.reading.scene_text import describe
 from contact_scene.solver_errors import UnsupportedScene
 from semi_analytical.frf.depth import Descent, Level
 from semi_analytical.frf.surface import half_space_scalars, scalars
@@ -148,3 +149,20 @@ def test_displacements_jump_at_bonds_in_proportion_to_the_traction(stack, x):
             film.tangential_jump * above.transverse_traction,
             atol=1e-9 * np.max(above.transverse_displacement),
         )
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("4 GPa/um", "4 GPa/µm"),
+        ("0.1 GPa/um", "100 MPa/µm"),
+        ("1e20 Pa/m", "100 GPa/nm"),
+        ("20 N/mm^3", "20 MPa/mm"),
+        ("5e4 Pa/m", "50 kPa/m"),
+    ],
+)
+def test_a_stiffness_is_described_in_a_unit_that_a_reader_can_use(text: str, shown: str) -> None:
+    bond = InterfaceStiffness.model_validate({"normal": text})
+    layer = Layer(thickness=1e-4, material=HARD, interface_stiffness=bond)
+    lines = dict(describe(scene(layer), SurfaceDiscretisation()))
+    assert f"interface stiffness (normal {shown})" in lines["body"]

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -114,6 +115,28 @@ def test_a_result_is_a_table_and_three_lines(solver: SolverName, tmp_path: Path)
     assert second == f"load steps: 6, increments: {len(result.increments)}"
     assert "normal force 1 kN" in third
     assert "tangential force x 60 N" in third
+
+
+def test_a_printed_result_leaves_out_what_the_solve_does_not_resolve() -> None:
+    """A component is left out below the residual times the vector, or the size of the contact."""
+    result: Any = slipstick.solve(SCENE, "semi-analytical", COARSE[SolverName.SEMI_ANALYTICAL])
+    end = result.increments[-1]
+    residual = end.residuals.worst
+    assert residual > 1e-12
+
+    def printed(part: float, least: float) -> str:
+        shifted = replace(
+            end,
+            tangential_shift=(end.tangential_shift[0], part * end.tangential_shift[0]),
+            torque=least * end.normal_force * end.contact_radius,
+        )
+        return repr(replace(result, increments=(*result.increments[:-1], shifted)))
+
+    noise = max(residual, 1e-9)
+    small, large = printed(noise / 2, noise / 2), printed(1e-5, 1e-5)
+    assert "tangential shift x" in small
+    assert not any(name in small for name in ("shift y", "torque"))
+    assert all(name in large for name in ("shift y", "torque"))
 
 
 def test_a_wrong_name_or_discretisation_is_told_with_what_was_expected() -> None:

@@ -20,7 +20,7 @@ from verification.judging.outcome import (
 )
 from verification.report.file_names import PACKED, PAGE, RECORD, SHEETS
 from verification.report.files import EARLIER, draw_again, record_in, set_aside_report, write_report
-from verification.report.page import line_of, render_page, render_sheets
+from verification.report.page import cases_by_physics, line_of, render_page, render_sheets
 from verification.report.summary_text import claims_line, moved_rows, power_text, worse_rows
 from verification.running.report_record import dump_report, load_report
 
@@ -36,6 +36,43 @@ def test_a_line_names_the_quantity_nearest_to_its_limit() -> None:
     assert line_of(judged(far, near, solved)) == "3 verdicts; radius uses 90 % of what is allowed"
     wrong = verdict("energy", 1.02, 1.0)
     assert line_of(judged(near, wrong)).startswith("1 of 2 verdicts passed; energy uses 200 %")
+
+
+def test_cases_stand_below_their_physics_with_the_largest_share_of_a_tolerance_first() -> None:
+    """The last case has a run without a result, whose verdict has no error to compare."""
+    names = {"hertz_point": 1.001, "torsion": 1.003, "cone_contact": 1.009, "radial_torsion": 1.004}
+    lost = verdict("solved", 1.0, 1.0).model_copy(
+        update={"value": None, "error": None, "status": Status.FAIL}
+    )
+    cases = [judged(verdict("radius", value, 1.0), name=name) for name, value in names.items()]
+    cases += [judged(lost, name="flat_punch"), judged(verdict("x", 1.0, 1.0), name="unlisted")]
+    groups = cases_by_physics(cases)
+    assert {title: [one.name for one in group] for title, group in groups.items()} == {
+        "indenters": ["flat_punch", "cone_contact", "hertz_point"],
+        "torsion": ["radial_torsion", "torsion"],
+        "unlisted": ["unlisted"],
+    }
+    page = render_page(report_of(tuple(cases)))
+    places = [page.index(f"{SHEETS}#{name}", page.index('id="cases"')) for name in SHOWN]
+    assert places == sorted(places)
+
+
+SHOWN = ("flat_punch", "cone_contact", "hertz_point", "radial_torsion", "torsion", "unlisted")
+
+
+def test_the_front_names_stated_errors_that_do_not_cover() -> None:
+    def stated(name: str, error: float) -> Verdict:
+        covered = error >= 0.001
+        return verdict(name, 1.001, 1.0).model_copy(
+            update={"stated_error": error, "covered": covered}
+        )
+
+    small, large = stated("radius", 1e-4), stated("approach", 2e-3)
+    header = render_page(report_of((judged(small, large),))).split("</header>")[0]
+    assert "Stated errors that do not cover" in header
+    assert f'<a href="{SHEETS}#one">one/radius [run]</a>: 1.00' in header
+    assert "one/approach" not in header
+    assert "do not cover" not in render_page(report_of((judged(large),)))
 
 
 def test_errors_below_round_off_are_no_numbers_and_count_nowhere() -> None:

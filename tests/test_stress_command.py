@@ -69,3 +69,12 @@ def test_the_last_step_of_a_scene_may_be_asked_for(tmp_path: Path) -> None:
     (tmp_path / "ball.toml").write_text(STEEL_BALL_PRESSED, encoding="utf-8")
     options = ("--solver", "radial", "--no-error", "--figures", "none", "-o", "out", "--step", 1)
     assert outcome("stress", "ball.toml", *options, cwd=tmp_path).returncode == 0
+
+
+def test_a_table_at_points_is_written_without_a_figure_if_none_is_asked_for(place: Path) -> None:
+    """A figure of an earlier call, which shows other numbers, is removed."""
+    point, figure = ("--at", "0.3 mm,0,0.25 mm"), place / "drawn/stress_history.png"
+    at_points(place, "run", "drawn", *point)
+    assert figure.is_file()
+    at_points(place, "run", "drawn", *point, "--figures", "none")
+    assert not figure.exists()

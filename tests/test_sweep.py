@@ -10,7 +10,7 @@ import pytest
 from command import outcome, rows
 
 from slipstick.sweep import Variation
-from slipstick.sweep_chart import SweptQuantity
+from slipstick.sweep_chart import SweptQuantity, round_ticks
 
 pytestmark = pytest.mark.usefixtures("one_process")
 HERTZ = """
@@ -87,6 +87,30 @@ def test_a_row_has_value_error_and_a_scene_that_gives_it_again(scene: Path) -> N
     assert (scene.parent / "out/sweep.csv").read_bytes() == before
     scene.write_text(HERTZ.replace("0.3 }\n[body]", "0.2 }\n[body]"), encoding="utf-8")
     assert "already there" not in sweep(scene, *varied, *wanted).stderr
+
+
+@pytest.mark.parametrize(
+    ("ends", "ticks"),
+    [
+        ((10.0, 100.0), [10, 20, 50, 100]),
+        ((3.0, 70.0), [5, 10, 20, 50]),
+        ((2e-6, 9e-6), [2e-6, 5e-6]),
+        ((1.0, 1e3), [1, 10, 100, 1000]),
+        ((1e-9, 1e6), [1e-9, 1e-7, 1e-5, 1e-3, 0.1, 10, 1000, 1e5]),
+        ((11.0, 18.0), [12, 13, 14, 15, 16, 17]),
+        ((7.0, 7.0), [7]),
+    ],
+)
+def test_ticks_of_a_logarithmic_axis_are_round_numbers(
+    ends: tuple[float, float], ticks: list[float]
+) -> None:
+    assert round_ticks(*ends) == ticks
+
+
+def test_an_axis_names_its_quantity_in_words_with_a_readable_unit() -> None:
+    values = np.array([[1e9], [2e9]])
+    assert SweptQuantity("peak_pressure", "Pa", values, values).label == "peak pressure (GPa)"
+    assert SweptQuantity("stick_fraction", "", values, values).label == "stick fraction"
 
 
 def test_errors_bound_the_percentiles_of_every_value_within_them() -> None:

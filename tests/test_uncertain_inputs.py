@@ -108,3 +108,22 @@ def test_inputs_that_change_no_number_say_so(tmp_path: Path) -> None:
 def test_an_infinite_input_is_refused(text: str) -> None:
     with pytest.raises(SceneError, match="expected key=value±deviation"):
         read_inputs(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("friction.coeff=.1±.02", "--inputs friction.coeff=0.1: friction.coeff: unknown key"),
+        ("indenter.radius=1±2 mm", '--inputs indenter.radius="-1 mm": indenter.radius: got'),
+        ("loading[9].normal_force=1±.1 kN", "--inputs loading[9].normal_force="),
+    ],
+)
+def test_a_wrong_input_is_named_by_its_option(text: str, message: str, tmp_path: Path) -> None:
+    (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
+    ended = outcome("run", "scene.toml", "-o", "out", "--inputs", text, cwd=tmp_path)
+    assert ended.returncode == 2
+    assert message in ended.stderr
+    assert "--set" not in ended.stderr
+    changed = ("--inputs", text, "--set", "friction.coefficient=-1")
+    both = outcome("run", "scene.toml", "-o", "out", *changed, cwd=tmp_path)
+    assert "--set friction.coefficient=-1: " in both.stderr

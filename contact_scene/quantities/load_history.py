@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from contact_scene.quantities.increment import SCALARS, ReportedIncrement, components, numbers
 from contact_scene.quantities.per_length import shown_mark, shown_name
+from contact_scene.quantities.round_off import ROUND_OFF, natural_size
 from contact_scene.reading.engineering_units import quantity
 
 if TYPE_CHECKING:
@@ -60,22 +61,26 @@ class LoadHistory(ABC, Generic[I_co]):
         return columns
 
     def __repr__(self) -> str:
-        """Return a text of three lines: solver and title, increments, numbers at the end."""
-        line = self.scene.indenter.is_line
-        end = numbers(self.increments[-1])
-        units = {
-            part: shown_mark(name, mark, line=line).unit or ""
-            for name, mark in SCALARS.items()
-            if mark.key
-            for part in components(name)
-        }
-        key = (
-            f"{shown_name(part, line=line).replace('_', ' ')} {quantity(end[part] or 0.0, unit)}"
-            for part, unit in units.items()
-            if end[part]
-        )
+        """Return a text of three lines: solver and title, increments, numbers at the end.
+
+        Numbers below round-off and below the residual of the last increment are left out.
+        """
+        line, end = self.scene.indenter.is_line, self.increments[-1]
+        values = numbers(end)
+        negligible = max(ROUND_OFF, end.residuals.worst)
+        texts = []
+        for name, mark in SCALARS.items():
+            if mark.key:
+                known = {part: values[part] or 0.0 for part in components(name)}
+                size = max(natural_size(self.steps, mark.unit or ""), *map(abs, known.values()))
+                unit = shown_mark(name, mark, line=line).unit or ""
+                texts += [
+                    f"{shown_name(part, line=line).replace('_', ' ')} {quantity(value, unit)}"
+                    for part, value in known.items()
+                    if abs(value) > negligible * size
+                ]
         return (
             f"{self.scene.title or 'contact'}, solved by {self.solver}\n"
             f"load steps: {len(self.steps)}, increments: {len(self.increments)}\n"
-            f"at the end: {', '.join(key)}"
+            f"at the end: {', '.join(texts)}"
         )

@@ -7,6 +7,18 @@ PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 # Lengths are written as 0.6 mm, not 600 µm; other quantities as 500 MPa, not 0.5 GPa.
 SMALLEST = {"m": 0.1}
 LARGEST_PREFIX = {"m": 0}
+# A stiffness of an interface is a stress over a small jump: 4 GPa/µm, not 4e+06 GPa/m.
+OWN_UNITS = {
+    "Pa/m": {
+        0: "Pa/m",
+        3: "kPa/m",
+        6: "MPa/m",
+        9: "MPa/mm",
+        12: "MPa/µm",
+        15: "GPa/µm",
+        18: "GPa/nm",
+    }
+}
 
 
 @dataclass(frozen=True)
@@ -47,14 +59,16 @@ def engineering_unit(magnitude: float, unit: str) -> EngineeringUnit:
     """
     if not unit:
         return EngineeringUnit(1.0, "")
-    exponents = [e for e in PREFIXES if e <= LARGEST_PREFIX.get(unit, 9)]
+    largest = LARGEST_PREFIX.get(unit, max(PREFIXES))
+    prefixed = {e: prefix + unit for e, prefix in PREFIXES.items() if e <= largest}
+    names = OWN_UNITS.get(unit, prefixed)
     smallest = SMALLEST.get(unit, 1.0) * (1 - 1e-9)  # 0.1 mm stays 0.1 mm in spite of round-off
     if magnitude > 0:
-        fitting = [e for e in exponents if magnitude >= smallest * 10.0**e]
-        exponent = max(fitting, default=min(exponents))
+        fitting = [e for e in names if magnitude >= smallest * 10.0**e]
+        exponent = max(fitting, default=min(names))
     else:
         exponent = 0
-    return EngineeringUnit(10.0**exponent, PREFIXES[exponent] + unit)
+    return EngineeringUnit(10.0**exponent, names[exponent])
 
 
 def quantity(value: float, unit: str, digits: int = 4) -> str:

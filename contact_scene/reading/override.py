@@ -23,7 +23,7 @@ _PART = re.compile(r"([A-Za-z0-9_-]+)((?:\[[0-9]{1,6}\])*)")
 _EXPECTED = "key=value such as semi_analytical.cells=[128,128] or loading[2].increments=5"
 
 
-def override(document: dict[str, Any], assignment: str) -> Path:
+def override(document: dict[str, Any], assignment: str, option: str = "--set") -> Path:
     """Set one key of a scene document to the value in an assignment, such as `--set key=value`.
 
     The document is the nested tables of a scene file and is changed in place. Missing tables are
@@ -33,10 +33,11 @@ def override(document: dict[str, Any], assignment: str) -> Path:
     document    tables by their keys
     assignment  `dotted.key=value`. Array entries count from 1: `loading[2].increments=5`. A value
                 that is not TOML, such as a bare word or `18 mm`, is a text
+    option      name of the option that has the assignment, for messages
     returns     path of the key
     """
     key, equals, text = assignment.partition("=")
-    source = origin(assignment)
+    source = origin(assignment, option)
     if not equals or not _parse_key(key.strip()) or not text.isprintable():
         raise SceneError([Problem((), f"got {shown(assignment)}", _EXPECTED, file=source)])
     return assign(document, key.strip(), _parse_value(text.strip()), source)
@@ -112,11 +113,12 @@ def _parse_value(text: str) -> Any:
         return text
 
 
-def origin(assignment: str) -> str:
+def origin(assignment: str, option: str = "--set") -> str:
     """Return the text that names an assignment of a key in messages, such as "--set key=value".
 
     Messages contain the text in place of the name of a scene file.
 
     assignment  `dotted.key=value`
+    option      name of the option that has the assignment
     """
-    return f"--set {shown(assignment)[1:-1]}"
+    return f"{option} {shown(assignment)[1:-1]}"

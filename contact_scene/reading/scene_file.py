@@ -38,7 +38,11 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     return read_scene_file(path).scene
 
 
-def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) -> SceneFile:
+def read_scene_file(
+    path: str | PathLike[str],
+    overrides: Iterable[str] = (),
+    of_options: Mapping[str, Iterable[str]] | None = None,
+) -> SceneFile:
     """Read and check a scene file, after overrides of its keys.
 
     Parameters
@@ -48,17 +52,21 @@ def read_scene_file(path: str | PathLike[str], overrides: Iterable[str] = ()) ->
     overrides : iterable of str
         Assignments `dotted.key=value`, applied in order before the check. Array entries count from
         1: `loading[2].increments=5`.
+    of_options : mapping of str to iterables of str
+        Further assignments by the name of the option that they follow from, such as `--inputs`,
+        which messages then name instead of `--set`.
 
     Raises
     ------
     SceneError
         With every mistake, each with file, line and key.
     """
+    given = {"--set": overrides, **(of_options or {})}
     file, options, found = Path(path), dict[Key, str](), list[Problem]()
     document, lines = read_toml(file)
-    for assignment in overrides:
+    for option, assignment in ((name, one) for name, each in given.items() for one in each):
         try:
-            options[override(document, assignment)] = origin(assignment)
+            options[override(document, assignment, option)] = origin(assignment, option)
         except SceneError as error:
             found += error.problems
     try:

@@ -56,6 +56,7 @@ from verification.judging.outcome import (
     finite,
     order_status,
 )
+from verification.judging.tested_parameters import dimensionless_parameters
 from verification.observed.contact_state import Imbalance
 from verification.observed.observed_laws import Observed, observed
 from verification.problems.problem import NUMERICAL, ROUNDING, ReferenceKind, identity
@@ -532,6 +533,7 @@ def _run_record(run: AnyRun, case: Case, result: Any) -> RunRecord:
         increments=len(result.increments),
         iterations=sum(increment.iterations for increment in result.increments),
         largest_residual=finite(largest_residual(result)),
+        parameters=dimensionless_parameters(run.scene, result) if run.as_users else {},
         **own,
     )
 

@@ -407,6 +407,10 @@ class RunRecord(Description):
     edge_change: float = 0.0
     """Largest relative change in the last iteration of the edge correction; 0 without one."""
 
+    parameters: dict[str, tuple[float, ...]] = Field(default_factory=dict)
+    """Dimensionless parameters of the scene by name, such as h/a; empty in older records, and of
+    settings that users do not run."""
+
     @property
     def solver(self) -> Solver:
         """Solver of the run: radial, finite elements or semi-analytical cells."""

@@ -13,6 +13,7 @@ from functools import cache
 import jinja2
 from markupsafe import Markup
 
+from verification.cases.catalogue import MODULE_OF
 from verification.challenge.python_api import WHOLE, Judgement, Row
 from verification.convergence.observed_order import ILLEGIBLE, order_text
 from verification.exhibits.chart import (
@@ -49,9 +50,11 @@ from verification.report.summary_text import (
     moved_rows,
     origins,
     study_section,
+    uncovered_errors,
     without_baseline,
     worse_rows,
 )
+from verification.report.validity import validity_table
 from verification.running.report_record import Report
 from verification.running.study import StudyRecord, measured_text
 
@@ -109,6 +112,7 @@ def environment() -> jinja2.Environment:
     shared = (
         alignment,
         heading,
+        cases_by_physics,
         line_of,
         reasons_of,
         shared_reasons,
@@ -121,6 +125,8 @@ def environment() -> jinja2.Environment:
         changes_text,
         moved_rows,
         origins,
+        uncovered_errors,
+        validity_table,
         without_baseline,
         worse_rows,
     )
@@ -139,6 +145,27 @@ def environment() -> jinja2.Environment:
     return made
 
 
+def cases_by_physics(cases: Sequence[CaseOutcome]) -> dict[str, list[CaseOutcome]]:
+    """Group verification cases by their physics, such as "torsion" or "line contacts".
+
+    The physics is the name of the module that declares a case; a case that the catalogue lacks is a
+    group of its own. Groups are in the order of the report. The cases of a group are sorted by the
+    share of the tolerance that they use, with failed cases first.
+    """
+    groups: dict[str, list[CaseOutcome]] = {}
+    for case in cases:
+        groups.setdefault(MODULE_OF.get(case.name, case.name).replace("_", " "), []).append(case)
+    for group in groups.values():
+        group.sort(key=_share_used, reverse=True)
+    return groups
+
+
+def _share_used(case: CaseOutcome) -> tuple[bool, float]:
+    """Return the key by which cases are sorted: failed cases, then the share of the tolerance."""
+    worst = _nearest_to_limit(case)
+    return case.status is Status.FAIL, 0.0 if worst is None else worst.clearance or 0.0
+
+
 def line_of(case: CaseOutcome) -> str:
     """Describe a verification case in one line: passed verdicts, and the verdict nearest to its
     limit.
@@ -148,16 +175,19 @@ def line_of(case: CaseOutcome) -> str:
     """
     total, passed = len(case.verdicts), case.count(Status.PASS)
     counted = f"{total} verdicts" if passed == total else f"{passed} of {total} verdicts passed"
-
-    def rank(verdict: Verdict) -> tuple[bool, bool, float]:
-        measured = verdict.status is Status.PASS and verdict.name not in FOUND_IN_A_RUN
-        return verdict.status is Status.FAIL, measured, verdict.clearance or 0.0
-
-    worst = max((v for v in case.verdicts if v.clearance is not None), key=rank, default=None)
+    worst = _nearest_to_limit(case)
     if worst is None:
         return counted
     name = worst.name.replace("_", " ")
     return f"{counted}; {name} uses {clearance_text(worst)} of what is allowed"
+
+
+def _nearest_to_limit(case: CaseOutcome) -> Verdict | None:
+    def rank(verdict: Verdict) -> tuple[bool, bool, float]:
+        measured = verdict.status is Status.PASS and verdict.name not in FOUND_IN_A_RUN
+        return verdict.status is Status.FAIL, measured, verdict.clearance or 0.0
+
+    return max((v for v in case.verdicts if v.clearance is not None), key=rank, default=None)
 
 
 def shared_reasons(cases: Sequence[CaseOutcome]) -> dict[str, list[str]]:

@@ -387,16 +387,27 @@ def counts_text(report: Report) -> str:
     return "; ".join(parts)
 
 
+def uncovered_errors(report: Report) -> dict[str, str]:
+    """Return a text for each stated error that is smaller than the difference from the reference.
+
+    The keys name case, quantity and run.
+    """
+    return {
+        f"{case.name}/{verdict.name} [{verdict.run}]": f"{_off_text(verdict)} from the reference, "
+        f"{value_text(verdict.stated_error, verdict.unit)} stated"
+        for case, verdict in judged_errors(report.cases)
+        if not verdict.covered
+    }
+
+
+def _off_text(verdict: Verdict) -> str:
+    return value_text(abs((verdict.value or 0.0) - verdict.reference), verdict.unit)
+
+
 def uncovered_lines(report: Report) -> list[str]:
     """Return one log line for each stated error that is smaller than the difference from the
     reference."""
-    return [
-        f"UNCOVERED {case.name}/{verdict.name} [{verdict.run}]: "
-        f"{value_text(abs((verdict.value or 0.0) - verdict.reference), verdict.unit)} from the "
-        f"reference, {value_text(verdict.stated_error, verdict.unit)} stated"
-        for case, verdict in judged_errors(report.cases)
-        if not verdict.covered
-    ]
+    return [f"UNCOVERED {name}: {text}" for name, text in uncovered_errors(report).items()]
 
 
 def failure_lines(report: Report) -> list[str]:

@@ -405,10 +405,16 @@ def _panel_curves(curves: Drawn, ratio: float, field: int, *, legend: bool) -> l
         known = curves.get((ratio, solver))
         lines = () if known is None else (known.pressure, known.shear)[field]
         for series, (force, line) in enumerate(zip(FORCES, lines)):  # noqa: B905
-            named = legend and solver == CELLS
-            text = (f"T = {force:g} µW" if force else "T = 0") if named else ""
+            text = _legend_text(solver, force, series) if legend else ""
             found_.append(curve(text, SHOWN, line, look, series))
     return found_
+
+
+def _legend_text(solver: str, force: float, series: int) -> str:
+    """Return the tangential force for a line by cells; name the other solver at its first line."""
+    if solver == CELLS:
+        return f"T = {force:g} µW" if force else "T = 0"
+    return "radial solver" if series == 0 else ""
 
 
 STUDY = Study(

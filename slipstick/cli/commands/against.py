@@ -155,7 +155,8 @@ def against(
         measured = _read_table(table, columns)
 
         def compare(changes: Sequence[str], *, errors: bool = True) -> Comparison:
-            contents = read_scene_file(source, [*(overrides or ()), *changes])
+            option = "--inputs" if fitted is None else "--fit"
+            contents = read_scene_file(source, overrides or (), {option: changes})
             result: Any = solve(contents, chosen.value)
             stated = stated_errors(result) if errors else None
             with TemporaryDirectory() as directory:

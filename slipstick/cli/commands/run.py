@@ -129,9 +129,9 @@ def run(
             uncertain = read_inputs(inputs)
             own = [one.override() for one in uncertain]
             pairs = changed_overrides(uncertain)
-        contents = read_scene_file(scene, [*(overrides or ()), *own])
+        contents = read_scene_file(scene, overrides or (), {"--inputs": own})
         changed = [
-            [read_scene_file(scene, [*(overrides or ()), *changes]) for changes in pair]
+            [read_scene_file(scene, overrides or (), {"--inputs": changes}) for changes in pair]
             for pair in pairs
         ]
         request = read_requested_accuracy(contents, accuracy, most_seconds, error=error)

@@ -199,7 +199,8 @@ def stress(
         _parse_points(at or [], contents.scene, indenter)
         _depth_levels(contents.scene, indenter, chosen_depths or (), "--depths")
     if at or history:
-        _write_points(source, contents, at or [], step, chosen, output, history, indenter)
+        drawn = figures is Figures.ALL
+        _write_points(source, contents, at or [], step, chosen, output, history, indenter, drawn)
         return
     expectation = read_expectation(
         expect,
@@ -329,6 +330,7 @@ def _write_points(
     output: Path,
     history: bool,
     indenter: bool,
+    drawn: bool,
 ) -> None:
     """Compute the stress at points in a body, and write it as table and figure.
 
@@ -343,6 +345,7 @@ def _write_points(
     output    output directory
     history   true for all increments
     indenter  true for points in the indenter, false for points in the lower body
+    drawn     true to draw the figure
     """
     made = []
     left_out: SolverError = ContactNotResolved("the bodies are separated and have no stress")
@@ -367,7 +370,8 @@ def _write_points(
     if not made:
         raise left_out
     title = f"{title or 'Stress'}: {which}"
-    write_history(made, body, output, OF_THE_INDENTER if indenter else CONVENTION, title)
+    convention = OF_THE_INDENTER if indenter else CONVENTION
+    write_history(made, body, output, convention, title, with_figures=drawn)
     typer.echo(f"results in {output}")
 
 
