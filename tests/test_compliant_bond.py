@@ -18,6 +18,7 @@ from contact_scene import (
     LoadStep,
     Paraboloid,
     Scene,
+    SurfaceDiscretisation,
 )
 from contact_scene.normal_form import normal_form
 from contact_scene.reading.scene_text import describe
