@@ -26,6 +26,7 @@ import slipstick
 from contact_results import cycles
 from contact_results.cycles import fretting_cycles
 from contact_results.edge_slip import CycleEdge
+from contact_results.solvers import solver_of
 from contact_results.surface import Cells
 from contact_scene import (
     FiniteElementDiscretisation,
@@ -115,6 +116,22 @@ def test_the_largest_slip_on_rings_lies_at_the_edge(solver, asked, off):
     assert found.largest_f1 == pytest.approx(cycled.largest_f1, rel=3 * off)
     of_rings = np.max(found.slip_amplitude) / cycled.slip_amplitude(a)
     assert of_rings < 1 - off
+
+
+@pytest.mark.parametrize("part", [0.5, 0.9])
+def test_elements_state_the_slip_around_the_contact_that_they_neglect(part):
+    """It varies by ν/(2 - ν) around a narrow annulus, and by half of this in gross slip."""
+    loop_of = (PRESS, push(part, increments=4), push(-part, increments=8), push(part, increments=8))
+    described = contact_scenes.scene(*loop_of, indenter=paraboloid(steel()), body=steel())
+    elements = slipstick.solve(
+        described, "fem-complementarity", FiniteElementDiscretisation(elements_per_radius=32)
+    )
+    (of_elements,) = fretting_cycles(elements)
+    (around,) = fretting_cycles(slipstick.solve(described, "radial"))
+    neglected = solver_of(elements).neglected_errors(elements)
+    for name in ("slip_amplitude", "ruiz_f1"):
+        lost = around.numbers[name] / of_elements.numbers[name] - 1
+        assert 0.4 * neglected[name] < lost < neglected[name]
 
 
 def test_the_largest_slip_below_a_rim_is_that_of_the_cells():
