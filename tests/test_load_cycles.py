@@ -31,6 +31,7 @@ from contact_results.surface import Cells
 from contact_scene import (
     FiniteElementDiscretisation,
     LoadStep,
+    RadialDiscretisation,
     SurfaceDiscretisation,
 )
 from contact_scene.quantities.cycles import load_cycles
@@ -132,6 +133,22 @@ def test_elements_state_the_slip_around_the_contact_that_they_neglect(part):
     for name in ("slip_amplitude", "ruiz_f1"):
         lost = around.numbers[name] / of_elements.numbers[name] - 1
         assert 0.4 * neglected[name] < lost < neglected[name]
+
+
+def test_slip_of_torsion_states_the_error_of_few_rings():
+    """The rings carry no unknowns; the largest values are interpolated between them."""
+    torque = 0.3 * MU * LOAD * A
+    loading = [PRESS, *({"torque": sign * torque, "increments": 2} for sign in (1, -1, 1))]
+    posed = contact_scenes.scene(*loading, indenter=paraboloid(steel()), body=steel())
+    few, many = (
+        slipstick.solve(posed, "radial", RadialDiscretisation(rings=rings)) for rings in (8, 128)
+    )
+    (found,), (exact,) = fretting_cycles(few), fretting_cycles(many)
+    errors = slipstick.stated_errors(few).steps[-1]
+    for name in ("slip_amplitude", "ruiz_f1"):
+        off = abs(found.numbers[name] - exact.numbers[name])
+        assert off < errors[name].error < 0.01 * exact.numbers[name]
+        assert off > 1e-6 * exact.numbers[name]
 
 
 def test_the_largest_slip_below_a_rim_is_that_of_the_cells():
