@@ -238,6 +238,11 @@ class ElementSolver(DiscretisedSolver):
         Shear of this inclination carries 1 - α²/2 of the load, so the relative error is α²/2.
         Layers respond differently along and across a wave for any ν, so the largest α, that of
         ν = ½, applies to them.
+
+        Slip amplitude and F1 are largest values in the contact. The slip of an annulus from the
+        stick radius c varies around its mean like cos 2θ, by ν/(4 - 2ν) (φ - sin 4φ / 4) over
+        sin 2φ / 2 - φ cos 2φ at the radius r = c / cos φ. The elements have the mean, so that these
+        scalars lack this part: 2α for a narrow annulus (φ → 0) and α for gross slip (φ = π/2).
         """
         by_map = super().neglected_errors(result)
         if result.plan.path is not Path.SHEARING:
@@ -245,8 +250,11 @@ class ElementSolver(DiscretisedSolver):
         bodies = self.scene.body, self.scene.indenter
         ratios = (m.poisson_ratio for body in bodies for m in body.elastic_materials)
         nu = 0.5 if any(body.layers for body in bodies) else max(ratios)
-        across = (nu / (4 - 2 * nu)) ** 2 / 2
-        return {name: across + by_map.get(name, 0.0) for name in TANGENTIAL}
+        inclined = nu / (4 - 2 * nu)
+        across = dict.fromkeys(TANGENTIAL, inclined**2 / 2)
+        around = dict.fromkeys(("slip_amplitude", "ruiz_f1"), 2 * inclined)
+        lost = across | around
+        return {name: share + by_map.get(name, 0.0) for name, share in lost.items()}
 
     @property
     def parts(self) -> tuple[Part, ...]:

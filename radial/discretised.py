@@ -6,6 +6,7 @@ Legendre orders and quadrature points.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import ceil
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -91,7 +92,12 @@ class RingSolver(DiscretisedSolver):
     def solve(self, fineness: Fineness, progress: Any = None, store: Any = None) -> Result:
         from radial.history import solve
 
-        discretisation = self.discretisation.model_copy(update={"tolerance": fineness.tolerance})
+        changed: dict[str, Any] = {"tolerance": fineness.tolerance}
+        if not self.depends_on_rings:
+            # The rings carry no unknowns, but slip amplitude and F1 are interpolated between them.
+            share = fineness.space / self.plan.fineness
+            changed["rings"] = ceil(share * self.discretisation.rings)
+        discretisation = self.discretisation.model_copy(update=changed)
         return solve(self.scene, discretisation, progress, self._plan_of(fineness), store)
 
     def run(self, progress: Any = None, store: Any = None) -> Result:

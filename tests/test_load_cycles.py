@@ -26,10 +26,12 @@ import slipstick
 from contact_results import cycles
 from contact_results.cycles import fretting_cycles
 from contact_results.edge_slip import CycleEdge
+from contact_results.solvers import solver_of
 from contact_results.surface import Cells
 from contact_scene import (
     FiniteElementDiscretisation,
     LoadStep,
+    RadialDiscretisation,
     SurfaceDiscretisation,
 )
 from contact_scene.quantities.cycles import load_cycles
@@ -115,6 +117,38 @@ def test_the_largest_slip_on_rings_lies_at_the_edge(solver, asked, off):
     assert found.largest_f1 == pytest.approx(cycled.largest_f1, rel=3 * off)
     of_rings = np.max(found.slip_amplitude) / cycled.slip_amplitude(a)
     assert of_rings < 1 - off
+
+
+@pytest.mark.parametrize("part", [0.5, 0.9])
+def test_elements_state_the_slip_around_the_contact_that_they_neglect(part):
+    """It varies by ν/(2 - ν) around a narrow annulus, and by half of this in gross slip."""
+    loop_of = (PRESS, push(part, increments=4), push(-part, increments=8), push(part, increments=8))
+    described = contact_scenes.scene(*loop_of, indenter=paraboloid(steel()), body=steel())
+    elements = slipstick.solve(
+        described, "fem-complementarity", FiniteElementDiscretisation(elements_per_radius=32)
+    )
+    (of_elements,) = fretting_cycles(elements)
+    (around,) = fretting_cycles(slipstick.solve(described, "radial"))
+    neglected = solver_of(elements).neglected_errors(elements)
+    for name in ("slip_amplitude", "ruiz_f1"):
+        lost = around.numbers[name] / of_elements.numbers[name] - 1
+        assert 0.4 * neglected[name] < lost < neglected[name]
+
+
+def test_slip_of_torsion_states_the_error_of_few_rings():
+    """The rings carry no unknowns; the largest values are interpolated between them."""
+    torque = 0.3 * MU * LOAD * A
+    loading = [PRESS, *({"torque": sign * torque, "increments": 2} for sign in (1, -1, 1))]
+    posed = contact_scenes.scene(*loading, indenter=paraboloid(steel()), body=steel())
+    few, many = (
+        slipstick.solve(posed, "radial", RadialDiscretisation(rings=rings)) for rings in (8, 128)
+    )
+    (found,), (exact,) = fretting_cycles(few), fretting_cycles(many)
+    errors = slipstick.stated_errors(few).steps[-1]
+    for name in ("slip_amplitude", "ruiz_f1"):
+        off = abs(found.numbers[name] - exact.numbers[name])
+        assert off < errors[name].error < 0.01 * exact.numbers[name]
+        assert off > 1e-6 * exact.numbers[name]
 
 
 def test_the_largest_slip_below_a_rim_is_that_of_the_cells():
