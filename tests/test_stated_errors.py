@@ -275,6 +275,16 @@ def test_the_peak_of_a_coupled_contact_is_a_cusp(name, asked, solver) -> None:
     assert orders[0] == 0.5 < orders[1]
 
 
+def test_a_slip_zone_smaller_than_a_cell_leaves_a_cell_open() -> None:
+    """Shear that no cell of 16² slips by is locked in; on 12² and 24² none slips either."""
+    unloaded = {"normal_force": 0.5 * LOAD}
+    posed = rubbed(push(0.67), push(0.0), unloaded, body=Body(material=steel()))
+    few, many = (package.solve(posed, "semi-analytical", cells(count)) for count in (16, 96))
+    error = size(stated_errors(few).steps[-1]["stick_radius"])
+    wrong = abs(few.steps[-1].stick_radius - many.steps[-1].stick_radius)
+    assert 0.01 * A < wrong < error < 5 * wrong
+
+
 def test_a_stick_zone_in_the_middle_has_an_exact_centre() -> None:
     posed = rubbed(push(0.6), push(-0.6), push(0.6), body=Body(material=LOOSE))
     result = package.solve(posed, "semi-analytical", cells(24))
@@ -309,7 +319,17 @@ CONSTANTS = {
     # of the formula
     *("SPREADS", "BELIEVED", "SMOOTH", "EDGE", "ROOT"),
     *("PER_TOLERANCE", "LARGEST_SHARE", "REFERENCE_PRECISION"),
-    *("ORDERS", "LIMITS", "FITTED_STICK", "FITTED_SLIP", "ROUND_OFF", "PRECISION", "HIGHEST"),
+    *(
+        "ORDERS",
+        "LIMITS",
+        "FITTED_STICK",
+        "FITTED_SLIP",
+        "NARROWEST",
+        "STICK_SIZES",
+        "ROUND_OFF",
+        "PRECISION",
+        "HIGHEST",
+    ),
     # of the coarse solves
     *("SHARES", "SHARES_OF_SMALL", "SMALL", "FEW", "MANY", "PER_RADIUS"),
     *("NEGLIGIBLE", "ROOM", "MAX_ENLARGEMENTS"),
