@@ -81,7 +81,7 @@ def order_text(order: float, half_width: float) -> str:
         return "not known"
     digits = 2 if half_width >= LEAST_SHOWN else 3
     # Zero has no sign.
-    return f"{round(order, 2) + 0.0:.2f} ± {max(half_width, LEAST_TOLD):.{digits}f}"
+    return f"{round(order, digits) + 0.0:.{digits}f} ± {max(half_width, LEAST_TOLD):.{digits}f}"
 
 
 @dataclass(frozen=True)
