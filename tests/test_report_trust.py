@@ -192,7 +192,7 @@ def test_record_that_contradicts_itself_is_not_taken(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("half_width", "text"),
     [
-        (0.004, "1.90 ± 0.004"),
+        (0.004, "1.900 ± 0.004"),
         (0.49, "1.90 ± 0.49"),
         (0.51, "not known"),
         (63.5, "not known"),
